@@ -1,0 +1,33 @@
+# Finds what the wheels of requirements.txt and the system packages ship. Nothing is downloaded here: scripts/setup does.
+set(PROWL_VENV ${CMAKE_CURRENT_SOURCE_DIR}/.venv CACHE PATH "Virtual environment with the pinned wheels")
+if(NOT EXISTS ${PROWL_VENV}/bin/python)
+  message(FATAL_ERROR "No virtual environment at ${PROWL_VENV}: run scripts/setup, or set PROWL_VENV.")
+endif()
+
+execute_process(COMMAND ${PROWL_VENV}/bin/python -c
+    "import sysconfig; print(sysconfig.get_path('purelib'), end='')"
+  OUTPUT_VARIABLE PROWL_SITE_PACKAGES COMMAND_ERROR_IS_FATAL ANY)
+set(PROWL_CMEEL ${PROWL_SITE_PACKAGES}/cmeel.prefix)
+set(PROWL_CASADI ${PROWL_SITE_PACKAGES}/casadi)
+
+# Pinocchio brings its own Eigen and Boost; they must win over the system's.
+list(PREPEND CMAKE_PREFIX_PATH ${PROWL_CMEEL})
+find_package(pinocchio 4.1 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED)
+
+# Ipopt comes without a CMake package in the casadi wheel.
+if(EXISTS ${PROWL_CASADI}/include/coin-or/IpTNLP.hpp)
+  file(STRINGS ${PROWL_CASADI}/include/coin-or/IpoptConfig.h ipopt_version REGEX "define IPOPT_VERSION ")
+  string(REGEX REPLACE ".*\"(.*)\".*" "\\1" ipopt_version "${ipopt_version}")
+  if(ipopt_version VERSION_LESS 3.14)
+    message(FATAL_ERROR "Ipopt ${ipopt_version} is too old: Prowl needs 3.14 (max_wall_time, get_curr_iterate).")
+  endif()
+  add_library(prowl_dep_ipopt SHARED IMPORTED)
+  set_target_properties(prowl_dep_ipopt PROPERTIES
+    IMPORTED_LOCATION ${PROWL_CASADI}/libipopt.so
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${PROWL_CASADI}/include/coin-or)
+endif()
+
+find_package(fmt REQUIRED)
+find_package(tomlplusplus REQUIRED)
+find_package(nlohmann_json REQUIRED)

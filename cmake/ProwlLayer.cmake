@@ -1,0 +1,15 @@
+# prowl_layer(<name> DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
+# One library a folder of prowl/, so that the linker too refuses an include against the direction of the layers.
+function(prowl_layer name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  add_library(prowl_${name} ${sources})
+  add_library(prowl::${name} ALIAS prowl_${name})
+  target_compile_features(prowl_${name} PUBLIC cxx_std_20)
+  target_compile_options(prowl_${name} PRIVATE -Wall -Wextra -Wpedantic)
+  target_include_directories(prowl_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(prowl_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+  set_target_properties(prowl_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY PROWL_LAYERS prowl_${name})
+endfunction()

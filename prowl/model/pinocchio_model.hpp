@@ -1,0 +1,16 @@
+#pragma once
+
+// Heavy (seconds of compile time): include it only from .cpp files of model, dynamics and the certificate.
+#include <pinocchio/multibody/model.hpp>
+#include <vector>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+struct PinocchioModel {
+  pinocchio::Model model;
+  std::vector<pinocchio::FrameIndex> contact_frames;  ///< one per contact of the robot, same order
+};
+
+}  // namespace prowl

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace prowl {
+
+/// Quadratic cost of the place of one contact point, 1/2 sum_i weight_i (p_i - reference_i)^2, world frame.
+struct ContactPositionCost {
+  int contact = 0;
+  Eigen::Vector3d reference = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Vector3d weight = Eigen::Vector3d::Zero();     ///< [1/m^2], >= 0
+};
+
+/// Quadratic cost of one instant:
+///
+///   1/2 ( |q (-) q_ref|^2_Wq + |v|^2_Wv + |a|^2_Wa + |tau - tau_ref|^2_Wtau + sum_c |f_c|^2_Wf + contact positions )
+///
+/// with diagonal weights >= 0. The running cost is its integral over time, the terminal cost its value at the last node
+/// (there only the terms of q and v count). q (-) q_ref is prowl::difference(q_ref, q): its first six entries weigh the
+/// base pose. tau_ref is normally the static torque of the start.
+struct QuadraticCost {
+  Eigen::VectorXd q_ref;                ///< nq
+  Eigen::VectorXd configuration_weight; ///< nv
+  Eigen::VectorXd velocity_weight;      ///< nv
+  Eigen::VectorXd acceleration_weight;  ///< nv
+  Eigen::VectorXd tau_ref;              ///< nu [N m]
+  Eigen::VectorXd torque_weight;        ///< nu
+  Eigen::Vector3d force_weight = Eigen::Vector3d::Zero();  ///< world x y z, the same for every contact [1/N^2]
+  std::vector<ContactPositionCost> contact_positions;
+};
+
+}  // namespace prowl

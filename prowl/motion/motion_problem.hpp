@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "prowl/model/robot_model.hpp"
+#include "prowl/model/surface.hpp"
+#include "prowl/motion/cost.hpp"
+#include "prowl/motion/phase.hpp"
+
+namespace prowl {
+
+/// Bounds on state and torque at one node; -inf and +inf where free, equal where prescribed.
+///
+///   configuration_lower <= difference(q_ref, q) <= configuration_upper     (nv; base displacement in the world frame,
+///                                                   rotation vector in the frame of q_ref, joints)
+///   velocity_lower <= v <= velocity_upper (nv),   torque_lower <= tau <= torque_upper (nu)
+///
+/// The start of a motion is one of these at node (0, 0) and a goal is one at any node.
+struct BoundaryCondition {
+  std::string name;  ///< "start", "goal 1", ... for messages
+  NodeRef at;
+  Eigen::VectorXd q_ref;  ///< nq
+  Eigen::VectorXd configuration_lower, configuration_upper;
+  Eigen::VectorXd velocity_lower, velocity_upper;
+  Eigen::VectorXd torque_lower, torque_upper;
+
+  /// One that binds nothing, about q_ref.
+  static BoundaryCondition unbounded(const RobotModel& robot, std::string name, NodeRef at, const Eigen::VectorXd& q_ref);
+};
+
+/// Tolerances of the certificate on goals [m, rad, m/s or rad/s, N m].
+struct GoalTolerance {
+  double position = 1e-3;
+  double angle = 1e-3;
+  double velocity = 5e-3;
+};
+
+/// What we ask for: everything that defines a motion, before any discretisation but the number of intervals.
+/// All limits are those of the robot (joint position, velocity, torque) and of the surfaces (friction cone,
+/// unilateral force), and all are hard.
+struct MotionProblem {
+  std::string name;
+  RobotModel robot;
+  std::vector<Surface> surfaces;
+  std::vector<Phase> phases;
+  std::vector<BoundaryCondition> boundary_conditions;  ///< the first is the start and fixes all of q and v
+  QuadraticCost running_cost;
+  QuadraticCost terminal_cost;
+  GoalTolerance goal_tolerance;
+
+  const BoundaryCondition& start() const { return boundary_conditions.front(); }
+  const Eigen::VectorXd& start_configuration() const { return start().q_ref; }
+};
+
+/// Throws InputError, naming the field, unless sizes, indices, ranges and finiteness are right, the start is fixed,
+/// inside the joint limits, and has the contacts of the first phase on their surfaces (within 1 mm).
+void validate(const MotionProblem& problem);
+
+}  // namespace prowl

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace prowl {
+
+/// A contact of the robot that holds a fixed point of a surface during a phase.
+struct PhaseContact {
+  int contact = 0;  ///< index into RobotModel::contacts()
+  int surface = 0;  ///< index into MotionProblem::surfaces
+};
+
+/// How long a phase lasts [s]: fixed where min == max, else chosen by the optimiser between the two.
+struct Duration {
+  double min = 0.0;
+  double max = 0.0;
+  bool is_fixed() const { return min == max; }
+};
+
+/// A time with one set of contacts, cut into equal mesh intervals.
+struct Phase {
+  std::string name;
+  std::vector<PhaseContact> contacts;
+  Duration duration;
+  int intervals = 1;
+};
+
+/// Node of a phase, 0 ... intervals. The last node of a phase and the first of the next are two nodes at one time.
+struct NodeRef {
+  int phase = 0;
+  int node = 0;
+  bool operator==(const NodeRef&) const = default;
+};
+
+}  // namespace prowl

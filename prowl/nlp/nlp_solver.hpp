@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "prowl/nlp/nlp.hpp"
+
+namespace prowl {
+
+/// Why the solver stopped. Whether the result is any good is another question: the certificate's.
+enum class SolveStatus {
+  converged,
+  infeasible,         ///< converged to a point of locally least violation
+  iteration_limit,
+  time_limit,
+  interrupted,
+  evaluation_failed,  ///< NaN, infinity or a NumericalError in the problem
+  solver_failed,
+};
+const char* to_string(SolveStatus status);
+
+struct SolveProgress {
+  int iteration = 0;
+  double cost = 0.0;
+  double constraint_violation = 0.0;  ///< max norm, unscaled
+  double dual_violation = 0.0;
+  double elapsed_seconds = 0.0;
+};
+
+struct SolverOptions {
+  double tolerance = 1e-6;      ///< on optimality and on constraint violation
+  int max_iterations = 300;
+  double max_seconds = 300.0;
+  std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
+  const std::atomic<bool>* interrupt = nullptr;            ///< looked at once an iteration; true stops
+};
+
+struct SolveResult {
+  SolveStatus status = SolveStatus::solver_failed;
+  std::string message;          ///< the solver's own words, and what failed where
+  Eigen::VectorXd z;            ///< the solution, or the iterate of least violation
+  Eigen::VectorXd multipliers;  ///< of g at z; empty if unknown
+  double cost = 0.0;
+  double constraint_violation = 0.0;
+  double dual_violation = 0.0;
+  int iterations = 0;
+  double seconds = 0.0;
+  double evaluation_seconds = 0.0;  ///< of these, in the problem's own functions
+};
+
+class NlpSolver {
+ public:
+  virtual ~NlpSolver() = default;
+  virtual std::string name() const = 0;
+  virtual std::string version() const = 0;
+  /// The reason, for the user to read, why this solver cannot take the problem.
+  virtual std::optional<std::string> why_unsupported(const Nlp& nlp) const = 0;
+  /// Never throws because a problem is hard: that is a status.
+  virtual SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const = 0;
+};
+
+}  // namespace prowl

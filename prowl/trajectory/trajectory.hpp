@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace prowl {
+
+/// One instant of a motion. q, v, a, tau as in RobotModel; a is the rate of v (components in the base frame).
+struct TrajectoryPoint {
+  double time = 0.0;      ///< [s]
+  int phase = 0;
+  Eigen::VectorXd q, v, a, tau;
+  Eigen::VectorXd force;  ///< 3 per contact of the ROBOT (robot order), world frame [N]; zero where not in contact
+};
+
+/// A motion at the nodes of its mesh: the nodes of each phase in order, so a phase switch has two at one time.
+struct Trajectory {
+  std::vector<TrajectoryPoint> nodes;
+
+  bool empty() const { return nodes.empty(); }
+  double duration() const { return nodes.empty() ? 0.0 : nodes.back().time; }
+};
+
+/// The motion inside the interval from `left` to `right` (one phase, right.time > left.time), at time
+/// left.time + s, 0 <= s <= h, as the trapezoid means it:
+///   a, tau, f and the base's world velocity are linear in s; v, joints and base position quadratic;
+///   R(s) = R_k exp((s - s^2/2h) w_k) exp((s^2/2h) w_{k+1}).
+/// At s = h it meets `right` up to the defects that the solver left.
+TrajectoryPoint interpolate(const TrajectoryPoint& left, const TrajectoryPoint& right, double s);
+
+/// The motion at time t in [0, duration]; at a phase switch, the point of the later phase.
+TrajectoryPoint sample(const Trajectory& trajectory, double t);
+
+}  // namespace prowl
