@@ -1,7 +1,7 @@
 #pragma once
 
 // Heavy (seconds of compile time): include it only from .cpp files of model, dynamics and the certificate.
-#include <pinocchio/multibody/model.hpp>
+#include <pinocchio/multibody.hpp>
 #include <vector>
 
 #include "prowl/model/robot_model.hpp"
@@ -10,7 +10,7 @@ namespace prowl {
 
 struct PinocchioModel {
   pinocchio::Model model;
-  std::vector<pinocchio::FrameIndex> contact_frames;  ///< one per contact of the robot, same order
+  std::vector<pinocchio::FrameIndex> contact_frames;  ///< one per contact of the robot, same order; origin = its point
 };
 
 }  // namespace prowl

@@ -9,12 +9,13 @@
 
 namespace prowl {
 
-/// A place on the robot that may touch a surface: a point at the origin of a frame of the URDF, inside a ball of the
-/// given radius, so that it touches when the origin is one radius away from the surface.
+/// A place on the robot that may touch a surface: a point fixed to a frame of the URDF, at the centre of a ball of the
+/// given radius, so that it touches when the point is one radius away from the surface. Flat feet are several of them.
 struct ContactPoint {
   std::string name;     ///< unique in the robot
   std::string frame;    ///< a frame (link or fixed joint) of the URDF
   double radius = 0.0;  ///< [m], >= 0
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the point from the frame's origin, in the frame [m]
 };
 
 /// Limits of one joint that replace those of the URDF where given.

@@ -20,7 +20,7 @@ struct PinocchioModel;  // model/pinocchio_model.hpp; only model, dynamics and t
 class RobotModel {
  public:
   /// Reads the URDF, checks it and the description against each other, and puts the nominal posture on the ground:
-  /// the lowest contact touches z = 0, its centre above x = y = 0.
+  /// the ball of the lowest contact touches z = 0, and the mean of all contact points is at x = y = 0.
   /// Throws FileError (URDF unreadable) or InputError (anything wrong in it, or a name that it does not have).
   explicit RobotModel(RobotDescription description);
   RobotModel(const RobotModel& other);

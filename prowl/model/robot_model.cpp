@@ -1,0 +1,215 @@
+#include "prowl/model/robot_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <pinocchio/algorithm/frames.hpp>
+#include <pinocchio/parsers/urdf.hpp>
+#include <set>
+#include <sstream>
+
+#include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/model/nearest_name.hpp"
+#include "prowl/model/pinocchio_model.hpp"
+
+namespace prowl {
+
+namespace {
+
+constexpr auto kLinkOrFixedJoint = static_cast<pinocchio::FrameType>(pinocchio::BODY | pinocchio::FIXED_JOINT);
+constexpr pinocchio::JointIndex kBaseJoint = 1;  // 0 is the world
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (!std::filesystem::is_regular_file(path) || !(text << stream.rdbuf())) {
+    throw FileError(fmt::format("{}: cannot be read; expected a URDF file", path.string()));
+  }
+  return text.str();
+}
+
+pinocchio::Model build_model(const RobotDescription& description) {
+  const std::string xml = read_text(description.urdf);
+  pinocchio::Model model;
+  try {
+    pinocchio::urdf::buildModelFromXML(xml, pinocchio::JointModelFreeFlyer(), model);
+  } catch (const std::exception& error) {
+    throw InputError(fmt::format("{}: not a robot that Pinocchio can build: {}", description.urdf.string(),
+                                 error.what()));
+  }
+  for (pinocchio::JointIndex joint = kBaseJoint + 1; joint < model.joints.size(); ++joint) {
+    if (model.nqs[joint] != 1 || model.nvs[joint] != 1) {
+      throw InputError(fmt::format("{}: joint '{}' is a {}; every joint but the base must have one degree of freedom",
+                                   description.urdf.string(), model.names[joint], model.joints[joint].shortname()));
+    }
+  }
+  return model;
+}
+
+std::vector<std::string> link_names(const pinocchio::Model& model) {
+  std::vector<std::string> names;
+  for (const pinocchio::Frame& frame : model.frames) {
+    if ((frame.type & kLinkOrFixedJoint) != 0 && frame.name != "universe") names.push_back(frame.name);
+  }
+  return names;
+}
+
+std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& description, pinocchio::Model& model) {
+  const std::vector<std::string> links = link_names(model);
+  std::vector<pinocchio::FrameIndex> frames;
+  std::set<std::string> names;
+  for (const ContactPoint& contact : description.contacts) {
+    const std::string where = fmt::format("robot '{}': contact '{}'", description.name, contact.name);
+    if (contact.name.empty() || !names.insert(contact.name).second) {
+      throw InputError(where + ": the name of a contact must be unique and not empty");
+    }
+    if (!model.existFrame(contact.frame, kLinkOrFixedJoint)) {
+      throw InputError(fmt::format("{}: frame '{}' is no link or fixed joint of {}{}", where, contact.frame,
+                                   description.urdf.string(), did_you_mean(contact.frame, links)));
+    }
+    if (!(contact.radius >= 0.0) || !std::isfinite(contact.radius)) {
+      throw InputError(fmt::format("{}: radius {} is not allowed; need radius >= 0 [m]", where, contact.radius));
+    }
+    if (!contact.offset.allFinite()) throw InputError(where + ": offset must be three finite numbers [m]");
+    const pinocchio::FrameIndex frame = model.getFrameId(contact.frame, kLinkOrFixedJoint);
+    if (contact.offset.isZero(0.0)) {
+      frames.push_back(frame);
+      continue;
+    }
+    const pinocchio::Frame& link = model.frames[frame];
+    const pinocchio::SE3 offset(Eigen::Matrix3d::Identity(), contact.offset);
+    frames.push_back(model.addFrame(
+        {"contact " + contact.name, link.parentJoint, frame, link.placement * offset, pinocchio::OP_FRAME}));
+  }
+  return frames;
+}
+
+/// Throws unless `name` is one of the joints; `field` is where it was written.
+Eigen::Index joint_index(const RobotDescription& description, const std::vector<std::string>& joints,
+                         const std::string& field, const std::string& name) {
+  const auto joint = std::find(joints.begin(), joints.end(), name);
+  if (joint == joints.end()) {
+    throw InputError(fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, name,
+                                 description.urdf.string(), did_you_mean(name, joints)));
+  }
+  return joint - joints.begin();
+}
+
+void check_limits(const RobotModel& robot) {
+  for (int j = 0; j < robot.nu(); ++j) {
+    const std::string& joint = robot.joint_names()[static_cast<std::size_t>(j)];
+    const auto refuse = [&](const std::string& found, const std::string& expected) {
+      throw InputError(fmt::format("{}: joint '{}': {} is not allowed; need {} (in the URDF, or in limits.{} of the robot)",
+                                   robot.description().urdf.string(), joint, found, expected, joint));
+    };
+    const double lower = robot.position_lower()(j), upper = robot.position_upper()(j);
+    const double velocity = robot.velocity_limit()(j), torque = robot.torque_limit()(j);
+    if (!(lower < upper)) refuse(fmt::format("position from {} to {}", lower, upper), "lower < upper");
+    if (!(velocity > 0.0)) refuse(fmt::format("velocity limit {}", velocity), "velocity > 0");
+    if (!(torque > 0.0)) refuse(fmt::format("torque limit (effort) {}", torque), "effort > 0");
+  }
+}
+
+/// Places the base so that the lowest contact ball touches z = 0 and the mean of the contact points is at x = y = 0.
+void put_on_ground(const PinocchioModel& pin, const std::vector<ContactPoint>& contacts, Eigen::VectorXd& q) {
+  if (contacts.empty()) return;
+  pinocchio::Data data(pin.model);
+  pinocchio::framesForwardKinematics(pin.model, data, q);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const Eigen::Vector3d& p = data.oMf[pin.contact_frames[c]].translation();
+    mean += p / static_cast<double>(contacts.size());
+    lowest = std::min(lowest, p.z() - contacts[c].radius);
+  }
+  q.head<3>() -= Eigen::Vector3d(mean.x(), mean.y(), lowest);
+}
+
+}  // namespace
+
+RobotModel::RobotModel(RobotDescription description) : description_(std::move(description)) {
+  auto pin = std::make_unique<PinocchioModel>();
+  pin->model = build_model(description_);
+  pin->contact_frames = add_contact_frames(description_, pin->model);
+  const pinocchio::Model& model = pin->model;
+
+  mass_ = pinocchio::computeTotalMass(model);
+  for (pinocchio::JointIndex joint = kBaseJoint + 1; joint < model.joints.size(); ++joint) {
+    joint_names_.push_back(model.names[joint]);
+    joint_is_prismatic_.push_back(model.joints[joint].shortname().starts_with("JointModelP"));
+  }
+  position_lower_ = model.lowerPositionLimit.tail(nu());
+  position_upper_ = model.upperPositionLimit.tail(nu());
+  velocity_limit_ = model.upperVelocityLimit.tail(nu());
+  torque_limit_ = model.upperEffortLimit.tail(nu());
+  for (const auto& [name, limits] : description_.limits) {
+    const Eigen::Index j = joint_index(description_, joint_names_, "limits", name);
+    position_lower_(j) = limits.position_lower.value_or(position_lower_(j));
+    position_upper_(j) = limits.position_upper.value_or(position_upper_(j));
+    velocity_limit_(j) = limits.velocity.value_or(velocity_limit_(j));
+    torque_limit_(j) = limits.torque.value_or(torque_limit_(j));
+  }
+  check_limits(*this);
+
+  nominal_configuration_ = Eigen::VectorXd::Zero(nq());
+  if (!description_.nominal_base_rpy.allFinite()) {
+    throw InputError(fmt::format("robot '{}': nominal.base_rpy must be three finite angles [rad]", name()));
+  }
+  set_base_rotation(nominal_configuration_, rotation_from_rpy(description_.nominal_base_rpy));
+  for (const auto& [name, position] : description_.nominal_joints) {
+    const Eigen::Index j = joint_index(description_, joint_names_, "nominal.joints", name);
+    if (!std::isfinite(position)) {
+      throw InputError(fmt::format("robot '{}': nominal.joints.{}: {} is not a finite position", this->name(), name,
+                                   position));
+    }
+    nominal_configuration_(7 + j) = position;
+  }
+  put_on_ground(*pin, description_.contacts, nominal_configuration_);
+  pinocchio_ = std::move(pin);
+}
+
+RobotModel::RobotModel(const RobotModel& other)
+    : description_(other.description_),
+      pinocchio_(std::make_unique<PinocchioModel>(*other.pinocchio_)),
+      joint_names_(other.joint_names_),
+      joint_is_prismatic_(other.joint_is_prismatic_),
+      position_lower_(other.position_lower_),
+      position_upper_(other.position_upper_),
+      velocity_limit_(other.velocity_limit_),
+      torque_limit_(other.torque_limit_),
+      nominal_configuration_(other.nominal_configuration_),
+      mass_(other.mass_) {}
+
+RobotModel::RobotModel(RobotModel&&) noexcept = default;
+
+RobotModel& RobotModel::operator=(RobotModel other) noexcept {
+  std::swap(description_, other.description_);
+  std::swap(pinocchio_, other.pinocchio_);
+  std::swap(joint_names_, other.joint_names_);
+  std::swap(joint_is_prismatic_, other.joint_is_prismatic_);
+  std::swap(position_lower_, other.position_lower_);
+  std::swap(position_upper_, other.position_upper_);
+  std::swap(velocity_limit_, other.velocity_limit_);
+  std::swap(torque_limit_, other.torque_limit_);
+  std::swap(nominal_configuration_, other.nominal_configuration_);
+  std::swap(mass_, other.mass_);
+  return *this;
+}
+
+RobotModel::~RobotModel() = default;
+
+int RobotModel::contact_index(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const ContactPoint& contact : contacts()) names.push_back(contact.name);
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) {
+    throw InputError(fmt::format("'{}' is no contact of robot '{}'{}", name, this->name(), did_you_mean(name, names)));
+  }
+  return static_cast<int>(found - names.begin());
+}
+
+}  // namespace prowl
