@@ -137,7 +137,9 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   pin->contact_frames = add_contact_frames(description_, pin->model);
   const pinocchio::Model& model = pin->model;
 
-  mass_ = pinocchio::computeTotalMass(model);
+  for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
+    mass_ += model.inertias[joint].mass();
+  }
   for (pinocchio::JointIndex joint = kBaseJoint + 1; joint < model.joints.size(); ++joint) {
     joint_names_.push_back(model.names[joint]);
     joint_is_prismatic_.push_back(model.joints[joint].shortname().starts_with("JointModelP"));
