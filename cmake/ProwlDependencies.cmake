@@ -12,6 +12,7 @@ set(PROWL_CASADI ${PROWL_SITE_PACKAGES}/casadi)
 
 # Pinocchio brings its own Eigen and Boost; they must win over the system's.
 list(PREPEND CMAKE_PREFIX_PATH ${PROWL_CMEEL})
+set(Boost_NO_WARN_NEW_VERSIONS ON)  # newer than the CMake of Debian 12 knows
 find_package(pinocchio 4.1 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
 
@@ -25,7 +26,7 @@ if(EXISTS ${PROWL_CASADI}/include/coin-or/IpTNLP.hpp)
   add_library(prowl_dep_ipopt SHARED IMPORTED)
   set_target_properties(prowl_dep_ipopt PROPERTIES
     IMPORTED_LOCATION ${PROWL_CASADI}/libipopt.so
-    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES ${PROWL_CASADI}/include/coin-or)
+    INTERFACE_INCLUDE_DIRECTORIES ${PROWL_CASADI}/include/coin-or)
 endif()
 
 find_package(fmt REQUIRED)

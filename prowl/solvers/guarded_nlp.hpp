@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "prowl/nlp/nlp.hpp"
+
+namespace prowl {
+
+/// An Nlp as C and C++ solver libraries can bear it: no exception passes, NaN and infinity are found and named in the
+/// words of the task, and time is taken. Every function gives false if its result must not be used.
+class GuardedNlp {
+ public:
+  explicit GuardedNlp(Nlp& nlp) : nlp_(nlp) {}
+
+  const Nlp& nlp() const { return nlp_; }
+
+  bool cost(const Eigen::VectorXd& z, double& value);
+  bool cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient);
+  bool constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g);
+  bool jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> values);
+  bool hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
+               Eigen::Ref<Eigen::VectorXd> values);
+  /// False if a component of z itself is NaN or infinite.
+  bool finite_point(const Eigen::VectorXd& z);
+
+  /// What went wrong in the latest evaluation that failed; empty if none has since forget_failure().
+  const std::string& failure() const { return failure_; }
+  void forget_failure() {
+    if (!broken_) failure_.clear();
+  }
+  /// Something else than NumericalError was thrown: a mistake in the program, no shorter step will help.
+  bool broken() const { return broken_; }
+  double seconds() const { return seconds_; }  ///< spent in the problem's functions
+
+ private:
+  template <typename Evaluate>
+  bool evaluate(const char* what, Evaluate&& evaluate);
+  template <typename Describe>
+  bool finite(const char* what, const Eigen::Ref<const Eigen::VectorXd>& values, Describe&& place);
+  std::string place(const SparsityPattern& pattern, int entry, bool rows_are_constraints) const;
+
+  Nlp& nlp_;
+  std::string failure_;
+  bool broken_ = false;
+  double seconds_ = 0.0;
+};
+
+}  // namespace prowl

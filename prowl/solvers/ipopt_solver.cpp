@@ -1,0 +1,315 @@
+#include "prowl/solvers/ipopt_solver.hpp"
+
+#include <IpIpoptApplication.hpp>
+#include <IpTNLP.hpp>
+#include <IpoptConfig.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/solvers/guarded_nlp.hpp"
+
+// MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: another BLAS may not have it.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace prowl {
+namespace {
+
+using Eigen::VectorXd;
+using Ipopt::Index;
+using Ipopt::Number;
+using VectorMap = Eigen::Map<VectorXd>;
+using ConstVectorMap = Eigen::Map<const VectorXd>;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+struct Iterate {
+  VectorXd z, multipliers;
+  double cost = std::numeric_limits<double>::infinity();
+  double violation = std::numeric_limits<double>::infinity();
+  double dual_violation = std::numeric_limits<double>::infinity();
+};
+
+/// What Ipopt asks, passed on to the Nlp.
+class IpoptProblem : public Ipopt::TNLP {
+ public:
+  IpoptProblem(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, Clock::time_point start)
+      : guarded_(guarded), nlp_(guarded.nlp()), options_(options), start_(start), z_start_(z_start) {}
+
+  const Iterate& best() const { return best_; }
+  const Iterate& last() const { return last_; }
+  int iterations() const { return iterations_; }
+
+  bool get_nlp_info(Index& n, Index& m, Index& nnz_jac_g, Index& nnz_h_lag, IndexStyleEnum& index_style) override {
+    n = nlp_.num_variables();
+    m = nlp_.num_constraints();
+    nnz_jac_g = nlp_.jacobian_pattern().size();
+    nnz_h_lag = nlp_.hessian_pattern().size();
+    index_style = C_STYLE;
+    return true;
+  }
+
+  bool get_bounds_info(Index n, Number* z_lower, Number* z_upper, Index m, Number* g_lower, Number* g_upper) override {
+    VectorMap(z_lower, n) = nlp_.variable_lower();
+    VectorMap(z_upper, n) = nlp_.variable_upper();
+    VectorMap(g_lower, m) = nlp_.constraint_lower();
+    VectorMap(g_upper, m) = nlp_.constraint_upper();
+    return true;
+  }
+
+  bool get_starting_point(Index n, bool, Number* z, bool, Number*, Number*, Index, bool, Number*) override {
+    VectorMap(z, n) = z_start_;  // multipliers are not asked for: warm_start_init_point is off
+    return true;
+  }
+
+  bool eval_f(Index n, const Number* z, bool, Number& value) override { return guarded_.cost(point(z, n), value); }
+
+  bool eval_grad_f(Index n, const Number* z, bool, Number* gradient) override {
+    return guarded_.cost_gradient(point(z, n), VectorMap(gradient, n));
+  }
+
+  bool eval_g(Index n, const Number* z, bool, Index m, Number* g) override {
+    return guarded_.constraints(point(z, n), VectorMap(g, m));
+  }
+
+  bool eval_jac_g(Index n, const Number* z, bool, Index, Index size, Index* rows, Index* cols,
+                  Number* values) override {
+    if (!values) return copy_places(nlp_.jacobian_pattern(), rows, cols);
+    return guarded_.jacobian(point(z, n), VectorMap(values, size));
+  }
+
+  bool eval_h(Index n, const Number* z, bool, Number cost_factor, Index m, const Number* multipliers, bool, Index size,
+              Index* rows, Index* cols, Number* values) override {
+    if (!values) return copy_places(nlp_.hessian_pattern(), rows, cols);
+    return guarded_.hessian(point(z, n), cost_factor, ConstVectorMap(multipliers, m), VectorMap(values, size));
+  }
+
+  bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number cost, Number, Number inf_du, Number, Number,
+                             Number, Number, Number, Index, const Ipopt::IpoptData* data,
+                             Ipopt::IpoptCalculatedQuantities* quantities) override {
+    iterations_ = iteration;
+    read_iterate(mode, cost, inf_du, data, quantities);
+    if (options_.on_iteration) {
+      options_.on_iteration({iteration, last_.cost, last_.violation, last_.dual_violation, seconds_since(start_)});
+    }
+    guarded_.forget_failure();  // a shorter step got away from it
+    return !guarded_.broken() && !(options_.interrupt && options_.interrupt->load());
+  }
+
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* z, const Number*, const Number*, Index m,
+                         const Number*, const Number* multipliers, Number, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
+    last_.z = ConstVectorMap(z, n);  // inside the bounds, unlike the iterate: see honor_original_bounds
+    last_.multipliers = ConstVectorMap(multipliers, m);
+  }
+
+ private:
+  const VectorXd& point(const Number* z, Index n) {
+    z_ = ConstVectorMap(z, n);
+    return z_;
+  }
+
+  static bool copy_places(const SparsityPattern& pattern, Index* rows, Index* cols) {
+    std::copy(pattern.rows.begin(), pattern.rows.end(), rows);
+    std::copy(pattern.cols.begin(), pattern.cols.end(), cols);
+    return true;
+  }
+
+  /// In the restoration phase too these are the variables and constraints of the problem itself.
+  void read_iterate(Ipopt::AlgorithmMode mode, Number cost, Number inf_du, const Ipopt::IpoptData* data,
+                    Ipopt::IpoptCalculatedQuantities* quantities) {
+    const int n = nlp_.num_variables();
+    const int m = nlp_.num_constraints();
+    Iterate now{VectorXd(n), VectorXd(m)};
+    VectorXd g(m);
+    if (!get_curr_iterate(data, quantities, false, n, now.z.data(), nullptr, nullptr, m, g.data(),
+                          now.multipliers.data())) {
+      return;
+    }
+    now.violation = constraint_violation(nlp_, now.z, g);
+    now.dual_violation = inf_du;
+    if (mode == Ipopt::RestorationPhaseMode) {  // cost and inf_du are those of the restoration problem
+      guarded_.cost(now.z, now.cost);
+    } else {
+      now.cost = cost;
+      VectorXd gradient(n);
+      if (get_curr_violations(data, quantities, false, n, nullptr, nullptr, nullptr, nullptr, gradient.data(), m,
+                              nullptr, nullptr)) {
+        now.dual_violation = gradient.lpNorm<Eigen::Infinity>();
+      }
+    }
+    if (better(now, best_)) best_ = now;
+    last_ = std::move(now);
+  }
+
+  bool better(const Iterate& a, const Iterate& b) const {
+    const double violation_a = std::max(a.violation, options_.tolerance);
+    const double violation_b = std::max(b.violation, options_.tolerance);
+    return violation_a < violation_b || (violation_a == violation_b && a.cost < b.cost);
+  }
+
+  GuardedNlp& guarded_;
+  const Nlp& nlp_;
+  const SolverOptions& options_;
+  Clock::time_point start_;
+  const VectorXd z_start_;
+  VectorXd z_;
+  Iterate best_, last_;
+  int iterations_ = 0;
+};
+
+struct Outcome {
+  SolveStatus status;
+  const char* words;
+};
+
+Outcome outcome(Ipopt::ApplicationReturnStatus code) {
+  using enum SolveStatus;
+  switch (code) {
+    case Ipopt::Solve_Succeeded: return {converged, "optimal within tolerance"};
+    case Ipopt::Solved_To_Acceptable_Level: return {solver_failed, "stopped at a point that is not within tolerance"};
+    case Ipopt::Infeasible_Problem_Detected: return {infeasible, "converged to a point of locally least violation"};
+    case Ipopt::Search_Direction_Becomes_Too_Small: return {solver_failed, "search direction became too small"};
+    case Ipopt::Diverging_Iterates: return {solver_failed, "iterates diverge: the cost may have no lower bound"};
+    case Ipopt::User_Requested_Stop: return {interrupted, "stopped on request"};
+    case Ipopt::Feasible_Point_Found: return {solver_failed, "feasible, but not shown to be optimal"};
+    case Ipopt::Maximum_Iterations_Exceeded: return {iteration_limit, "iteration limit reached"};
+    case Ipopt::Restoration_Failed: return {solver_failed, "restoration phase failed to reduce the violation"};
+    case Ipopt::Error_In_Step_Computation: return {solver_failed, "no search direction could be computed"};
+    case Ipopt::Maximum_CpuTime_Exceeded:
+    case Ipopt::Maximum_WallTime_Exceeded: return {time_limit, "time limit reached"};
+    case Ipopt::Not_Enough_Degrees_Of_Freedom:
+      return {solver_failed, "more equality constraints than free variables"};
+    case Ipopt::Invalid_Problem_Definition: return {solver_failed, "problem definition is not valid"};
+    case Ipopt::Invalid_Option: return {solver_failed, "an option of Ipopt is not valid"};
+    case Ipopt::Invalid_Number_Detected: return {evaluation_failed, "an evaluation failed"};
+    case Ipopt::Insufficient_Memory: return {solver_failed, "out of memory"};
+    default: return {solver_failed, "internal error in Ipopt"};
+  }
+}
+
+void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
+  list.SetStringValue("sb", "yes");
+  list.SetIntegerValue("print_level", 0);
+  list.SetStringValue("hessian_approximation", "exact");
+  list.SetNumericValue("tol", options.tolerance);
+  list.SetNumericValue("constr_viol_tol", options.tolerance);
+  list.SetIntegerValue("acceptable_iter", 0);
+  list.SetIntegerValue("max_iter", options.max_iterations);
+  list.SetNumericValue("max_wall_time", options.max_seconds);
+  // Ipopt relaxes bounds by 1e-8; the result is put back inside.
+  list.SetStringValue("honor_original_bounds", "yes");
+  list.SetStringValue("linear_solver", "mumps");
+  // Approximate minimum fill: made by MUMPS itself. METIS' orderings differ between its builds.
+  list.SetIntegerValue("mumps_pivot_order", 2);
+}
+
+void check_arguments(const Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) {
+  if (z_start.size() != nlp.num_variables()) {
+    throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
+  }
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
+    throw InputError(fmt::format("solver tolerance {} is not allowed; need 0 < tolerance < 1", options.tolerance));
+  }
+  if (options.max_iterations < 0) {
+    throw InputError(fmt::format("max_iterations {} is not allowed; need 0 or more", options.max_iterations));
+  }
+  if (!(options.max_seconds > 0.0)) {
+    throw InputError(fmt::format("max_seconds {} is not allowed; need more than 0 [s]", options.max_seconds));
+  }
+}
+
+/// Figures of the result from the point itself, whatever Ipopt says of it; false if it cannot be evaluated.
+bool evaluate_result(GuardedNlp& guarded, const Iterate& iterate, SolveResult& result) {
+  result.z = iterate.z;
+  result.multipliers = iterate.multipliers;
+  result.dual_violation = iterate.dual_violation;
+  VectorXd g(guarded.nlp().num_constraints());
+  if (!guarded.finite_point(result.z) || !guarded.cost(result.z, result.cost) ||
+      !guarded.constraints(result.z, g)) {
+    result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
+    return false;
+  }
+  result.constraint_violation = constraint_violation(guarded.nlp(), result.z, g);
+  return true;
+}
+
+void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, Clock::time_point start,
+               SolveResult& result) {
+  const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication(false);  // prints nothing
+  set_options(*ipopt->Options(), options);
+  if (openblas_set_num_threads) openblas_set_num_threads(1);
+
+  auto* problem = new IpoptProblem(guarded, z_start, options, start);
+  const Ipopt::SmartPtr<Ipopt::TNLP> owner = problem;
+  Ipopt::ApplicationReturnStatus code = ipopt->Initialize("");  // "": no ipopt.opt from the working directory
+  if (code == Ipopt::Solve_Succeeded) code = ipopt->OptimizeTNLP(owner);
+
+  const auto [status, words] = outcome(code);
+  result.status = status;
+  result.message = words;
+  result.iterations = problem->iterations();
+  const bool gave_up = status == SolveStatus::solver_failed || status == SolveStatus::evaluation_failed;
+  if (guarded.broken()) {
+    result.status = SolveStatus::solver_failed;
+    result.message = guarded.failure();
+  } else if (gave_up && !guarded.failure().empty()) {
+    result.status = SolveStatus::evaluation_failed;
+    result.message = fmt::format("{}; {}", words, guarded.failure());
+  }
+
+  const bool finished = status == SolveStatus::converged || status == SolveStatus::infeasible;
+  const Iterate& chosen = finished ? problem->last() : problem->best();
+  if (chosen.z.size() == 0) {
+    evaluate_result(guarded, {z_start, {}}, result);  // failed before the first iterate
+  } else if (!evaluate_result(guarded, chosen, result) && finished) {
+    result.status = SolveStatus::evaluation_failed;
+    result.message = fmt::format("result cannot be evaluated: {}", guarded.failure());
+  }
+}
+
+}  // namespace
+
+std::string IpoptSolver::name() const { return "Ipopt"; }
+
+std::string IpoptSolver::version() const { return IPOPT_VERSION; }
+
+std::optional<std::string> IpoptSolver::why_unsupported(const Nlp& nlp) const {
+  const auto why = [](const VectorXd& lower, const VectorXd& upper, auto describe) -> std::optional<std::string> {
+    for (int i = 0; i < lower.size(); ++i) {
+      if (lower[i] <= upper[i]) continue;  // false for NaN too
+      return fmt::format("{}: bounds [{}, {}] leave nothing", describe(i), lower[i], upper[i]);
+    }
+    return std::nullopt;
+  };
+  if (auto reason = why(nlp.variable_lower(), nlp.variable_upper(), [&](int i) { return nlp.describe_variable(i); })) {
+    return reason;
+  }
+  return why(nlp.constraint_lower(), nlp.constraint_upper(), [&](int i) { return nlp.describe_constraint(i); });
+}
+
+SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
+  check_arguments(nlp, z_start, options);
+  const Clock::time_point start = Clock::now();
+  GuardedNlp guarded(nlp);
+  SolveResult result;
+  if (guarded.finite_point(z_start)) {
+    run_ipopt(guarded, z_start, options, start, result);
+  } else {
+    result.status = SolveStatus::evaluation_failed;
+    result.message = fmt::format("start: {}", guarded.failure());
+    result.z = z_start;
+    result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
+  }
+  result.evaluation_seconds = guarded.seconds();
+  result.seconds = seconds_since(start);
+  return result;
+}
+
+}  // namespace prowl

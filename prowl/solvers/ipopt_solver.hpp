@@ -1,0 +1,23 @@
+#pragma once
+
+#include "prowl/nlp/nlp_solver.hpp"
+
+namespace prowl {
+
+/// Ipopt 3.14 (Wächter, Biegler 2006: primal-dual interior point, filter line search) with MUMPS and the exact Hessian.
+///
+/// - Only Ipopt's "Solve_Succeeded" is `converged`; its "acceptable level" allows violations of 1e-2 and is switched off.
+/// - An evaluation that fails at a trial point shortens the step; one that Ipopt cannot step away from ends the solve as
+///   `evaluation_failed`, with constraint or variable in the message.
+/// - Stopped early, it returns its best iterate: of least violation, and of least cost among those within tolerance.
+/// - Same problem, same start, same machine: same iterates (fixed elimination ordering, one thread in BLAS).
+class IpoptSolver : public NlpSolver {
+ public:
+  std::string name() const override;
+  std::string version() const override;
+  std::optional<std::string> why_unsupported(const Nlp& nlp) const override;
+  /// Throws InputError only if an option or the size of z_start makes no sense.
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
+};
+
+}  // namespace prowl
