@@ -203,7 +203,8 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetIntegerValue("acceptable_iter", 0);
   list.SetIntegerValue("max_iter", options.max_iterations);
   list.SetNumericValue("max_wall_time", options.max_seconds);
-  // Ipopt relaxes bounds by 1e-8; the result is put back inside.
+  // Ipopt relaxes all bounds a little, to have room inside; well below the tolerance, and the result is put back inside.
+  list.SetNumericValue("bound_relax_factor", 0.01 * options.tolerance);
   list.SetStringValue("honor_original_bounds", "yes");
   list.SetStringValue("linear_solver", "mumps");
   // Approximate minimum fill: made by MUMPS itself. METIS' orderings differ between its builds.

@@ -1,0 +1,2 @@
+prowl_test(nlp/constraint_violation prowl::nlp)
+prowl_test(nlp/derivative_check prowl::nlp)

@@ -1,0 +1,2 @@
+prowl_test(solvers/guarded_nlp prowl::solvers)
+prowl_test(solvers/ipopt_solver prowl::solvers)
