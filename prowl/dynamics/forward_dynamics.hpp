@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <vector>
+
+#include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/dynamics/projector.hpp"
+#include "prowl/dynamics/rigid_body_terms.hpp"
+
+namespace prowl {
+
+/// Forward form of the projected dynamics: the accelerations and contact forces that torques cause
+/// (docs/theory.md#forward-form, after Pardo et al. 2016 with the missing P restored):
+///
+///   a = Mc⁻¹ ( P (S' τ − h) + M C v ),   Mc = M + P M − (P M)',   C v = −J⁺ J̇ v     [m/s², rad/s²], base frame
+///   f = J⁺' (M a + h − S' τ)                                                       [N], world frame
+///
+/// C v is dP/dt v where J v = 0; elsewhere it is what keeps J J⁺ (J a + J̇ v) = 0. Contacts are any set, also none, or
+/// redundant ones, where a is still unique and f is the choice of least norm.
+/// One object holds the work space of one thread; results stay until the next evaluation.
+class ForwardDynamics {
+ public:
+  /// First derivatives of a vector y(q, v, τ); q in the tangent of configuration.hpp.
+  struct Derivatives {
+    Eigen::MatrixXd q, v, tau;
+  };
+
+  /// `contacts`: indices of contacts of the robot, in the order of the forces.
+  ForwardDynamics(const RobotModel& robot, std::vector<int> contacts);
+
+  /// a and f. Throws NumericalError if they are not finite.
+  void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
+  /// The same, and their exact first derivatives (of f and a also where J v ≠ 0; the rank of J has to be constant
+  /// around q).
+  void evaluate_with_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
+
+  const Eigen::VectorXd& acceleration() const { return a_; }                ///< a, nv
+  const Eigen::VectorXd& forces() const { return f_; }                      ///< f, 3 a contact, world frame
+  const Derivatives& acceleration_derivatives() const { return da_; }       ///< nv rows
+  const Derivatives& force_derivatives() const { return df_; }              ///< 3 rows a contact
+  const Projector& projector() const { return projector_; }                 ///< of J at the last evaluation
+
+ private:
+  void add_turn_of_lost_acceleration(Eigen::MatrixXd& dg_dq) const;
+  void add_turn_of_force_space(Eigen::MatrixXd& df_dq);
+
+  RigidBodyTerms terms_;
+  ContactKinematics kinematics_;
+  Projector projector_;
+  Eigen::MatrixXd P_, pinv_;  // P, J⁺
+  Eigen::PartialPivLU<Eigen::MatrixXd> constrained_mass_;  // of Mc
+  Eigen::VectorXd a_, f_;
+  Derivatives da_, df_;
+};
+
+}  // namespace prowl
