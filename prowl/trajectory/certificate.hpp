@@ -10,6 +10,30 @@ namespace prowl {
 
 enum class Grade { failed, draft, certified };
 
+/// What a finished motion may be off by; docs/verification.md says why these figures.
+struct CertificateLimits {
+  static constexpr double integration_error_certified = 1e-6;  ///< scaled, per interval and coordinate [-]
+  static constexpr double integration_error_draft = 1e-4;      ///< [-]
+  static constexpr double reintegration = 1e-3;                ///< scaled, at the end of an interval [-]
+  static constexpr double defect = 1e-6;                       ///< scaled, also for the state at a phase switch [-]
+  static constexpr double start_state = 1e-6;                  ///< [m, rad, m/s, rad/s]
+  static constexpr double phase_duration = 1e-6;               ///< [s]
+  static constexpr double quaternion_norm = 1e-6;              ///< [-]
+  static constexpr double contact_drift = 1e-3;                ///< [m]
+  static constexpr double contact_velocity = 5e-3;             ///< [m/s]
+  static constexpr double contact_gap = 1e-3;                  ///< where a contact closes [m]
+  static constexpr double penetration = 1e-3;                  ///< [m]
+  static constexpr double force_over_weight = 1e-2;            ///< friction cone and unilateral force [body weight]
+  static constexpr double planned_force_over_weight = 5e-2;    ///< planned against recovered force [body weight]
+  static constexpr double contact_acceleration = 1e-6;         ///< left over by the constrained dynamics [m/s^2]
+  static constexpr double torque_ratio = 1.001;                ///< of the joint's limit [-]
+  static constexpr double velocity_ratio = 1.001;              ///< of the joint's limit [-]
+  static constexpr double joint_position = 1e-3;               ///< beyond the limit [rad] or [m]
+  static constexpr double goal_torque = 1e-3;                  ///< of the joint's limit [-]
+  static constexpr double grid_step = 1e-3;                    ///< of the sampled checks [s]
+  static constexpr int grid_intervals = 10;                    ///< at least, in a mesh interval
+};
+
 /// One thing that has to hold, at its worst moment.
 struct CertificateCheck {
   std::string name;      ///< "contact drift", "friction cone", "joint torque", ...
@@ -21,17 +45,28 @@ struct CertificateCheck {
   bool passed = false;
 };
 
-/// Whether a finished motion is what was asked for, judged from the motion alone (docs: verification).
+/// Local integration error of one mesh interval: its largest coordinate.
+struct IntervalError {
+  double start = 0.0, end = 0.0;  ///< [s]
+  double error = 0.0;             ///< scaled [-]
+  std::string where;              ///< coordinate of the state
+};
+
+/// Whether a finished motion is what was asked for, judged from the motion alone (docs/verification.md).
+/// A check that has nothing to look at (a flight has no contact drift) is not in the list.
 struct Certificate {
   bool passed = false;
-  Grade grade = Grade::failed;
+  Grade grade = Grade::failed;  ///< failed if any check fails, else by the local integration error
   std::vector<CertificateCheck> checks;
+  std::vector<IntervalError> interval_errors;  ///< one a mesh interval, in order: where to refine the mesh
 };
 
 const char* to_string(Grade grade);
 
 /// Re-evaluates everything by Pinocchio's own constrained dynamics, without the projection and without the
-/// transcription. Never throws because a motion is bad: that is a failed check.
+/// transcription. Never throws because a motion is bad: that is a failed check. A motion whose nodes do not fit the
+/// problem, or with a NaN or infinity in it, gets these checks only: the others would mean nothing.
+/// `problem` must be valid (see validate).
 Certificate certify(const MotionProblem& problem, const Trajectory& trajectory);
 
 }  // namespace prowl

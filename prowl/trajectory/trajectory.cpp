@@ -1,0 +1,47 @@
+#include "prowl/trajectory/trajectory.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+namespace {
+
+/// Rate of the configuration in the tangent of configuration.hpp: v with its base velocity turned into the world.
+Eigen::VectorXd tangent_rate(const TrajectoryPoint& point) {
+  Eigen::VectorXd rate = point.v;
+  rate.head<3>() = base_rotation(point.q) * point.v.head<3>();
+  return rate;
+}
+
+}  // namespace
+
+TrajectoryPoint interpolate(const TrajectoryPoint& left, const TrajectoryPoint& right, double s) {
+  const double h = right.time - left.time;
+  const double late = s / h;            // weight of the right node in what is linear
+  const double beta = s * s / (2 * h);  // integral of `late` from 0 to s [s]
+  const double alpha = s - beta;        // integral of 1 - late
+
+  TrajectoryPoint point;
+  point.time = left.time + s;
+  point.phase = left.phase;
+  point.a = (1 - late) * left.a + late * right.a;
+  point.tau = (1 - late) * left.tau + late * right.tau;
+  point.force = (1 - late) * left.force + late * right.force;
+  point.v = left.v + alpha * left.a + beta * right.a;
+  point.q = integrate(integrate(left.q, alpha * tangent_rate(left)), beta * tangent_rate(right));
+  return point;
+}
+
+TrajectoryPoint sample(const Trajectory& trajectory, double t) {
+  const auto& nodes = trajectory.nodes;
+  const auto after = std::upper_bound(nodes.begin(), nodes.end(), t,
+                                      [](double time, const TrajectoryPoint& node) { return time < node.time; });
+  if (after == nodes.begin()) return nodes.front();
+  const auto before = std::prev(after);  // of two nodes at one time, the later phase's
+  if (after == nodes.end() || t == before->time) return *before;
+  return interpolate(*before, *after, t - before->time);
+}
+
+}  // namespace prowl
