@@ -29,6 +29,7 @@ if(EXISTS ${PROWL_CASADI}/include/coin-or/IpTNLP.hpp)
     INTERFACE_INCLUDE_DIRECTORIES ${PROWL_CASADI}/include/coin-or)
 endif()
 
+find_package(tinyxml2 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)

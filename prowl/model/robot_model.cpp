@@ -14,7 +14,9 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/nearest_name.hpp"
+#include "prowl/model/physical_inertia.hpp"
 #include "prowl/model/pinocchio_model.hpp"
+#include "prowl/model/urdf_check.hpp"
 
 namespace prowl {
 
@@ -34,6 +36,7 @@ std::string read_text(const std::filesystem::path& path) {
 
 pinocchio::Model build_model(const RobotDescription& description) {
   const std::string xml = read_text(description.urdf);
+  check_urdf(description.urdf.string(), xml);
   pinocchio::Model model;
   try {
     pinocchio::urdf::buildModelFromXML(xml, pinocchio::JointModelFreeFlyer(), model);
@@ -41,13 +44,23 @@ pinocchio::Model build_model(const RobotDescription& description) {
     throw InputError(fmt::format("{}: not a robot that Pinocchio can build: {}", description.urdf.string(),
                                  error.what()));
   }
-  for (pinocchio::JointIndex joint = kBaseJoint + 1; joint < model.joints.size(); ++joint) {
-    if (model.nqs[joint] != 1 || model.nvs[joint] != 1) {
-      throw InputError(fmt::format("{}: joint '{}' is a {}; every joint but the base must have one degree of freedom",
-                                   description.urdf.string(), model.names[joint], model.joints[joint].shortname()));
-    }
-  }
   return model;
+}
+
+/// Links joined by fixed joints move as one body; it is that body whose inertia matters, not that of each link.
+void check_bodies(const RobotDescription& description, const pinocchio::Model& model) {
+  for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
+    const pinocchio::Inertia& body = model.inertias[joint];
+    const auto problem = why_not_physical(body.mass(), body.inertia().matrix());
+    if (!problem) continue;
+    std::vector<std::string> links;
+    for (const pinocchio::Frame& frame : model.frames) {
+      if (frame.type == pinocchio::BODY && frame.parentJoint == joint) links.push_back(frame.name);
+    }
+    throw InputError(fmt::format("{}: body moved by {} (links {}): {}", description.urdf.string(),
+                                 joint == kBaseJoint ? "the floating base" : "joint '" + model.names[joint] + "'",
+                                 fmt::join(links, ", "), *problem));
+  }
 }
 
 std::vector<std::string> link_names(const pinocchio::Model& model) {
@@ -134,6 +147,7 @@ void put_on_ground(const PinocchioModel& pin, const std::vector<ContactPoint>& c
 RobotModel::RobotModel(RobotDescription description) : description_(std::move(description)) {
   auto pin = std::make_unique<PinocchioModel>();
   pin->model = build_model(description_);
+  check_bodies(description_, pin->model);
   pin->contact_frames = add_contact_frames(description_, pin->model);
   const pinocchio::Model& model = pin->model;
 

@@ -1,0 +1,24 @@
+#include "prowl/model/physical_inertia.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace prowl {
+
+std::optional<std::string> why_not_physical(double mass, const Eigen::Matrix3d& inertia) {
+  if (!(mass > 0.0) || !std::isfinite(mass)) return fmt::format("the mass is {} kg; expected mass > 0", mass);
+  if (!inertia.allFinite()) return "the inertia is not finite";
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  const std::string found =
+      fmt::format("the principal moments of inertia are {:.4g}, {:.4g}, {:.4g} kg m^2; expected ", moments(0),
+                  moments(1), moments(2));
+  if (!(moments(0) > 0.0)) return found + "all > 0";
+  if (moments(0) + moments(1) < (1.0 - 1e-4) * moments(2)) {
+    return found + "the sum of any two to reach the third (triangle inequality)";
+  }
+  return std::nullopt;
+}
+
+}  // namespace prowl

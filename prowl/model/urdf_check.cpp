@@ -1,0 +1,215 @@
+#include "prowl/model/urdf_check.hpp"
+
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <vector>
+
+#include "prowl/error.hpp"
+#include "prowl/model/nearest_name.hpp"
+
+namespace prowl {
+
+namespace {
+
+using tinyxml2::XMLElement;
+
+constexpr double kLargest = 1e9;     // [SI units]: a robot has nothing beyond, and squares stay finite
+constexpr std::size_t kMaxLinks = 1000;  // a chain of 3,000 keeps Pinocchio busy for more than 20 s
+
+/// One link or joint (or the whole robot), for messages: "file:line: joint 'name'".
+struct Place {
+  const std::string& file;
+  std::string element;
+
+  [[noreturn]] void refuse(const XMLElement& at, const std::string& problem) const {
+    throw InputError(fmt::format("{}:{}: {}: {}", file, at.GetLineNum(), element, problem));
+  }
+};
+
+bool parse_number(std::string text, double& value) {
+  const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+  text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_space));
+  while (!text.empty() && is_space(static_cast<unsigned char>(text.back()))) text.pop_back();
+  if (text.starts_with('+')) text.erase(0, 1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size() && std::abs(value) <= kLargest;
+}
+
+/// The required attribute `name` of `at` as text.
+std::string text_of(const Place& place, const XMLElement& at, const char* name) {
+  const char* text = at.Attribute(name);
+  if (text == nullptr || *text == '\0') place.refuse(at, fmt::format("<{}> has no {}=\"...\"", at.Name(), name));
+  return text;
+}
+
+double number(const Place& place, const XMLElement& at, const char* name) {
+  const std::string text = text_of(place, at, name);
+  double value = 0.0;
+  if (!parse_number(text, value)) {
+    place.refuse(at, fmt::format("<{} {}=\"{}\">: expected one finite number like 1.5 (SI units, no unit in the text)",
+                                 at.Name(), name, text));
+  }
+  return value;
+}
+
+/// The attribute `name` of the element as three numbers; it may be missing. Returns their largest absolute value.
+double check_vector(const Place& place, const XMLElement* at, const char* name) {
+  if (at == nullptr || at->Attribute(name) == nullptr) return 0.0;
+  std::istringstream words(at->Attribute(name));
+  std::string word;
+  int count = 0;
+  double largest = 0.0, value = 0.0;
+  for (; words >> word; ++count) {
+    if (!parse_number(word, value)) break;
+    largest = std::max(largest, std::abs(value));
+  }
+  if (words || count != 3) {
+    place.refuse(*at, fmt::format("<{} {}=\"{}\">: expected three finite numbers like 0 0 1.5", at->Name(), name,
+                                  at->Attribute(name)));
+  }
+  return largest;
+}
+
+void check_origin(const Place& place, const XMLElement& parent) {
+  check_vector(place, parent.FirstChildElement("origin"), "xyz");
+  check_vector(place, parent.FirstChildElement("origin"), "rpy");
+}
+
+void check_link(const Place& place, const XMLElement& link) {
+  const XMLElement* inertial = link.FirstChildElement("inertial");
+  if (inertial == nullptr) return;  // a massless frame
+  check_origin(place, *inertial);
+  const XMLElement* mass = inertial->FirstChildElement("mass");
+  const XMLElement* inertia = inertial->FirstChildElement("inertia");
+  if (mass == nullptr || inertia == nullptr) place.refuse(*inertial, "<inertial> needs both <mass> and <inertia>");
+  if (const double value = number(place, *mass, "value"); value < 0.0) {
+    place.refuse(*mass, fmt::format("<mass value=\"{}\">: expected mass >= 0 [kg]", value));
+  }
+  for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) number(place, *inertia, moment);
+}
+
+void check_moving_joint(const Place& place, const XMLElement& joint, const std::string& type) {
+  if (type == "continuous") {
+    place.refuse(joint, "type continuous is not supported; give it limits (for example lower=\"-6.3\" upper=\"6.3\") and "
+                        "type=\"revolute\"");
+  }
+  if (type == "floating") {
+    place.refuse(joint, "type floating is not supported; remove this joint and its parent link: Prowl itself lets the "
+                        "root link float");
+  }
+  if (type != "revolute" && type != "prismatic") {
+    place.refuse(joint, fmt::format("type {} is not supported; expected revolute, prismatic or fixed{}", type,
+                                    type == "planar" ? " (model it as two prismatic joints and a revolute one)" : ""));
+  }
+  if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
+    place.refuse(*mimic, "mimic joints are not supported: every moving joint has its own actuator; remove <mimic>, or "
+                         "make the joint fixed");
+  }
+  const XMLElement* axis = joint.FirstChildElement("axis");  // 1 0 0 if not given
+  if (axis != nullptr && check_vector(place, axis, "xyz") < 1e-6) {
+    place.refuse(*axis, fmt::format("<axis xyz=\"{}\">: expected a direction, for example 0 0 1",
+                                    axis->Attribute("xyz") != nullptr ? axis->Attribute("xyz") : ""));
+  }
+  const XMLElement* limit = joint.FirstChildElement("limit");
+  if (limit == nullptr) {
+    place.refuse(joint, "no <limit>; expected <limit lower=\"...\" upper=\"...\" velocity=\"...\" effort=\"...\"/>");
+  }
+  for (const char* name : {"lower", "upper", "velocity", "effort"}) number(place, *limit, name);
+}
+
+/// Parent link of every link that is the child of a joint.
+using Parents = std::map<std::string, std::string>;
+
+void check_joint(const Place& place, const XMLElement& joint, const std::vector<std::string>& links, Parents& parents) {
+  std::string ends[2];
+  for (const int i : {0, 1}) {
+    const char* role = i == 0 ? "parent" : "child";
+    const XMLElement* end = joint.FirstChildElement(role);
+    if (end == nullptr) place.refuse(joint, fmt::format("no <{} link=\"...\"/>", role));
+    ends[i] = text_of(place, *end, "link");
+    if (std::find(links.begin(), links.end(), ends[i]) == links.end()) {
+      place.refuse(*end, fmt::format("{} link '{}' does not exist{}", role, ends[i], did_you_mean(ends[i], links)));
+    }
+  }
+  if (!parents.emplace(ends[1], ends[0]).second) {
+    place.refuse(joint, fmt::format("link '{}' is already the child of another joint; expected a tree", ends[1]));
+  }
+  check_origin(place, joint);
+  const std::string type = text_of(place, joint, "type");
+  if (type != "fixed") check_moving_joint(place, joint, type);
+}
+
+void check_tree(const Place& place, const XMLElement& root, const std::vector<std::string>& links,
+                const Parents& parents) {
+  std::vector<std::string> roots;
+  for (const std::string& link : links) {
+    if (!parents.contains(link)) roots.push_back(link);
+    const std::string* ancestor = &link;
+    for (std::size_t steps = 0; parents.contains(*ancestor); ++steps) {
+      if (steps > links.size()) place.refuse(root, fmt::format("the joints make a loop at link '{}'", *ancestor));
+      ancestor = &parents.at(*ancestor);
+    }
+  }
+  if (roots.size() != 1) {
+    place.refuse(root, fmt::format("{} links are no child of a joint ({}); expected exactly one, the base",
+                                   roots.size(), fmt::join(roots, ", ")));
+  }
+}
+
+const XMLElement& root_of(const std::string& file, const std::string& xml, tinyxml2::XMLDocument& document) {
+  if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
+    throw InputError(fmt::format("{}:{}: not an XML file ({}); expected a URDF", file, document.ErrorLineNum(),
+                                 tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())));
+  }
+  const XMLElement& root = *document.RootElement();
+  const Place place{file, fmt::format("<{}>", root.Name())};
+  if (std::string(root.Name()) != "robot") place.refuse(root, "not a URDF; expected <robot name=\"...\">");
+  text_of(place, root, "name");
+  for (const XMLElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    if (std::string(e->Name()).starts_with("xacro:")) {
+      place.refuse(*e, "a xacro file; expected the URDF that it expands to: xacro FILE > robot.urdf");
+    }
+  }
+  return root;
+}
+
+}  // namespace
+
+void check_urdf(const std::string& file, const std::string& xml) {
+  tinyxml2::XMLDocument document;
+  const XMLElement& root = root_of(file, xml, document);
+  const Place robot{file, fmt::format("robot '{}'", root.Attribute("name"))};
+
+  std::vector<std::string> links;
+  std::map<std::string, int> line_of;  // where a name was used first
+  const auto visit = [&](const char* kind, const auto& check) {
+    line_of.clear();
+    for (const XMLElement* e = root.FirstChildElement(kind); e != nullptr; e = e->NextSiblingElement(kind)) {
+      const std::string name = text_of(robot, *e, "name");
+      const Place place{file, fmt::format("{} '{}'", kind, name)};
+      if (const auto [first, is_new] = line_of.emplace(name, e->GetLineNum()); !is_new) {
+        place.refuse(*e, fmt::format("the name is used already in line {}; expected unique names", first->second));
+      }
+      check(place, *e, name);
+    }
+  };
+  visit("link", [&](const Place& place, const XMLElement& link, const std::string& name) {
+    if (links.size() == kMaxLinks) place.refuse(link, fmt::format("more than {} links are not allowed", kMaxLinks));
+    check_link(place, link);
+    links.push_back(name);
+  });
+  if (links.empty()) robot.refuse(root, "no <link>; expected at least the base");
+  Parents parents;
+  visit("joint", [&](const Place& place, const XMLElement& joint, const std::string&) {
+    check_joint(place, joint, links, parents);
+  });
+  check_tree(robot, root, links, parents);
+}
+
+}  // namespace prowl
