@@ -30,4 +30,14 @@ struct QuadraticCost {
   std::vector<ContactPositionCost> contact_positions;
 };
 
+/// 1/2 |difference(q_ref, q)|^2_W with its derivatives in the tangent at q (configuration.hpp).
+struct ConfigurationCost {
+  double value = 0.0;
+  Eigen::VectorXd gradient;             ///< nv
+  Eigen::VectorXd hessian_diagonal;     ///< nv; the rotation's entries (3 ... 5) are in the block instead
+  Eigen::Matrix3d hessian_rotation;     ///< rows and columns 3 ... 5
+};
+ConfigurationCost configuration_cost(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& weight,
+                                     const Eigen::VectorXd& q);
+
 }  // namespace prowl

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Second derivatives of one scalar s(q, v, a): q in the tangent of configuration.hpp, v and a as they are.
+/// The scalars of interest are linear in a, so that s_va and s_aa vanish or are not needed.
+struct SecondDerivatives {
+  Eigen::MatrixXd qq, qv, vv, qa;  ///< nv x nv each; entry (i, j) of qv is d2 s / dq_i dv_j
+  explicit SecondDerivatives(int nv);
+  void set_zero();
+};
+
+/// The terms of the free (contact-less) rigid-body dynamics, by Pinocchio.
+///
+///   r0(q, v, a) = RNEA = M(q) a + h(q, v)      [N, N m], n + 6 rows: force and moment on the base (base frame), joints
+///
+/// Derivatives in q are with respect to the tangent of configuration.hpp (world displacement of the base, rotation
+/// vector in the base frame, joints). One object holds the work space of one thread; results stay until the next update.
+class RigidBodyTerms {
+ public:
+  explicit RigidBodyTerms(const RobotModel& robot);
+  ~RigidBodyTerms();
+  RigidBodyTerms(RigidBodyTerms&&) noexcept;
+
+  int nv() const { return nv_; }
+
+  /// Inverse dynamics and the kinematics below.
+  void update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a);
+  /// The same and all first derivatives.
+  void update_with_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a);
+  /// Kinematics only.
+  void update_kinematics(const Eigen::VectorXd& q);
+
+  const Eigen::VectorXd& inverse_dynamics() const { return inverse_dynamics_; }  ///< r0
+  const Eigen::MatrixXd& dq() const { return dq_; }                              ///< dr0/dq, nv x nv
+  const Eigen::MatrixXd& dv() const { return dv_; }                              ///< dr0/dv, nv x nv
+  const Eigen::MatrixXd& mass_matrix() const { return mass_matrix_; }            ///< dr0/da = M, nv x nv
+
+  /// Column j is the spatial velocity of the bodies behind degree of freedom j at v_j = 1, others 0: rows 0-2 the
+  /// velocity of the body point at the WORLD origin, rows 3-5 the angular velocity, world axes. 6 x nv.
+  const Eigen::Matrix<double, 6, Eigen::Dynamic>& motion_columns() const { return motion_columns_; }
+  Eigen::Vector3d contact_position(int contact) const;  ///< world frame [m]; contact of the robot
+
+  /// Degrees of freedom that move a contact: 0 ... 5 (the base), then joints from the base to the tip.
+  const std::vector<int>& contact_chain(int contact) const { return chains_[static_cast<size_t>(contact)]; }
+
+  /// Adds the second derivatives of lambda . r0(q, v, a) at fixed lambda (nv) [any unit].
+  /// Singh, Russell, Wensing, "On second-order derivatives of rigid-body dynamics", 2023, as in Pinocchio.
+  void add_second_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                              const Eigen::VectorXd& lambda, SecondDerivatives& result);
+
+ private:
+  struct Workspace;  // Pinocchio's Data and tensors
+  void fetch_kinematics();
+
+  int nv_;
+  std::unique_ptr<Workspace> workspace_;
+  std::vector<std::vector<int>> chains_;
+  Eigen::VectorXd inverse_dynamics_;
+  Eigen::MatrixXd dq_, dv_, mass_matrix_;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> motion_columns_;
+};
+
+}  // namespace prowl

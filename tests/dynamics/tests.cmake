@@ -1,0 +1,5 @@
+prowl_test(dynamics/projected_residual prowl::dynamics)
+prowl_test(dynamics/static_equilibrium prowl::dynamics pinocchio::pinocchio_default)
+prowl_test(dynamics/inverse_kinematics prowl::dynamics)
+prowl_test(dynamics/projector prowl::dynamics)
+prowl_test(dynamics/forward_dynamics prowl::dynamics pinocchio::pinocchio_default)

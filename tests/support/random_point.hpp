@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <random>
+
+#include "prowl/dynamics/projected_residual.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/model/robot_model.hpp"
+
+/// Random places at which derivatives are tested: the base turned any way, joints within half a radian of the nominal
+/// posture (so that no leg is straight), motions and torques of the size that the robot knows.
+namespace prowl::test {
+
+inline Eigen::VectorXd random_vector(std::mt19937& rng, Eigen::Index size, double size_of_entries) {
+  std::uniform_real_distribution<double> uniform(-size_of_entries, size_of_entries);
+  return Eigen::VectorXd::NullaryExpr(size, [&](Eigen::Index) { return uniform(rng); });
+}
+
+inline DynamicsPoint random_point(const RobotModel& robot, const std::vector<int>& contacts, std::mt19937& rng) {
+  DynamicsPoint point;
+  Eigen::VectorXd tangent = random_vector(rng, robot.nv(), 0.5);
+  tangent.segment<3>(3) *= 4.0;
+  point.q = integrate(robot.nominal_configuration(), tangent);
+  point.v = random_vector(rng, robot.nv(), 2.0);
+  point.a = random_vector(rng, robot.nv(), 10.0);
+  point.tau = random_vector(rng, robot.nu(), 0.2 * robot.weight());
+  point.anchors = random_vector(rng, 3 * static_cast<Eigen::Index>(contacts.size()), 0.5);
+  point.stabilisation = {20.0, 100.0};
+  return point;
+}
+
+/// |actual - expected|, relative to the size of what is expected (the largest entry, at least `floor`).
+inline double relative_error(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double floor = 1e-9) {
+  if (expected.size() == 0) return 0.0;
+  return (actual - expected).cwiseAbs().maxCoeff() / std::max(expected.cwiseAbs().maxCoeff(), floor);
+}
+
+/// Moves one argument of a point: q along its tangent, the others as vectors.
+enum class Argument { q, v, a, tau };
+inline DynamicsPoint moved(const DynamicsPoint& point, Argument argument, Eigen::Index index, double by) {
+  DynamicsPoint result = point;
+  if (argument == Argument::q) {
+    Eigen::VectorXd tangent = Eigen::VectorXd::Zero(point.v.size());
+    tangent(index) = by;
+    result.q = integrate(point.q, tangent);
+  } else {
+    (argument == Argument::v ? result.v : argument == Argument::a ? result.a : result.tau)(index) += by;
+  }
+  return result;
+}
+
+}  // namespace prowl::test
