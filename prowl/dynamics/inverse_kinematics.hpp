@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Where a contact point of the robot should be.
+struct ContactTarget {
+  int contact = 0;           ///< index into RobotModel::contacts()
+  Eigen::Vector3d position;  ///< of the origin of its frame, world frame [m]
+};
+
+struct InverseKinematics {
+  Eigen::VectorXd q;       ///< nq; joints within their limits, base as given
+  double residual = 0.0;   ///< largest distance of a contact from its target [m]
+  bool converged = false;  ///< residual <= kTolerance; if not, q is the nearest that was found
+
+  static constexpr double kTolerance = 1e-8;  ///< [m]; near a solution one more step squares the error
+};
+
+/// Joint positions that put contact points at their targets, the base held at its pose in q_start:
+///
+///   minimise 1/2 sum_c |p_c(q) - target_c|^2  over the joints,  lower <= joints <= upper
+///
+/// Levenberg-Marquardt with an active set of limits, from the joints of q_start, so that it finds the nearby posture
+/// (the knee keeps its side) and leaves joints alone that move no target. A local method: not converged means
+/// "not found from here", which for the legs of a quadruped near its standing posture is "out of reach".
+InverseKinematics inverse_kinematics(const RobotModel& robot, const Eigen::VectorXd& q_start,
+                                     const std::vector<ContactTarget>& targets);
+
+}  // namespace prowl
