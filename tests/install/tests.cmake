@@ -1,0 +1,7 @@
+if(BUILD_SHARED_LIBS AND PROWL_BUILD_CLI)
+  string(REPLACE ";" "\\;" internal_headers "${PROWL_INTERNAL_HEADERS}")
+  add_test(NAME install/consumer COMMAND ${CMAKE_COMMAND}
+    -DBUILD_DIR=${PROJECT_BINARY_DIR} -DCONSUMER_DIR=${CMAKE_CURRENT_LIST_DIR}/consumer
+    -DROBOTS_DATA=${PROWL_CMEEL}/share -DINTERNAL_HEADERS=${internal_headers}
+    -DWORK_DIR=${PROJECT_BINARY_DIR}/tests/install -P ${CMAKE_CURRENT_LIST_DIR}/install_test.cmake)
+endif()
