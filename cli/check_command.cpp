@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "environment.hpp"
+#include "exit_status.hpp"
+#include "output.hpp"
+#include "prowl/io/plan_directory.hpp"
+#include "prowl/io/summary.hpp"
+
+namespace prowl::cli {
+namespace {
+
+struct CheckArguments {
+  std::string directory;
+  std::vector<std::string> package_dirs;
+  bool json = false;
+};
+
+int run_check(const CheckArguments& arguments) {
+  PlanRecord record = read_plan(arguments.directory, package_search(arguments.package_dirs));
+  const Grade recorded = record.plan.certificate.grade;
+  record.plan.certificate = certify(record.task.problem, record.plan.trajectory);
+  const Certificate& certificate = record.plan.certificate;
+  if (certificate.grade != recorded) {
+    fmt::print(stderr, "note: plan.json says grade {}, this check says {}\n", to_string(recorded),
+               to_string(certificate.grade));
+  }
+  print_result(arguments.json ? plan_report_json(record, arguments.directory)
+                              : plan_summary(record) + certificate_summary(certificate) + mesh_advice(record));
+  return exit_status(record.plan.result.status, certificate);
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* const verb = app.add_subcommand("check", "Check a finished plan again, from its files alone");
+  verb->add_option("directory", arguments->directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
+  verb->add_flag("--json", arguments->json, "Print the result as JSON");
+  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
+      ->type_name("DIR")->expected(1)->take_all();
+  verb->footer("Example:\n  prowl check out/hyq_crouch\n\nExit status: as prowl plan.");
+  verb->callback([arguments, &status] { status = run_check(*arguments); });
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,43 @@
+#include "environment.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <cstdlib>
+#include <sstream>
+
+#include "prowl/solvers/ipopt_solver.hpp"
+
+namespace prowl::cli {
+namespace {
+
+std::vector<std::filesystem::path> path_list(const char* variable) {
+  std::vector<std::filesystem::path> paths;
+  const char* const value = std::getenv(variable);
+  std::istringstream text(value ? value : "");
+  for (std::string path; std::getline(text, path, ':');) {
+    if (!path.empty()) paths.emplace_back(path);
+  }
+  return paths;
+}
+
+}  // namespace
+
+PackageSearch package_search(const std::vector<std::string>& package_dirs) {
+  PackageSearch search;
+  search.folders.assign(package_dirs.begin(), package_dirs.end());
+  for (const auto& prefix : path_list("AMENT_PREFIX_PATH")) search.folders.push_back(prefix / "share");
+  for (const auto& path : path_list("ROS_PACKAGE_PATH")) search.folders.push_back(path);
+  std::error_code ignored;  // a working directory that was removed has nothing to offer
+  search.working_directory = std::filesystem::current_path(ignored);
+  return search;
+}
+
+std::map<std::string, std::string> versions() {
+  return {{"prowl", PROWL_VERSION},
+          {"Ipopt", IpoptSolver().version()},
+          {"Pinocchio", PROWL_PINOCCHIO_VERSION},
+          {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+}
+
+}  // namespace prowl::cli

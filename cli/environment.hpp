@@ -1,0 +1,17 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "prowl/io/package_path.hpp"
+
+namespace prowl::cli {
+
+/// Where to look for package://: --package-dir, then AMENT_PREFIX_PATH/share, then ROS_PACKAGE_PATH.
+PackageSearch package_search(const std::vector<std::string>& package_dirs);
+
+/// "prowl", "Ipopt", "Pinocchio", "Eigen" -> version.
+std::map<std::string, std::string> versions();
+
+}  // namespace prowl::cli

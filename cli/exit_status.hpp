@@ -1,0 +1,33 @@
+#pragma once
+
+#include "prowl/plan.hpp"
+
+namespace prowl::cli {
+
+/// What the command ends with; scripts rely on these.
+enum ExitStatus : int {
+  kPassed = 0,              ///< the plan passes its certificate, draft or certified
+  kUnexpected = 1,          ///< a mistake in Prowl itself
+  kBadInput = 2,
+  kNotSolved = 3,           ///< infeasible, or the solver failed
+  kFiles = 4,               ///< disk, permissions
+  kNumericalFailure = 5,
+  kLimit = 6,               ///< of time or iterations
+  kCertificateFailed = 7,   ///< converged, but the motion does not hold
+  kInterrupted = 130,
+};
+
+inline ExitStatus exit_status(SolveStatus status, const Certificate& certificate) {
+  switch (status) {
+    case SolveStatus::converged: return certificate.passed ? kPassed : kCertificateFailed;
+    case SolveStatus::infeasible: return kNotSolved;
+    case SolveStatus::solver_failed: return kNotSolved;
+    case SolveStatus::evaluation_failed: return kNumericalFailure;
+    case SolveStatus::iteration_limit: return kLimit;
+    case SolveStatus::time_limit: return kLimit;
+    case SolveStatus::interrupted: return kInterrupted;
+  }
+  return kUnexpected;
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,33 @@
+#include "interrupt.hpp"
+
+#include <unistd.h>
+
+#include <csignal>
+
+#include "exit_status.hpp"
+
+namespace prowl::cli {
+namespace {
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+
+extern "C" void on_interrupt(int) {
+  if (interrupted.exchange(true)) ::_exit(kInterrupted);
+  constexpr char kNotice[] = "\nstopping after this iteration; once more to end at once\n";
+  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kNotice, sizeof(kNotice) - 1);
+}
+
+}  // namespace
+
+const std::atomic<bool>& catch_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  return interrupted;
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <atomic>
+
+namespace prowl::cli {
+
+/// From now on the first Ctrl-C (or SIGTERM) sets the flag, which stops a solver within an iteration; the second ends the
+/// process at once with status 130.
+const std::atomic<bool>& catch_interrupts();
+
+}  // namespace prowl::cli

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "commands.hpp"
+#include "environment.hpp"
+#include "exit_status.hpp"
+#include "prowl/error.hpp"
+#include "prowl/model/nearest_name.hpp"
+
+namespace {
+
+using namespace prowl::cli;
+
+std::string version_text() {
+  std::string text;
+  for (const auto& [name, version] : prowl::cli::versions()) {
+    const std::string line = fmt::format("{} {}", name, version);
+    text = name == "prowl" ? line + (text.empty() ? "" : "\n" + text) : text + (text.empty() ? "" : "\n") + line;
+  }
+  return text;
+}
+
+/// "; did you mean '--json'?" for the first verb or option that there is not, else "".
+std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+  if (argc < 2) return "";
+  const std::string first = argv[1];
+  const bool is_verb = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
+  if (!is_verb && !first.starts_with('-')) return prowl::did_you_mean(first, verbs);
+  std::vector<std::string> options;
+  for (const CLI::Option* option : (is_verb ? app.get_subcommand(first) : &app)->get_options()) {
+    for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
+  }
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument(argv[i], std::find(argv[i], argv[i] + std::string_view(argv[i]).size(), '='));
+    if (!argument.starts_with("--")) continue;
+    if (std::find(options.begin(), options.end(), argument) == options.end()) return prowl::did_you_mean(argument, options);
+  }
+  return "";
+}
+
+int run(int argc, char** argv) {
+  int status = kPassed;
+  CLI::App app("Prowl plans whole-body motions of legged robots and checks them.", "prowl");
+  app.set_version_flag("--version", version_text);
+  app.require_subcommand(1);
+  app.footer("Examples:\n  prowl robot robots/hyq.toml          what Prowl understands of a robot\n"
+             "  prowl plan tasks/hyq/crouch.toml     plan a motion into out/hyq_crouch\n"
+             "  prowl check out/hyq_crouch           check it again\n\nMore with prowl VERB --help.");
+  add_plan_command(app, status);
+  add_check_command(app, status);
+  add_robot_command(app, status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    fmt::print(stderr, "prowl: {}{}\nMore with prowl --help.\n", error.what(), suggestion(app, argc, argv));
+    return kBadInput;
+  }
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto report = [](const std::exception& error, int status) {
+    fmt::print(stderr, "prowl: {}\n", error.what());
+    return status;
+  };
+  try {
+    return run(argc, argv);
+  } catch (const prowl::InputError& error) {
+    return report(error, kBadInput);
+  } catch (const prowl::FileError& error) {
+    return report(error, kFiles);
+  } catch (const prowl::NumericalError& error) {
+    return report(error, kNumericalFailure);
+  } catch (const std::exception& error) {
+    return report(error, kUnexpected);
+  }
+}

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "commands.hpp"
+#include "environment.hpp"
+#include "exit_status.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "prowl/error.hpp"
+#include "prowl/io/file_keys.hpp"
+#include "prowl/io/plan_directory.hpp"
+#include "prowl/io/summary.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+
+namespace prowl::cli {
+namespace {
+
+struct PlanArguments {
+  std::string task;
+  std::string out;
+  std::vector<std::string> package_dirs;
+  TaskOverrides overrides;
+  std::optional<double> step;  ///< [s]
+  bool json = false;
+};
+
+constexpr double kMostSamples = 1e7;  // of the uniform grid: some gigabytes of text
+
+/// A finite number > 0; CLI11's own check lets NaN through.
+const CLI::Validator kPositive(
+    [](const std::string& text) {
+      double value = 0.0;
+      const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
+      return ok ? std::string{} : fmt::format("{} is not allowed; need a finite number > 0", text);
+    },
+    "NUMBER > 0");
+
+int run_plan(const PlanArguments& arguments) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), arguments.overrides);
+  const std::filesystem::path out = arguments.out.empty() ? "out" / std::filesystem::path(task_slug(arguments.task))
+                                                          : std::filesystem::path(arguments.out);
+  check_plan_directory(out);
+  double duration = 0.0;
+  for (const Phase& phase : task.problem.phases) duration += phase.duration.min;
+  if (arguments.step && duration / *arguments.step > kMostSamples) {
+    throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *arguments.step, duration));
+  }
+
+  SolverOptions options = task.solver;
+  options.on_iteration = progress_printer();
+  options.interrupt = &interrupted;
+  Plan plan = make_plan(task.problem, IpoptSolver(), options);
+
+  const PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions()};
+  write_plan(out, record, arguments.step);
+  if (arguments.json) {
+    print_result(plan_report_json(record, out));
+  } else {
+    print_result(plan_summary(record) + certificate_summary(record.plan.certificate) + mesh_advice(record) +
+                 fmt::format("written to {}\n", out.string()));
+  }
+  return exit_status(record.plan.result.status, record.plan.certificate);
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<PlanArguments>();
+  const FileKeys& keys = task_file_keys();
+  CLI::App* const verb = app.add_subcommand("plan", "Plan the motion of a task file and check it");
+  verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
+  verb->add_option("--out", arguments->out, "Folder for the result; default out/FOLDER_TASK")->type_name("DIR");
+  verb->add_flag("--json", arguments->json, "Print the result as JSON");
+  verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
+      ->check(kPositive)->type_name("S");
+  verb->add_option("--max-time", arguments->overrides.max_seconds,
+                   key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
+      ->check(kPositive)->type_name("S");
+  verb->add_option("--max-iterations", arguments->overrides.max_iterations,
+                   key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))->type_name("N");
+  verb->add_option("--intervals", arguments->overrides.intervals,
+                   "Mesh intervals in all, shared out over the phases as in the task file")
+      ->check(CLI::Range(1, 10000))->type_name("N");
+  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
+      ->type_name("DIR")->expected(1)->take_all();
+  verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"
+               "  prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out stand\n\n"
+               "Exit status: 0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
+               "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"
+               "130 interrupted (Ctrl-C keeps the best motion so far, marked as not finished).");
+  verb->callback([arguments, &status] { status = run_plan(*arguments); });
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,39 @@
+#include <memory>
+
+#include "commands.hpp"
+#include "environment.hpp"
+#include "exit_status.hpp"
+#include "output.hpp"
+#include "prowl/io/robot_file.hpp"
+#include "prowl/io/robot_summary.hpp"
+
+namespace prowl::cli {
+namespace {
+
+struct RobotArguments {
+  std::string robot;
+  std::vector<std::string> package_dirs;
+  bool json = false;
+};
+
+int run_robot(const RobotArguments& arguments) {
+  const RobotModel robot = load_robot(read_text_file(arguments.robot), package_search(arguments.package_dirs));
+  const RobotInspection inspection = inspect(robot);
+  print_result(arguments.json ? robot_report_json(robot, inspection) : robot_summary(robot, inspection));
+  return kPassed;
+}
+
+}  // namespace
+
+void add_robot_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<RobotArguments>();
+  CLI::App* const verb = app.add_subcommand("robot", "Show what Prowl understands of a robot, and what looks wrong");
+  verb->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
+  verb->add_flag("--json", arguments->json, "Print the result as JSON");
+  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
+      ->type_name("DIR")->expected(1)->take_all();
+  verb->footer("Example:\n  prowl robot robots/hyq.toml\n\nExit status: 0, 2 bad input, 4 files.");
+  verb->callback([arguments, &status] { status = run_robot(*arguments); });
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,136 @@
+#include "prowl/io/atomic_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, const std::string& action, int error) {
+  throw FileError(fmt::format("{}: {}: {}", path.string(), action, std::strerror(error)));
+}
+
+/// Open file or folder, closed at the end.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : path_(path), number_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {
+    if (number_ < 0) fail(path, "cannot open", errno);
+  }
+  ~Descriptor() { ::close(number_); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  void write_all(const std::string& text) const {
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t count = ::write(number_, text.data() + done, text.size() - done);
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) fail(path_, "cannot write", errno);
+      done += static_cast<std::size_t>(count);
+    }
+  }
+  void sync() const {
+    if (::fsync(number_) != 0) fail(path_, "cannot write to disk", errno);
+  }
+
+ private:
+  fs::path path_;
+  int number_;
+};
+
+/// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the old.
+class SiblingFolder {
+ public:
+  explicit SiblingFolder(const fs::path& folder) {
+    for (int attempt = 0;; ++attempt) {
+      path_ = folder.parent_path() / fmt::format(".{}.{}-{}.new", folder.filename().string(), ::getpid(), attempt);
+      if (::mkdir(path_.c_str(), 0777) == 0) return;
+      if (errno != EEXIST || attempt == 100) fail(path_, "cannot make this folder", errno);
+    }
+  }
+  ~SiblingFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  SiblingFolder(const SiblingFolder&) = delete;
+  SiblingFolder& operator=(const SiblingFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// `fresh` gets the name `folder`; what had it is then called `fresh`.
+void exchange(const fs::path& fresh, const fs::path& folder) {
+  if (::rename(fresh.c_str(), folder.c_str()) == 0) return;  // there was none, or an empty one
+  if (errno != ENOTEMPTY && errno != EEXIST) fail(folder, "cannot put the new folder in place", errno);
+  if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) return;
+  if (errno != EINVAL && errno != ENOSYS) fail(folder, "cannot exchange with the new folder", errno);
+  // Some network file systems cannot exchange: two renames, and the first is taken back if the second fails.
+  const fs::path old = fresh.string() + ".old";
+  if (::rename(folder.c_str(), old.c_str()) != 0) fail(folder, "cannot move the old folder away", errno);
+  if (::rename(fresh.c_str(), folder.c_str()) != 0) {
+    const int error = errno;
+    ::rename(old.c_str(), folder.c_str());
+    fail(folder, "cannot put the new folder in place", error);
+  }
+  if (::rename(old.c_str(), fresh.c_str()) != 0) fail(old, "cannot remove the old folder", errno);
+}
+
+/// Without symbolic links or a slash at the end, so that the folder itself and not a link to it is replaced.
+fs::path real_path(const fs::path& folder) {
+  std::error_code error;
+  fs::path path = fs::weakly_canonical(fs::absolute(folder), error);
+  if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
+  return path.has_filename() ? path : path.parent_path();
+}
+
+}  // namespace
+
+void check_replaceable(const fs::path& folder, const std::set<std::string>& own_names) {
+  const fs::path path = real_path(folder);
+  std::error_code error;
+  if (fs::exists(path, error)) {
+    if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", folder.string()));
+    for (const auto& entry : fs::directory_iterator(path, error)) {
+      if (own_names.contains(entry.path().filename().string()) && entry.is_regular_file()) continue;
+      throw FileError(fmt::format("{}: would be replaced, but holds {}, which is not part of a plan; need another --out",
+                                  folder.string(), entry.path().filename().string()));
+    }
+    if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
+  }
+  fs::path above = path.parent_path();
+  while (!fs::exists(above, error) && above != above.parent_path()) above = above.parent_path();
+  if (!fs::is_directory(above, error)) throw FileError(fmt::format("{}: not a folder", above.string()));
+  if (::access(above.c_str(), W_OK | X_OK) != 0) fail(above, "cannot write there", errno);
+}
+
+void write_folder_atomically(const fs::path& folder, const std::map<std::string, std::string>& files,
+                             const std::set<std::string>& own_names) {
+  check_replaceable(folder, own_names);
+  const fs::path path = real_path(folder);
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) throw FileError(fmt::format("{}: {}", path.parent_path().string(), error.message()));
+
+  const SiblingFolder fresh(path);
+  for (const auto& [name, text] : files) {
+    const Descriptor file(fresh.path() / name, O_WRONLY | O_CREAT | O_EXCL);
+    file.write_all(text);
+    file.sync();
+  }
+  Descriptor(fresh.path(), O_RDONLY | O_DIRECTORY).sync();
+  exchange(fresh.path(), path);
+  Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
+}
+
+}  // namespace prowl

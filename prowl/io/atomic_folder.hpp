@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+namespace prowl {
+
+/// Throws FileError unless write_folder_atomically can be expected to work: `folder` is missing, empty, or holds only
+/// files called as in `own_names`, and the folder above can be written. For a look before hours of work.
+void check_replaceable(const std::filesystem::path& folder, const std::set<std::string>& own_names);
+
+/// Makes `folder` hold exactly these files (name -> content), whole or not at all: they are written and synced in a
+/// folder beside it, which then takes its place by one rename; what was there before is removed after that. A folder that
+/// holds anything not in `own_names` is left alone. Throws FileError, and then the old content is as it was.
+void write_folder_atomically(const std::filesystem::path& folder, const std::map<std::string, std::string>& files,
+                             const std::set<std::string>& own_names);
+
+}  // namespace prowl

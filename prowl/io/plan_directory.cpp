@@ -1,0 +1,52 @@
+#include "prowl/io/plan_directory.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "prowl/error.hpp"
+#include "prowl/io/atomic_folder.hpp"
+#include "prowl/io/plan_json.hpp"
+#include "prowl/io/trajectory_csv.hpp"
+
+namespace prowl {
+namespace {
+
+const char* const kPlan = "plan.json";
+const char* const kNodes = "trajectory.csv";
+const char* const kUniform = "trajectory_uniform.csv";
+const std::set<std::string> kFiles = {kPlan, kNodes, kUniform};
+
+constexpr std::size_t kLongestTrajectory = 1u << 30;  // [bytes]
+
+}  // namespace
+
+void check_plan_directory(const std::filesystem::path& directory) { check_replaceable(directory, kFiles); }
+
+void write_plan(const std::filesystem::path& directory, const PlanRecord& record, std::optional<double> uniform_step) {
+  const MotionProblem& problem = record.task.problem;
+  std::map<std::string, std::string> files;
+  files[kPlan] = plan_to_json(record).dump(2) + "\n";
+  files[kNodes] = trajectory_to_csv(problem, record.plan.trajectory);
+  if (uniform_step) {
+    files[kUniform] = trajectory_to_csv(problem, sample_uniformly(record.plan.trajectory, *uniform_step));
+  }
+  write_folder_atomically(directory, files, kFiles);
+}
+
+PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search) {
+  PlanRecord record = plan_from_json(read_text_file(directory / kPlan), search);
+  const SourceText nodes = read_text_file(directory / kNodes, kLongestTrajectory);
+  record.plan.trajectory = trajectory_from_csv(record.task.problem, nodes);
+  return record;
+}
+
+std::string plan_report_json(const PlanRecord& record, const std::filesystem::path& directory) {
+  auto json = plan_to_json(record);
+  json["task_file"].erase("text");
+  json["robot_file"].erase("text");
+  json["directory"] = std::filesystem::absolute(directory).lexically_normal().string();
+  return json.dump(2) + "\n";
+}
+
+}  // namespace prowl

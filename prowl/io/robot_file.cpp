@@ -1,0 +1,128 @@
+#include "prowl/io/robot_file.hpp"
+
+#include <fmt/format.h>
+
+#include "prowl/error.hpp"
+#include "prowl/io/toml_value.hpp"
+
+namespace prowl {
+namespace {
+
+ContactPoint read_contact(const TomlTable& table) {
+  ContactPoint contact;
+  contact.name = table.need("name").as_text();
+  contact.frame = table.need("frame").as_text();
+  if (const auto radius = table.find("radius_m")) contact.radius = radius->as_number(NumberRange::nonnegative());
+  if (const auto offset = table.find("offset_m")) contact.offset = offset->as_vector3();
+  return contact;
+}
+
+std::vector<ContactPoint> read_contacts(const TomlTable& root) {
+  root.need("contact");
+  std::vector<ContactPoint> contacts;
+  for (const TomlTable& table : root.find_tables("contact")) {
+    const ContactPoint contact = read_contact(table);
+    for (const ContactPoint& other : contacts) {
+      if (other.name == contact.name) table.need("name").fail("\"" + contact.name + "\" is already another contact");
+    }
+    contacts.push_back(contact);
+  }
+  if (contacts.empty()) root.need("contact").fail("an empty list is not allowed; need one contact or more");
+  return contacts;
+}
+
+void read_nominal(const TomlTable& table, RobotDescription& robot) {
+  if (const auto rpy = table.find("base_rpy_rad")) robot.nominal_base_rpy = rpy->as_vector3(angle_range());
+  if (const auto joints = table.find("joints")) {
+    for (const auto& [name, value] : joints->as_free_named_values("joint")) {
+      robot.nominal_joints[name] = value.as_number();
+    }
+  }
+}
+
+JointLimits read_limits(const TomlTable& table) {
+  JointLimits limits;
+  if (const auto position = table.find("position_rad")) {
+    const std::vector<TomlValue> ends = position->as_list(2);
+    limits.position_lower = ends[0].as_number();
+    limits.position_upper = ends[1].as_number();
+    if (*limits.position_lower > *limits.position_upper) position->fail("min > max is not allowed; need [min, max]");
+  }
+  if (const auto velocity = table.find("velocity_radps")) limits.velocity = velocity->as_number(NumberRange::positive());
+  if (const auto torque = table.find("torque_Nm")) limits.torque = torque->as_number(NumberRange::positive());
+  return limits;
+}
+
+/// What RobotModel says about a description; "" if nothing.
+std::string complaint(const RobotDescription& description) {
+  try {
+    RobotModel{description};
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// The key that RobotModel complains of: the first without which it no longer does; else the URDF.
+std::string culprit(const RobotDescription& description, const std::string& message) {
+  for (std::size_t i = 0; i < description.contacts.size(); ++i) {
+    RobotDescription without = description;
+    without.contacts.erase(without.contacts.begin() + static_cast<std::ptrdiff_t>(i));
+    if (complaint(without) != message) return fmt::format("contact[{}].frame", i);
+  }
+  for (const auto& [joint, position] : description.nominal_joints) {
+    RobotDescription without = description;
+    without.nominal_joints.erase(joint);
+    if (complaint(without) != message) return "nominal.joints." + joint;
+  }
+  for (const auto& [joint, limits] : description.limits) {
+    RobotDescription without = description;
+    without.limits.erase(joint);
+    if (complaint(without) != message) return "limits." + joint;
+  }
+  return "urdf";
+}
+
+}  // namespace
+
+RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search) {
+  const TomlDocument document(source);
+  const TomlTable root = document.root(robot_file_keys());
+  RobotDescription robot;
+  robot.name = root.need("name").as_text();
+  robot.contacts = read_contacts(root);
+  if (const auto nominal = root.find_table("nominal")) read_nominal(*nominal, robot);
+  if (const auto limits = root.find("limits")) {
+    for (const auto& [joint, value] : limits->as_free_named_values("joint")) {
+      robot.limits[joint] = read_limits(TomlTable(value, robot_file_keys(), "limits"));
+    }
+  }
+  std::vector<std::filesystem::path> package_dirs;
+  if (const auto dirs = root.find("package_dirs")) {
+    for (const TomlValue& dir : dirs->as_list()) package_dirs.push_back(source.path.parent_path() / dir.as_text());
+  }
+  const TomlValue urdf = root.need("urdf");
+  const std::string uri = urdf.as_text();
+  try {
+    robot.urdf = resolve_uri(uri, source.path, package_dirs, search);
+  } catch (const InputError& error) {
+    urdf.fail(error.what());
+  }
+  return robot;
+}
+
+RobotDescription read_robot_file(const std::filesystem::path& path, const PackageSearch& search) {
+  return parse_robot_file(read_text_file(path), search);
+}
+
+RobotModel load_robot(const SourceText& source, const PackageSearch& search) {
+  const RobotDescription description = parse_robot_file(source, search);
+  try {
+    return RobotModel(description);
+  } catch (const InputError& error) {
+    const std::string key = culprit(description, error.what());
+    throw InputError(fmt::format("{}{}: {}", locate(source, key), key, error.what()));
+  }
+}
+
+}  // namespace prowl

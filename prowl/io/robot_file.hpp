@@ -1,0 +1,18 @@
+#pragma once
+
+#include "prowl/io/package_path.hpp"
+#include "prowl/io/text_file.hpp"
+#include "prowl/model/robot_description.hpp"
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Reads a robot file (docs/robot-file.md). Throws InputError "file:line:column: key: ..." for anything wrong in it; names
+/// of frames and joints are checked by load_robot only, as only the URDF knows them.
+RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search);
+RobotDescription read_robot_file(const std::filesystem::path& path, const PackageSearch& search);
+
+/// The robot itself, with file and line on what RobotModel finds wrong.
+RobotModel load_robot(const SourceText& source, const PackageSearch& search);
+
+}  // namespace prowl

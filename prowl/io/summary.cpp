@@ -1,0 +1,86 @@
+#include "prowl/io/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prowl {
+namespace {
+
+const char* in_words(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::converged: return "converged";
+    case SolveStatus::infeasible: return "infeasible: the solver came to rest where the constraints cannot be met";
+    case SolveStatus::iteration_limit: return "not finished: limit of iterations";
+    case SolveStatus::time_limit: return "not finished: limit of time";
+    case SolveStatus::interrupted: return "not finished: interrupted";
+    case SolveStatus::evaluation_failed: return "numerical failure in the problem";
+    case SolveStatus::solver_failed: return "the solver failed";
+  }
+  return "unknown";
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.3g}{}", value, unit.empty() || unit == "-" ? "" : " " + unit);
+}
+
+int count_intervals(const MotionProblem& problem) {
+  int intervals = 0;
+  for (const Phase& phase : problem.phases) intervals += phase.intervals;
+  return intervals;
+}
+
+}  // namespace
+
+std::string plan_summary(const PlanRecord& record) {
+  const MotionProblem& problem = record.task.problem;
+  const SolveResult& result = record.plan.result;
+  double duration = 0.0;
+  for (const Phase& phase : problem.phases) duration += phase.duration.min;
+  std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, in_words(result.status));
+  text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
+                      problem.phases.size(), problem.phases.size() == 1 ? "" : "s", count_intervals(problem), duration,
+                      record.plan.num_variables, record.plan.num_constraints);
+  text += fmt::format("  solver       {} iterations, {:.2f} s ({:.2f} s evaluating the problem)\n", result.iterations,
+                      result.seconds, result.evaluation_seconds);
+  text += fmt::format("  solution     cost {:.6g}, constraint violation {:.1e}, dual violation {:.1e}\n", result.cost,
+                      result.constraint_violation, result.dual_violation);
+  if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);
+  return text;
+}
+
+std::string certificate_summary(const Certificate& certificate) {
+  std::size_t name_width = 5, where_width = 5;
+  for (const CertificateCheck& check : certificate.checks) {
+    name_width = std::max(name_width, check.name.size());
+    where_width = std::max(where_width, check.where.size());
+  }
+  std::string text = fmt::format("certificate: {}, grade: {}\n", certificate.passed ? "passed" : "FAILED",
+                                 to_string(certificate.grade));
+  const auto line = [&](const std::string& name, const std::string& worst, const std::string& limit,
+                        const std::string& time, const std::string& where, const std::string& verdict) {
+    text += fmt::format("  {:<{}}  {:>14}  {:>14}  {:>9}  {:<{}}  {}\n", name, name_width, worst, limit, time, where,
+                        where_width, verdict);
+  };
+  line("check", "worst", "limit", "time", "where", "");
+  for (const CertificateCheck& check : certificate.checks) {
+    line(check.name, with_unit(check.worst, check.unit), with_unit(check.limit, check.unit),
+         fmt::format("{:.3f} s", check.time), check.where, check.passed ? "pass" : "FAIL");
+  }
+  return text;
+}
+
+std::string mesh_advice(const PlanRecord& record) {
+  const auto& errors = record.plan.certificate.interval_errors;
+  const auto worst = std::max_element(errors.begin(), errors.end(),
+                                      [](const auto& a, const auto& b) { return a.error < b.error; });
+  constexpr double kGoal = CertificateLimits::integration_error_certified;
+  if (worst == errors.end() || !std::isfinite(worst->error) || worst->error <= kGoal) return "";
+  const int intervals = count_intervals(record.task.problem);
+  const double needed = std::ceil(intervals * std::cbrt(worst->error / kGoal));
+  return fmt::format("local integration error {:.1e} with {} intervals; grade \"certified\" (1e-6) needs about {:g}, as the "
+                     "error falls with the cube of the step\n", worst->error, intervals, needed);
+}
+
+}  // namespace prowl

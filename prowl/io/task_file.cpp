@@ -1,0 +1,232 @@
+#include "prowl/io/task_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/io/robot_file.hpp"
+#include "prowl/io/task_cost.hpp"
+#include "prowl/io/task_goals.hpp"
+#include "prowl/io/toml_value.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr int kMostIntervals = 10000;  // of one phase; a typing mistake above that, and gigabytes of memory
+
+std::vector<Surface> read_surfaces(const TomlTable& root) {
+  std::vector<Surface> surfaces;
+  for (const TomlTable& table : root.find_tables("surface")) {
+    Surface surface;
+    surface.name = table.need("name").as_text();
+    for (const Surface& other : surfaces) {
+      if (other.name == surface.name) table.need("name").fail("\"" + surface.name + "\" is already another surface");
+    }
+    if (const auto point = table.find("point_m")) surface.point = point->as_vector3();
+    if (const auto normal = table.find("normal")) {
+      surface.normal = normal->as_vector3();
+      if (surface.normal.norm() < 1e-6) normal->fail("a vector of length 0 is not allowed");
+      surface.normal.normalize();
+    }
+    if (const auto friction = table.find("friction")) surface.friction = friction->as_number(NumberRange::positive());
+    surfaces.push_back(surface);
+  }
+  if (surfaces.empty()) surfaces.emplace_back();
+  return surfaces;
+}
+
+/// Throws, naming the joint and where its position was written, unless the posture keeps the joint limits.
+void check_start(const RobotModel& robot, const Eigen::VectorXd& q, const std::optional<TomlValue>& joints,
+                 const SourceText& robot_file) {
+  for (int j = 0; j < robot.nu(); ++j) {
+    const double position = q(7 + j);
+    if (position >= robot.position_lower()(j) && position <= robot.position_upper()(j)) continue;
+    const std::string& name = robot.joint_names()[static_cast<std::size_t>(j)];
+    const std::string message = fmt::format("the start posture has {:g} rad, outside the joint's limits [{:g}, {:g}]",
+                                            position, robot.position_lower()(j), robot.position_upper()(j));
+    if (joints) {
+      for (const auto& [key, value] : joints->as_named_values(robot.joint_names(), "joint")) {
+        if (key == name) value.fail(message);
+      }
+    }
+    const std::string path = "nominal.joints." + name;
+    throw InputError(fmt::format("{}{}: {}", locate(robot_file, path), path, message));
+  }
+}
+
+TaskStart read_start(const TomlTable& root, const RobotModel& robot, const SourceText& robot_file) {
+  TaskStart start{robot.nominal_configuration(), robot.description().nominal_base_rpy};
+  std::optional<TomlValue> joints;
+  if (const auto table = root.find_table("start")) {
+    RobotDescription posture = robot.description();
+    joints = table->find("joints");
+    if (joints) {
+      for (const auto& [name, value] : joints->as_named_values(robot.joint_names(), "joint")) {
+        posture.nominal_joints[name] = value.as_number();
+      }
+    }
+    if (const auto rpy = table->find("base_rpy_rad")) posture.nominal_base_rpy = rpy->as_vector3(angle_range());
+    // A robot with this as its nominal posture puts it on the ground.
+    start = {RobotModel(posture).nominal_configuration(), posture.nominal_base_rpy};
+    if (const auto position = table->find("base_position_m")) start.q.head<3>() = position->as_vector3();
+  }
+  check_start(robot, start.q, joints, robot_file);
+  return start;
+}
+
+int find_name(const TomlValue& value, const std::string& what, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), value.as_text());
+  if (found == names.end()) value.fail_unknown_name(what, names);
+  return static_cast<int>(found - names.begin());
+}
+
+struct ContactNames {
+  std::vector<std::string> contacts, surfaces;
+};
+
+std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const ContactNames& names) {
+  std::vector<PhaseContact> contacts;
+  if (value.is_text() && value.as_text() == "all") {
+    for (int c = 0; c < static_cast<int>(names.contacts.size()); ++c) contacts.push_back({c, 0});
+    return contacts;
+  }
+  if (!value.is_list()) value.fail("need \"all\" or a list of contacts");
+  for (const TomlValue& entry : value.as_list()) {
+    PhaseContact contact;
+    if (entry.is_table()) {
+      const TomlTable table(entry, task_file_keys(), "phase.contacts");
+      contact.contact = find_name(table.need("contact"), "contact", names.contacts);
+      contact.surface = find_name(table.need("surface"), "surface", names.surfaces);
+    } else {
+      contact.contact = find_name(entry, "contact", names.contacts);
+    }
+    for (const PhaseContact& other : contacts) {
+      if (other.contact == contact.contact) entry.fail("this contact is in the list twice");
+    }
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+Duration read_duration(const TomlValue& value) {
+  if (value.is_list()) {
+    const Bounds bounds = value.as_bounds();
+    if (bounds.lower != bounds.upper) {
+      value.fail("a duration between two bounds is not supported yet; need one number > 0 [s]");
+    }
+    value.as_list()[0].as_number(NumberRange::positive());
+    return {bounds.lower, bounds.upper};
+  }
+  const double duration = value.as_number(NumberRange::positive());
+  return {duration, duration};
+}
+
+std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names) {
+  root.need("phase");
+  std::vector<Phase> phases;
+  for (const TomlTable& table : root.find_tables("phase")) {
+    Phase phase;
+    const auto name = table.find("name");
+    phase.name = name ? name->as_text() : fmt::format("phase {}", phases.size() + 1);
+    for (const Phase& other : phases) {
+      if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
+    }
+    phase.contacts = read_phase_contacts(table.need("contacts"), names);
+    phase.duration = read_duration(table.need("duration_s"));
+    phase.intervals = table.need("intervals").as_integer(1, kMostIntervals);
+    phases.push_back(phase);
+  }
+  if (phases.empty()) root.need("phase").fail("an empty list is not allowed; need one phase or more");
+  return phases;
+}
+
+void override_intervals(std::vector<Phase>& phases, int intervals) {
+  int total = 0;
+  for (const Phase& phase : phases) total += phase.intervals;
+  for (Phase& phase : phases) {
+    const double share = static_cast<double>(intervals) * phase.intervals / total;
+    phase.intervals = std::max(1, static_cast<int>(std::lround(share)));
+  }
+}
+
+SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
+  SolverOptions options;
+  if (const auto table = root.find_table("solver")) {
+    if (const auto value = table->find("tolerance")) options.tolerance = value->as_number({.lower = 1e-12, .upper = 1e-2});
+    if (const auto value = table->find("max_iterations")) {
+      options.max_iterations = value->as_integer(1, std::numeric_limits<int>::max());
+    }
+    if (const auto value = table->find("max_time_s")) options.max_seconds = value->as_number(NumberRange::positive());
+  }
+  options.max_iterations = overrides.max_iterations.value_or(options.max_iterations);
+  options.max_seconds = overrides.max_seconds.value_or(options.max_seconds);
+  return options;
+}
+
+MotionProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
+                           const TaskOverrides& overrides) {
+  std::vector<Surface> surfaces = read_surfaces(root);
+  ContactNames names;
+  for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
+  for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
+  std::vector<Phase> phases = read_phases(root, names);
+  if (overrides.intervals) override_intervals(phases, *overrides.intervals);
+
+  const TaskStart start = read_start(root, robot, robot_file);
+  std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
+  for (BoundaryCondition& goal : read_goals(root, robot, start, phases)) conditions.push_back(std::move(goal));
+
+  MotionProblem problem{.name = "",
+                        .robot = std::move(robot),
+                        .surfaces = std::move(surfaces),
+                        .phases = std::move(phases),
+                        .boundary_conditions = std::move(conditions),
+                        .running_cost = {},
+                        .terminal_cost = {},
+                        .goal_tolerance = {}};
+  read_costs(root, problem);
+  return problem;
+}
+
+std::filesystem::path robot_path(const SourceText& task_file, const TomlTable& root) {
+  return (task_file.path.parent_path() / root.need("robot").as_text()).lexically_normal();
+}
+
+}  // namespace
+
+Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
+                const TaskOverrides& overrides) {
+  const TomlDocument document(task_file);
+  const TomlTable root = document.root(task_file_keys());
+  root.need("robot").as_text();
+  const SolverOptions solver = read_solver(root, overrides);
+  MotionProblem problem = read_problem(root, load_robot(robot_file, search), robot_file, overrides);
+  const auto name = root.find("name");
+  problem.name = name ? name->as_text() : task_file.path.stem().string();
+  try {
+    validate(problem);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", task_file.path.string(), error.what()));
+  }
+  return {std::move(problem), solver, task_file, robot_file, overrides};
+}
+
+Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {
+  const SourceText task_file = read_text_file(path);
+  const TomlDocument document(task_file);
+  const TomlTable root = document.root(task_file_keys());
+  const std::filesystem::path robot = robot_path(task_file, root);
+  if (!std::filesystem::exists(robot)) root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
+  return parse_task(task_file, read_text_file(robot), search, overrides);
+}
+
+std::string task_slug(const std::filesystem::path& task_file) {
+  const std::filesystem::path path = std::filesystem::absolute(task_file).lexically_normal();
+  const std::string folder = path.parent_path().filename().string();
+  return folder.empty() ? path.stem().string() : folder + "_" + path.stem().string();
+}
+
+}  // namespace prowl

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+
+#include "prowl/io/package_path.hpp"
+#include "prowl/io/text_file.hpp"
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/nlp/nlp_solver.hpp"
+
+namespace prowl {
+
+/// What the command line puts in place of a task file's values.
+struct TaskOverrides {
+  std::optional<int> intervals;  ///< total, shared out over the phases as in the file; at least one each
+  std::optional<int> max_iterations;
+  std::optional<double> max_seconds;
+};
+
+/// A task file, understood, and all that it was read from: enough to read it again (see plan_directory.hpp).
+struct Task {
+  MotionProblem problem;
+  SolverOptions solver;
+  SourceText task_file;
+  SourceText robot_file;
+  TaskOverrides overrides;
+};
+
+/// Reads a task file (docs/task-file.md) and the robot file that it names. Throws InputError
+/// "file:line:column: key: ..." for whatever is wrong in either.
+Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides = {});
+
+/// The same from texts at hand: those that a plan keeps. `robot_file` stands for the file that the task names.
+Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
+                const TaskOverrides& overrides = {});
+
+/// "hyq_crouch" for tasks/hyq/crouch.toml: folder and name tell one task from another.
+std::string task_slug(const std::filesystem::path& task_file);
+
+}  // namespace prowl

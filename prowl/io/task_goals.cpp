@@ -1,0 +1,163 @@
+#include "prowl/io/task_goals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+namespace {
+
+struct NodeTime {
+  NodeRef at;
+  double time;  ///< [s]
+};
+
+/// All nodes but the start; of the two nodes at a phase switch only the earlier.
+std::vector<NodeTime> node_times(const std::vector<Phase>& phases) {
+  std::vector<NodeTime> nodes;
+  double begin = 0.0;
+  for (int p = 0; p < static_cast<int>(phases.size()); ++p) {
+    const Phase& phase = phases[static_cast<std::size_t>(p)];
+    for (int i = 1; i <= phase.intervals; ++i) {
+      nodes.push_back({{p, i}, begin + phase.duration.min * i / phase.intervals});
+    }
+    begin += phase.duration.min;
+  }
+  return nodes;
+}
+
+NodeRef node_at_time(const TomlValue& value, const std::vector<Phase>& phases) {
+  constexpr double kSameTime = 1e-6;  // [s]; a decimal fraction in a file is not an exact node time
+  const double time = value.as_number(NumberRange::positive());
+  const std::vector<NodeTime> nodes = node_times(phases);
+  const auto after = std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
+  if (after == nodes.end()) {
+    value.fail(fmt::format("{:g} is after the end; need 0 < time <= {:g} [s]", time, nodes.back().time));
+  }
+  if (after->time <= time + kSameTime) return after->at;
+  if (after == nodes.begin()) {
+    value.fail(fmt::format("{:g} is not at a node of the mesh; the first after the start is {:.6g} [s]", time, after->time));
+  }
+  value.fail(fmt::format("{:g} is not at a node of the mesh; the nearest are {:.6g} and {:.6g} [s]", time,
+                         std::prev(after)->time, after->time));
+}
+
+NodeRef read_node(const TomlTable& goal, const std::vector<Phase>& phases) {
+  const auto time = goal.find("time_s");
+  const auto phase = goal.find("phase");
+  if (time && phase) phase->fail("need either time_s or phase, not both");
+  if (time) return node_at_time(*time, phases);
+  if (!phase) goal.need("time_s");
+  std::vector<std::string> names;
+  for (const Phase& p : phases) names.push_back(p.name);
+  const auto found = std::find(names.begin(), names.end(), phase->as_text());
+  if (found == names.end()) phase->fail_unknown_name("phase", names);
+  const auto index = static_cast<int>(found - names.begin());
+  return {index, phases[static_cast<std::size_t>(index)].intervals};
+}
+
+/// Bounds of three entries of the file, less `origin`, as rows first ... first + 2 of lower and upper.
+void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int first, Eigen::VectorXd& lower,
+                  Eigen::VectorXd& upper) {
+  const std::vector<TomlValue> entries = value.as_list(3);
+  for (int i = 0; i < 3; ++i) {
+    const Bounds bounds = entries[static_cast<std::size_t>(i)].as_bounds();
+    lower(first + i) = bounds.lower - origin(i);
+    upper(first + i) = bounds.upper - origin(i);
+  }
+}
+
+/// Bounds of the joints that the file names, less `origin` (nu), as rows first ... first + nu - 1.
+void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const Eigen::VectorXd& origin, int first,
+                       Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+  const std::vector<std::string>& names = robot.joint_names();
+  for (const auto& [name, entry] : value.as_named_values(names, "joint")) {
+    const auto joint = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+    const Bounds bounds = entry.as_bounds();
+    lower(first + joint) = bounds.lower - origin(joint);
+    upper(first + joint) = bounds.upper - origin(joint);
+  }
+}
+
+void read_base_position(const TomlTable& goal, const TaskStart& start, BoundaryCondition& condition) {
+  const auto position = goal.find("base_position_m");
+  const auto displacement = goal.find("base_displacement_m");
+  if (position && displacement) displacement->fail("need either base_position_m or base_displacement_m, not both");
+  if (!position && !displacement) return;
+  const Eigen::Vector3d origin = position ? base_position(start.q) : Eigen::Vector3d::Zero();
+  Eigen::VectorXd lower(3), upper(3);
+  read_bounds3(position ? *position : *displacement, origin, 0, lower, upper);
+  for (int i = 0; i < 3; ++i) {
+    // A prescribed component becomes part of q_ref, so that q_ref is the pose to reach (the initial guess goes there).
+    const double shift = lower(i) == upper(i) ? lower(i) : 0.0;
+    condition.q_ref(i) += shift;
+    condition.configuration_lower(i) = lower(i) - shift;
+    condition.configuration_upper(i) = upper(i) - shift;
+  }
+}
+
+void read_base_orientation(const TomlValue& value, const TaskStart& start, BoundaryCondition& condition) {
+  const std::vector<TomlValue> entries = value.as_list(3);
+  Eigen::Vector3d rpy = start.rpy;
+  for (int i = 0; i < 3; ++i) {
+    const TomlValue& entry = entries[static_cast<std::size_t>(i)];
+    if (entry.is_text() && entry.as_text() == "free") continue;
+    if (!entry.node().is_number()) entry.fail("need a finite number [rad] or \"free\"");
+    rpy(i) = entry.as_number(angle_range());
+    condition.configuration_lower(3 + i) = condition.configuration_upper(3 + i) = 0.0;
+  }
+  set_base_rotation(condition.q_ref, rotation_from_rpy(rpy));
+}
+
+BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, const RobotModel& robot,
+                            const TaskStart& start, const std::vector<Phase>& phases) {
+  BoundaryCondition condition = BoundaryCondition::unbounded(robot, name, read_node(goal, phases), start.q);
+  read_base_position(goal, start, condition);
+  if (const auto rpy = goal.find("base_rpy_rad")) read_base_orientation(*rpy, start, condition);
+  if (const auto joints = goal.find("joints")) {
+    read_joint_bounds(*joints, robot, condition.q_ref.tail(robot.nu()), 6, condition.configuration_lower,
+                      condition.configuration_upper);
+  }
+  if (const auto linear = goal.find("base_linear_velocity_mps")) {
+    read_bounds3(*linear, Eigen::Vector3d::Zero(), 0, condition.velocity_lower, condition.velocity_upper);
+  }
+  if (const auto angular = goal.find("base_angular_velocity_radps")) {
+    read_bounds3(*angular, Eigen::Vector3d::Zero(), 3, condition.velocity_lower, condition.velocity_upper);
+  }
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(robot.nu());
+  if (const auto rates = goal.find("joint_velocity_radps")) {
+    read_joint_bounds(*rates, robot, zero, 6, condition.velocity_lower, condition.velocity_upper);
+  }
+  if (const auto torques = goal.find("torque_Nm")) {
+    read_joint_bounds(*torques, robot, zero, 0, condition.torque_lower, condition.torque_upper);
+  }
+  return condition;
+}
+
+}  // namespace
+
+BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q) {
+  BoundaryCondition start = BoundaryCondition::unbounded(robot, "start", {0, 0}, q);
+  start.configuration_lower.setZero();
+  start.configuration_upper.setZero();
+  start.velocity_lower.setZero();
+  start.velocity_upper.setZero();
+  return start;
+}
+
+std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
+                                          const std::vector<Phase>& phases) {
+  std::vector<BoundaryCondition> goals;
+  for (const TomlTable& goal : root.find_tables("goal")) {
+    goals.push_back(read_goal(goal, fmt::format("goal {}", goals.size() + 1), robot, start, phases));
+    if (std::count_if(goals.begin(), goals.end(), [&](const auto& g) { return g.at == goals.back().at; }) > 1) {
+      goal.value().fail("two goals at one time; put them into one [[goal]]");
+    }
+  }
+  return goals;
+}
+
+}  // namespace prowl

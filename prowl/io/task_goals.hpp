@@ -1,0 +1,22 @@
+#pragma once
+
+// Internal to io: [[goal]] of a task file.
+#include "prowl/io/toml_value.hpp"
+#include "prowl/motion/motion_problem.hpp"
+
+namespace prowl {
+
+/// Where goals are measured from.
+struct TaskStart {
+  Eigen::VectorXd q;    ///< nq
+  Eigen::Vector3d rpy;  ///< of the base [rad]; what "free" angles of a goal are taken from
+};
+
+/// The condition that fixes the start, at rest.
+BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q);
+
+/// One condition for each [[goal]] of the file.
+std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
+                                          const std::vector<Phase>& phases);
+
+}  // namespace prowl

@@ -1,0 +1,36 @@
+#include "prowl/io/text_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+
+SourceText read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw InputError(fmt::format("{}: no such file", path.string()));
+  }
+  if (error) throw FileError(fmt::format("{}: {}", path.string(), error.message()));
+  // Refuses folders, and devices and pipes, from which a read may never return.
+  if (status.type() != std::filesystem::file_type::regular) {
+    throw InputError(fmt::format("{}: not a file", path.string()));
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+  const auto bytes = std::filesystem::file_size(path, error);
+  if (!error && bytes > max_bytes) {
+    throw InputError(fmt::format("{}: {} bytes; need at most {}", path.string(), bytes, max_bytes));
+  }
+  std::string text(std::istreambuf_iterator<char>(file), {});
+  if (file.bad()) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+  return {path, std::move(text)};
+}
+
+}  // namespace prowl

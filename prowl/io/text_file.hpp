@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace prowl {
+
+/// A text and where it came from; plans keep a copy of their input files in this form.
+struct SourceText {
+  std::filesystem::path path;
+  std::string text;
+};
+
+/// The whole file. Throws InputError if there is none (a mistyped path), FileError if it cannot be read, and InputError
+/// above `max_bytes`: nothing that a person writes is that long.
+SourceText read_text_file(const std::filesystem::path& path, std::size_t max_bytes = 4u << 20);
+
+}  // namespace prowl

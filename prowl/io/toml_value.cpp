@@ -1,0 +1,229 @@
+#include "prowl/io/toml_value.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/model/nearest_name.hpp"
+
+namespace prowl {
+namespace {
+
+std::string at(const SourceText& source, const toml::source_region& region) {
+  return fmt::format("{}:{}:{}: ", source.path.string(), region.begin.line, region.begin.column);
+}
+
+/// What the user wrote, for messages.
+std::string describe(const toml::node& node) {
+  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", text->get());
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{:g}", number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* list = node.as_array()) return fmt::format("a list of {}", list->size());
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+std::string join_path(const std::string& path, const std::string& key) {
+  return path.empty() ? key : fmt::format("{}.{}", path, key);
+}
+
+std::string unknown(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+  return fmt::format("unknown {}{} Known: {}", what, did_you_mean(name, known), fmt::join(known, ", "));
+}
+
+/// " [s]" for "phase[0].duration_s" or "goal[1].time_s[0]"; "" for a key without unit.
+std::string unit_of(const std::string& path) {
+  static const std::pair<std::string, std::string> kUnits[] = {
+      {"_m", "m"}, {"_s", "s"}, {"_rad", "rad"}, {"_mps", "m/s"}, {"_radps", "rad/s"}, {"_Nm", "N m"}};
+  std::string key = path;
+  while (key.ends_with(']')) key.erase(key.rfind('['));
+  for (const auto& [ending, unit] : kUnits) {
+    if (key.ends_with(ending)) return fmt::format(" [{}]", unit);
+  }
+  return "";
+}
+
+}  // namespace
+
+NumberRange angle_range() { return {.lower = -6.2832, .upper = 6.2832}; }
+
+std::string NumberRange::to_words() const {
+  const bool has_lower = std::isfinite(lower);
+  const bool has_upper = std::isfinite(upper);
+  if (has_lower && has_upper) return fmt::format("a number from {:g} to {:g}", lower, upper);
+  if (has_lower) return fmt::format("a finite number {} {:g}", above_lower ? ">" : ">=", lower);
+  if (has_upper) return fmt::format("a finite number <= {:g}", upper);
+  return "a finite number";
+}
+
+bool NumberRange::contains(double value) const {
+  return std::isfinite(value) && value <= upper && (above_lower ? value > lower : value >= lower);
+}
+
+void TomlValue::fail(const std::string& message) const {
+  throw InputError(fmt::format("{}{}{}{}", at(*source_, node_->source()), path_, path_.empty() ? "" : ": ", message));
+}
+
+void TomlValue::fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const {
+  fail(unknown(fmt::format("{} {}", what, describe(*node_)), node_->value_or<std::string>(""), known));
+}
+
+void TomlValue::fail_type(const std::string& needed) const {
+  fail(fmt::format("{} is not allowed; need {}{}", describe(*node_), needed, unit_of(path_)));
+}
+
+double TomlValue::as_number(const NumberRange& range) const {
+  if (!node_->is_number()) fail_type(range.to_words());
+  const double value = *node_->value<double>();
+  if (!range.contains(value)) fail_type(range.to_words());
+  return value;
+}
+
+int TomlValue::as_integer(int lower, int upper) const {
+  const auto* integer = node_->as_integer();
+  if (!integer || integer->get() < lower || integer->get() > upper) {
+    fail_type(upper == std::numeric_limits<int>::max() ? fmt::format("an integer >= {}", lower)
+                                                       : fmt::format("an integer from {} to {}", lower, upper));
+  }
+  return static_cast<int>(integer->get());
+}
+
+std::string TomlValue::as_text() const {
+  const auto* text = node_->as_string();
+  if (!text || text->get().empty()) fail_type("a string in quotes, not empty");
+  return text->get();
+}
+
+std::vector<TomlValue> TomlValue::as_list() const {
+  const auto* list = node_->as_array();
+  if (!list) fail_type("a list in [ ]");
+  std::vector<TomlValue> values;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    values.emplace_back(*source_, (*list)[i], fmt::format("{}[{}]", path_, i));
+  }
+  return values;
+}
+
+std::vector<TomlValue> TomlValue::as_list(std::size_t size) const {
+  if (!is_list() || node_->as_array()->size() != size) fail_type(fmt::format("a list of {}", size));
+  return as_list();
+}
+
+Eigen::Vector3d TomlValue::as_vector3(const NumberRange& range) const {
+  const std::vector<TomlValue> entries = as_list(3);
+  return {entries[0].as_number(range), entries[1].as_number(range), entries[2].as_number(range)};
+}
+
+Bounds TomlValue::as_bounds() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (is_text() && node_->as_string()->get() == "free") return {-kInfinity, kInfinity};
+  if (is_list()) {
+    const std::vector<TomlValue> ends = as_list(2);
+    const Bounds bounds{ends[0].as_number(), ends[1].as_number()};
+    if (bounds.lower > bounds.upper) {
+      fail(fmt::format("[{:g}, {:g}] is not allowed; need [min, max] with min <= max", bounds.lower, bounds.upper));
+    }
+    return bounds;
+  }
+  if (!node_->is_number()) fail_type("a finite number, [min, max] or \"free\"");
+  const double value = as_number();
+  return {value, value};
+}
+
+std::vector<std::pair<std::string, TomlValue>> TomlValue::as_free_named_values(const std::string& what) const {
+  const auto* table = node_->as_table();
+  if (!table) fail_type(fmt::format("a table {{{} = ...}}", what));
+  std::vector<std::pair<std::string, TomlValue>> values;
+  for (const auto& [key, node] : *table) {
+    const std::string name(key.str());
+    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, name)));
+  }
+  return values;
+}
+
+std::vector<std::pair<std::string, TomlValue>> TomlValue::as_named_values(const std::vector<std::string>& known,
+                                                                          const std::string& what) const {
+  std::vector<std::pair<std::string, TomlValue>> values = as_free_named_values(what);
+  for (const auto& [key, node] : *node_->as_table()) {
+    const std::string name(key.str());
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError(fmt::format("{}{}: {}", at(*source_, key.source()), join_path(path_, name),
+                                   unknown(what, name, known)));
+    }
+  }
+  return values;
+}
+
+TomlTable::TomlTable(const TomlValue& value, const FileKeys& keys, const std::string& declared)
+    : value_(value), keys_(&keys), declared_(declared) {
+  const std::vector<std::string> names = key_names(keys, declared);
+  if (!value.is_table()) value.fail(fmt::format("{} is not allowed; need a table with {}", describe(value.node()),
+                                                fmt::join(names, ", ")));
+  value_.as_named_values(names, "key");
+}
+
+std::string TomlTable::path_of(const std::string& key) const { return join_path(value_.path(), key); }
+
+std::optional<TomlValue> TomlTable::find(const std::string& key) const {
+  const toml::node* node = table().get(key);
+  if (!node) return std::nullopt;
+  return TomlValue(value_.source(), *node, path_of(key));
+}
+
+TomlValue TomlTable::need(const std::string& key) const {
+  if (auto value = find(key)) return *value;
+  for (const FileKey& declared : *keys_) {
+    if (declared.table == declared_ && declared.name == key) {
+      TomlValue(value_.source(), value_.node(), path_of(key))
+          .fail(fmt::format("missing; need {}: {}", declared.value, declared.meaning));
+    }
+  }
+  value_.fail("missing " + key);
+}
+
+std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
+  const auto value = find(key);
+  if (!value) return std::nullopt;
+  return TomlTable(*value, *keys_, declared_.empty() ? key : declared_ + "." + key);
+}
+
+std::vector<TomlTable> TomlTable::find_tables(const std::string& key) const {
+  const auto value = find(key);
+  if (!value) return {};
+  const std::string declared = declared_.empty() ? key : declared_ + "." + key;
+  if (!value->is_list()) {
+    value->fail(fmt::format("{} is not allowed; need one [[{}]] for each", describe(value->node()), declared));
+  }
+  std::vector<TomlTable> tables;
+  for (const TomlValue& entry : value->as_list()) tables.emplace_back(entry, *keys_, declared);
+  return tables;
+}
+
+TomlDocument::TomlDocument(const SourceText& source) : source_(source) {
+  try {
+    table_ = toml::parse(source_.text, source_.path.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(at(source_, error.source()) + std::string(error.description()));
+  }
+}
+
+TomlTable TomlDocument::root(const FileKeys& keys) const {
+  return TomlTable(TomlValue(source_, table_, ""), keys, "");
+}
+
+std::string locate(const SourceText& source, const std::string& path) {
+  const toml::table root = toml::parse(source.text);
+  for (std::string rest = path; !rest.empty();) {
+    if (const auto node = toml::at_path(root, rest)) return at(source, node.node()->source());
+    const std::size_t end = rest.find_last_of(".[");
+    rest.erase(end == std::string::npos ? 0 : end);
+  }
+  return source.path.string() + ": ";
+}
+
+}  // namespace prowl

@@ -1,0 +1,171 @@
+#include "prowl/io/trajectory_csv.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+using Row = std::vector<double>;
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+void append(Row& row, const Eigen::VectorXd& values) { row.insert(row.end(), values.begin(), values.end()); }
+
+Row to_row(const MotionProblem& problem, const TrajectoryPoint& point) {
+  Row row = {point.time, static_cast<double>(point.phase)};
+  const auto nu = problem.robot.nu();
+  append(row, point.q.head<7>());
+  append(row, point.v.head<6>());
+  append(row, point.a.head<6>());
+  append(row, point.q.tail(nu));
+  append(row, point.v.tail(nu));
+  append(row, point.a.tail(nu));
+  append(row, point.tau);
+  const std::vector<PhaseContact>& active = problem.phases[static_cast<std::size_t>(point.phase)].contacts;
+  for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
+    const bool touches = std::any_of(active.begin(), active.end(), [&](const auto& a) { return a.contact == c; });
+    row.push_back(touches ? 1.0 : 0.0);
+    append(row, point.force.segment<3>(3 * c));
+  }
+  return row;
+}
+
+TrajectoryPoint from_row(const RobotModel& robot, const Row& row) {
+  TrajectoryPoint point{.time = row[0], .phase = static_cast<int>(row[1]), .q = {}, .v = {}, .a = {}, .tau = {}, .force = {}};
+  const double* next = row.data() + 2;
+  const auto take = [&next](auto&& target) {
+    target = Eigen::Map<const Eigen::VectorXd>(next, target.size());
+    next += target.size();
+  };
+  const auto nu = robot.nu();
+  point.q.resize(robot.nq());
+  point.v.resize(robot.nv());
+  point.a.resize(robot.nv());
+  point.tau.resize(nu);
+  point.force.resize(3 * static_cast<Eigen::Index>(robot.contacts().size()));
+  take(point.q.head(7));
+  take(point.v.head(6));
+  take(point.a.head(6));
+  take(point.q.tail(nu));
+  take(point.v.tail(nu));
+  take(point.a.tail(nu));
+  take(point.tau);
+  for (Eigen::Index c = 0; c < point.force.size(); c += 3) {
+    ++next;  // contact_<name>: the phase says it
+    take(point.force.segment(c, 3));
+  }
+  return point;
+}
+
+Row parse_row(const std::string& where, std::string_view line, const std::vector<std::string>& columns) {
+  const std::vector<std::string_view> cells = split(line, ',');
+  if (cells.size() != columns.size()) {
+    throw InputError(fmt::format("{}: {} cells; need {}", where, cells.size(), columns.size()));
+  }
+  Row row(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), row[i]);
+    if (error != std::errc{} || end != cells[i].data() + cells[i].size() || !std::isfinite(row[i])) {
+      throw InputError(fmt::format("{}: {}: \"{}\" is not allowed; need a finite number", where, columns[i], cells[i]));
+    }
+  }
+  return row;
+}
+
+/// Throws unless the point is the next node of the mesh: phase by phase, equal steps.
+void check_node(const std::string& where, const MotionProblem& problem, std::size_t phase, int node, double begin,
+                const TrajectoryPoint& point) {
+  const Phase& p = problem.phases[phase];
+  const double time = begin + p.duration.min * node / p.intervals;
+  if (point.phase != static_cast<int>(phase) || std::abs(point.time - time) > 1e-9 * (1.0 + time)) {
+    throw InputError(fmt::format("{}: phase {} at {} s is not allowed; the task's mesh has phase {} at {} s", where,
+                                 point.phase, point.time, phase, time));
+  }
+  const double norm = point.q.segment<4>(3).norm();
+  if (std::abs(norm - 1.0) > 1e-6) {
+    throw InputError(fmt::format("{}: base_qx ... base_qw: norm {} is not allowed; need a unit quaternion", where, norm));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> trajectory_columns(const RobotModel& robot) {
+  std::vector<std::string> columns = {
+      "time_s",         "phase",          "base_px_m",      "base_py_m",        "base_pz_m",       "base_qx",
+      "base_qy",        "base_qz",        "base_qw",        "base_vx_mps",      "base_vy_mps",     "base_vz_mps",
+      "base_wx_radps",  "base_wy_radps",  "base_wz_radps",  "base_ax_mps2",     "base_ay_mps2",    "base_az_mps2",
+      "base_dwx_radps2", "base_dwy_radps2", "base_dwz_radps2"};
+  for (const auto& joint : robot.joint_names()) columns.push_back("q_" + joint + "_rad");
+  for (const auto& joint : robot.joint_names()) columns.push_back("v_" + joint + "_radps");
+  for (const auto& joint : robot.joint_names()) columns.push_back("a_" + joint + "_radps2");
+  for (const auto& joint : robot.joint_names()) columns.push_back("tau_" + joint + "_Nm");
+  for (const ContactPoint& contact : robot.contacts()) {
+    columns.push_back("contact_" + contact.name);
+    for (const char axis : {'x', 'y', 'z'}) columns.push_back(fmt::format("f_{}_{}_N", contact.name, axis));
+  }
+  return columns;
+}
+
+std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& trajectory) {
+  std::string text = fmt::format("{}\n", fmt::join(trajectory_columns(problem.robot), ","));
+  for (const TrajectoryPoint& point : trajectory.nodes) {
+    fmt::format_to(std::back_inserter(text), "{}\n", fmt::join(to_row(problem, point), ","));
+  }
+  return text;
+}
+
+Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source) {
+  const std::string file = source.path.string();
+  const std::vector<std::string> columns = trajectory_columns(problem.robot);
+  std::vector<std::string_view> lines = split(source.text, '\n');
+  if (lines.back().empty()) lines.pop_back();
+  if (lines.empty() || lines[0] != fmt::format("{}", fmt::join(columns, ","))) {
+    throw InputError(fmt::format("{}:1: the columns are not those of {}", file, problem.robot.name()));
+  }
+  std::size_t rows = 0;
+  for (const Phase& phase : problem.phases) rows += static_cast<std::size_t>(phase.intervals) + 1;
+  if (lines.size() != rows + 1) {
+    throw InputError(fmt::format("{}: {} rows; the task's mesh has {} nodes", file, lines.size() - 1, rows));
+  }
+  Trajectory trajectory;
+  double begin = 0.0;
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    for (int node = 0; node <= problem.phases[p].intervals; ++node) {
+      const std::size_t line = trajectory.nodes.size() + 1;
+      const std::string where = fmt::format("{}:{}", file, line + 1);
+      trajectory.nodes.push_back(from_row(problem.robot, parse_row(where, lines[line], columns)));
+      check_node(where, problem, p, node, begin, trajectory.nodes.back());
+    }
+    begin += problem.phases[p].duration.min;
+  }
+  return trajectory;
+}
+
+Trajectory sample_uniformly(const Trajectory& trajectory, double step) {
+  Trajectory samples;
+  const double end = trajectory.duration();
+  for (long i = 0; static_cast<double>(i) * step < end - 1e-9 * step; ++i) {
+    samples.nodes.push_back(sample(trajectory, static_cast<double>(i) * step));
+  }
+  samples.nodes.push_back(sample(trajectory, end));
+  return samples;
+}
+
+}  // namespace prowl

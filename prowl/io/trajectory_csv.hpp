@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "prowl/io/text_file.hpp"
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/trajectory/trajectory.hpp"
+
+namespace prowl {
+
+/// Names of the columns, with units (docs/plan-directory.md).
+std::vector<std::string> trajectory_columns(const RobotModel& robot);
+
+/// One line a point, numbers with all digits: reading them gives the same doubles.
+std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& trajectory);
+
+/// Throws InputError "file:line: column: ..." unless the columns are those of the robot, the rows those of the mesh of
+/// the problem, and all numbers finite.
+Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source);
+
+/// Points at 0, step, 2 step, ... and the end; at a phase switch the point of the later phase.
+Trajectory sample_uniformly(const Trajectory& trajectory, double step);
+
+}  // namespace prowl
