@@ -34,17 +34,15 @@ std::string read_text(const std::filesystem::path& path) {
   return text.str();
 }
 
-pinocchio::Model build_model(const RobotDescription& description) {
+void read_urdf(const RobotDescription& description, PinocchioModel& pin) {
   const std::string xml = read_text(description.urdf);
-  check_urdf(description.urdf.string(), xml);
-  pinocchio::Model model;
+  pin.links = check_urdf(description.urdf.string(), xml);
   try {
-    pinocchio::urdf::buildModelFromXML(xml, pinocchio::JointModelFreeFlyer(), model);
+    pinocchio::urdf::buildModelFromXML(xml, pinocchio::JointModelFreeFlyer(), pin.model);
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: not a robot that Pinocchio can build: {}", description.urdf.string(),
                                  error.what()));
   }
-  return model;
 }
 
 /// Links joined by fixed joints move as one body; it is that body whose inertia matters, not that of each link.
@@ -146,7 +144,7 @@ void put_on_ground(const PinocchioModel& pin, const std::vector<ContactPoint>& c
 
 RobotModel::RobotModel(RobotDescription description) : description_(std::move(description)) {
   auto pin = std::make_unique<PinocchioModel>();
-  pin->model = build_model(description_);
+  read_urdf(description_, *pin);
   check_bodies(description_, pin->model);
   pin->contact_frames = add_contact_frames(description_, pin->model);
   const pinocchio::Model& model = pin->model;

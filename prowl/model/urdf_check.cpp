@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -19,7 +21,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr double kLargest = 1e9;     // [SI units]: a robot has nothing beyond, and squares stay finite
+constexpr double kLargest = 1e9;         // of any length, mass, inertia [SI]: their products then stay finite
 constexpr std::size_t kMaxLinks = 1000;  // a chain of 3,000 keeps Pinocchio busy for more than 20 s
 
 /// One link or joint (or the whole robot), for messages: "file:line: joint 'name'".
@@ -38,7 +40,7 @@ bool parse_number(std::string text, double& value) {
   while (!text.empty() && is_space(static_cast<unsigned char>(text.back()))) text.pop_back();
   if (text.starts_with('+')) text.erase(0, 1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::abs(value) <= kLargest;
+  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
 }
 
 /// The required attribute `name` of `at` as text.
@@ -48,10 +50,10 @@ std::string text_of(const Place& place, const XMLElement& at, const char* name) 
   return text;
 }
 
-double number(const Place& place, const XMLElement& at, const char* name) {
+double number(const Place& place, const XMLElement& at, const char* name, double largest = kLargest) {
   const std::string text = text_of(place, at, name);
   double value = 0.0;
-  if (!parse_number(text, value)) {
+  if (!parse_number(text, value) || std::abs(value) > largest) {
     place.refuse(at, fmt::format("<{} {}=\"{}\">: expected one finite number like 1.5 (SI units, no unit in the text)",
                                  at.Name(), name, text));
   }
@@ -66,7 +68,7 @@ double check_vector(const Place& place, const XMLElement* at, const char* name) 
   int count = 0;
   double largest = 0.0, value = 0.0;
   for (; words >> word; ++count) {
-    if (!parse_number(word, value)) break;
+    if (!parse_number(word, value) || std::abs(value) > kLargest) break;
     largest = std::max(largest, std::abs(value));
   }
   if (words || count != 3) {
@@ -81,17 +83,21 @@ void check_origin(const Place& place, const XMLElement& parent) {
   check_vector(place, parent.FirstChildElement("origin"), "rpy");
 }
 
-void check_link(const Place& place, const XMLElement& link) {
+void check_link(const Place& place, const XMLElement& link, const std::string& name, std::vector<UrdfLink>& result) {
   const XMLElement* inertial = link.FirstChildElement("inertial");
   if (inertial == nullptr) return;  // a massless frame
   check_origin(place, *inertial);
   const XMLElement* mass = inertial->FirstChildElement("mass");
   const XMLElement* inertia = inertial->FirstChildElement("inertia");
   if (mass == nullptr || inertia == nullptr) place.refuse(*inertial, "<inertial> needs both <mass> and <inertia>");
-  if (const double value = number(place, *mass, "value"); value < 0.0) {
-    place.refuse(*mass, fmt::format("<mass value=\"{}\">: expected mass >= 0 [kg]", value));
-  }
-  for (const char* moment : {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}) number(place, *inertia, moment);
+  const double kg = number(place, *mass, "value");
+  if (kg < 0.0) place.refuse(*mass, fmt::format("<mass value=\"{}\">: expected mass >= 0 [kg]", kg));
+  const auto moment = [&](const char* i) { return number(place, *inertia, i); };
+  Eigen::Matrix3d I;
+  I << moment("ixx"), moment("ixy"), moment("ixz"),  //
+      moment("ixy"), moment("iyy"), moment("iyz"),   //
+      moment("ixz"), moment("iyz"), moment("izz");
+  result.push_back({name, kg, I});
 }
 
 void check_moving_joint(const Place& place, const XMLElement& joint, const std::string& type) {
@@ -120,7 +126,11 @@ void check_moving_joint(const Place& place, const XMLElement& joint, const std::
   if (limit == nullptr) {
     place.refuse(joint, "no <limit>; expected <limit lower=\"...\" upper=\"...\" velocity=\"...\" effort=\"...\"/>");
   }
-  for (const char* name : {"lower", "upper", "velocity", "effort"}) number(place, *limit, name);
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  for (const char* name : {"velocity", "effort"}) number(place, *limit, name, kAny);
+  for (const char* name : {"lower", "upper"}) {  // 0 if not given
+    if (limit->Attribute(name) != nullptr) number(place, *limit, name, kAny);
+  }
 }
 
 /// Parent link of every link that is the child of a joint.
@@ -181,11 +191,12 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
 
 }  // namespace
 
-void check_urdf(const std::string& file, const std::string& xml) {
+std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml) {
   tinyxml2::XMLDocument document;
   const XMLElement& root = root_of(file, xml, document);
   const Place robot{file, fmt::format("robot '{}'", root.Attribute("name"))};
 
+  std::vector<UrdfLink> result;
   std::vector<std::string> links;
   std::map<std::string, int> line_of;  // where a name was used first
   const auto visit = [&](const char* kind, const auto& check) {
@@ -201,7 +212,7 @@ void check_urdf(const std::string& file, const std::string& xml) {
   };
   visit("link", [&](const Place& place, const XMLElement& link, const std::string& name) {
     if (links.size() == kMaxLinks) place.refuse(link, fmt::format("more than {} links are not allowed", kMaxLinks));
-    check_link(place, link);
+    check_link(place, link, name, result);
     links.push_back(name);
   });
   if (links.empty()) robot.refuse(root, "no <link>; expected at least the base");
@@ -210,6 +221,7 @@ void check_urdf(const std::string& file, const std::string& xml) {
     check_joint(place, joint, links, parents);
   });
   check_tree(robot, root, links, parents);
+  return result;
 }
 
 }  // namespace prowl

@@ -1,0 +1,190 @@
+#include "prowl/model/robot_inspection.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <pinocchio/algorithm/frames.hpp>
+
+#include "prowl/model/configuration.hpp"
+#include "prowl/model/mirror_name.hpp"
+#include "prowl/model/physical_inertia.hpp"
+#include "prowl/model/pinocchio_model.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Kind = RobotWarning::Kind;
+using Warnings = std::vector<RobotWarning>;
+
+constexpr double kNoRealLimit = 1000.0;    // [N m, N, rad/s, m/s, m]: what files write that know no limit
+constexpr double kLevel = 1e-3;            // [m]
+constexpr double kRelative = 1e-3;         // of masses and limits, left against right
+constexpr double kTinyMass = 1e-5;         // of the robot's mass
+// Of the largest singular value: what is below the threshold counts as zero; between the other two it might be either.
+constexpr double kRankThreshold = 1e-8, kSurelyZero = 1e-10, kSurelyNot = 1e-6;
+
+bool nearly_equal(double a, double b) { return std::abs(a - b) <= kRelative * std::max({std::abs(a), std::abs(b), 1e-3}); }
+
+void check_inertias(const RobotModel& robot, Warnings& warnings) {
+  for (const UrdfLink& link : robot.pinocchio().links) {
+    if (const auto problem = why_not_physical(link.mass, link.inertia)) {
+      warnings.push_back({Kind::inertia, fmt::format("link '{}': {}; harmless only because fixed joints merge it with "
+                                                     "other links",
+                                                     link.name, *problem)});
+    } else if (link.mass < kTinyMass * robot.mass()) {
+      warnings.push_back({Kind::inertia, fmt::format("link '{}': the mass is only {} kg", link.name, link.mass)});
+    }
+  }
+}
+
+/// One warning for all joints with the same flaw.
+void warn_of_joints(const RobotModel& robot, Kind kind, const std::string& flaw,
+                    const std::function<bool(Eigen::Index)>& has_flaw, Warnings& warnings) {
+  std::vector<std::string> joints;
+  for (Eigen::Index j = 0; j < robot.nu(); ++j) {
+    if (has_flaw(j)) joints.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
+  }
+  if (!joints.empty()) warnings.push_back({kind, fmt::format("{}: {}", flaw, fmt::join(joints, ", "))});
+}
+
+void check_limits(const RobotModel& robot, Warnings& warnings) {
+  warn_of_joints(robot, Kind::limit, fmt::format("torque limit of {} N m (or N) or more is no limit", kNoRealLimit),
+                 [&](Eigen::Index j) { return robot.torque_limit()(j) >= kNoRealLimit; }, warnings);
+  warn_of_joints(robot, Kind::limit, fmt::format("velocity limit of {} rad/s (or m/s) or more is no limit", kNoRealLimit),
+                 [&](Eigen::Index j) { return robot.velocity_limit()(j) >= kNoRealLimit; }, warnings);
+  warn_of_joints(
+      robot, Kind::limit, "position range beyond +-2 pi rad (or +-1000 m) is no limit",
+      [&](Eigen::Index j) {
+        const bool prismatic = robot.joint_is_prismatic()[static_cast<std::size_t>(j)];
+        const double most = prismatic ? kNoRealLimit : 2.0 * std::numbers::pi;
+        return robot.position_lower()(j) < -most || robot.position_upper()(j) > most;
+      },
+      warnings);
+}
+
+void check_posture(const RobotModel& robot, Warnings& warnings) {
+  const Eigen::VectorXd joints = robot.nominal_configuration().tail(robot.nu());
+  warn_of_joints(robot, Kind::posture, "nominal posture outside the joint limits",
+                 [&](Eigen::Index j) {
+                   return joints(j) < robot.position_lower()(j) || joints(j) > robot.position_upper()(j);
+                 },
+                 warnings);
+}
+
+void check_ground(const RobotModel& robot, const std::vector<Eigen::Vector3d>& points, Warnings& warnings) {
+  std::vector<std::string> heights;
+  double highest = 0.0;  // the lowest is at 0: RobotModel puts it there
+  for (std::size_t c = 0; c < points.size(); ++c) {
+    const double height = points[c].z() - robot.contacts()[c].radius;
+    highest = std::max(highest, height);
+    heights.push_back(fmt::format("{} {:.1f} mm", robot.contacts()[c].name, 1e3 * height));
+  }
+  if (highest <= kLevel) return;
+  warnings.push_back({Kind::ground, fmt::format("contacts are not level in the nominal posture; above the ground: {}",
+                                                fmt::join(heights, ", "))});
+}
+
+/// Right has the limits of left, as they are or mirrored.
+bool same_range(const RobotModel& robot, Eigen::Index left, Eigen::Index right) {
+  const double lower = robot.position_lower()(left), upper = robot.position_upper()(left);
+  const double right_lower = robot.position_lower()(right), right_upper = robot.position_upper()(right);
+  return (nearly_equal(lower, right_lower) && nearly_equal(upper, right_upper)) ||
+         (nearly_equal(lower, -right_upper) && nearly_equal(upper, -right_lower));
+}
+
+void check_joint_symmetry(const RobotModel& robot, Warnings& warnings) {
+  const std::vector<std::string>& names = robot.joint_names();
+  const pinocchio::Model& model = robot.pinocchio().model;
+  for (Eigen::Index l = 0; l < robot.nu(); ++l) {
+    const std::string& left = names[static_cast<std::size_t>(l)];
+    const auto right = right_counterpart(left, names);
+    if (!right) continue;
+    const Eigen::Index r = std::find(names.begin(), names.end(), *right) - names.begin();
+    const auto warn = [&](const std::string& what) {
+      warnings.push_back({Kind::symmetry, fmt::format("'{}' and '{}' differ in {}", left, *right, what)});
+    };
+    const auto compare = [&](const char* what, double a, double b, const char* unit) {
+      if (!nearly_equal(a, b)) warn(fmt::format("{}: {:.6g} and {:.6g} {}", what, a, b, unit));
+    };
+    compare("torque limit", robot.torque_limit()(l), robot.torque_limit()(r), "N m");
+    compare("velocity limit", robot.velocity_limit()(l), robot.velocity_limit()(r), "rad/s");
+    compare("the mass they move", model.inertias[model.getJointId(left)].mass(),
+            model.inertias[model.getJointId(*right)].mass(), "kg");
+    if (!same_range(robot, l, r)) {
+      warn(fmt::format("position range: {:.4g} to {:.4g} and {:.4g} to {:.4g} rad", robot.position_lower()(l),
+                       robot.position_upper()(l), robot.position_lower()(r), robot.position_upper()(r)));
+    }
+  }
+}
+
+/// Mirrored contacts, seen from the base, must be mirrored points. (Joint angles may or may not change sign.)
+void check_contact_symmetry(const RobotModel& robot, const std::vector<Eigen::Vector3d>& points, Warnings& warnings) {
+  std::vector<std::string> names;
+  for (const ContactPoint& contact : robot.contacts()) names.push_back(contact.name);
+  const Eigen::VectorXd& q = robot.nominal_configuration();
+  const auto from_base = [&](std::size_t c) -> Eigen::Vector3d {
+    return base_rotation(q).transpose() * (points[c] - base_position(q));
+  };
+  for (std::size_t l = 0; l < names.size(); ++l) {
+    const auto right = right_counterpart(names[l], names);
+    if (!right) continue;
+    const auto r = static_cast<std::size_t>(std::find(names.begin(), names.end(), *right) - names.begin());
+    const Eigen::Vector3d mirrored = from_base(r).cwiseProduct(Eigen::Vector3d(1.0, -1.0, 1.0));
+    const Eigen::Vector3d apart = from_base(l) - mirrored;
+    if (apart.norm() <= kLevel) continue;
+    warnings.push_back({Kind::symmetry, fmt::format("nominal posture: '{}' and the mirror image of '{}' are {:.1f} mm "
+                                                    "apart",
+                                                    names[l], *right, 1e3 * apart.norm())});
+  }
+}
+
+Eigen::MatrixXd contact_jacobian(const PinocchioModel& pin, pinocchio::Data& data, const Eigen::VectorXd& q) {
+  Eigen::MatrixXd J(3 * pin.contact_frames.size(), pin.model.nv);
+  for (std::size_t c = 0; c < pin.contact_frames.size(); ++c) {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> spatial = Eigen::MatrixXd::Zero(6, pin.model.nv);
+    pinocchio::computeFrameJacobian(pin.model, data, q, pin.contact_frames[c], pinocchio::LOCAL_WORLD_ALIGNED, spatial);
+    J.middleRows<3>(static_cast<Eigen::Index>(3 * c)) = spatial.topRows<3>();
+  }
+  return J;
+}
+
+}  // namespace
+
+RobotInspection inspect(const RobotModel& robot) {
+  const PinocchioModel& pin = robot.pinocchio();
+  const Eigen::VectorXd& q = robot.nominal_configuration();
+  pinocchio::Data data(pin.model);
+  pinocchio::framesForwardKinematics(pin.model, data, q);
+  std::vector<Eigen::Vector3d> points;
+  for (const pinocchio::FrameIndex frame : pin.contact_frames) points.push_back(data.oMf[frame].translation());
+
+  RobotInspection result;
+  check_inertias(robot, result.warnings);
+  check_limits(robot, result.warnings);
+  check_ground(robot, points, result.warnings);
+  check_joint_symmetry(robot, result.warnings);
+  check_contact_symmetry(robot, points, result.warnings);
+  check_posture(robot, result.warnings);
+
+  result.contact_rows = static_cast<int>(3 * points.size());
+  if (points.empty()) return result;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(contact_jacobian(pin, data, q));
+  result.contact_singular_values = svd.singularValues();
+  const Eigen::ArrayXd ratios = result.contact_singular_values.array() / result.contact_singular_values(0);
+  result.contact_rank = static_cast<int>((ratios > kRankThreshold).count());
+  for (const double ratio : ratios) {
+    if (ratio <= kSurelyZero || ratio >= kSurelyNot) continue;
+    result.warnings.push_back({Kind::contacts, fmt::format("rank of the contact Jacobian is ambiguous: a singular value "
+                                                           "is {:.1e} of the largest; move or drop a contact point",
+                                                           ratio)});
+  }
+  return result;
+}
+
+}  // namespace prowl

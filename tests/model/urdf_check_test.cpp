@@ -1,0 +1,131 @@
+#include "prowl/model/urdf_check.hpp"
+
+#include <gmock/gmock.h>
+
+#include "prowl/error.hpp"
+#include "tests/support/small_robot.hpp"
+
+namespace prowl {
+namespace {
+
+using test::replaced;
+using test::small_urdf;
+
+std::string message_for(const std::string& xml) {
+  try {
+    check_urdf("robot.urdf", xml);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(UrdfCheck, AcceptsASoundRobotAndReportsItsInertias) {
+  const std::vector<UrdfLink> links = check_urdf("robot.urdf", small_urdf());
+  ASSERT_EQ(links.size(), 3u);  // the feet have none
+  EXPECT_EQ(links[1].name, "left_leg");
+  EXPECT_EQ(links[1].mass, 1.0);
+  EXPECT_EQ(links[0].inertia.diagonal(), Eigen::Vector3d(0.2, 0.3, 0.4));
+}
+
+/// One damage to the sound robot, and what the message must say: the element, the value, what is expected.
+struct Damage {
+  const char* name;
+  const char* from;
+  const char* to;
+  std::vector<std::string> said;
+};
+
+void PrintTo(const Damage& damage, std::ostream* out) { *out << damage.name; }
+
+class UrdfDamage : public testing::TestWithParam<Damage> {};
+
+TEST_P(UrdfDamage, IsRefusedWithFileElementValueAndRemedy) {
+  const Damage& damage = GetParam();
+  const std::string message = message_for(replaced(small_urdf(), damage.from, damage.to));
+  EXPECT_THAT(message, testing::StartsWith("robot.urdf:"));
+  for (const std::string& part : damage.said) EXPECT_THAT(message, testing::HasSubstr(part));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Numbers, UrdfDamage,
+    testing::Values(
+        Damage{"mass_nan", "mass value=\"1\"", "mass value=\"nan\"", {":13:", "link 'left_leg'", "\"nan\"", "number"}},
+        Damage{"mass_inf", "mass value=\"1\"", "mass value=\"inf\"", {"link 'left_leg'", "\"inf\"", "finite"}},
+        Damage{"mass_comma", "mass value=\"1\"", "mass value=\"1,5\"", {"link 'left_leg'", "\"1,5\"", "like 1.5"}},
+        Damage{"mass_unit", "mass value=\"1\"", "mass value=\"1.5kg\"", {"\"1.5kg\"", "no unit"}},
+        Damage{"mass_two", "mass value=\"1\"", "mass value=\"1 5\"", {"\"1 5\"", "one finite number"}},
+        Damage{"mass_empty", "mass value=\"1\"", "mass value=\"\"", {"link 'left_leg'", "value"}},
+        Damage{"mass_negative", "mass value=\"1\"", "mass value=\"-1\"", {"link 'left_leg'", "\"-1\"", ">= 0"}},
+        Damage{"mass_huge", "mass value=\"1\"", "mass value=\"1e308\"", {"link 'left_leg'", "1e308"}},
+        Damage{"inertia_nan", "ixx=\"0.02\"", "ixx=\"nan\"", {"link 'left_leg'", "ixx=\"nan\""}},
+        Damage{"inertia_missing", "ixx=\"0.02\"", "", {"link 'left_leg'", "no ixx"}},
+        Damage{"no_mass", "<mass value=\"1\"/>", "", {"link 'left_leg'", "both <mass> and <inertia>"}},
+        Damage{"origin_huge", "xyz=\"0 0.1 0\"", "xyz=\"0 1e308 0\"", {"joint 'left_hip'", "1e308", "three finite"}},
+        Damage{"origin_two", "xyz=\"0 0.1 0\"", "xyz=\"0 0.1\"", {"joint 'left_hip'", "\"0 0.1\"", "three"}},
+        Damage{"origin_four", "xyz=\"0 0.1 0\"", "xyz=\"0 0.1 0 0\"", {"joint 'left_hip'", "three"}},
+        Damage{"effort_nan", "effort=\"50\"", "effort=\"nan\"", {"joint 'left_hip'", "effort=\"nan\""}},
+        Damage{"effort_missing", "effort=\"50\"", "", {"joint 'left_hip'", "no effort"}},
+        Damage{"lower_text", "lower=\"-0.5\"", "lower=\"low\"", {"joint 'left_hip'", "lower=\"low\""}}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Joints, UrdfDamage,
+    testing::Values(
+        Damage{"axis_zero", "axis xyz=\"1 0 0\"", "axis xyz=\"0 0 0\"", {"joint 'left_hip'", "0 0 0", "direction"}},
+        Damage{"axis_nan", "axis xyz=\"1 0 0\"", "axis xyz=\"nan 0 0\"", {"joint 'left_hip'", "nan 0 0"}},
+        Damage{"no_limit", "<limit lower=\"-0.5\" upper=\"1.5\" velocity=\"10\" effort=\"50\"/>", "",
+               {"joint 'left_hip'", "no <limit>"}},
+        Damage{"mimic", "<axis xyz=\"1 0 0\"/>", "<axis xyz=\"1 0 0\"/><mimic joint=\"right_hip\"/>",
+               {"joint 'left_hip'", "mimic", "own actuator"}},
+        Damage{"continuous", "type=\"revolute\"", "type=\"continuous\"",
+               {"joint 'left_hip'", "continuous", "limits", "type=\"revolute\""}},
+        Damage{"floating", "type=\"revolute\"", "type=\"floating\"", {"joint 'left_hip'", "floating", "remove"}},
+        Damage{"planar", "type=\"revolute\"", "type=\"planar\"", {"joint 'left_hip'", "planar", "prismatic"}},
+        Damage{"unknown_type", "type=\"revolute\"", "type=\"hinge\"", {"joint 'left_hip'", "hinge", "expected revolute"}},
+        Damage{"no_type", "type=\"revolute\"", "", {"joint 'left_hip'", "type"}}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Tree, UrdfDamage,
+    testing::Values(
+        Damage{"unknown_parent", "parent link=\"base\"", "parent link=\"bass\"",
+               {"joint 'left_hip'", "'bass' does not exist", "did you mean 'base'"}},
+        Damage{"no_child", "<child link=\"left_leg\"/>", "", {"joint 'left_hip'", "<child"}},
+        Damage{"two_parents", "child link=\"left_foot\"", "child link=\"right_leg\"",
+               {"'left_ankle'", "'right_leg' is already"}},
+        Damage{"two_roots", "<joint name=\"left_ankle\" type=\"fixed\">\n    <parent link=\"left_leg\"/>\n    <child "
+                            "link=\"left_foot\"/>\n    <origin xyz=\"0 0 -0.5\"/>\n  </joint>",
+               "", {"robot 'small'", "2 links", "left_foot", "exactly one"}},
+        Damage{"loop", "<parent link=\"base\"/>\n    <child link=\"left_leg\"/>",
+               "<parent link=\"left_foot\"/>\n    <child link=\"left_leg\"/>", {"robot 'small'", "loop"}},
+        Damage{"same_link", "link name=\"right_foot\"", "link name=\"left_foot\"",
+               {"link 'left_foot'", "already in line", "unique"}},
+        Damage{"same_joint", "joint name=\"right_hip\"", "joint name=\"left_hip\"", {"joint 'left_hip'", "unique"}},
+        Damage{"not_closed", "</robot>", "", {"not an XML file"}},
+        Damage{"sdf", "<robot name=\"small\">", "<sdf version=\"1.6\"/><robot name=\"small\">", {"not a URDF"}},
+        Damage{"no_name", "<robot name=\"small\">", "<robot>", {"name"}},
+        Damage{"xacro", "<link name=\"base\">", "<xacro:macro name=\"leg\"/><link name=\"base\">", {"xacro", ":3:"}}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(UrdfCheck, RefusesWhatIsNoXml) {
+  EXPECT_THAT(message_for(""), testing::HasSubstr("not an XML file"));
+  EXPECT_THAT(message_for("name = \"HyQ\""), testing::HasSubstr("not an XML file"));
+  EXPECT_THAT(message_for("<robot name=\"empty\"/>"), testing::HasSubstr("no <link>"));
+}
+
+TEST(UrdfCheck, RefusesAChainTooLongToBeARobot) {
+  std::string xml = "<robot name=\"chain\">";
+  for (int i = 0; i < 3000; ++i) xml += "<link name=\"l" + std::to_string(i) + "\"/>";
+  EXPECT_THAT(message_for(xml + "</robot>"), testing::HasSubstr("more than 1000 links"));
+}
+
+TEST(UrdfCheck, LeavesFixedJointsAlone) {
+  // Real files carry limits, zero axes and mimics of the moving joint that a fixed one once was.
+  const std::string fixed = "<child link=\"left_foot\"/>";
+  EXPECT_EQ(message_for(replaced(small_urdf(), fixed, fixed + "<axis xyz=\"0 0 0\"/><mimic joint=\"left_hip\"/>")),
+            "accepted");
+}
+
+}  // namespace
+}  // namespace prowl
