@@ -67,6 +67,8 @@ class ProjectedResidual {
 
   /// Positions of the contacts of the set at the last evaluation, and their derivatives.
   const ContactKinematics& kinematics() const { return kinematics_; }
+  /// Kinematics of the whole robot at the last evaluation.
+  const RigidBodyTerms& terms() const { return terms_; }
 
  private:
   void compute_forces(const DynamicsPoint& point);

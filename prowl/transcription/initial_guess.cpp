@@ -139,6 +139,7 @@ void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajecto
     for (const BoundaryCondition& condition : problem.boundary_conditions) {
       if (time_of(condition, mesh) == node.time) q = meet(condition, q);  // on both sides of a phase switch
     }
+    q.tail(nu) = clamp(q.tail(nu), problem.robot.position_lower(), problem.robot.position_upper());
     guess.nodes[k].q = q;
     previous = q;
     previous_on_path = on_path;

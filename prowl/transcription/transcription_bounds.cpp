@@ -1,0 +1,111 @@
+#include "prowl/transcription/transcription_bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool holds(const Phase& phase, int contact) {
+  return std::any_of(phase.contacts.begin(), phase.contacts.end(),
+                     [&](const PhaseContact& c) { return c.contact == contact; });
+}
+
+/// All nodes at the time of a node: itself and, at a phase switch, its twin.
+std::vector<int> nodes_at_time_of(const Mesh& mesh, int k) {
+  std::vector<int> nodes{k};
+  const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+  if (node.h_in == 0.0 && k > 0) nodes.push_back(k - 1);
+  if (node.h_out == 0.0 && k + 1 < mesh.size()) nodes.push_back(k + 1);
+  return nodes;
+}
+
+bool binds_rotation(const BoundaryCondition& condition) {
+  return condition.configuration_lower.segment<3>(3).maxCoeff() > -kInfinity ||
+         condition.configuration_upper.segment<3>(3).minCoeff() < kInfinity;
+}
+
+void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+             const std::string& what) {
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    double& lo = bounds.lower(first + i);
+    double& up = bounds.upper(first + i);
+    lo = std::max(lo, lower(i));
+    up = std::min(up, upper(i));
+    if (lo > up) {
+      throw InputError(fmt::format("{}: asks for a value between {:.6g} and {:.6g}, which the robot's limits or another "
+                                   "condition at the same time exclude (entry {})", what, lower(i), upper(i), i));
+    }
+  }
+}
+
+}  // namespace
+
+void refuse_what_is_not_supported(const MotionProblem& problem) {
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const Phase& phase = problem.phases[p];
+    if (!phase.duration.is_fixed()) {
+      throw InputError(fmt::format("phase '{}': a duration between {:g} and {:g} s is asked for, but only fixed durations "
+                                   "are supported yet: give one number", phase.name, phase.duration.min,
+                                   phase.duration.max));
+    }
+    for (const PhaseContact& contact : phase.contacts) {
+      if (p == 0 || holds(problem.phases[p - 1], contact.contact)) continue;
+      throw InputError(fmt::format("phase '{}': contact '{}' closes during the motion, which is not supported yet: only "
+                                   "contacts of the phase before can hold", phase.name,
+                                   problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name));
+    }
+  }
+}
+
+std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess) {
+  std::vector<Eigen::Matrix3d> charts;
+  for (int k = 0; k < mesh.size(); ++k) {
+    const int first = nodes_at_time_of(mesh, k).back() < k ? k - 1 : k;
+    charts.push_back(base_rotation(guess.nodes[static_cast<std::size_t>(first)].q));
+  }
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    if (!binds_rotation(condition)) continue;
+    for (const int k : nodes_at_time_of(mesh, mesh.index(condition.at))) {
+      charts[static_cast<std::size_t>(k)] = base_rotation(condition.q_ref);
+    }
+  }
+  return charts;
+}
+
+VariableBounds variable_bounds(const MotionProblem& problem, const Mesh& mesh, const DecisionLayout& layout) {
+  const RobotModel& robot = problem.robot;
+  const int nu = layout.nu();
+  VariableBounds bounds;
+  bounds.lower.setConstant(layout.num_variables(), -kInfinity);
+  bounds.upper.setConstant(layout.num_variables(), kInfinity);
+  for (int k = 0; k < layout.num_nodes(); ++k) {
+    bounds.lower.segment(layout.q(k) + 6, nu) = robot.position_lower();
+    bounds.upper.segment(layout.q(k) + 6, nu) = robot.position_upper();
+    bounds.lower.segment(layout.v(k) + 6, nu) = -robot.velocity_limit();
+    bounds.upper.segment(layout.v(k) + 6, nu) = robot.velocity_limit();
+    bounds.lower.segment(layout.tau(k), nu) = -robot.torque_limit();
+    bounds.upper.segment(layout.tau(k), nu) = robot.torque_limit();
+  }
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    const int k = mesh.index(condition.at);
+    // The chart of the node is that of q_ref, so the variables are q_ref (+) tangent: shift by what is not zero there.
+    Eigen::VectorXd reference(layout.nv());
+    reference << base_position(condition.q_ref), Eigen::Vector3d::Zero(), condition.q_ref.tail(nu);
+    tighten(bounds, layout.q(k), reference + condition.configuration_lower, reference + condition.configuration_upper,
+            condition.name + ", configuration");
+    tighten(bounds, layout.v(k), condition.velocity_lower, condition.velocity_upper, condition.name + ", velocity");
+    tighten(bounds, layout.tau(k), condition.torque_lower, condition.torque_upper, condition.name + ", torque");
+  }
+  return bounds;
+}
+
+}  // namespace prowl

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/trajectory/trajectory.hpp"
+#include "prowl/transcription/decision_layout.hpp"
+#include "prowl/transcription/mesh.hpp"
+
+namespace prowl {
+
+/// Throws InputError for what a motion problem may ask but the transcription cannot do yet: free durations, and contacts
+/// that close after the start.
+void refuse_what_is_not_supported(const MotionProblem& problem);
+
+/// A chart R_chart of the base's rotation for each node: that of the boundary condition there, so that its bounds are
+/// bounds on theta, else that of the guess. Both nodes of a phase switch get the same.
+std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess);
+
+struct VariableBounds {
+  Eigen::VectorXd lower, upper;  ///< one a decision variable
+};
+/// Limits of the robot at every node, and the boundary conditions at theirs. Throws InputError where they contradict.
+VariableBounds variable_bounds(const MotionProblem& problem, const Mesh& mesh, const DecisionLayout& layout);
+
+}  // namespace prowl

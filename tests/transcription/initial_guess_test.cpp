@@ -1,0 +1,217 @@
+#include "prowl/transcription/initial_guess.hpp"
+
+#include <gtest/gtest.h>
+
+#include "../support/robots.hpp"
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// A motion of 2 s and 40 intervals on all contacts, from rest in the nominal posture.
+MotionProblem standing(const RobotDescription& description) {
+  MotionProblem problem{.robot = RobotModel(description)};
+  problem.surfaces = {Surface{}};
+  Phase phase{.name = "stand", .duration = {2.0, 2.0}, .intervals = 40};
+  for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) phase.contacts.push_back({c, 0});
+  problem.phases = {phase};
+  auto start = BoundaryCondition::unbounded(problem.robot, "start", {0, 0}, problem.robot.nominal_configuration());
+  start.configuration_lower.setZero();
+  start.configuration_upper.setZero();
+  start.velocity_lower.setZero();
+  start.velocity_upper.setZero();
+  problem.boundary_conditions = {start};
+  return problem;
+}
+
+/// Asks the base to be displaced from the start by (world displacement, rotation vector) and at rest at a node.
+BoundaryCondition base_goal(const MotionProblem& problem, NodeRef at, const Vector3d& shift, const Vector3d& turn) {
+  VectorXd displacement = VectorXd::Zero(problem.robot.nv());
+  displacement.head<3>() = shift;
+  displacement.segment<3>(3) = turn;
+  auto goal = BoundaryCondition::unbounded(problem.robot, "goal", at,
+                                           integrate(problem.start_configuration(), displacement));
+  goal.configuration_lower.head<6>().setZero();
+  goal.configuration_upper.head<6>().setZero();
+  goal.velocity_lower.head<6>().setZero();
+  goal.velocity_upper.head<6>().setZero();
+  return goal;
+}
+
+/// A goal for the base in every direction, in reach of every robot.
+MotionProblem reaching(const RobotDescription& description) {
+  MotionProblem problem = standing(description);
+  const double height = problem.start_configuration()(2);
+  problem.boundary_conditions.push_back(
+      base_goal(problem, {0, 40}, height * Vector3d(0.07, 0.05, -0.1), Vector3d(0.05, 0.1, 0.1)));
+  return problem;
+}
+
+Trajectory guess_of(const MotionProblem& problem) { return initial_guess(problem, make_mesh(problem)); }
+
+Vector3d place(const RobotModel& robot, const VectorXd& q, int contact) {
+  RigidBodyTerms terms(robot);
+  terms.update_kinematics(q);
+  return terms.contact_position(contact);
+}
+
+void expect_meets_conditions(const MotionProblem& problem, const Trajectory& guess) {
+  const auto expect_between = [](const VectorXd& x, const VectorXd& lower, const VectorXd& upper) {
+    EXPECT_GE((x - lower).minCoeff(), -1e-12);
+    EXPECT_GE((upper - x).minCoeff(), -1e-12);
+  };
+  const Mesh mesh = make_mesh(problem);
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    const TrajectoryPoint& point = guess.nodes[static_cast<std::size_t>(mesh.index(condition.at))];
+    SCOPED_TRACE(condition.name);
+    expect_between(difference(condition.q_ref, point.q), condition.configuration_lower, condition.configuration_upper);
+    expect_between(point.v, condition.velocity_lower, condition.velocity_upper);
+    expect_between(point.tau, condition.torque_lower, condition.torque_upper);
+  }
+}
+
+void expect_finite_and_within_limits(const MotionProblem& problem, const Trajectory& guess) {
+  const RobotModel& robot = problem.robot;
+  ASSERT_EQ(static_cast<int>(guess.nodes.size()), make_mesh(problem).size());
+  for (const TrajectoryPoint& point : guess.nodes) {
+    ASSERT_TRUE(point.q.allFinite() && point.v.allFinite() && point.a.allFinite() && point.tau.allFinite() &&
+                point.force.allFinite());
+    EXPECT_NEAR(base_quaternion(point.q).norm(), 1.0, 1e-12);
+    const auto joints = point.q.tail(robot.nu()).array();
+    EXPECT_TRUE((joints >= robot.position_lower().array()).all() && (joints <= robot.position_upper().array()).all());
+    EXPECT_TRUE((point.v.tail(robot.nu()).array().abs() <= robot.velocity_limit().array()).all());
+    EXPECT_TRUE((point.tau.array().abs() <= robot.torque_limit().array()).all());
+  }
+}
+
+class InitialGuessOf : public testing::TestWithParam<RobotDescription> {};
+
+TEST_P(InitialGuessOf, GoesToTheGoalWithItsFeetInPlace) {
+  const MotionProblem problem = reaching(GetParam());
+  const Trajectory guess = guess_of(problem);
+  expect_finite_and_within_limits(problem, guess);
+  expect_meets_conditions(problem, guess);
+
+  for (const TrajectoryPoint& point : guess.nodes) {
+    for (const PhaseContact& c : problem.phases[0].contacts) {
+      const Vector3d drift = place(problem.robot, point.q, c.contact) -
+                             place(problem.robot, problem.start_configuration(), c.contact);
+      EXPECT_LT(drift.norm(), 1e-3) << problem.robot.contacts()[static_cast<std::size_t>(c.contact)].name;
+    }
+    Vector3d sum = Vector3d::Zero();
+    for (const PhaseContact& c : problem.phases[0].contacts) sum += point.force.segment<3>(3 * c.contact);
+    EXPECT_LT((sum - Vector3d(0.0, 0.0, problem.robot.weight())).norm(), 1e-6 * problem.robot.weight());
+  }
+}
+
+TEST_P(InitialGuessOf, HasVelocitiesAndAccelerationsThatBelongToItsMotion) {
+  const MotionProblem problem = reaching(GetParam());
+  const Trajectory guess = guess_of(problem);
+
+  double largest_step = 0.0, largest_defect = 0.0, largest_change = 0.0, largest_velocity_defect = 0.0;
+  for (std::size_t k = 0; k + 1 < guess.nodes.size(); ++k) {
+    const TrajectoryPoint &left = guess.nodes[k], &right = guess.nodes[k + 1];
+    const double h = right.time - left.time;
+    const VectorXd step = difference(left.q, right.q);
+    const VectorXd defect = difference(right.q, interpolate(left, right, h).q);
+    largest_step = std::max(largest_step, step.lpNorm<Eigen::Infinity>());
+    largest_defect = std::max(largest_defect, defect.lpNorm<Eigen::Infinity>());
+    const VectorXd velocity_defect = right.v - left.v - h / 2.0 * (left.a + right.a);
+    largest_change = std::max(largest_change, (right.v - left.v).lpNorm<Eigen::Infinity>());
+    largest_velocity_defect = std::max(largest_velocity_defect, velocity_defect.lpNorm<Eigen::Infinity>());
+  }
+  EXPECT_GT(largest_step, 1e-3) << "the robot does not move";
+  EXPECT_LT(largest_defect, 0.05 * largest_step);
+  EXPECT_LT(largest_velocity_defect, 0.5 * largest_change);  // the path's acceleration jumps at its ends
+}
+
+TEST_P(InitialGuessOf, IsFiniteAndWithinLimitsForAGoalOutOfReach) {
+  for (const double rise : {1.5, -0.9}) {
+    MotionProblem problem = standing(GetParam());
+    const double height = problem.start_configuration()(2);
+    problem.boundary_conditions.push_back(
+        base_goal(problem, {0, 40}, Vector3d(0.0, 0.0, rise * height), Vector3d(3.0, 0.0, 0.0)));
+    const Trajectory guess = guess_of(problem);
+    expect_finite_and_within_limits(problem, guess);
+    expect_meets_conditions(problem, guess);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, InitialGuessOf,
+                         testing::Values(test::hyq_description(), test::anymal_c_description(),
+                                         test::solo12_description(), test::go2_description(),
+                                         test::talos_description()),
+                         [](const auto& info) { return info.param.name.substr(0, info.param.name.find(' ')); });
+
+TEST(InitialGuess, GoesDownAndUpAgainForACrouchWithoutOvershoot) {
+  MotionProblem problem = standing(test::hyq_description());
+  problem.boundary_conditions.push_back(base_goal(problem, {0, 20}, Vector3d(0.0, 0.0, -0.17), Vector3d::Zero()));
+  problem.boundary_conditions.push_back(base_goal(problem, {0, 40}, Vector3d::Zero(), Vector3d::Zero()));
+  const Trajectory guess = guess_of(problem);
+  expect_meets_conditions(problem, guess);
+  const double top = problem.start_configuration()(2);
+  for (std::size_t k = 0; k < 40; ++k) {
+    const double z = guess.nodes[k].q(2), next = guess.nodes[k + 1].q(2);
+    EXPECT_EQ(next < z, k < 20);
+    EXPECT_GE(z, top - 0.17 - 1e-12);
+    EXPECT_LE(z, top + 1e-12);
+  }
+}
+
+TEST(InitialGuess, LetsFreeCoordinatesPassAWaypoint) {
+  MotionProblem problem = standing(test::hyq_description());
+  auto halfway = BoundaryCondition::unbounded(problem.robot, "height only", {0, 20},
+                                              integrate(problem.start_configuration(),
+                                                        VectorXd::Unit(problem.robot.nv(), 2) * -0.1));
+  halfway.configuration_lower(2) = halfway.configuration_upper(2) = 0.0;
+  problem.boundary_conditions.push_back(halfway);
+  problem.boundary_conditions.push_back(base_goal(problem, {0, 40}, Vector3d(0.08, 0.0, -0.1), Vector3d::Zero()));
+  const Trajectory guess = guess_of(problem);
+  expect_meets_conditions(problem, guess);
+  EXPECT_NEAR(guess.nodes[20].q(0), problem.start_configuration()(0) + 0.04, 1e-9) << "forward is halfway at half time";
+}
+
+TEST(InitialGuess, KeepsThePostureOfLegsInTheAir) {
+  MotionProblem problem = standing(test::hyq_description());
+  const int lf = problem.robot.contact_index("lf_foot");
+  Phase& stand = problem.phases[0];
+  stand.intervals = 20;
+  Phase lifted = stand;
+  std::erase_if(lifted.contacts, [&](const PhaseContact& c) { return c.contact == lf; });
+  problem.phases.push_back(lifted);
+  problem.boundary_conditions.push_back(base_goal(problem, {1, 20}, Vector3d(-0.04, -0.04, 0.02), {0.0, -0.05, 0.0}));
+  const Trajectory guess = guess_of(problem);
+  expect_finite_and_within_limits(problem, guess);
+  expect_meets_conditions(problem, guess);
+
+  const TrajectoryPoint &before = guess.nodes[20], &after = guess.nodes[21];  // both sides of the phase switch
+  EXPECT_LT(difference(before.q, after.q).norm(), 1e-12);
+  EXPECT_LT((before.v - after.v).norm(), 1e-10);
+  EXPECT_GT(before.v.norm(), 1e-3);
+  const auto leg = [&](std::size_t k) -> Vector3d { return guess.nodes[k].q.segment<3>(7); };  // lf: the first three
+  EXPECT_GT((leg(20) - leg(0)).norm(), 1e-3);
+  EXPECT_LT((leg(41) - leg(21)).norm(), 1e-12);
+  EXPECT_GT(before.force.segment<3>(3 * lf).norm(), 1.0);
+  EXPECT_EQ(after.force.segment<3>(3 * lf).norm(), 0.0);
+}
+
+TEST(InitialGuess, BringsJointsToAPrescribedPosture) {
+  MotionProblem problem = standing(test::hyq_description());
+  problem.phases[0].contacts.clear();
+  const VectorXd change = VectorXd::Unit(problem.robot.nv(), 7) * 0.3;
+  auto posture = BoundaryCondition::unbounded(problem.robot, "posture", {0, 40},
+                                              integrate(problem.start_configuration(), change));
+  posture.configuration_lower.tail(problem.robot.nu()).setZero();
+  posture.configuration_upper.tail(problem.robot.nu()).setZero();
+  problem.boundary_conditions.push_back(posture);
+  const Trajectory guess = guess_of(problem);
+  expect_meets_conditions(problem, guess);
+  EXPECT_NEAR(guess.nodes[20].q(8), problem.start_configuration()(8) + 0.15, 1e-9);
+}
+
+}  // namespace
+}  // namespace prowl

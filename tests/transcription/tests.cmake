@@ -1,0 +1,5 @@
+prowl_test(transcription/mesh prowl::transcription)
+prowl_test(transcription/monotone_cubic prowl::transcription)
+prowl_test(transcription/initial_guess prowl::transcription)
+prowl_test(transcription/transcription prowl::transcription)
+prowl_test(transcription/defects prowl::transcription)
