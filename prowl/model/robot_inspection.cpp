@@ -31,16 +31,19 @@ constexpr double kRankThreshold = 1e-8, kSurelyZero = 1e-10, kSurelyNot = 1e-6;
 
 bool nearly_equal(double a, double b) { return std::abs(a - b) <= kRelative * std::max({std::abs(a), std::abs(b), 1e-3}); }
 
+/// Such links are harmless here, where fixed joints merge them with heavier ones (else RobotModel refuses them), but not
+/// in every simulator.
 void check_inertias(const RobotModel& robot, Warnings& warnings) {
+  std::vector<std::string> tiny;
   for (const UrdfLink& link : robot.pinocchio().links) {
-    if (const auto problem = why_not_physical(link.mass, link.inertia)) {
-      warnings.push_back({Kind::inertia, fmt::format("link '{}': {}; harmless only because fixed joints merge it with "
-                                                     "other links",
-                                                     link.name, *problem)});
-    } else if (link.mass < kTinyMass * robot.mass()) {
-      warnings.push_back({Kind::inertia, fmt::format("link '{}': the mass is only {} kg", link.name, link.mass)});
+    if (link.mass < kTinyMass * robot.mass()) {
+      tiny.push_back(fmt::format("{} {} kg", link.name, link.mass));
+    } else if (const auto problem = why_not_physical(link.mass, link.inertia)) {
+      warnings.push_back({Kind::inertia, fmt::format("link '{}': {}", link.name, *problem)});
     }
   }
+  if (tiny.empty()) return;
+  warnings.push_back({Kind::inertia, fmt::format("links with an inertia but next to no mass: {}", fmt::join(tiny, ", "))});
 }
 
 /// One warning for all joints with the same flaw.

@@ -127,7 +127,10 @@ void check_moving_joint(const Place& place, const XMLElement& joint, const std::
     place.refuse(joint, "no <limit>; expected <limit lower=\"...\" upper=\"...\" velocity=\"...\" effort=\"...\"/>");
   }
   constexpr double kAny = std::numeric_limits<double>::infinity();
-  for (const char* name : {"velocity", "effort"}) number(place, *limit, name, kAny);
+  for (const char* name : {"velocity", "effort"}) {
+    const double value = number(place, *limit, name, kAny);
+    if (value < 0.0) place.refuse(*limit, fmt::format("<limit {}=\"{}\">: expected a number > 0", name, value));
+  }
   for (const char* name : {"lower", "upper"}) {  // 0 if not given
     if (limit->Attribute(name) != nullptr) number(place, *limit, name, kAny);
   }

@@ -55,7 +55,7 @@ struct MotionProblem {
 };
 
 /// Throws InputError, naming the field, unless sizes, indices, ranges and finiteness are right, the start is fixed,
-/// inside the joint limits, and has the contacts of the first phase on their surfaces (within 1 mm).
+/// inside the joint limits, and has the contacts of the first phase on their surfaces (within 1 mm) and at rest (1 mm/s).
 void validate(const MotionProblem& problem);
 
 }  // namespace prowl

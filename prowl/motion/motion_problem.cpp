@@ -1,0 +1,233 @@
+#include "prowl/motion/motion_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::VectorXd;
+
+constexpr double kOnSurface = 1e-3;   // [m]
+constexpr double kAtRest = 1e-3;      // [m/s]
+constexpr double kUnitLength = 1e-6;  // [-]
+constexpr double kRounding = 1e-9;    // [rad, m, rad/s, m/s, N m]
+
+template <class... Args>
+[[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
+  throw InputError(fmt::format(format, std::forward<Args>(args)...));
+}
+
+void check_size(const std::string& field, const VectorXd& values, int size) {
+  if (values.size() != size) refuse("{}: {} entries are not allowed; need {}", field, values.size(), size);
+}
+
+void check_finite(const std::string& field, const VectorXd& values, int size) {
+  check_size(field, values, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (!std::isfinite(values(i))) refuse("{}[{}]: {} is not allowed; need a finite number", field, i, values(i));
+  }
+}
+
+void check_index(const std::string& field, int index, std::size_t size) {
+  if (index < 0 || index >= static_cast<int>(size)) {
+    refuse("{}: {} is not allowed; need 0 to {}", field, index, static_cast<int>(size) - 1);
+  }
+}
+
+void check_configuration(const std::string& field, const VectorXd& q, int nq) {
+  check_finite(field, q, nq);
+  const double norm = base_quaternion(q).norm();
+  if (std::abs(norm - 1.0) > kUnitLength) refuse("{}: base quaternion of length {} is not allowed; need 1", field, norm);
+}
+
+void check_surface(const std::string& field, const Surface& surface) {
+  check_finite(field + ".point", surface.point, 3);
+  check_finite(field + ".normal", surface.normal, 3);
+  if (std::abs(surface.normal.norm() - 1.0) > kUnitLength) {
+    refuse("{}.normal: length {} is not allowed; need 1", field, surface.normal.norm());
+  }
+  if (!(surface.friction > 0.0) || !std::isfinite(surface.friction)) {
+    refuse("{}.friction: {} is not allowed; need a coefficient > 0", field, surface.friction);
+  }
+}
+
+void check_phase(const MotionProblem& problem, const std::string& field, const Phase& phase) {
+  const Duration& duration = phase.duration;
+  if (!(duration.min > 0.0) || !(duration.min <= duration.max) || !std::isfinite(duration.max)) {
+    refuse("{}.duration: {} to {} is not allowed; need 0 < min <= max [s]", field, duration.min, duration.max);
+  }
+  if (phase.intervals < 1) refuse("{}.intervals: {} is not allowed; need 1 or more", field, phase.intervals);
+  std::set<int> used;
+  for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
+    const std::string contact = fmt::format("{}.contacts[{}]", field, i);
+    check_index(contact + ".contact", phase.contacts[i].contact, problem.robot.contacts().size());
+    check_index(contact + ".surface", phase.contacts[i].surface, problem.surfaces.size());
+    if (!used.insert(phase.contacts[i].contact).second) {
+      refuse("{}: '{}' is there twice; need each contact once", contact,
+             problem.robot.contacts()[static_cast<std::size_t>(phase.contacts[i].contact)].name);
+    }
+  }
+}
+
+void check_bounds(const std::string& field, const VectorXd& lower, const VectorXd& upper, int size) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  check_size(field + "_lower", lower, size);
+  check_size(field + "_upper", upper, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (!(lower(i) <= upper(i)) || lower(i) == kInfinity || upper(i) == -kInfinity) {
+      refuse("{}[{}]: {} to {} is not allowed; need lower <= upper", field, i, lower(i), upper(i));
+    }
+  }
+}
+
+/// Bounds on the joints must leave something of what the robot can do.
+void check_within_robot(const std::string& field, const RobotModel& robot, const VectorXd& lower,
+                        const VectorXd& upper, const VectorXd& robot_lower, const VectorXd& robot_upper) {
+  for (Eigen::Index j = 0; j < robot.nu(); ++j) {
+    if (lower(j) <= robot_upper(j) + kRounding && upper(j) >= robot_lower(j) - kRounding) continue;
+    refuse("{}: {} to {} for joint '{}' is out of its limits; need something in {} to {}", field, lower(j), upper(j),
+           robot.joint_names()[static_cast<std::size_t>(j)], robot_lower(j), robot_upper(j));
+  }
+}
+
+void check_condition(const MotionProblem& problem, const std::string& field, const BoundaryCondition& condition) {
+  const RobotModel& robot = problem.robot;
+  check_index(field + ".at.phase", condition.at.phase, problem.phases.size());
+  const int intervals = problem.phases[static_cast<std::size_t>(condition.at.phase)].intervals;
+  check_index(field + ".at.node", condition.at.node, static_cast<std::size_t>(intervals) + 1);
+  check_configuration(field + ".q_ref", condition.q_ref, robot.nq());
+  check_bounds(field + ".configuration", condition.configuration_lower, condition.configuration_upper, robot.nv());
+  check_bounds(field + ".velocity", condition.velocity_lower, condition.velocity_upper, robot.nv());
+  check_bounds(field + ".torque", condition.torque_lower, condition.torque_upper, robot.nu());
+
+  const int nu = robot.nu();
+  const VectorXd joints = condition.q_ref.tail(nu);
+  check_within_robot(field + ".configuration", robot, joints + condition.configuration_lower.tail(nu),
+                     joints + condition.configuration_upper.tail(nu), robot.position_lower(), robot.position_upper());
+  check_within_robot(field + ".velocity", robot, condition.velocity_lower.tail(nu), condition.velocity_upper.tail(nu),
+                     -robot.velocity_limit(), robot.velocity_limit());
+  check_within_robot(field + ".torque", robot, condition.torque_lower, condition.torque_upper, -robot.torque_limit(),
+                     robot.torque_limit());
+}
+
+/// The contacts of the first phase must be on their surfaces and, at the start velocity, stay there.
+void check_start_contacts(const MotionProblem& problem) {
+  const Phase& phase = problem.phases.front();
+  std::vector<int> contacts;
+  for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
+  RigidBodyTerms terms(problem.robot);
+  terms.update_kinematics(problem.start_configuration());
+  ContactKinematics kinematics(contacts);
+  kinematics.set_configuration(terms);
+  const VectorXd velocities = kinematics.jacobian() * problem.start().velocity_lower;
+
+  for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(3 * i);
+    const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(phase.contacts[i].contact)];
+    const Surface& surface = problem.surfaces[static_cast<std::size_t>(phase.contacts[i].surface)];
+    const double gap = surface.distance(kinematics.positions().segment<3>(row)) - contact.radius;
+    if (!(std::abs(gap) <= kOnSurface)) {
+      refuse("boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm {} surface '{}'; need at most "
+             "{} mm",
+             contact.name, 1e3 * std::abs(gap), gap > 0.0 ? "above" : "inside", surface.name, 1e3 * kOnSurface);
+    }
+    const double speed = velocities.segment<3>(row).norm();
+    if (!(speed <= kAtRest)) {
+      refuse("boundary_conditions[0].velocity: contact '{}' of the first phase moves at {:.4g} m/s; need at most {} m/s",
+             contact.name, speed, kAtRest);
+    }
+  }
+}
+
+void check_start(const MotionProblem& problem) {
+  const BoundaryCondition& start = problem.start();
+  if (!(start.at == NodeRef{0, 0})) {
+    refuse("boundary_conditions[0].at: phase {}, node {} is not allowed; the first condition is the start, need 0, 0",
+           start.at.phase, start.at.node);
+  }
+  if (!start.configuration_lower.isZero(0.0) || !start.configuration_upper.isZero(0.0)) {
+    refuse("boundary_conditions[0].configuration: the start must be fixed at its q_ref; need bounds of 0");
+  }
+  if (start.velocity_lower != start.velocity_upper) {
+    refuse("boundary_conditions[0].velocity: the start must be fixed; need equal bounds");
+  }
+  check_start_contacts(problem);
+}
+
+void check_weights(const std::string& field, const VectorXd& weights, int size) {
+  check_finite(field, weights, size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (weights(i) < 0.0) refuse("{}[{}]: {} is not allowed; need a weight >= 0", field, i, weights(i));
+  }
+}
+
+void check_cost(const std::string& field, const RobotModel& robot, const QuadraticCost& cost) {
+  check_configuration(field + ".q_ref", cost.q_ref, robot.nq());
+  check_weights(field + ".configuration_weight", cost.configuration_weight, robot.nv());
+  check_weights(field + ".velocity_weight", cost.velocity_weight, robot.nv());
+  check_weights(field + ".acceleration_weight", cost.acceleration_weight, robot.nv());
+  check_finite(field + ".tau_ref", cost.tau_ref, robot.nu());
+  check_weights(field + ".torque_weight", cost.torque_weight, robot.nu());
+  check_weights(field + ".force_weight", cost.force_weight, 3);
+  for (std::size_t i = 0; i < cost.contact_positions.size(); ++i) {
+    const std::string place = fmt::format("{}.contact_positions[{}]", field, i);
+    check_index(place + ".contact", cost.contact_positions[i].contact, robot.contacts().size());
+    check_finite(place + ".reference", cost.contact_positions[i].reference, 3);
+    check_weights(place + ".weight", cost.contact_positions[i].weight, 3);
+  }
+}
+
+void check_tolerance(const std::string& field, double tolerance) {
+  if (!(tolerance > 0.0) || !std::isfinite(tolerance)) {
+    refuse("goal_tolerance.{}: {} is not allowed; need a number > 0", field, tolerance);
+  }
+}
+
+}  // namespace
+
+BoundaryCondition BoundaryCondition::unbounded(const RobotModel& robot, std::string name, NodeRef at,
+                                               const Eigen::VectorXd& q_ref) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BoundaryCondition condition;
+  condition.name = std::move(name);
+  condition.at = at;
+  condition.q_ref = q_ref;
+  condition.configuration_lower = condition.velocity_lower = VectorXd::Constant(robot.nv(), -kInfinity);
+  condition.configuration_upper = condition.velocity_upper = VectorXd::Constant(robot.nv(), kInfinity);
+  condition.torque_lower = VectorXd::Constant(robot.nu(), -kInfinity);
+  condition.torque_upper = VectorXd::Constant(robot.nu(), kInfinity);
+  return condition;
+}
+
+void validate(const MotionProblem& problem) {
+  for (std::size_t i = 0; i < problem.surfaces.size(); ++i) {
+    check_surface(fmt::format("surfaces[{}]", i), problem.surfaces[i]);
+  }
+  if (problem.phases.empty()) refuse("phases: an empty list is not allowed; need one phase or more");
+  for (std::size_t i = 0; i < problem.phases.size(); ++i) {
+    check_phase(problem, fmt::format("phases[{}]", i), problem.phases[i]);
+  }
+  if (problem.boundary_conditions.empty()) {
+    refuse("boundary_conditions: an empty list is not allowed; need the start as the first");
+  }
+  for (std::size_t i = 0; i < problem.boundary_conditions.size(); ++i) {
+    check_condition(problem, fmt::format("boundary_conditions[{}]", i), problem.boundary_conditions[i]);
+  }
+  check_start(problem);
+  check_cost("running_cost", problem.robot, problem.running_cost);
+  check_cost("terminal_cost", problem.robot, problem.terminal_cost);
+  check_tolerance("position", problem.goal_tolerance.position);
+  check_tolerance("angle", problem.goal_tolerance.angle);
+  check_tolerance("velocity", problem.goal_tolerance.velocity);
+}
+
+}  // namespace prowl

@@ -1,0 +1,236 @@
+#include "prowl/model/robot_model.hpp"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <pinocchio/algorithm/frames.hpp>
+
+#include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/model/pinocchio_model.hpp"
+#include "tests/support/robots.hpp"
+#include "tests/support/small_robot.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<Eigen::Vector3d> contact_points(const RobotModel& robot, const Eigen::VectorXd& q) {
+  const PinocchioModel& pin = robot.pinocchio();
+  pinocchio::Data data(pin.model);
+  pinocchio::framesForwardKinematics(pin.model, data, q);
+  std::vector<Eigen::Vector3d> points;
+  for (const auto frame : pin.contact_frames) points.push_back(data.oMf[frame].translation());
+  return points;
+}
+
+template <class Exception = InputError>
+std::string message_for(RobotDescription description) {
+  try {
+    RobotModel robot(std::move(description));
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(RobotModel, LoadsTheFiveRobots) {
+  struct Expected {
+    RobotModel robot;
+    double mass;  // [kg], by Pinocchio in Python
+    int joints;
+  };
+  const Expected robots[] = {{test::hyq(), 86.774, 12},
+                             {test::anymal_c(), 52.135, 12},
+                             {test::solo12(), 2.500, 12},
+                             {test::go2(), 16.085, 12},
+                             {test::talos(), 90.27, 32}};
+  for (const auto& [robot, mass, joints] : robots) {
+    SCOPED_TRACE(robot.name());
+    EXPECT_NEAR(robot.mass(), mass, 5e-3);
+    EXPECT_EQ(robot.nu(), joints);
+    EXPECT_EQ(robot.nq(), joints + 7);
+    EXPECT_EQ(robot.nv(), robot.pinocchio().model.nv);
+    EXPECT_EQ(robot.nq(), robot.pinocchio().model.nq);
+    for (const auto* limit : {&robot.position_lower(), &robot.position_upper(), &robot.velocity_limit(),
+                              &robot.torque_limit()}) {
+      EXPECT_EQ(limit->size(), joints);
+      EXPECT_TRUE(limit->allFinite());
+    }
+    const Eigen::VectorXd posture = robot.nominal_configuration().tail(joints);
+    EXPECT_TRUE((posture.array() >= robot.position_lower().array()).all());
+    EXPECT_TRUE((posture.array() <= robot.position_upper().array()).all());
+  }
+}
+
+TEST(RobotModel, GravityIsTheOneOfPinocchio) {
+  const Eigen::Vector3d gravity = test::hyq().pinocchio().model.gravity.linear();
+  EXPECT_EQ(gravity, Eigen::Vector3d(0.0, 0.0, -RobotModel::kGravity));
+  EXPECT_DOUBLE_EQ(test::hyq().weight(), 9.81 * test::hyq().mass());
+}
+
+TEST(RobotModel, JointsAreInPinocchiosOrderWithTheLimitsOfTheUrdf) {
+  const RobotModel robot = test::hyq();
+  EXPECT_THAT(robot.joint_names(),
+              ElementsAre("lf_haa_joint", "lf_hfe_joint", "lf_kfe_joint", "lh_haa_joint", "lh_hfe_joint", "lh_kfe_joint",
+                          "rf_haa_joint", "rf_hfe_joint", "rf_kfe_joint", "rh_haa_joint", "rh_hfe_joint",
+                          "rh_kfe_joint"));
+  EXPECT_EQ(robot.torque_limit(), Eigen::VectorXd::Constant(12, 150.0));
+  EXPECT_EQ(robot.velocity_limit(), Eigen::VectorXd::Constant(12, 12.0));
+  EXPECT_NEAR(robot.position_lower()(2), -2.4435, 1e-4);  // lf_kfe_joint
+  EXPECT_NEAR(robot.position_upper()(5), 2.4435, 1e-4);   // lh_kfe_joint
+  EXPECT_THAT(robot.joint_is_prismatic(), testing::Each(false));
+}
+
+TEST(RobotModel, LimitsOfTheRobotReplaceThoseOfTheUrdfOneByOne) {
+  RobotDescription description = test::hyq_description();
+  description.limits["lf_hfe_joint"].torque = 120.0;
+  description.limits["lf_kfe_joint"] = {-2.0, -0.5, 8.0, {}};
+  const RobotModel robot(description), plain = test::hyq();
+  EXPECT_EQ(robot.torque_limit()(1), 120.0);
+  EXPECT_EQ(robot.velocity_limit()(1), 12.0);
+  EXPECT_EQ(robot.position_lower()(2), -2.0);
+  EXPECT_EQ(robot.position_upper()(2), -0.5);
+  EXPECT_EQ(robot.velocity_limit()(2), 8.0);
+  EXPECT_EQ(robot.torque_limit()(2), 150.0);
+  EXPECT_EQ(robot.torque_limit().tail(10), plain.torque_limit().tail(10));
+}
+
+TEST(RobotModel, NominalPostureStandsOnTheGroundAboveTheOrigin) {
+  for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2(), test::talos()}) {
+    SCOPED_TRACE(robot.name());
+    const auto points = contact_points(robot, robot.nominal_configuration());
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::size_t c = 0; c < points.size(); ++c) {
+      mean += points[c] / static_cast<double>(points.size());
+      lowest = std::min(lowest, points[c].z() - robot.contacts()[c].radius);
+    }
+    EXPECT_NEAR(lowest, 0.0, 1e-12);
+    EXPECT_NEAR(mean.head<2>().norm(), 0.0, 1e-12);
+    EXPECT_GT(base_position(robot.nominal_configuration()).z(), 0.2);
+  }
+  // HyQ's SRDF has its feet at z = 0 for a base at 0.5775 m; ours stands one foot radius higher.
+  EXPECT_NEAR(test::hyq().nominal_configuration()(2), 0.5775 + 0.02175, 1e-4);
+}
+
+TEST(RobotModel, TheLowestContactTouchesEvenIfTheBaseIsTilted) {
+  RobotDescription description = test::hyq_description();
+  description.nominal_base_rpy = {0.0, 0.3, 0.0};  // nose down
+  const RobotModel robot(description);
+  const auto points = contact_points(robot, robot.nominal_configuration());
+  EXPECT_NEAR(points[0].z(), 0.02175, 1e-9);  // lf
+  EXPECT_GT(points[1].z(), 0.1);               // lh
+}
+
+TEST(RobotModel, ContactsMayBeOffsetFromTheirFrame) {
+  RobotDescription description = test::hyq_description();
+  const RobotModel plain(description);
+  description.contacts[0].offset = {0.01, -0.02, 0.03};
+  const RobotModel robot(description);
+  const Eigen::VectorXd& q = plain.nominal_configuration();
+  const auto points = contact_points(robot, q);
+  const auto plain_points = contact_points(plain, q);
+  EXPECT_NEAR((points[0] - plain_points[0]).norm(), description.contacts[0].offset.norm(), 1e-14);
+  EXPECT_EQ(points[1], plain_points[1]);
+
+  const auto& model = plain.pinocchio().model;
+  pinocchio::Data data(model);
+  pinocchio::framesForwardKinematics(model, data, q);
+  const Eigen::Vector3d expected = data.oMf[model.getFrameId("lf_foot")].act(description.contacts[0].offset);
+  EXPECT_LT((points[0] - expected).norm(), 1e-14);
+}
+
+TEST(RobotModel, CopiesAreEqualAndIndependent) {
+  const RobotModel original = test::hyq();
+  RobotModel copy = test::solo12();
+  copy = original;
+  EXPECT_EQ(copy.name(), "HyQ");
+  EXPECT_EQ(copy.nominal_configuration(), original.nominal_configuration());
+  EXPECT_EQ(copy.torque_limit(), original.torque_limit());
+  EXPECT_EQ(copy.joint_names(), original.joint_names());
+  EXPECT_NE(&copy.pinocchio(), &original.pinocchio());
+  EXPECT_EQ(copy.pinocchio().contact_frames, original.pinocchio().contact_frames);
+}
+
+TEST(RobotModel, WrongNamesAreAnsweredWithTheNearestRightOne) {
+  RobotDescription robot = test::hyq_description();
+  robot.contacts[0].frame = "lf_fot";
+  EXPECT_THAT(message_for(robot), HasSubstr("contact 'lf_foot': frame 'lf_fot' is no link"));
+  EXPECT_THAT(message_for(robot), HasSubstr("did you mean 'lf_foot'?"));
+
+  robot = test::hyq_description();
+  robot.nominal_joints["lf_hfe"] = 0.1;
+  EXPECT_THAT(message_for(robot), HasSubstr("nominal.joints: 'lf_hfe' is no joint"));
+  EXPECT_THAT(message_for(robot), HasSubstr("did you mean 'lf_hfe_joint'?"));
+
+  robot = test::hyq_description();
+  robot.limits["rh_kfe_jiont"].torque = 100.0;
+  EXPECT_THAT(message_for(robot), HasSubstr("limits: 'rh_kfe_jiont' is no joint"));
+  EXPECT_THAT(message_for(robot), HasSubstr("did you mean 'rh_kfe_joint'?"));
+
+  try {
+    test::hyq().contact_index("lf_hand");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("'lf_hand' is no contact of robot 'HyQ'; did you mean 'lf_foot'?"));
+  }
+  EXPECT_EQ(test::hyq().contact_index("rf_foot"), 2);
+}
+
+TEST(RobotModel, RefusesContactsPosturesAndLimitsThatCannotBe) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto changed = [](auto change) {
+    RobotDescription robot = test::hyq_description();
+    change(robot);
+    return message_for(robot);
+  };
+  EXPECT_THAT(changed([](auto& r) { r.contacts[1].name = "lf_foot"; }), HasSubstr("'lf_foot': the name"));
+  EXPECT_THAT(changed([](auto& r) { r.contacts[0].radius = -0.01; }), HasSubstr("radius -0.01"));
+  EXPECT_THAT(changed([=](auto& r) { r.contacts[0].radius = nan; }), HasSubstr("radius nan"));
+  EXPECT_THAT(changed([=](auto& r) { r.contacts[0].offset.x() = nan; }), HasSubstr("offset"));
+  EXPECT_THAT(changed([=](auto& r) { r.nominal_joints["lf_hfe_joint"] = nan; }), HasSubstr("lf_hfe_joint: nan"));
+  EXPECT_THAT(changed([=](auto& r) { r.nominal_base_rpy.y() = nan; }), HasSubstr("base_rpy"));
+  EXPECT_THAT(changed([](auto& r) { r.limits["lf_hfe_joint"].torque = 0.0; }), HasSubstr("'lf_hfe_joint': torque"));
+  EXPECT_THAT(changed([=](auto& r) { r.limits["lf_hfe_joint"].velocity = nan; }), HasSubstr("velocity limit nan"));
+  EXPECT_THAT(changed([](auto& r) { r.limits["lf_hfe_joint"].position_lower = 2.0; }), HasSubstr("lower < upper"));
+}
+
+TEST(RobotModel, RefusesFilesThatCannotBeReadOrAreNoRobot) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(message_for<FileError>(test::small_description("/no/such/robot.urdf")),
+              HasSubstr("/no/such/robot.urdf: cannot be read"));
+  EXPECT_THAT(message_for(test::small_description(folder.write("a.urdf", "[robot]"))), HasSubstr("not an XML file"));
+  EXPECT_THAT(message_for(test::small_description(folder.write("b.urdf", "<sdf/>"))), HasSubstr("not a URDF"));
+  EXPECT_EQ(message_for(test::small_description(folder.write("c.urdf", test::small_urdf()))), "accepted");
+}
+
+TEST(RobotModel, RefusesBodiesAndLimitsThatCannotBe) {
+  const test::TemporaryFolder folder;
+  const auto message = [&](const std::string& from, const std::string& to) {
+    return message_for(test::small_description(folder.write("r.urdf", test::replaced(test::small_urdf(), from, to))));
+  };
+  EXPECT_THAT(message("mass value=\"1\"", "mass value=\"0\""), HasSubstr("joint 'left_hip' (links left_leg"));
+  EXPECT_THAT(message("mass value=\"1\"", "mass value=\"0\""), HasSubstr("expected mass > 0"));
+  EXPECT_THAT(message("izz=\"0.001\"", "izz=\"-0.001\""), HasSubstr("expected all > 0"));
+  EXPECT_THAT(message("izz=\"0.001\"", "izz=\"0\""), HasSubstr("expected all > 0"));
+  EXPECT_THAT(message("izz=\"0.001\"", "izz=\"0.05\""), HasSubstr("triangle inequality"));
+  EXPECT_THAT(message("effort=\"50\"", "effort=\"0\""), HasSubstr("'left_hip': torque limit (effort) 0"));
+  EXPECT_THAT(message("velocity=\"10\"", "velocity=\"-10\""), HasSubstr("velocity=\"-10\""));
+  EXPECT_THAT(message("velocity=\"10\"", "velocity=\"0\""), HasSubstr("'left_hip': velocity limit 0"));
+  EXPECT_THAT(message("lower=\"-0.5\"", "lower=\"1.6\""), HasSubstr("position from 1.6 to 1.5"));
+  EXPECT_THAT(message("mass value=\"1\"", "mass value=\"nan\""), HasSubstr("\"nan\""));
+}
+
+TEST(RobotModel, MasslessLinksAreFineWhereFixedJointsMergeThem) {
+  const RobotModel robot = test::hyq();  // base_link: 1e-6 kg; feet frames without inertia
+  const auto& links = robot.pinocchio().links;
+  const auto base = std::find_if(links.begin(), links.end(), [](const UrdfLink& l) { return l.name == "base_link"; });
+  ASSERT_NE(base, links.end());
+  EXPECT_LT(base->mass, 1e-5);
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,177 @@
+#include "prowl/motion/motion_problem.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "tests/support/robots.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+QuadraticCost zero_cost(const RobotModel& robot) {
+  QuadraticCost cost;
+  cost.q_ref = robot.nominal_configuration();
+  cost.configuration_weight = cost.velocity_weight = cost.acceleration_weight = Eigen::VectorXd::Zero(robot.nv());
+  cost.tau_ref = cost.torque_weight = Eigen::VectorXd::Zero(robot.nu());
+  return cost;
+}
+
+/// HyQ stands for a second.
+MotionProblem standing() {
+  const RobotModel robot = test::hyq();
+  BoundaryCondition start = BoundaryCondition::unbounded(robot, "start", {0, 0}, robot.nominal_configuration());
+  start.configuration_lower.setZero();
+  start.configuration_upper.setZero();
+  start.velocity_lower.setZero();
+  start.velocity_upper.setZero();
+  const BoundaryCondition goal = BoundaryCondition::unbounded(robot, "goal", {0, 5}, robot.nominal_configuration());
+  const Phase phase{"stand", {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {1.0, 1.0}, 5};
+  return {"stand", robot, {Surface{}}, {phase}, {start, goal}, zero_cost(robot), zero_cost(robot), {}};
+}
+
+std::string message_for(const MotionProblem& problem) {
+  try {
+    validate(problem);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string message_after(const std::function<void(MotionProblem&)>& change) {
+  static const MotionProblem kStanding = standing();
+  MotionProblem problem = kStanding;
+  change(problem);
+  return message_for(problem);
+}
+
+TEST(MotionProblem, StandingIsAccepted) { EXPECT_EQ(message_for(standing()), "accepted"); }
+
+TEST(MotionProblem, AnUnboundedConditionBindsNothing) {
+  const RobotModel robot = test::hyq();
+  const auto condition = BoundaryCondition::unbounded(robot, "goal", {1, 2}, robot.nominal_configuration());
+  EXPECT_EQ(condition.name, "goal");
+  EXPECT_EQ(condition.at, (NodeRef{1, 2}));
+  EXPECT_EQ(condition.q_ref, robot.nominal_configuration());
+  EXPECT_EQ(condition.configuration_lower, Eigen::VectorXd::Constant(18, -kInfinity));
+  EXPECT_EQ(condition.configuration_upper, Eigen::VectorXd::Constant(18, kInfinity));
+  EXPECT_EQ(condition.velocity_lower, Eigen::VectorXd::Constant(18, -kInfinity));
+  EXPECT_EQ(condition.velocity_upper, Eigen::VectorXd::Constant(18, kInfinity));
+  EXPECT_EQ(condition.torque_lower, Eigen::VectorXd::Constant(12, -kInfinity));
+  EXPECT_EQ(condition.torque_upper, Eigen::VectorXd::Constant(12, kInfinity));
+}
+
+struct Mistake {
+  const char* name;
+  std::function<void(MotionProblem&)> make;
+  const char* said;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+class MotionProblemMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(MotionProblemMistake, IsRefusedWithFieldValueAndRange) {
+  EXPECT_THAT(message_after(GetParam().make), HasSubstr(GetParam().said));
+}
+
+using P = MotionProblem;
+INSTANTIATE_TEST_SUITE_P(
+    SurfacesAndPhases, MotionProblemMistake,
+    testing::Values(
+        Mistake{"normal", [](P& p) { p.surfaces[0].normal *= 2.0; }, "surfaces[0].normal: length 2"},
+        Mistake{"friction", [](P& p) { p.surfaces[0].friction = 0.0; }, "surfaces[0].friction: 0 is not allowed"},
+        Mistake{"friction_nan", [](P& p) { p.surfaces[0].friction = kNan; }, "surfaces[0].friction: nan"},
+        Mistake{"point", [](P& p) { p.surfaces[0].point.z() = kNan; }, "surfaces[0].point[2]: nan"},
+        Mistake{"no_phase", [](P& p) { p.phases.clear(); }, "phases: an empty list"},
+        Mistake{"duration", [](P& p) { p.phases[0].duration = {0.0, 1.0}; },
+                "phases[0].duration: 0 to 1 is not allowed; need 0 < min <= max [s]"},
+        Mistake{"duration_order", [](P& p) { p.phases[0].duration = {2.0, 1.0}; }, "phases[0].duration: 2 to 1"},
+        Mistake{"duration_nan", [](P& p) { p.phases[0].duration = {kNan, kNan}; }, "phases[0].duration: nan"},
+        Mistake{"intervals", [](P& p) { p.phases[0].intervals = 0; }, "phases[0].intervals: 0"},
+        Mistake{"contact", [](P& p) { p.phases[0].contacts[1].contact = 4; },
+                "phases[0].contacts[1].contact: 4 is not allowed; need 0 to 3"},
+        Mistake{"surface", [](P& p) { p.phases[0].contacts[1].surface = -1; },
+                "phases[0].contacts[1].surface: -1 is not allowed; need 0 to 0"},
+        Mistake{"twice", [](P& p) { p.phases[0].contacts[1].contact = 0; }, "'lf_foot' is there twice"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    BoundaryConditions, MotionProblemMistake,
+    testing::Values(
+        Mistake{"none", [](P& p) { p.boundary_conditions.clear(); }, "boundary_conditions: an empty list"},
+        Mistake{"phase", [](P& p) { p.boundary_conditions[1].at.phase = 1; },
+                "boundary_conditions[1].at.phase: 1 is not allowed; need 0 to 0"},
+        Mistake{"node", [](P& p) { p.boundary_conditions[1].at.node = 6; },
+                "boundary_conditions[1].at.node: 6 is not allowed; need 0 to 5"},
+        Mistake{"size", [](P& p) { p.boundary_conditions[1].velocity_lower.setZero(12); },
+                "boundary_conditions[1].velocity_lower: 12 entries are not allowed; need 18"},
+        Mistake{"order", [](P& p) { p.boundary_conditions[1].torque_lower(3) = kInfinity; },
+                "boundary_conditions[1].torque[3]: inf to inf"},
+        Mistake{"nan", [](P& p) { p.boundary_conditions[1].configuration_upper(2) = kNan; },
+                "boundary_conditions[1].configuration[2]: -inf to nan"},
+        Mistake{"q_ref_nan", [](P& p) { p.boundary_conditions[1].q_ref(0) = kNan; }, "q_ref[0]: nan"},
+        Mistake{"quaternion", [](P& p) { p.boundary_conditions[1].q_ref.segment<4>(3) *= 1.1; },
+                "boundary_conditions[1].q_ref: base quaternion of length 1.1"},
+        Mistake{"goal_joint", [](P& p) { p.boundary_conditions[1].configuration_lower(8) = 2.0; },
+                "boundary_conditions[1].configuration: 0.5 to inf for joint 'lf_kfe_joint' is out of its limits"},
+        Mistake{"goal_velocity", [](P& p) { p.boundary_conditions[1].velocity_upper(6) = -20.0; },
+                "boundary_conditions[1].velocity: -inf to -20 for joint 'lf_haa_joint'"},
+        Mistake{"goal_torque", [](P& p) { p.boundary_conditions[1].torque_lower(0) = 151.0; },
+                "boundary_conditions[1].torque: 151 to inf for joint 'lf_haa_joint' is out of its limits; need something "
+                "in -150 to 150"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Start, MotionProblemMistake,
+    testing::Values(
+        Mistake{"elsewhere", [](P& p) { p.boundary_conditions[0].at.node = 1; }, "the first condition is the start"},
+        Mistake{"free_base", [](P& p) { p.boundary_conditions[0].configuration_upper(0) = 0.1; },
+                "the start must be fixed at its q_ref"},
+        Mistake{"free_velocity", [](P& p) { p.boundary_conditions[0].velocity_upper(0) = 0.1; },
+                "boundary_conditions[0].velocity: the start must be fixed"},
+        Mistake{"joint_limit", [](P& p) { p.boundary_conditions[0].q_ref(9) = 0.0; },
+                "boundary_conditions[0].configuration: 0 to 0 for joint 'lf_kfe_joint' is out of its limits"},
+        Mistake{"above", [](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0015; },
+                "contact 'lf_foot' of the first phase is 1.5 mm above surface 'floor'; need at most 1 mm"},
+        Mistake{"inside", [](P& p) { p.boundary_conditions[0].q_ref(2) -= 0.0015; }, "1.5 mm inside surface 'floor'"},
+        Mistake{"moving",
+                [](P& p) {
+                  p.boundary_conditions[0].velocity_lower(2) = p.boundary_conditions[0].velocity_upper(2) = 0.5;
+                },
+                "contact 'lf_foot' of the first phase moves at 0.5 m/s"}),
+    [](const auto& info) { return info.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Costs, MotionProblemMistake,
+    testing::Values(
+        Mistake{"negative", [](P& p) { p.running_cost.velocity_weight(3) = -1.0; },
+                "running_cost.velocity_weight[3]: -1 is not allowed; need a weight >= 0"},
+        Mistake{"size", [](P& p) { p.terminal_cost.torque_weight.setZero(11); },
+                "terminal_cost.torque_weight: 11 entries are not allowed; need 12"},
+        Mistake{"reference", [](P& p) { p.running_cost.tau_ref(0) = kInfinity; }, "running_cost.tau_ref[0]: inf"},
+        Mistake{"force", [](P& p) { p.running_cost.force_weight.x() = -1.0; }, "running_cost.force_weight[0]: -1"},
+        Mistake{"contact", [](P& p) { p.running_cost.contact_positions = {{7, {}, {}}}; },
+                "running_cost.contact_positions[0].contact: 7"},
+        Mistake{"tolerance", [](P& p) { p.goal_tolerance.angle = 0.0; }, "goal_tolerance.angle: 0 is not allowed"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(MotionProblem, StartMayBeAMillimetreOffTheGroundAndSwingFeetAnywhere) {
+  EXPECT_EQ(message_after([](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0009; }), "accepted");
+  EXPECT_EQ(message_after([](P& p) {
+              p.phases[0].contacts.erase(p.phases[0].contacts.begin());  // lf_foot swings
+              p.boundary_conditions[0].q_ref(9) -= 0.3;
+            }),
+            "accepted");
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,1 @@
+prowl_test(motion/motion_problem prowl::motion)
