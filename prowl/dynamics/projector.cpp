@@ -2,9 +2,12 @@
 
 #include <cmath>
 
+#include "prowl/error.hpp"
+
 namespace prowl {
 
 void Projector::compute(const Eigen::MatrixXd& J) {
+  if (!J.allFinite()) throw NumericalError("the contact Jacobian is not finite: a configuration is NaN or too large");
   const Eigen::Index rows = J.rows();
   transposed_ = J.transpose();
   if (rows > 0) qr_.compute(transposed_);

@@ -22,6 +22,7 @@ class Projector {
   /// Pivot ratios in between are too near the threshold: right methods may differ there by several percent.
   static constexpr double kAmbiguousAbove = 1e-10, kAmbiguousBelow = 1e-6;
 
+  /// Throws NumericalError if J is not finite.
   void compute(const Eigen::MatrixXd& J);
 
   int rank() const { return rank_; }
