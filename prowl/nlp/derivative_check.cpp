@@ -36,7 +36,8 @@ void note(DerivativeError& worst, double value, double difference, int row, int 
   worst = {not_a_number ? INFINITY : relative, value, difference, row, col, name(row, col)};
 }
 
-/// Compares one column; what the pattern does not have must be zero. Rows below first_row are not the pattern's business.
+/// Compares one column; what the pattern does not have must be zero. Rows below first_row are not the pattern's
+/// business.
 void compare_column(const Columns& matrix, const Eigen::VectorXd& difference, int col, int first_row, double tolerance,
                     const Names& name, DerivativeError& worst, std::vector<std::string>& faults) {
   Eigen::VectorXd rest = difference;
@@ -60,9 +61,12 @@ void check_places(const char* matrix, const SparsityPattern& pattern, int num_ro
     const int row = pattern.rows[i];
     const int col = pattern.cols[i];
     const char* fault = nullptr;
-    if (row < 0 || row >= num_rows || col < 0 || col >= num_cols) fault = "is outside the matrix";
-    else if (lower_triangle && row < col) fault = "is above the diagonal";
-    else if (!seen.insert({row, col}).second) fault = "is in the sparsity pattern twice";
+    if (row < 0 || row >= num_rows || col < 0 || col >= num_cols)
+      fault = "is outside the matrix";
+    else if (lower_triangle && row < col)
+      fault = "is above the diagonal";
+    else if (!seen.insert({row, col}).second)
+      fault = "is in the sparsity pattern twice";
     if (!fault) continue;
     std::ostringstream text;
     text << matrix << " (" << row << ", " << col << ") " << fault;
@@ -74,14 +78,18 @@ void check_places(const char* matrix, const SparsityPattern& pattern, int num_ro
 class Evaluation {
  public:
   explicit Evaluation(Nlp& nlp)
-      : nlp_(nlp), g_(nlp.num_constraints()), gradient_(nlp.num_variables()), jacobian_(nlp.jacobian_pattern().size()) {}
+      : nlp_(nlp),
+        g_(nlp.num_constraints()),
+        gradient_(nlp.num_variables()),
+        jacobian_(nlp.jacobian_pattern().size()) {}
 
   Eigen::VectorXd constraints(const Eigen::VectorXd& z) {
     nlp_.constraints(z, g_);
     return g_;
   }
 
-  Eigen::VectorXd lagrangian_gradient(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers) {
+  Eigen::VectorXd lagrangian_gradient(const Eigen::VectorXd& z, double cost_factor,
+                                      const Eigen::VectorXd& multipliers) {
     nlp_.cost_gradient(z, gradient_);
     nlp_.jacobian(z, jacobian_);
     Eigen::VectorXd result = cost_factor * gradient_;
@@ -97,9 +105,7 @@ class Evaluation {
 
 }  // namespace
 
-double DerivativeReport::worst() const {
-  return std::max({gradient.relative, jacobian.relative, hessian.relative});
-}
+double DerivativeReport::worst() const { return std::max({gradient.relative, jacobian.relative, hessian.relative}); }
 
 std::string DerivativeReport::summary() const {
   std::ostringstream text;
@@ -149,7 +155,8 @@ DerivativeReport check_derivatives(Nlp& nlp, const Eigen::VectorXd& z, double co
     compare_column(jacobian_columns, dg, j, 0, options.outside_tolerance, constraint, report.jacobian,
                    report.pattern_faults);
     const Eigen::VectorXd dl = (at.lagrangian_gradient(ahead, cost_factor, multipliers) -
-                                at.lagrangian_gradient(behind, cost_factor, multipliers)) / width;
+                                at.lagrangian_gradient(behind, cost_factor, multipliers)) /
+                               width;
     compare_column(hessian_columns, dl, j, j, options.outside_tolerance, variables, report.hessian,
                    report.pattern_faults);
   }

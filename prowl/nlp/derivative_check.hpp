@@ -26,8 +26,8 @@ struct DerivativeReport {
   /// are not zero outside the pattern. Empty if the patterns are right at this point.
   std::vector<std::string> pattern_faults;
 
-  double worst() const;           ///< largest relative error of the three
-  std::string summary() const;    ///< one line each, for a test's message
+  double worst() const;         ///< largest relative error of the three
+  std::string summary() const;  ///< one line each, for a test's message
 };
 
 struct DerivativeCheckOptions {

@@ -1,5 +1,9 @@
 #include "prowl/nlp/nlp_solver.hpp"
 
+#include <fmt/format.h>
+
+#include "prowl/error.hpp"
+
 namespace prowl {
 
 const char* to_string(SolveStatus status) {
@@ -13,6 +17,18 @@ const char* to_string(SolveStatus status) {
     case SolveStatus::solver_failed: return "solver_failed";
   }
   return "unknown";
+}
+
+void validate(const SolverOptions& options) {
+  if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
+    throw InputError(fmt::format("solver tolerance {} is not allowed; need 0 < tolerance < 1", options.tolerance));
+  }
+  if (options.max_iterations < 0) {
+    throw InputError(fmt::format("max_iterations {} is not allowed; need 0 or more", options.max_iterations));
+  }
+  if (!(options.max_seconds > 0.0)) {
+    throw InputError(fmt::format("max_seconds {} is not allowed; need more than 0 [s]", options.max_seconds));
+  }
 }
 
 }  // namespace prowl

@@ -13,7 +13,7 @@ namespace prowl {
 /// Why the solver stopped. Whether the result is any good is another question: the certificate's.
 enum class SolveStatus {
   converged,
-  infeasible,         ///< converged to a point of locally least violation
+  infeasible,  ///< converged to a point of locally least violation
   iteration_limit,
   time_limit,
   interrupted,
@@ -31,12 +31,15 @@ struct SolveProgress {
 };
 
 struct SolverOptions {
-  double tolerance = 1e-6;      ///< on optimality and on constraint violation
+  double tolerance = 1e-6;  ///< on optimality and on constraint violation
   int max_iterations = 300;
   double max_seconds = 300.0;
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
   const std::atomic<bool>* interrupt = nullptr;            ///< looked at once an iteration; true stops
 };
+
+/// Throws InputError that names the option which makes no sense.
+void validate(const SolverOptions& options);
 
 struct SolveResult {
   SolveStatus status = SolveStatus::solver_failed;

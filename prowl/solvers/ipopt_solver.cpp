@@ -1,10 +1,10 @@
 #include "prowl/solvers/ipopt_solver.hpp"
 
-#include <IpIpoptApplication.hpp>
-#include <IpTNLP.hpp>
 #include <IpoptConfig.h>
 #include <fmt/format.h>
 
+#include <IpIpoptApplication.hpp>
+#include <IpTNLP.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -90,8 +90,8 @@ class IpoptProblem : public Ipopt::TNLP {
     return guarded_.hessian(point(z, n), cost_factor, ConstVectorMap(multipliers, m), VectorMap(values, size));
   }
 
-  bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number cost, Number, Number inf_du, Number, Number,
-                             Number, Number, Number, Index, const Ipopt::IpoptData* data,
+  bool intermediate_callback(Ipopt::AlgorithmMode mode, Index iteration, Number cost, Number, Number inf_du, Number,
+                             Number, Number, Number, Number, Index, const Ipopt::IpoptData* data,
                              Ipopt::IpoptCalculatedQuantities* quantities) override {
     iterations_ = iteration;
     read_iterate(mode, cost, inf_du, data, quantities);
@@ -184,8 +184,7 @@ Outcome outcome(Ipopt::ApplicationReturnStatus code) {
     case Ipopt::Error_In_Step_Computation: return {solver_failed, "no search direction could be computed"};
     case Ipopt::Maximum_CpuTime_Exceeded:
     case Ipopt::Maximum_WallTime_Exceeded: return {time_limit, "time limit reached"};
-    case Ipopt::Not_Enough_Degrees_Of_Freedom:
-      return {solver_failed, "more equality constraints than free variables"};
+    case Ipopt::Not_Enough_Degrees_Of_Freedom: return {solver_failed, "more equality constraints than free variables"};
     case Ipopt::Invalid_Problem_Definition: return {solver_failed, "problem definition is not valid"};
     case Ipopt::Invalid_Option: return {solver_failed, "an option of Ipopt is not valid"};
     case Ipopt::Invalid_Number_Detected: return {evaluation_failed, "an evaluation failed"};
@@ -203,27 +202,13 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetIntegerValue("acceptable_iter", 0);
   list.SetIntegerValue("max_iter", options.max_iterations);
   list.SetNumericValue("max_wall_time", options.max_seconds);
-  // Ipopt relaxes all bounds a little, to have room inside; well below the tolerance, and the result is put back inside.
+  // Ipopt relaxes all bounds a little, to have room inside; well below the tolerance, and the result is put back
+  // inside.
   list.SetNumericValue("bound_relax_factor", 0.01 * options.tolerance);
   list.SetStringValue("honor_original_bounds", "yes");
   list.SetStringValue("linear_solver", "mumps");
   // Approximate minimum fill: made by MUMPS itself. METIS' orderings differ between its builds.
   list.SetIntegerValue("mumps_pivot_order", 2);
-}
-
-void check_arguments(const Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) {
-  if (z_start.size() != nlp.num_variables()) {
-    throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
-  }
-  if (!(options.tolerance > 0.0 && options.tolerance < 1.0)) {
-    throw InputError(fmt::format("solver tolerance {} is not allowed; need 0 < tolerance < 1", options.tolerance));
-  }
-  if (options.max_iterations < 0) {
-    throw InputError(fmt::format("max_iterations {} is not allowed; need 0 or more", options.max_iterations));
-  }
-  if (!(options.max_seconds > 0.0)) {
-    throw InputError(fmt::format("max_seconds {} is not allowed; need more than 0 [s]", options.max_seconds));
-  }
 }
 
 /// Figures of the result from the point itself, whatever Ipopt says of it; false if it cannot be evaluated.
@@ -232,8 +217,7 @@ bool evaluate_result(GuardedNlp& guarded, const Iterate& iterate, SolveResult& r
   result.multipliers = iterate.multipliers;
   result.dual_violation = iterate.dual_violation;
   VectorXd g(guarded.nlp().num_constraints());
-  if (!guarded.finite_point(result.z) || !guarded.cost(result.z, result.cost) ||
-      !guarded.constraints(result.z, g)) {
+  if (!guarded.finite_point(result.z) || !guarded.cost(result.z, result.cost) || !guarded.constraints(result.z, g)) {
     result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
     return false;
   }
@@ -296,7 +280,10 @@ std::optional<std::string> IpoptSolver::why_unsupported(const Nlp& nlp) const {
 }
 
 SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  check_arguments(nlp, z_start, options);
+  validate(options);
+  if (z_start.size() != nlp.num_variables()) {
+    throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
+  }
   const Clock::time_point start = Clock::now();
   GuardedNlp guarded(nlp);
   SolveResult result;

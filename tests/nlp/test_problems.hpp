@@ -53,9 +53,7 @@ class Hs071 : public TestNlp {
     gradient << x[3] * (sum + x[0]), x[0] * x[3], x[0] * x[3] + 1.0, x[0] * sum;
   }
 
-  void constraints(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> g) override {
-    g << x.prod(), x.squaredNorm();
-  }
+  void constraints(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> g) override { g << x.prod(), x.squaredNorm(); }
 
   void jacobian(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> values) override {
     for (int i = 0; i < 4; ++i) {
