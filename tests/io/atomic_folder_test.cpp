@@ -1,0 +1,84 @@
+#include "prowl/io/atomic_folder.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <iterator>
+
+#include "test_files.hpp"
+
+namespace prowl {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::set<std::string> kNames = {"a.txt", "b.txt", "c.txt"};
+
+class AtomicFolder : public testing::Test {
+ protected:
+  std::size_t entries() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {})); }
+  test::TempFolder folder_;
+  const fs::path out_ = folder_.path() / "out";
+};
+
+TEST_F(AtomicFolder, HoldsExactlyTheNewFiles) {
+  write_folder_atomically(out_, {{"a.txt", "1"}, {"b.txt", "2"}}, kNames);
+  write_folder_atomically(out_, {{"a.txt", "3"}, {"c.txt", ""}}, kNames);
+  EXPECT_EQ(test::read_file(out_ / "a.txt"), "3");
+  EXPECT_FALSE(fs::exists(out_ / "b.txt"));
+  EXPECT_TRUE(fs::exists(out_ / "c.txt"));
+  EXPECT_EQ(entries(), 1u) << "something is left beside it";
+}
+
+TEST_F(AtomicFolder, MakesTheFoldersAbove) {
+  write_folder_atomically(folder_.path() / "x/y/z/", {{"a.txt", "1"}}, kNames);
+  EXPECT_EQ(test::read_file(folder_.path() / "x/y/z/a.txt"), "1");
+}
+
+TEST_F(AtomicFolder, LeavesFoldersWithOtherFilesAlone) {
+  folder_.write("out/a.txt", "1");
+  folder_.write("out/thesis.tex", "years of work");
+  EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "2"}}, kNames), FileError);
+  EXPECT_EQ(test::read_file(out_ / "a.txt"), "1");
+  EXPECT_EQ(test::read_file(out_ / "thesis.tex"), "years of work");
+}
+
+TEST_F(AtomicFolder, KeepsTheOldContentIfTheDiskIsFull) {
+  write_folder_atomically(out_, {{"a.txt", "old"}, {"b.txt", "old too"}}, kNames);
+  // The largest file that this process may write stands for the space on the disk.
+  rlimit before;
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small = {.rlim_cur = 1000, .rlim_max = before.rlim_max};
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "new"}, {"b.txt", std::string(2000, 'x')}}, kNames), FileError);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(test::read_file(out_ / "a.txt"), "old");
+  EXPECT_EQ(test::read_file(out_ / "b.txt"), "old too");
+  EXPECT_EQ(entries(), 1u) << "a half-written folder is left";
+}
+
+TEST_F(AtomicFolder, RefusesFoldersThatCannotBeWritten) {
+  folder_.write("file", "");
+  EXPECT_THROW(check_replaceable(folder_.path() / "file", kNames), FileError);
+  EXPECT_THROW(check_replaceable(folder_.path() / "file/out", kNames), FileError);
+  EXPECT_NO_THROW(check_replaceable(folder_.path() / "new/out", kNames));
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  fs::permissions(folder_.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_THROW(check_replaceable(out_, kNames), FileError);
+  EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "1"}}, kNames), FileError);
+  fs::permissions(folder_.path(), fs::perms::owner_all);
+}
+
+TEST_F(AtomicFolder, ReplacesThePlaceThatALinkPointsTo) {
+  write_folder_atomically(folder_.path() / "real", {{"a.txt", "1"}}, kNames);
+  fs::create_directory_symlink(folder_.path() / "real", out_);
+  write_folder_atomically(out_, {{"a.txt", "2"}}, kNames);
+  EXPECT_TRUE(fs::is_symlink(out_));
+  EXPECT_EQ(test::read_file(folder_.path() / "real/a.txt"), "2");
+}
+
+}  // namespace
+}  // namespace prowl

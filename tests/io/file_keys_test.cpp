@@ -1,0 +1,30 @@
+#include "prowl/io/file_keys.hpp"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+
+// On a failure, copy the table from the message into the page.
+TEST(FileKeys, DocumentationListsExactlyTheDeclaredKeys) {
+  const std::filesystem::path docs = std::filesystem::path(PROWL_SOURCE_DIR) / "docs";
+  EXPECT_THAT(test::read_file(docs / "task-file.md"), HasSubstr(markdown_table(task_file_keys())));
+  EXPECT_THAT(test::read_file(docs / "robot-file.md"), HasSubstr(markdown_table(robot_file_keys())));
+}
+
+TEST(FileKeys, AreDeclaredOnce) {
+  for (const FileKeys& keys : {task_file_keys(), robot_file_keys()}) {
+    std::set<std::pair<std::string, std::string>> seen;
+    for (const FileKey& key : keys) EXPECT_TRUE(seen.emplace(key.table, key.name).second) << key.table << "." << key.name;
+    EXPECT_GT(seen.size(), 10u);
+  }
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,45 @@
+#include "prowl/io/package_path.hpp"
+
+#include <gtest/gtest.h>
+
+#include "test_files.hpp"
+
+namespace prowl {
+namespace {
+
+class PackagePath : public testing::Test {
+ protected:
+  std::filesystem::path resolve(const std::string& uri) const {
+    return resolve_uri(uri, folder_.path() / "work/robots/dog.toml", {folder_.path() / "own"},
+                       {.folders = {folder_.path() / "given"}, .working_directory = folder_.path() / "elsewhere/deep"});
+  }
+  test::TempFolder folder_;
+};
+
+// From the last place to the first, so that each new file has to win over all before.
+TEST_F(PackagePath, SearchesInOrder) {
+  const std::string uri = "package://dog/urdf/dog.urdf";
+  EXPECT_THROW(resolve(uri), InputError);
+  for (const char* folder : {"elsewhere/.venv/lib/python3.11/site-packages/cmeel.prefix/share",
+                             "work/.venv/lib/python3.12/site-packages/cmeel.prefix/share", "work", "work/robots", "given",
+                             "own"}) {
+    const auto file = folder_.write(std::string(folder) + "/dog/urdf/dog.urdf", "");
+    EXPECT_EQ(resolve(uri), file);
+  }
+}
+
+TEST_F(PackagePath, TakesAFolderThatIsThePackage) {
+  const auto file = folder_.write("src/dog/urdf/dog.urdf", "");
+  EXPECT_EQ(resolve_uri("package://dog/urdf/dog.urdf", "/dog.toml", {}, {.folders = {folder_.path() / "src/dog/"}, .working_directory = {}}), file);
+}
+
+TEST_F(PackagePath, RefusesWhatIsNoPath) {
+  EXPECT_THROW(resolve("file:///etc/passwd"), InputError);
+  EXPECT_THROW(resolve("package://"), InputError);
+  EXPECT_THROW(resolve("package://dog"), InputError);
+  EXPECT_THROW(resolve("package://dog/"), InputError);
+  EXPECT_THROW(resolve("dog.urdf"), InputError);
+}
+
+}  // namespace
+}  // namespace prowl

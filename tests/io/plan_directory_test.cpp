@@ -1,0 +1,189 @@
+#include "prowl/io/plan_directory.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "prowl/io/trajectory_csv.hpp"
+#include "test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+
+/// Two phases of HyQ with numbers that no decimal fraction of few digits can hold.
+PlanRecord make_record(const std::filesystem::path& folder) {
+  const std::string second = "[[phase]]\nname = \"flight\"\ncontacts = [\"lf_foot\"]\nduration_s = 0.3\nintervals = 3\n[start]";
+  const Task task = parse_task({folder / "task.toml", test::replaced(test::kTaskFile, "[start]", second)},
+                               {folder / "hyq.toml", test::kHyqFile}, test::test_search());
+  std::srand(7);  // Eigen's random vectors
+  Plan plan;
+  double begin = 0.0;
+  for (int p = 0; p < 2; ++p) {
+    const Phase& phase = task.problem.phases[static_cast<std::size_t>(p)];
+    for (int i = 0; i <= phase.intervals; ++i) {
+      TrajectoryPoint point{.time = begin + phase.duration.min * i / phase.intervals,
+                            .phase = p,
+                            .q = task.problem.start_configuration(),
+                            .v = Eigen::VectorXd::Random(18),
+                            .a = 1e3 * Eigen::VectorXd::Random(18),
+                            .tau = 1e-12 * Eigen::VectorXd::Random(12),
+                            .force = 1e6 * Eigen::VectorXd::Random(12)};
+      point.q.tail(12).setRandom();
+      plan.trajectory.nodes.push_back(point);
+    }
+    begin += phase.duration.min;
+  }
+  plan.result.status = SolveStatus::interrupted;
+  plan.result.message = "stopped \"by hand\"";
+  plan.result.iterations = 12;
+  plan.result.cost = 1.0 / 3.0;
+  plan.certificate.grade = Grade::draft;
+  plan.certificate.passed = true;
+  plan.certificate.checks.push_back({"contact drift", 1.0 / 7.0, 1e-3, "m", 0.1, "lf_foot", false});
+  plan.certificate.checks.push_back({"torque", std::nan(""), 1.0, "-", 0.2, "", false});
+  plan.certificate.interval_errors.push_back({0.0, 0.4, 1e-5, "v lf_haa_joint"});
+  plan.num_variables = 99;
+  return {.task = task, .plan = plan, .versions = {{"prowl", "1.2.3"}}};
+}
+
+class PlanDirectory : public testing::Test {
+ protected:
+  std::string message() {
+    return test::message_of(folder_.path(), [&] { read_plan(out_, test::test_search()); });
+  }
+  void edit(const std::string& file, const std::string& from, const std::string& to) {
+    const std::string text = test::read_file(out_ / file);
+    folder_.write("out/" + file, test::replaced(text, from, to));
+  }
+  test::TempFolder folder_;
+  const std::filesystem::path out_ = folder_.path() / "out";
+  const PlanRecord record_ = make_record(folder_.path());
+};
+
+TEST_F(PlanDirectory, ReadsBackWhatItWrote) {
+  write_plan(out_, record_);
+  const PlanRecord read = read_plan(out_, test::test_search());
+  ASSERT_EQ(read.plan.trajectory.nodes.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) {
+    const TrajectoryPoint& a = record_.plan.trajectory.nodes[i];
+    const TrajectoryPoint& b = read.plan.trajectory.nodes[i];
+    EXPECT_EQ(a.time, b.time);
+    EXPECT_EQ(a.phase, b.phase);
+    EXPECT_EQ(a.q, b.q) << "to the last bit";
+    EXPECT_EQ(a.v, b.v);
+    EXPECT_EQ(a.a, b.a);
+    EXPECT_EQ(a.tau, b.tau);
+    EXPECT_EQ(a.force, b.force);
+  }
+  EXPECT_EQ(read.plan.result.status, SolveStatus::interrupted);
+  EXPECT_EQ(read.plan.result.message, record_.plan.result.message);
+  EXPECT_EQ(read.plan.result.cost, 1.0 / 3.0);
+  EXPECT_EQ(read.plan.certificate.grade, Grade::draft);
+  ASSERT_EQ(read.plan.certificate.checks.size(), 2u);
+  EXPECT_EQ(read.plan.certificate.checks[0].worst, 1.0 / 7.0);
+  EXPECT_TRUE(std::isnan(read.plan.certificate.checks[1].worst));
+  EXPECT_EQ(read.plan.certificate.interval_errors.at(0).where, "v lf_haa_joint");
+  EXPECT_EQ(read.plan.num_variables, 99);
+  EXPECT_EQ(read.versions, record_.versions);
+  EXPECT_EQ(read.task.problem.phases.size(), 2u);
+  EXPECT_EQ(read.task.task_file.text, record_.task.task_file.text);
+}
+
+TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
+  write_plan(out_, record_);
+  const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
+  EXPECT_EQ(json.at("schema_version"), 1);
+  EXPECT_EQ(json.at("status"), "interrupted");
+  EXPECT_EQ(json.at("finished"), false);
+  EXPECT_EQ(json.at("certificate").at("passed"), true);
+  EXPECT_EQ(json.at("certificate").at("grade"), "draft");
+}
+
+TEST_F(PlanDirectory, ColumnsAreThoseOfTheDocumentation) {
+  const std::vector<std::string> columns = trajectory_columns(record_.task.problem.robot);
+  ASSERT_EQ(columns.size(), 2u + 7 + 6 + 6 + 4 * 12 + 4 * 4);
+  EXPECT_EQ(columns[8], "base_qw");
+  EXPECT_EQ(columns[14], "base_wz_radps");
+  EXPECT_EQ(columns[20], "base_dwz_radps2");
+  EXPECT_EQ(columns[21], "q_lf_haa_joint_rad");
+  EXPECT_EQ(columns[21 + 12], "v_lf_haa_joint_radps");
+  EXPECT_EQ(columns[21 + 24], "a_lf_haa_joint_radps2");
+  EXPECT_EQ(columns[21 + 36], "tau_lf_haa_joint_Nm");
+  EXPECT_EQ(columns[21 + 48], "contact_lf_foot");
+  EXPECT_EQ(columns[21 + 51], "f_lf_foot_z_N");
+}
+
+TEST_F(PlanDirectory, ContactFlagsAreThoseOfThePhase) {
+  const std::string csv = trajectory_to_csv(record_.task.problem, record_.plan.trajectory);
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  for (int row = 0; std::getline(lines, line); ++row) {
+    std::vector<std::string> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    ASSERT_EQ(cells.size(), 85u);
+    const bool second_phase = row >= 6;
+    EXPECT_EQ(cells[1], second_phase ? "1" : "0");
+    EXPECT_EQ(cells[69], "1") << "lf_foot holds in both phases";
+    EXPECT_EQ(cells[73], second_phase ? "0" : "1") << "rf_foot only in the first";
+  }
+}
+
+TEST_F(PlanDirectory, SamplesAUniformGrid) {
+  write_plan(out_, record_, 0.25);
+  const Trajectory samples = sample_uniformly(record_.plan.trajectory, 0.25);
+  ASSERT_EQ(samples.nodes.size(), 11u) << "0, 0.25 ... 2.25 and the end at 2.3";
+  EXPECT_EQ(samples.nodes[1].time, 0.25);
+  EXPECT_EQ(samples.nodes[9].phase, 1);
+  EXPECT_DOUBLE_EQ(samples.nodes[10].time, 2.3);
+  EXPECT_EQ(test::read_file(out_ / "trajectory_uniform.csv"), trajectory_to_csv(record_.task.problem, samples));
+  write_plan(out_, record_);
+  EXPECT_FALSE(std::filesystem::exists(out_ / "trajectory_uniform.csv")) << "of the plan before";
+}
+
+TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
+  EXPECT_EQ(message(), "out/plan.json: no such file");
+  write_plan(out_, record_);
+  edit("plan.json", "\"schema_version\": 1", "\"schema_version\": 2");
+  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 2 is not allowed; need 1");
+  write_plan(out_, record_);
+  edit("plan.json", "\"status\": \"interrupted\"", "\"status\": \"fine\"");
+  EXPECT_THAT(message(), HasSubstr("plan.status: \"fine\" is not allowed; need one of converged, "));
+  write_plan(out_, record_);
+  edit("plan.json", "\"iterations\": 12", "\"iterations\": \"12\"");
+  EXPECT_EQ(message(), "out/plan.json: plan.solver.iterations: \"12\" is not allowed; need an integer");
+  write_plan(out_, record_);
+  edit("plan.json", "\"passed\": true,", "");
+  EXPECT_EQ(message(), "out/plan.json: plan.certificate.passed: missing");
+  write_plan(out_, record_);
+  folder_.write("out/plan.json", "{ torn");
+  EXPECT_THAT(message(), HasSubstr("out/plan.json: "));
+}
+
+TEST_F(PlanDirectory, RefusesATrajectoryThatDoesNotFit) {
+  const std::string csv = trajectory_to_csv(record_.task.problem, record_.plan.trajectory);
+  const auto message_with = [&](const std::string& text) {
+    write_plan(out_, record_);
+    folder_.write("out/trajectory.csv", text);
+    return message();
+  };
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\nnan,0,")),
+              testing::Eq("out/trajectory.csv:3: time_s: \"nan\" is not allowed; need a finite number"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.5,0,")), HasSubstr("trajectory.csv:3: phase 0 at 0.5 s"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,")), HasSubstr("trajectory.csv:3: 84 cells; need 85"));
+  EXPECT_THAT(message_with(test::replaced(csv, "base_px_m", "base_x_m")), HasSubstr("the columns are not those of HyQ"));
+  EXPECT_THAT(message_with(csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1)), HasSubstr("9 rows; the task's mesh has 10"));
+  EXPECT_THAT(message_with(""), HasSubstr("the columns are not those of HyQ"));
+}
+
+TEST_F(PlanDirectory, ReportLeavesTheTextsOut) {
+  const auto json = nlohmann::json::parse(plan_report_json(record_, out_));
+  EXPECT_FALSE(json.at("task_file").contains("text"));
+  EXPECT_EQ(json.at("directory"), out_.string());
+}
+
+}  // namespace
+}  // namespace prowl

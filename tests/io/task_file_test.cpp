@@ -1,0 +1,261 @@
+#include "prowl/io/task_file.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "prowl/model/configuration.hpp"
+#include "test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using test::kHyqFile;
+using test::kTaskFile;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+class TaskFile : public testing::Test {
+ protected:
+  Task read(const std::string& task, const std::string& robot = kHyqFile, const TaskOverrides& overrides = {}) {
+    folder_.write("hyq.toml", robot);
+    return read_task_file(folder_.write("task.toml", task), test::test_search(), overrides);
+  }
+  /// What the user sees if `from` in the right task is replaced by `to`.
+  std::string message(const std::string& from, const std::string& to) {
+    return message_of(test::replaced(kTaskFile, from, to));
+  }
+  std::string message_of(const std::string& task, const std::string& robot = kHyqFile) {
+    return test::message_of(folder_.path(), [&] { read(task, robot); });
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(TaskFile, GivesTheProblemThatItDescribes) {
+  const Task task = read(kTaskFile);
+  const MotionProblem& problem = task.problem;
+  EXPECT_EQ(problem.name, "shift");
+  EXPECT_EQ(problem.robot.name(), "HyQ");
+  ASSERT_EQ(problem.phases.size(), 1u);
+  EXPECT_EQ(problem.phases[0].contacts.size(), 4u);
+  EXPECT_EQ(problem.phases[0].duration.min, 2.0);
+  EXPECT_EQ(problem.phases[0].intervals, 5);
+  ASSERT_EQ(problem.surfaces.size(), 1u);
+  EXPECT_EQ(problem.surfaces[0].friction, 0.5);
+  EXPECT_EQ(problem.running_cost.torque_weight, Eigen::VectorXd::Constant(12, 1e-3));
+  EXPECT_GT(problem.running_cost.tau_ref.norm(), 1.0) << "HyQ does not stand without torque";
+  EXPECT_EQ(problem.start_configuration()(7), -0.1) << "lf_haa_joint is HyQ's first joint";
+  EXPECT_EQ(problem.start_configuration()(8), 0.75) << "not named in [start], so nominal";
+  EXPECT_EQ(task.task_file.text, kTaskFile);
+}
+
+TEST_F(TaskFile, StartIsFixedAndGoalBindsWhatIsNamed) {
+  const MotionProblem problem = read(kTaskFile).problem;
+  ASSERT_EQ(problem.boundary_conditions.size(), 2u);
+  EXPECT_TRUE(problem.start().configuration_lower.isZero(0.0) && problem.start().configuration_upper.isZero(0.0));
+  EXPECT_TRUE(problem.start().velocity_lower.isZero(0.0) && problem.start().velocity_upper.isZero(0.0));
+
+  const BoundaryCondition& goal = problem.boundary_conditions[1];
+  EXPECT_EQ(goal.at, (NodeRef{0, 5}));
+  const Eigen::Vector3d shift = base_position(goal.q_ref) - base_position(problem.start_configuration());
+  EXPECT_NEAR((shift - Eigen::Vector3d(0.05, 0.0, -0.05)).norm(), 0.0, 1e-15);
+  EXPECT_EQ(goal.configuration_lower(0), 0.0);
+  EXPECT_EQ(goal.configuration_upper(0), 0.0);
+  EXPECT_EQ(goal.configuration_lower(1), -kInfinity);
+  EXPECT_EQ(goal.configuration_upper(1), kInfinity);
+  for (int i = 3; i < 18; ++i) EXPECT_EQ(goal.configuration_upper(i), kInfinity) << i;
+  EXPECT_EQ(goal.velocity_lower, Eigen::VectorXd::Constant(18, -kInfinity));
+}
+
+TEST_F(TaskFile, GoalReadsOrientationVelocityJointsAndTorques) {
+  const MotionProblem problem = read(test::replaced(kTaskFile, "[start]", R"(base_rpy_rad = [0.1, "free", 0.3]
+base_angular_velocity_radps = [0, [-1, 2], "free"]
+joints = { lf_kfe_joint = [-1.6, -1.4] }
+joint_velocity_radps = { lf_kfe_joint = 0.5 }
+torque_Nm = { lf_kfe_joint = [10, 20] }
+[start])")).problem;
+  const BoundaryCondition& goal = problem.boundary_conditions[1];
+  EXPECT_TRUE(base_rotation(goal.q_ref).isApprox(rotation_from_rpy({0.1, 0.0, 0.3}), 1e-14));
+  EXPECT_EQ(goal.configuration_upper(3), 0.0);
+  EXPECT_EQ(goal.configuration_upper(4), kInfinity);
+  EXPECT_EQ(goal.configuration_upper(5), 0.0);
+  EXPECT_EQ(goal.velocity_lower(3), 0.0);
+  EXPECT_EQ(goal.velocity_lower(4), -1.0);
+  EXPECT_EQ(goal.velocity_upper(4), 2.0);
+  EXPECT_EQ(goal.velocity_upper(5), kInfinity);
+  EXPECT_EQ(goal.velocity_upper(0), kInfinity) << "the linear velocity was not named";
+  // Relative to q_ref, whose joint stands at -1.5.
+  EXPECT_NEAR(goal.configuration_lower(6 + 2), -0.1, 1e-14);
+  EXPECT_NEAR(goal.configuration_upper(6 + 2), 0.1, 1e-14);
+  EXPECT_EQ(goal.velocity_lower(6 + 2), 0.5);
+  EXPECT_EQ(goal.torque_lower(2), 10.0);
+  EXPECT_EQ(goal.torque_upper(2), 20.0);
+  EXPECT_EQ(goal.torque_upper(1), kInfinity);
+}
+
+TEST_F(TaskFile, PhasesNameContactsAndSurfaces) {
+  const std::string second = R"([[surface]]
+name = "floor"
+[[surface]]
+name = "ice"
+friction = 0.1
+normal = [0, 0, 2]
+[[phase]]
+name = "three"
+contacts = ["rh_foot", { contact = "lf_foot", surface = "ice" }]
+duration_s = 1
+intervals = 2
+[[goal]]
+phase = "three"
+joints = { rf_kfe_joint = -1.2 }
+[cost])";
+  const MotionProblem problem = read(test::replaced(kTaskFile, "[cost]", second)).problem;
+  ASSERT_EQ(problem.phases.size(), 2u);
+  ASSERT_EQ(problem.phases[1].contacts.size(), 2u);
+  EXPECT_EQ(problem.phases[1].contacts[0].contact, problem.robot.contact_index("rh_foot"));
+  EXPECT_EQ(problem.phases[1].contacts[0].surface, 0);
+  EXPECT_EQ(problem.phases[1].contacts[1].contact, problem.robot.contact_index("lf_foot"));
+  EXPECT_EQ(problem.phases[1].contacts[1].surface, 1);
+  EXPECT_NEAR(problem.surfaces[1].normal.norm(), 1.0, 1e-15);
+  EXPECT_EQ(problem.boundary_conditions[2].at, (NodeRef{1, 2}));
+}
+
+TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
+  const Task task = read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5});
+  EXPECT_EQ(task.problem.phases[0].intervals, 40);
+  EXPECT_EQ(task.problem.boundary_conditions[1].at, (NodeRef{0, 40})) << "the goal stays at its time";
+  EXPECT_EQ(task.solver.max_iterations, 7);
+  EXPECT_EQ(task.solver.max_seconds, 1.5);
+}
+
+TEST_F(TaskFile, SlugTellsTasksOfDifferentRobotsApart) {
+  EXPECT_EQ(task_slug("tasks/hyq/crouch.toml"), "hyq_crouch");
+  EXPECT_EQ(task_slug("tasks/go2/../solo12/crouch.toml"), "solo12_crouch");
+}
+
+// What a new user is most likely to get wrong, with the whole message.
+
+TEST_F(TaskFile, RefusesUnknownKey) {
+  EXPECT_EQ(message("duration_s", "duration"),
+            "task.toml:6:1: phase[0].duration: unknown key; did you mean 'duration_s'? "
+            "Known: name, contacts, duration_s, intervals");
+}
+
+TEST_F(TaskFile, RefusesWrongUnit) {
+  EXPECT_THAT(message("[start]", "base_rpy_deg = [0, 10, 0]\n[start]"),
+              StartsWith("task.toml:11:1: goal[0].base_rpy_deg: unknown key; did you mean 'base_rpy_rad'? Known: "));
+  EXPECT_EQ(message("[start]", "base_rpy_rad = [0, 10, 0]\n[start]"),
+            "task.toml:11:20: goal[0].base_rpy_rad[1]: 10 is not allowed; need a number from -6.2832 to 6.2832 [rad]");
+}
+
+TEST_F(TaskFile, RefusesMissingRobotFile) {
+  EXPECT_EQ(message("hyq.toml", "robots/hyq.toml"), "task.toml:2:9: robot: no such file: robots/hyq.toml");
+  EXPECT_EQ(message("robot = \"hyq.toml\"\n", ""),
+            "task.toml:1:1: robot: missing; need path: robot file, relative to this file");
+}
+
+TEST_F(TaskFile, RefusesUnknownContact) {
+  EXPECT_EQ(message("\"all\"", "[\"lf_foot\", \"rf_fot\"]"),
+            "task.toml:5:24: phase[0].contacts[1]: unknown contact \"rf_fot\"; did you mean 'rf_foot'? "
+            "Known: lf_foot, rf_foot, lh_foot, rh_foot");
+  EXPECT_EQ(message("\"all\"", "[\"lf_foot\", \"lf_foot\"]"),
+            "task.toml:5:24: phase[0].contacts[1]: this contact is in the list twice");
+}
+
+TEST_F(TaskFile, RefusesUnknownSurface) {
+  EXPECT_EQ(message("\"all\"", "[{ contact = \"lf_foot\", surface = \"flor\" }]"),
+            "task.toml:5:46: phase[0].contacts[0].surface: unknown surface \"flor\"; did you mean 'floor'? Known: floor");
+}
+
+TEST_F(TaskFile, RefusesWrongType) {
+  EXPECT_EQ(message("2.0\nintervals", "\"2 s\"\nintervals"),
+            "task.toml:6:14: phase[0].duration_s: \"2 s\" is not allowed; need a finite number > 0 [s]");
+  EXPECT_EQ(message("intervals = 5", "intervals = 5.0"),
+            "task.toml:7:13: phase[0].intervals: 5 is not allowed; need an integer from 1 to 10000");
+  EXPECT_EQ(message("[[phase]]", "[phase]"),
+            "task.toml:3:1: phase: a table is not allowed; need one [[phase]] for each");
+}
+
+TEST_F(TaskFile, RefusesNegativeAndZeroDuration) {
+  EXPECT_EQ(message("2.0\nintervals", "-2.0\nintervals"),
+            "task.toml:6:14: phase[0].duration_s: -2 is not allowed; need a finite number > 0 [s]");
+  EXPECT_EQ(message("2.0\nintervals", "0\nintervals"),
+            "task.toml:6:14: phase[0].duration_s: 0 is not allowed; need a finite number > 0 [s]");
+}
+
+TEST_F(TaskFile, RefusesFreeDurationForNow) {
+  EXPECT_EQ(message("2.0\nintervals", "[1.0, 3.0]\nintervals"),
+            "task.toml:6:14: phase[0].duration_s: a duration between two bounds is not supported yet; "
+            "need one number > 0 [s]");
+}
+
+TEST_F(TaskFile, RefusesNotANumber) {
+  EXPECT_EQ(message("torque = 1e-3", "torque = nan"),
+            "task.toml:14:10: cost.torque: nan is not allowed; need a finite number >= 0");
+  EXPECT_EQ(message("torque = 1e-3", "torque = inf"),
+            "task.toml:14:10: cost.torque: inf is not allowed; need a finite number >= 0");
+  EXPECT_EQ(message("[0.05,", "[nan,"),
+            "task.toml:10:24: goal[0].base_displacement_m[0]: nan is not allowed; need a finite number [m]");
+}
+
+TEST_F(TaskFile, RefusesGoalBetweenNodes) {
+  EXPECT_EQ(message("time_s = 2.0", "time_s = 1.0"),
+            "task.toml:9:10: goal[0].time_s: 1 is not at a node of the mesh; the nearest are 0.8 and 1.2 [s]");
+  EXPECT_EQ(message("time_s = 2.0", "time_s = 2.5"),
+            "task.toml:9:10: goal[0].time_s: 2.5 is after the end; need 0 < time <= 2 [s]");
+  EXPECT_EQ(message("time_s = 2.0", "phase = \"stnd\""),
+            "task.toml:9:9: goal[0].phase: unknown phase \"stnd\"; did you mean 'stand'? Known: stand");
+}
+
+TEST_F(TaskFile, RefusesStartOutsideItsLimits) {
+  EXPECT_EQ(message("lf_haa_joint = -0.1", "lf_haa_joint = -1.5"),
+            "task.toml:12:27: start.joints.lf_haa_joint: the start posture has -1.5 rad, outside the joint's limits "
+            "[-1.22173, 0.436332]");
+  const std::string robot = test::replaced(kHyqFile, "rh_kfe_joint = 1.5", "rh_kfe_joint = 3.0");
+  EXPECT_THAT(message_of(kTaskFile, robot),
+              StartsWith("hyq.toml:21:16: nominal.joints.rh_kfe_joint: the start posture has 3 rad, outside"));
+}
+
+TEST_F(TaskFile, RefusesUnknownJoint) {
+  EXPECT_THAT(message("lf_haa_joint = -0.1", "lf_haa_jont = -0.1"),
+              StartsWith("task.toml:12:12: start.joints.lf_haa_jont: unknown joint; did you mean 'lf_haa_joint'? Known: "));
+}
+
+TEST_F(TaskFile, RefusesDuplicateKey) {
+  EXPECT_THAT(message("intervals = 5", "intervals = 5\nintervals = 10"), StartsWith("task.toml:8:"));
+  EXPECT_THAT(message("intervals = 5", "intervals = 5\nintervals = 10"), HasSubstr("intervals"));
+}
+
+TEST_F(TaskFile, RefusesZeroIntervals) {
+  EXPECT_EQ(message("intervals = 5", "intervals = 0"),
+            "task.toml:7:13: phase[0].intervals: 0 is not allowed; need an integer from 1 to 10000");
+}
+
+TEST_F(TaskFile, RefusesNoPhase) {
+  EXPECT_EQ(message_of("robot = \"hyq.toml\"\n"),
+            "task.toml:1:1: phase: missing; need [[phase]], one or more: times with one set of contacts, in order");
+  EXPECT_EQ(message_of("robot = \"hyq.toml\"\nphase = []\n"),
+            "task.toml:2:9: phase: an empty list is not allowed; need one phase or more");
+}
+
+TEST_F(TaskFile, RefusesSyntaxErrors) {
+  EXPECT_THAT(message("intervals = 5", "intervals = "), StartsWith("task.toml:7:13: "));
+  EXPECT_THAT(message("2.0\nintervals", "2,0\nintervals"), StartsWith("task.toml:6:15: "));
+}
+
+TEST_F(TaskFile, RefusesAStartThatHangsInTheAir) {
+  EXPECT_THAT(message("[start]", "[start]\nbase_position_m = [0, 0, 1]"), StartsWith("task.toml: "));
+}
+
+TEST_F(TaskFile, RefusesMissingAndSpecialFiles) {
+  EXPECT_EQ(test::message_of(folder_.path(), [&] { read_task_file(folder_.path() / "crouch.toml", {}); }),
+            "crouch.toml: no such file");
+  EXPECT_THROW(read_task_file(folder_.path(), {}), InputError);
+  EXPECT_THROW(read_task_file("/dev/zero", {}), InputError) << "would never end";
+}
+
+}  // namespace
+}  // namespace prowl
