@@ -3,3 +3,4 @@ prowl_test(dynamics/static_equilibrium prowl::dynamics pinocchio::pinocchio_defa
 prowl_test(dynamics/inverse_kinematics prowl::dynamics)
 prowl_test(dynamics/projector prowl::dynamics)
 prowl_test(dynamics/forward_dynamics prowl::dynamics pinocchio::pinocchio_default)
+target_sources(dynamics_forward_dynamics_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support/null_space_dynamics.cpp)
