@@ -14,7 +14,7 @@ enum class Grade { failed, draft, certified };
 struct CertificateLimits {
   static constexpr double integration_error_certified = 1e-6;  ///< scaled, per interval and coordinate [-]
   static constexpr double integration_error_draft = 1e-4;      ///< [-]
-  static constexpr double reintegration = 1e-3;                ///< scaled, at the end of an interval [-]
+  static constexpr double reintegration = 5e-4;                ///< scaled, at the end of an interval [-]
   static constexpr double defect = 1e-6;                       ///< scaled, also for the state at a phase switch [-]
   static constexpr double start_state = 1e-6;                  ///< [m, rad, m/s, rad/s]
   static constexpr double phase_duration = 1e-6;               ///< [s]

@@ -9,12 +9,13 @@
 namespace prowl {
 namespace {
 
-// The proximal iteration contracts by μ / (μ + smallest non-zero eigenvalue of J M⁻¹ J'), of 1e-3 kg⁻¹ and more:
-// two or three steps. Round-off in directions that J does not see is amplified by 1/μ, hence not smaller.
-constexpr double kProximalMu = 1e-9;
+// The proximal iteration contracts by μ / (μ + smallest non-zero eigenvalue of J M⁻¹ J'), which is 1e-4 kg⁻¹ and more:
+// three steps. In directions that J does not see rounding is amplified by 1/μ, hence not smaller; there the forces move
+// by a little at every step, so that redundant contacts take all of them.
+constexpr double kProximalMu = 1e-8;
 constexpr double kAccelerationAccuracy = 1e-11;  // [m/s^2]
-constexpr double kForceAccuracy = 1e-9;          // [N], between two iterations
-constexpr int kMaxIterations = 20;
+constexpr double kForceAccuracy = 1e-7;          // [N], between two steps
+constexpr int kMaxSteps = 8;
 
 }  // namespace
 
@@ -36,6 +37,19 @@ struct ConstrainedDynamicsOracle::Workspace {
     }
     pinocchio::initConstraintDynamics(model.model, data, constraint_models, constraint_datas);
   }
+
+  // By kinematics: in Pinocchio 4.1 settings.absolute_residual leaves out J times the unconstrained acceleration.
+  double largest_contact_acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
+    pinocchio::forwardKinematics(pinocchio.model, data, q, v, a);
+    double largest = 0.0;
+    for (int contact : contacts) {
+      const auto acceleration = pinocchio::getFrameClassicalAcceleration(
+          pinocchio.model, data, pinocchio.contact_frames[contact], pinocchio::LOCAL_WORLD_ALIGNED);
+      const double size = acceleration.linear().cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+      if (!(size <= largest)) largest = size;
+    }
+    return largest;
+  }
 };
 
 ConstrainedDynamicsOracle::ConstrainedDynamicsOracle(const RobotModel& robot, const std::vector<int>& contacts)
@@ -48,7 +62,7 @@ ConstrainedDynamicsOracle::Motion ConstrainedDynamicsOracle::evaluate(const Eige
                                                                       const Eigen::VectorXd& tau) {
   Workspace& w = *workspace_;
   w.generalized_force.tail(tau.size()) = tau;
-  pinocchio::ProximalSettings settings(kAccelerationAccuracy, kForceAccuracy, kProximalMu, kMaxIterations);
+  pinocchio::ProximalSettings settings(kAccelerationAccuracy, kForceAccuracy, kProximalMu, kMaxSteps);
 
   Motion motion;
 #pragma GCC diagnostic push
@@ -56,7 +70,7 @@ ConstrainedDynamicsOracle::Motion ConstrainedDynamicsOracle::evaluate(const Eige
   motion.a = pinocchio::constraintDynamics(w.pinocchio.model, w.data, q, v, w.generalized_force, w.constraint_models,
                                            w.constraint_datas, settings);
 #pragma GCC diagnostic pop
-  motion.residual = settings.absolute_residual;
+  motion.residual = w.largest_contact_acceleration(q, v, motion.a);
   motion.force = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(w.pinocchio.contact_frames.size()));
   for (std::size_t i = 0; i < w.contacts.size(); ++i) {
     motion.force.segment<3>(3 * w.contacts[i]) = w.data.lambda_c.segment<3>(3 * static_cast<Eigen::Index>(i));

@@ -4,18 +4,15 @@
 #include <iterator>
 
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/so3.hpp"
 
 namespace prowl {
-namespace {
 
-/// Rate of the configuration in the tangent of configuration.hpp: v with its base velocity turned into the world.
 Eigen::VectorXd tangent_rate(const TrajectoryPoint& point) {
   Eigen::VectorXd rate = point.v;
   rate.head<3>() = base_rotation(point.q) * point.v.head<3>();
   return rate;
 }
-
-}  // namespace
 
 TrajectoryPoint interpolate(const TrajectoryPoint& left, const TrajectoryPoint& right, double s) {
   const double h = right.time - left.time;
@@ -32,6 +29,16 @@ TrajectoryPoint interpolate(const TrajectoryPoint& left, const TrajectoryPoint& 
   point.v = left.v + alpha * left.a + beta * right.a;
   point.q = integrate(integrate(left.q, alpha * tangent_rate(left)), beta * tangent_rate(right));
   return point;
+}
+
+Eigen::VectorXd interpolated_rate(const TrajectoryPoint& left, const TrajectoryPoint& right, double s) {
+  const double late = s / (right.time - left.time);
+  Eigen::VectorXd rate = (1 - late) * tangent_rate(left) + late * tangent_rate(right);
+  // R = R_k exp(α w_k) exp(β w_{k+1}) turns at  exp(-β w_{k+1}) α̇ w_k + β̇ w_{k+1},  α̇ = 1 - late, β̇ = late.
+  const Eigen::Vector3d w_right = right.v.segment<3>(3);
+  const double beta = 0.5 * s * late;
+  rate.segment<3>(3) = (1 - late) * so3::exp(-beta * w_right) * left.v.segment<3>(3) + late * w_right;
+  return rate;
 }
 
 TrajectoryPoint sample(const Trajectory& trajectory, double t) {

@@ -28,6 +28,13 @@ struct Trajectory {
 /// At s = h it meets `right` up to the defects that the solver left.
 TrajectoryPoint interpolate(const TrajectoryPoint& left, const TrajectoryPoint& right, double s);
 
+/// Rate of the interpolated configuration at s, in the tangent of configuration.hpp: velocity of the base in the world,
+/// angular velocity in the base frame, joint rates. It meets v at the nodes and is off by O(h^2) between them.
+Eigen::VectorXd interpolated_rate(const TrajectoryPoint& left, const TrajectoryPoint& right, double s);
+
+/// v as such a rate: with its base velocity turned into the world.
+Eigen::VectorXd tangent_rate(const TrajectoryPoint& point);
+
 /// The motion at time t in [0, duration]; at a phase switch, the point of the later phase.
 TrajectoryPoint sample(const Trajectory& trajectory, double t);
 

@@ -1,0 +1,76 @@
+#include "prowl/trajectory/contact_places.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/robots.hpp"
+#include "tests/trajectory/stance_motion.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::ElementsAre;
+constexpr int kStep = 0, kNever = 1, kStays = 2;  // contacts: steps from surface 0 to 1, never touches, always on 0
+
+struct Stepping {
+  MotionProblem problem;
+  Trajectory trajectory;
+  ContactPlaces places;
+};
+
+/// Three phases of one interval; the base moves 1 cm a node along x, and all contacts with it.
+Stepping stepping() {
+  const RobotModel robot = test::hyq();
+  Trajectory trajectory;
+  for (int node = 0; node < 6; ++node) {
+    TrajectoryPoint point;
+    point.time = 0.5 * ((node + 1) / 2);
+    point.phase = node / 2;
+    point.q = robot.nominal_configuration();
+    point.q(0) += 0.01 * node;
+    point.v = Eigen::VectorXd::Zero(robot.nv());
+    trajectory.nodes.push_back(point);
+  }
+  MotionProblem problem = test::problem_of(robot, trajectory);
+  Phase phase{"", {{kStays, 0}}, {0.5, 0.5}, 1};
+  problem.phases.assign(3, phase);
+  problem.phases[0].contacts.push_back({kStep, 0});
+  problem.phases[2].contacts.push_back({kStep, 1});
+  problem.surfaces.assign(3, Surface{});
+
+  PhaseDynamics dynamics;
+  for (int p = 0; p < 3; ++p) dynamics.emplace_back(problem.robot, std::vector<int>{});
+  ContactPlaces places = contact_places(problem, trajectory, dynamics);
+  return {std::move(problem), std::move(trajectory), std::move(places)};
+}
+
+TEST(ContactPlaces, AContactThatStaysKeepsItsAnchor) {
+  const Stepping s = stepping();
+  for (int p = 1; p < 3; ++p) {
+    EXPECT_FALSE(s.places[p][kStays].closes);
+    EXPECT_EQ(s.places[p][kStays].anchor, s.places[0][kStays].anchor);
+    EXPECT_EQ(s.places[p][kStays].time, 0.0);
+  }
+}
+
+TEST(ContactPlaces, AContactThatClosesIsAnchoredAtTheFirstNodeOfThatPhase) {
+  const Stepping s = stepping();
+  const ContactPlace &before = s.places[0][kStep], &after = s.places[2][kStep];
+  EXPECT_TRUE(before.closes);
+  EXPECT_TRUE(after.closes);
+  EXPECT_FALSE(s.places[1][kStep].surface.has_value());
+  EXPECT_EQ(after.time, 1.0);
+  EXPECT_NEAR((after.anchor - before.anchor).x(), 0.04, 1e-12);  // four nodes later
+}
+
+TEST(ContactPlaces, AnOpenContactIsOutsideOfTheSurfaceThatItLeftOrOfTheNext) {
+  const Stepping s = stepping();
+  EXPECT_THAT(s.places[0][kStep].outside_one_of, ElementsAre(0));
+  EXPECT_THAT(s.places[1][kStep].outside_one_of, ElementsAre(0, 1));
+  EXPECT_THAT(s.places[2][kStep].outside_one_of, ElementsAre(1));
+  EXPECT_THAT(s.places[1][kNever].outside_one_of, ElementsAre(0, 1, 2));
+  EXPECT_THAT(s.places[1][kStays].outside_one_of, ElementsAre(0));
+}
+
+}  // namespace
+}  // namespace prowl

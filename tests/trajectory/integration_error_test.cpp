@@ -1,0 +1,76 @@
+#include "prowl/trajectory/integration_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "prowl/trajectory/reintegration.hpp"
+#include "tests/support/robots.hpp"
+#include "tests/trajectory/stance_motion.hpp"
+
+namespace prowl {
+namespace {
+
+/// A crouch of HyQ that also leans and turns: every coordinate moves.
+test::StanceMotion crouch() { return {test::hyq(), 2.0, {0.05, 0.03, -0.10}, {0.06, 0.10, 0.08}}; }
+
+PhaseDynamics dynamics_of(const test::StanceMotion& motion) {
+  PhaseDynamics dynamics;
+  dynamics.emplace_back(motion.robot(), motion.all_contacts());
+  return dynamics;
+}
+
+double largest_error(test::StanceMotion& motion, const Trajectory& trajectory) {
+  PhaseDynamics dynamics = dynamics_of(motion);
+  double largest = 0.0;
+  for (const IntervalError& interval : integration_errors(motion.robot(), trajectory, dynamics)) {
+    largest = std::max(largest, interval.error);
+  }
+  return largest;
+}
+
+TEST(IntegrationError, FallsWithTheCubeOfTheStep) {
+  test::StanceMotion motion = crouch();
+  const double coarse = largest_error(motion, motion.on_mesh(40));
+  const double middle = largest_error(motion, motion.on_mesh(80));
+  const double fine = largest_error(motion, motion.on_mesh(160));
+  RecordProperty("error_40_intervals", std::to_string(coarse));
+  EXPECT_GT(coarse / middle, 6.5);
+  EXPECT_GT(middle / fine, 6.5);
+  EXPECT_GT(fine, 1e-9) << "at rounding there is no order to see";
+}
+
+TEST(IntegrationError, IsOneValueAnIntervalAndSeesTheWrongOne) {
+  test::StanceMotion motion = crouch();
+  Trajectory trajectory = motion.on_mesh(20);
+  const double clean = largest_error(motion, trajectory);
+  trajectory.nodes[7].tau(4) += 20.0;  // [N m]
+  PhaseDynamics dynamics = dynamics_of(motion);
+  const auto errors = integration_errors(motion.robot(), trajectory, dynamics);
+  ASSERT_EQ(errors.size(), 20u);
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    EXPECT_NEAR(errors[k].start, 0.1 * static_cast<double>(k), 1e-12);
+    EXPECT_NEAR(errors[k].end - errors[k].start, 0.1, 1e-12);
+    EXPECT_EQ(errors[k].error > 2.0 * clean, k == 6 || k == 7) << "interval " << k;
+  }
+}
+
+TEST(Reintegration, FollowsAnExactMotionBetterOnAFinerMesh) {
+  test::StanceMotion motion = crouch();
+  PhaseDynamics dynamics = dynamics_of(motion);
+  const double coarse = reintegration_check(motion.robot(), motion.on_mesh(40), dynamics).worst;
+  const double fine = reintegration_check(motion.robot(), motion.on_mesh(80), dynamics).worst;
+  EXPECT_GT(coarse, 1e-9);
+  EXPECT_GT(coarse / fine, 6.5);  // the torque is linear inside an interval: O(h³)
+}
+
+TEST(Reintegration, IsNotFiniteRatherThanEndlessWhenTheMotionBlowsUp) {
+  test::StanceMotion motion = crouch();
+  Trajectory trajectory = motion.on_mesh(2);
+  for (TrajectoryPoint& node : trajectory.nodes) node.tau.setConstant(1e12);
+  PhaseDynamics dynamics = dynamics_of(motion);
+  EXPECT_FALSE(reintegration_check(motion.robot(), trajectory, dynamics).passed);
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,5 @@
+prowl_test(trajectory/trajectory prowl::trajectory)
+prowl_test(trajectory/constrained_dynamics_oracle prowl::trajectory)
+prowl_test(trajectory/contact_places prowl::trajectory)
+prowl_test(trajectory/integration_error prowl::trajectory)
+prowl_test(trajectory/certificate prowl::trajectory)
