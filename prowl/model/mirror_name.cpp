@@ -7,10 +7,18 @@ namespace prowl {
 
 namespace {
 
-/// Replaces every `from` that begins a word (at the start, or after an underscore).
-std::string replace_words(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + 1)) {
-    if (at == 0 || text[at - 1] == '_') text.replace(at, from.size(), to);
+/// Left and right exchanged in all words that begin with one of the two (words: at the start, or after an underscore).
+/// Unchanged if the first of them is the right one, or there is none.
+std::string mirrored(std::string text, const std::string& left, const std::string& right) {
+  bool is_first = true;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (at > 0 && text[at - 1] != '_') continue;
+    const bool is_left = text.compare(at, left.size(), left) == 0;
+    const bool is_right = !is_left && text.compare(at, right.size(), right) == 0;
+    if (is_first && is_right) break;
+    if (is_left) text.replace(at, left.size(), right);
+    if (is_right) text.replace(at, right.size(), left);
+    is_first = is_first && !is_left;
   }
   return text;
 }
@@ -24,7 +32,7 @@ std::optional<std::string> right_counterpart(const std::string& left, const std:
       {"fl", "fr"},      {"FL", "FR"},      {"hl", "hr"},      {"HL", "HR"}, {"rl", "rr"}, {"RL", "RR"}, {"l_", "r_"},
       {"L_", "R_"},      {"L", "R"}};
   for (const auto& [left_word, right_word] : kWords) {
-    const std::string right = replace_words(left, left_word, right_word);
+    const std::string right = mirrored(left, left_word, right_word);
     if (right != left && std::find(names.begin(), names.end(), right) != names.end()) return right;
   }
   return std::nullopt;

@@ -10,7 +10,10 @@ namespace prowl {
 std::optional<std::string> why_not_physical(double mass, const Eigen::Matrix3d& inertia) {
   if (!(mass > 0.0) || !std::isfinite(mass)) return fmt::format("the mass is {} kg; expected mass > 0", mass);
   if (!inertia.allFinite()) return "the inertia is not finite";
-  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvalues();
+  for (double& moment : moments) {
+    if (std::abs(moment) < 1e-12 * moments(2)) moment = 0.0;  // rounding of the eigenvalues
+  }
   const std::string found =
       fmt::format("the principal moments of inertia are {:.4g}, {:.4g}, {:.4g} kg m^2; expected ", moments(0),
                   moments(1), moments(2));

@@ -36,6 +36,7 @@ bool nearly_equal(double a, double b) { return std::abs(a - b) <= kRelative * st
 void check_inertias(const RobotModel& robot, Warnings& warnings) {
   std::vector<std::string> tiny;
   for (const UrdfLink& link : robot.pinocchio().links) {
+    if (link.mass == 0.0 && link.inertia.isZero(0.0)) continue;  // a frame, written as a link
     if (link.mass < kTinyMass * robot.mass()) {
       tiny.push_back(fmt::format("{} {} kg", link.name, link.mass));
     } else if (const auto problem = why_not_physical(link.mass, link.inertia)) {

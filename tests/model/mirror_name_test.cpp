@@ -16,6 +16,7 @@ TEST(MirrorName, FindsTheRightOfEveryNamingStyle) {
   EXPECT_EQ(counterpart("RL_calf_joint", {"FR_calf_joint", "RR_calf_joint"}), "RR_calf_joint");
   EXPECT_EQ(counterpart("leg_left_1_joint", {"leg_right_1_joint"}), "leg_right_1_joint");
   EXPECT_EQ(counterpart("left_front_left", {"right_front_left", "right_front_right"}), "right_front_right");
+  EXPECT_EQ(counterpart("left_front_right", {"right_front_left", "right_front_right"}), "right_front_left");
   EXPECT_EQ(counterpart("LHipYaw", {"RHipYaw"}), "RHipYaw");
   EXPECT_EQ(counterpart("l_knee", {"r_knee"}), "r_knee");
 }
@@ -23,6 +24,7 @@ TEST(MirrorName, FindsTheRightOfEveryNamingStyle) {
 TEST(MirrorName, FindsEachPairOnceAndNothingElse) {
   EXPECT_EQ(counterpart("rf_haa_joint", {"lf_haa_joint", "rf_haa_joint"}), "none");
   EXPECT_EQ(counterpart("FR_HAA", {"FL_HAA", "FR_HAA"}), "none");
+  EXPECT_EQ(counterpart("right_front_left", {"left_front_right"}), "none");
   EXPECT_EQ(counterpart("torso_1_joint", {"torso_1_joint", "torso_2_joint"}), "none");
   EXPECT_EQ(counterpart("self_test", {"serf_test"}), "none") << "'lf' inside a word";
 }

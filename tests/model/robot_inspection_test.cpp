@@ -62,16 +62,26 @@ TEST(RobotInspection, NamesWhatIsKnownToBeOddInTheTestRobots) {
   EXPECT_THAT(texts(inspect(test::hyq()), Kind::inertia),
               testing::UnorderedElementsAre(HasSubstr("next to no mass: base_link 1e-06 kg, lf_foot"),
                                              HasSubstr("link 'trunk_imu': the principal moments")));
-  EXPECT_THAT(texts(inspect(test::anymal_c()), Kind::limit), ElementsAre(HasSubstr("position range beyond +-2 pi")));
-  EXPECT_THAT(texts(inspect(test::go2()), Kind::limit), IsEmpty());
 
+  RobotDescription anymal = test::anymal_c_description();
+  anymal.limits.clear();  // as the URDF says: hips and knees may turn by +-9.42 rad
+  EXPECT_THAT(texts(inspect(RobotModel(anymal)), Kind::limit),
+              ElementsAre(HasSubstr("position range beyond +-2 pi rad (or +-1000 m) is no limit: LF_HFE, LF_KFE")));
   RobotDescription solo = test::solo12_description();
   solo.limits.clear();  // as the URDF says: 1000 N m, 1000 rad/s, +-10 rad
   const auto limits = texts(inspect(RobotModel(solo)), Kind::limit);
   EXPECT_THAT(limits, ElementsAre(HasSubstr("torque limit of 1000"), HasSubstr("velocity limit of 1000"),
                                   HasSubstr("position range beyond")));
   EXPECT_THAT(limits[0], HasSubstr("FL_HAA, FL_HFE"));
-  EXPECT_THAT(texts(inspect(test::solo12()), Kind::limit), IsEmpty());
+}
+
+TEST(RobotInspection, TheLimitsOfTheRobotFilesAreReal) {
+  for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2(), test::talos()}) {
+    EXPECT_THAT(texts(inspect(robot), Kind::limit), IsEmpty()) << robot.name();
+    EXPECT_THAT(texts(inspect(robot), Kind::posture), IsEmpty()) << robot.name();
+    EXPECT_THAT(texts(inspect(robot), Kind::ground), IsEmpty()) << robot.name();
+    EXPECT_THAT(texts(inspect(robot), Kind::symmetry), IsEmpty()) << robot.name();
+  }
 }
 
 TEST(RobotInspection, WarnsOfOneWrongNumberInTheUrdf) {

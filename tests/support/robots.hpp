@@ -16,6 +16,11 @@ inline std::filesystem::path robots_data() {
   return std::filesystem::path(PROWL_ROBOTS_DATA) / "example-robot-data" / "robots";
 }
 
+/// Knees bend one way, front knees to negative angles [rad].
+inline JointLimits knee(double front, double most) {
+  return front > 0.0 ? JointLimits{-most, -0.1, {}, {}} : JointLimits{0.1, most, {}, {}};
+}
+
 inline RobotDescription hyq_description() {
   RobotDescription robot;
   robot.name = "HyQ";
@@ -42,6 +47,8 @@ inline RobotDescription anymal_c_description() {
     robot.nominal_joints[name + "_HAA"] = left * -0.1;
     robot.nominal_joints[name + "_HFE"] = front * 0.7;
     robot.nominal_joints[name + "_KFE"] = -front;
+    robot.limits[name + "_HFE"] = {-2.0, 2.0, {}, {}};
+    robot.limits[name + "_KFE"] = knee(front, 2.6);
   }
   return robot;
 }
@@ -59,7 +66,9 @@ inline RobotDescription solo12_description() {
     robot.nominal_joints[name + "_KFE"] = front * -1.6;
     robot.limits[name + "_HAA"] = {-1.0, 1.0, 30.0, 2.7};
     robot.limits[name + "_HFE"] = {-2.0, 2.0, 30.0, 2.7};
-    robot.limits[name + "_KFE"] = {-2.8, 2.8, 30.0, 2.7};
+    robot.limits[name + "_KFE"] = knee(front, 2.8);
+    robot.limits[name + "_KFE"].velocity = 30.0;
+    robot.limits[name + "_KFE"].torque = 2.7;
   }
   return robot;
 }
