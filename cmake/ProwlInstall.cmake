@@ -15,7 +15,7 @@ install(TARGETS ${layers} EXPORT prowlTargets
 
 set(internal_headers)
 foreach(header ${PROWL_INTERNAL_HEADERS})
-  list(APPEND internal_headers PATTERN ${PROJECT_SOURCE_DIR}/${header} EXCLUDE)
+  list(APPEND internal_headers REGEX /${header}$ EXCLUDE)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/prowl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   FILES_MATCHING PATTERN *.hpp ${internal_headers})
