@@ -29,10 +29,11 @@ void ForwardDynamics::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& 
   }
 }
 
-// docs/theory.md#forward-form. a and f solve   P (M a + h − S' τ) = 0,   J⁺ (J a + J̇ v) = 0,   f = J⁺' (M a + h − S' τ).
+// docs/theory.md#forward-form. a and f solve
+//   P (M a + h − S' τ) = 0,   J⁺ (J a + J̇ v) = 0,   f = J⁺' (M a + h − S' τ).
 // With R = M a + h − S' τ − J' f at fixed a and f, and g = J a + J̇ v at fixed a, the first two give
 //   P (M da + dR) = 0,   J⁺ (J da + dg) = 0   =>   Mc da = −P dR − M J⁺ dg,
-// since P and M C v enter Mc x = P y + M z as they do in a itself (z in the range of J'); and J' df = M da + dR.
+// as in the forward form itself, with −dR for S' τ − h and −J⁺ dg for C v; and J' df = M da + dR.
 void ForwardDynamics::evaluate_with_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                                 const Eigen::VectorXd& tau) {
   evaluate(q, v, tau);

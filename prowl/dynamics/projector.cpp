@@ -24,8 +24,8 @@ void Projector::compute(const Eigen::MatrixXd& J) {
 
 // Why 1e-8. Entries of J are lengths in metres and direction cosines, right to about 1e-15: rows that depend on each
 // other leave pivots of 1e-14 or less, and two points d metres apart on one link leave a pivot of about d. So the
-// threshold parts redundant contacts from all that a robot can have. And it is the square root of the rounding: (J J')⁺,
-// and with it the forces, would have no correct digit below it.
+// threshold parts redundant contacts from all that a robot can have. And it is the square root of the rounding:
+// (J J')⁺, and with it the forces, would have no correct digit below it.
 void Projector::find_rank() {
   rank_ = 0;
   pivot_ratio_ = 1.0;
@@ -42,7 +42,7 @@ void Projector::find_rank() {
   }
 }
 
-// J' Π = V [R1 R2], a trapezoid R1 R2 whose transpose is W T: J = Π W T V', U = Π W (complete orthogonal decomposition).
+// Complete orthogonal decomposition: J' Π = V [R1 R2], a trapezoid; its transpose is W T, so that J = Π W T V', U = Π W.
 void Projector::factor_deficient() {
   Eigen::MatrixXd trapezoid = Eigen::MatrixXd::Zero(qr_.cols(), rank_);
   trapezoid.transpose().triangularView<Eigen::Upper>() = qr_.matrixQR().topRows(rank_);

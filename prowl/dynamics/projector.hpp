@@ -29,8 +29,8 @@ class Projector {
   bool full_rank() const { return rank_ == gram_inverse_.cols(); }
   /// Some pivot ratio lies between kAmbiguousAbove and kAmbiguousBelow: the rank, and with it the forces, is a choice.
   bool rank_is_ambiguous() const { return rank_is_ambiguous_; }
-  /// Smallest pivot that counts over the largest, in (0, 1]; 1 where there is none. It follows the ratio of the singular
-  /// values of J within a small factor, for a fraction of the time.
+  /// Smallest pivot that counts over the largest, in (0, 1]; 1 where there is none. It follows the ratio of the
+  /// singular values of J within a small factor, for a fraction of the time.
   double pivot_ratio() const { return pivot_ratio_; }
 
   const Eigen::MatrixXd& gram_inverse() const { return gram_inverse_; }  ///< (J J')⁺, m × m
