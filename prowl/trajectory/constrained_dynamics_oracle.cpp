@@ -65,8 +65,9 @@ ConstrainedDynamicsOracle::Motion ConstrainedDynamicsOracle::evaluate(const Eige
   pinocchio::ProximalSettings settings(kAccelerationAccuracy, kForceAccuracy, kProximalMu, kMaxSteps);
 
   Motion motion;
+// The warning says only that the interface may change in a later version.
 #pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // says only that its interface may change in a later version
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
   motion.a = pinocchio::constraintDynamics(w.pinocchio.model, w.data, q, v, w.generalized_force, w.constraint_models,
                                            w.constraint_datas, settings);
 #pragma GCC diagnostic pop

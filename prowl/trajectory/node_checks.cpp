@@ -17,11 +17,13 @@ using Limits = CertificateLimits;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSameTime = 1e-9;  // of the two nodes of a phase switch [s]
 
+std::string node_name(std::size_t k) { return "node " + std::to_string(k); }
+
 /// What is wrong with node k of the trajectory, "" if nothing.
 std::string structure_fault(const MotionProblem& problem, const Trajectory& trajectory, std::size_t k, int phase) {
   const RobotModel& robot = problem.robot;
   const TrajectoryPoint& node = trajectory.nodes[k];
-  const std::string name = "node " + std::to_string(k);
+  const std::string name = node_name(k);
   if (node.phase != phase) return name + ": phase";
   if (node.q.size() != robot.nq() || node.v.size() != robot.nv() || node.a.size() != robot.nv()) return name + ": size";
   if (node.tau.size() != robot.nu()) return name + ": size of tau";
@@ -66,7 +68,8 @@ struct BoundaryChecks {
       const bool is_length = i < 3 || (i >= 6 && robot.joint_is_prismatic()[i - 6]);
       const std::string where = condition.name + ", " + coordinate_name(robot, i);
       record(is_start ? start : is_length ? position : angle,
-             violation(offset(i), condition.configuration_lower(i), condition.configuration_upper(i)), node.time, where);
+             violation(offset(i), condition.configuration_lower(i), condition.configuration_upper(i)), node.time,
+             where);
       record(is_start ? start : velocity,
              violation(node.v(i), condition.velocity_lower(i), condition.velocity_upper(i)), node.time, where);
     }
@@ -135,11 +138,11 @@ CertificateCheck structure_check(const MotionProblem& problem, const Trajectory&
     for (int node = 0; node <= problem.phases[p].intervals; ++node, ++k) {
       const bool exists = k < trajectory.nodes.size();
       const std::string fault =
-          exists ? structure_fault(problem, trajectory, k, static_cast<int>(p)) : "node " + std::to_string(k) + ": missing";
+          exists ? structure_fault(problem, trajectory, k, static_cast<int>(p)) : node_name(k) + ": missing";
       faults.record(fault.empty() ? 0.0 : 1.0, exists ? trajectory.nodes[k].time : 0.0, fault);
     }
   }
-  if (k < trajectory.nodes.size()) faults.record(1.0, trajectory.nodes[k].time, "node " + std::to_string(k) + ": extra");
+  if (k < trajectory.nodes.size()) faults.record(1.0, trajectory.nodes[k].time, node_name(k) + ": extra");
   return faults.check();
 }
 

@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
-#include <numeric>
 #include <set>
 
 #include "tests/support/robots.hpp"
@@ -144,18 +144,21 @@ void split_phase(Case& c) {
   c.problem.boundary_conditions[1].at = {1, phases[1].intervals};
 }
 
+constexpr const char* kFinite = "finite numbers, unit quaternions";
+constexpr const char* kNodes = "nodes fit the problem";
+
 BoundaryCondition& goal(Case& c) { return c.problem.boundary_conditions[1]; }
 
 std::vector<Sabotage> state_sabotage() {
   return {
-      {"NaN in a torque", [](Case& c) { c.trajectory.nodes[3].tau(2) = std::nan(""); }, {"finite numbers, unit quaternions"}},
-      {"infinite force", [](Case& c) { c.trajectory.nodes[3].force(2) = INFINITY; }, {"finite numbers, unit quaternions"}},
-      {"quaternion not of unit norm", [](Case& c) { c.trajectory.nodes[3].q(6) *= 1.01; }, {"finite numbers, unit quaternions"}},
-      {"node missing", [](Case& c) { c.trajectory.nodes.pop_back(); }, {"nodes fit the problem"}},
-      {"node too many", [](Case& c) { c.trajectory.nodes.push_back(c.trajectory.nodes.back()); }, {"nodes fit the problem"}},
-      {"no nodes", [](Case& c) { c.trajectory.nodes.clear(); }, {"nodes fit the problem"}},
-      {"time goes back", [](Case& c) { c.trajectory.nodes[4].time = 0.0; }, {"nodes fit the problem"}},
-      {"velocity of wrong size", [](Case& c) { c.trajectory.nodes[4].v.resize(3); }, {"nodes fit the problem"}},
+      {"NaN in a torque", [](Case& c) { c.trajectory.nodes[3].tau(2) = std::nan(""); }, {kFinite}},
+      {"infinite force", [](Case& c) { c.trajectory.nodes[3].force(2) = INFINITY; }, {kFinite}},
+      {"quaternion not of unit norm", [](Case& c) { c.trajectory.nodes[3].q(6) *= 1.01; }, {kFinite}},
+      {"node missing", [](Case& c) { c.trajectory.nodes.pop_back(); }, {kNodes}},
+      {"node too many", [](Case& c) { c.trajectory.nodes.push_back(c.trajectory.nodes.back()); }, {kNodes}},
+      {"no nodes", [](Case& c) { c.trajectory.nodes.clear(); }, {kNodes}},
+      {"time goes back", [](Case& c) { c.trajectory.nodes[4].time = 0.0; }, {kNodes}},
+      {"velocity of wrong size", [](Case& c) { c.trajectory.nodes[4].v.resize(3); }, {kNodes}},
       {"other start", [](Case& c) { c.problem.boundary_conditions[0].q_ref(9) += 1e-3; }, {"start state"}},
       {"goal 2 mm away", [](Case& c) { goal(c).q_ref(1) -= 2e-3; }, {"goal position"}},
       {"goal 2 mrad away", [](Case& c) { goal(c).q_ref(12) += 2e-3; }, {"goal angle"}},
@@ -163,7 +166,9 @@ std::vector<Sabotage> state_sabotage() {
        [](Case& c) { set_base_rotation(goal(c).q_ref, base_rotation(goal(c).q_ref) * so3::exp({0, 0, 2e-3})); },
        {"goal angle"}},
       {"goal moves", [](Case& c) { goal(c).velocity_lower.array() += 0.01; }, {"goal velocity"}},
-      {"goal torque", [](Case& c) { goal(c).torque_upper(4) = c.trajectory.nodes.back().tau(4) - 1.0; }, {"goal torque"}},
+      {"goal torque",
+       [](Case& c) { goal(c).torque_upper(4) = c.trajectory.nodes.back().tau(4) - 1.0; },
+       {"goal torque"}},
       {"phase too long", [](Case& c) { c.problem.phases[0].duration = {0.5, 0.99}; }, {"phase duration"}},
       {"node out of line", [](Case& c) { c.trajectory.nodes[5].q(0) += 1e-4; }, {"defect"}},
       {"jump at a phase switch",
@@ -193,9 +198,7 @@ std::vector<Sabotage> limit_sabotage() {
          set_robot(c, description);
        },
        {"joint position beyond limit"}},
-      {"foot slips sideways",
-       [](Case& c) { drift(c, 1.0, 3e-3); },
-       {"contact drift"}},
+      {"foot slips sideways", [](Case& c) { drift(c, 1.0, 3e-3); }, {"contact drift"}},
       {"foot slips across a phase switch",  // by less than the limit in each phase
        [](Case& c) {
          drift(c, 1.0, 2.5e-3);
