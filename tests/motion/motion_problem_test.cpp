@@ -125,9 +125,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "boundary_conditions[1].configuration: 0.5 to inf for joint 'lf_kfe_joint' is out of its limits"},
         Mistake{"goal_velocity", [](P& p) { p.boundary_conditions[1].velocity_upper(6) = -20.0; },
                 "boundary_conditions[1].velocity: -inf to -20 for joint 'lf_haa_joint'"},
-        Mistake{"goal_torque", [](P& p) { p.boundary_conditions[1].torque_lower(0) = 151.0; },
-                "boundary_conditions[1].torque: 151 to inf for joint 'lf_haa_joint' is out of its limits; need something "
-                "in -150 to 150"}),
+        Mistake{
+            "goal_torque", [](P& p) { p.boundary_conditions[1].torque_lower(0) = 151.0; },
+            "boundary_conditions[1].torque: 151 to inf for joint 'lf_haa_joint' is out of its limits; need something "
+            "in -150 to 150"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -143,11 +144,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"above", [](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0015; },
                 "contact 'lf_foot' of the first phase is 1.5 mm above surface 'floor'; need at most 1 mm"},
         Mistake{"inside", [](P& p) { p.boundary_conditions[0].q_ref(2) -= 0.0015; }, "1.5 mm inside surface 'floor'"},
-        Mistake{"moving",
-                [](P& p) {
-                  p.boundary_conditions[0].velocity_lower(2) = p.boundary_conditions[0].velocity_upper(2) = 0.5;
-                },
-                "contact 'lf_foot' of the first phase moves at 0.5 m/s"}),
+        Mistake{
+            "moving",
+            [](P& p) { p.boundary_conditions[0].velocity_lower(2) = p.boundary_conditions[0].velocity_upper(2) = 0.5; },
+            "contact 'lf_foot' of the first phase moves at 0.5 m/s"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(

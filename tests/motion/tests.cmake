@@ -1,1 +1,3 @@
 prowl_test(motion/motion_problem prowl::motion)
+prowl_test(motion/cost prowl::motion)
+prowl_test(motion/friction_cone prowl::motion)
