@@ -28,9 +28,9 @@ std::string mirrored(std::string text, const std::string& left, const std::strin
 std::optional<std::string> right_counterpart(const std::string& left, const std::vector<std::string>& names) {
   // Leg names of quadrupeds: (left, right) and (fore, hind or rear), in either order.
   static const std::vector<std::pair<std::string, std::string>> kWords = {
-      {"left", "right"}, {"Left", "Right"}, {"LEFT", "RIGHT"}, {"lf", "rf"}, {"LF", "RF"}, {"lh", "rh"}, {"LH", "RH"},
-      {"fl", "fr"},      {"FL", "FR"},      {"hl", "hr"},      {"HL", "HR"}, {"rl", "rr"}, {"RL", "RR"}, {"l_", "r_"},
-      {"L_", "R_"},      {"L", "R"}};
+      {"left", "right"}, {"Left", "Right"}, {"LEFT", "RIGHT"}, {"lf", "rf"}, {"LF", "RF"}, {"lh", "rh"},
+      {"LH", "RH"},      {"fl", "fr"},      {"FL", "FR"},      {"hl", "hr"}, {"HL", "HR"}, {"rl", "rr"},
+      {"RL", "RR"},      {"l_", "r_"},      {"L_", "R_"},      {"L", "R"}};
   for (const auto& [left_word, right_word] : kWords) {
     const std::string right = mirrored(left, left_word, right_word);
     if (right != left && std::find(names.begin(), names.end(), right) != names.end()) return right;

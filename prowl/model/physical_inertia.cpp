@@ -14,9 +14,8 @@ std::optional<std::string> why_not_physical(double mass, const Eigen::Matrix3d& 
   for (double& moment : moments) {
     if (std::abs(moment) < 1e-12 * moments(2)) moment = 0.0;  // rounding of the eigenvalues
   }
-  const std::string found =
-      fmt::format("the principal moments of inertia are {:.4g}, {:.4g}, {:.4g} kg m^2; expected ", moments(0),
-                  moments(1), moments(2));
+  const std::string found = fmt::format("the principal moments of inertia are {:.4g}, {:.4g}, {:.4g} kg m^2; expected ",
+                                        moments(0), moments(1), moments(2));
   if (!(moments(0) > 0.0)) return found + "all > 0";
   if (moments(0) + moments(1) < (1.0 - 1e-4) * moments(2)) {
     return found + "the sum of any two to reach the third (triangle inequality)";

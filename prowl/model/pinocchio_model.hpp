@@ -12,7 +12,7 @@ namespace prowl {
 struct PinocchioModel {
   pinocchio::Model model;
   std::vector<pinocchio::FrameIndex> contact_frames;  ///< one per contact of the robot, same order; origin = its point
-  std::vector<UrdfLink> links;                           ///< with an inertia, before fixed joints merge them into bodies
+  std::vector<UrdfLink> links;                        ///< with an inertia, before fixed joints merge them into bodies
 };
 
 }  // namespace prowl

@@ -12,9 +12,9 @@ namespace prowl {
 /// A place on the robot that may touch a surface: a point fixed to a frame of the URDF, at the centre of a ball of the
 /// given radius, so that it touches when the point is one radius away from the surface. Flat feet are several of them.
 struct ContactPoint {
-  std::string name;     ///< unique in the robot
-  std::string frame;    ///< a frame (link or fixed joint) of the URDF
-  double radius = 0.0;  ///< [m], >= 0
+  std::string name;                                  ///< unique in the robot
+  std::string frame;                                 ///< a frame (link or fixed joint) of the URDF
+  double radius = 0.0;                               ///< [m], >= 0
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the point from the frame's origin, in the frame [m]
 };
 
@@ -29,11 +29,11 @@ struct JointLimits {
 /// What a robot file says, as plain data. Names are not yet checked against the URDF: RobotModel does that.
 struct RobotDescription {
   std::string name;
-  std::filesystem::path urdf;                           ///< absolute
+  std::filesystem::path urdf;  ///< absolute
   std::vector<ContactPoint> contacts;
-  std::map<std::string, double> nominal_joints;         ///< by joint name [rad] or [m]; joints not named are at 0
+  std::map<std::string, double> nominal_joints;  ///< by joint name [rad] or [m]; joints not named are at 0
   Eigen::Vector3d nominal_base_rpy = Eigen::Vector3d::Zero();  ///< [rad]; x, y and height follow from the contacts
-  std::map<std::string, JointLimits> limits;            ///< by joint name
+  std::map<std::string, JointLimits> limits;                   ///< by joint name
 };
 
 }  // namespace prowl

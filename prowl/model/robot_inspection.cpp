@@ -22,17 +22,19 @@ namespace {
 using Kind = RobotWarning::Kind;
 using Warnings = std::vector<RobotWarning>;
 
-constexpr double kNoRealLimit = 1000.0;    // [N m, N, rad/s, m/s, m]: what files write that know no limit
-constexpr double kLevel = 1e-3;            // [m]
-constexpr double kRelative = 1e-3;         // of masses and limits, left against right
-constexpr double kTinyMass = 1e-5;         // of the robot's mass
+constexpr double kNoRealLimit = 1000.0;  // [N m, N, rad/s, m/s, m]: what files write that know no limit
+constexpr double kLevel = 1e-3;          // [m]
+constexpr double kRelative = 1e-3;       // of masses and limits, left against right
+constexpr double kTinyMass = 1e-5;       // of the robot's mass
 // Of the largest singular value: what is below the threshold counts as zero; between the other two it might be either.
 constexpr double kRankThreshold = 1e-8, kSurelyZero = 1e-10, kSurelyNot = 1e-6;
 
-bool nearly_equal(double a, double b) { return std::abs(a - b) <= kRelative * std::max({std::abs(a), std::abs(b), 1e-3}); }
+bool nearly_equal(double a, double b) {
+  return std::abs(a - b) <= kRelative * std::max({std::abs(a), std::abs(b), 1e-3});
+}
 
-/// Such links are harmless here, where fixed joints merge them with heavier ones (else RobotModel refuses them), but not
-/// in every simulator.
+/// Such links are harmless here, where fixed joints merge them with heavier ones (else RobotModel refuses them), but
+/// not in every simulator.
 void check_inertias(const RobotModel& robot, Warnings& warnings) {
   std::vector<std::string> tiny;
   for (const UrdfLink& link : robot.pinocchio().links) {
@@ -44,7 +46,8 @@ void check_inertias(const RobotModel& robot, Warnings& warnings) {
     }
   }
   if (tiny.empty()) return;
-  warnings.push_back({Kind::inertia, fmt::format("links with an inertia but next to no mass: {}", fmt::join(tiny, ", "))});
+  warnings.push_back(
+      {Kind::inertia, fmt::format("links with an inertia but next to no mass: {}", fmt::join(tiny, ", "))});
 }
 
 /// One warning for all joints with the same flaw.
@@ -58,10 +61,12 @@ void warn_of_joints(const RobotModel& robot, Kind kind, const std::string& flaw,
 }
 
 void check_limits(const RobotModel& robot, Warnings& warnings) {
-  warn_of_joints(robot, Kind::limit, fmt::format("torque limit of {} N m (or N) or more is no limit", kNoRealLimit),
-                 [&](Eigen::Index j) { return robot.torque_limit()(j) >= kNoRealLimit; }, warnings);
-  warn_of_joints(robot, Kind::limit, fmt::format("velocity limit of {} rad/s (or m/s) or more is no limit", kNoRealLimit),
-                 [&](Eigen::Index j) { return robot.velocity_limit()(j) >= kNoRealLimit; }, warnings);
+  warn_of_joints(
+      robot, Kind::limit, fmt::format("torque limit of {} N m (or N) or more is no limit", kNoRealLimit),
+      [&](Eigen::Index j) { return robot.torque_limit()(j) >= kNoRealLimit; }, warnings);
+  warn_of_joints(
+      robot, Kind::limit, fmt::format("velocity limit of {} rad/s (or m/s) or more is no limit", kNoRealLimit),
+      [&](Eigen::Index j) { return robot.velocity_limit()(j) >= kNoRealLimit; }, warnings);
   warn_of_joints(
       robot, Kind::limit, "position range beyond +-2 pi rad (or +-1000 m) is no limit",
       [&](Eigen::Index j) {
@@ -74,11 +79,10 @@ void check_limits(const RobotModel& robot, Warnings& warnings) {
 
 void check_posture(const RobotModel& robot, Warnings& warnings) {
   const Eigen::VectorXd joints = robot.nominal_configuration().tail(robot.nu());
-  warn_of_joints(robot, Kind::posture, "nominal posture outside the joint limits",
-                 [&](Eigen::Index j) {
-                   return joints(j) < robot.position_lower()(j) || joints(j) > robot.position_upper()(j);
-                 },
-                 warnings);
+  warn_of_joints(
+      robot, Kind::posture, "nominal posture outside the joint limits",
+      [&](Eigen::Index j) { return joints(j) < robot.position_lower()(j) || joints(j) > robot.position_upper()(j); },
+      warnings);
 }
 
 void check_ground(const RobotModel& robot, const std::vector<Eigen::Vector3d>& points, Warnings& warnings) {
@@ -184,9 +188,10 @@ RobotInspection inspect(const RobotModel& robot) {
   result.contact_rank = static_cast<int>((ratios > kRankThreshold).count());
   for (const double ratio : ratios) {
     if (ratio <= kSurelyZero || ratio >= kSurelyNot) continue;
-    result.warnings.push_back({Kind::contacts, fmt::format("rank of the contact Jacobian is ambiguous: a singular value "
-                                                           "is {:.1e} of the largest; move or drop a contact point",
-                                                           ratio)});
+    result.warnings.push_back(
+        {Kind::contacts, fmt::format("rank of the contact Jacobian is ambiguous: a singular value "
+                                     "is {:.1e} of the largest; move or drop a contact point",
+                                     ratio)});
   }
   return result;
 }

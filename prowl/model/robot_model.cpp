@@ -40,8 +40,8 @@ void read_urdf(const RobotDescription& description, PinocchioModel& pin) {
   try {
     pinocchio::urdf::buildModelFromXML(xml, pinocchio::JointModelFreeFlyer(), pin.model);
   } catch (const std::exception& error) {
-    throw InputError(fmt::format("{}: not a robot that Pinocchio can build: {}", description.urdf.string(),
-                                 error.what()));
+    throw InputError(
+        fmt::format("{}: not a robot that Pinocchio can build: {}", description.urdf.string(), error.what()));
   }
 }
 
@@ -114,8 +114,9 @@ void check_limits(const RobotModel& robot) {
   for (int j = 0; j < robot.nu(); ++j) {
     const std::string& joint = robot.joint_names()[static_cast<std::size_t>(j)];
     const auto refuse = [&](const std::string& found, const std::string& expected) {
-      throw InputError(fmt::format("{}: joint '{}': {} is not allowed; need {} (in the URDF, or in limits.{} of the robot)",
-                                   robot.description().urdf.string(), joint, found, expected, joint));
+      throw InputError(
+          fmt::format("{}: joint '{}': {} is not allowed; need {} (in the URDF, or in limits.{} of the robot)",
+                      robot.description().urdf.string(), joint, found, expected, joint));
     };
     const double lower = robot.position_lower()(j), upper = robot.position_upper()(j);
     const double velocity = robot.velocity_limit()(j), torque = robot.torque_limit()(j);
@@ -177,8 +178,8 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   for (const auto& [name, position] : description_.nominal_joints) {
     const Eigen::Index j = joint_index(description_, joint_names_, "nominal.joints", name);
     if (!std::isfinite(position)) {
-      throw InputError(fmt::format("robot '{}': nominal.joints.{}: {} is not a finite position", this->name(), name,
-                                   position));
+      throw InputError(
+          fmt::format("robot '{}': nominal.joints.{}: {} is not a finite position", this->name(), name, position));
     }
     nominal_configuration_(7 + j) = position;
   }

@@ -33,15 +33,15 @@ class RobotModel {
   int nq() const { return nv() + 1; }
   int nv() const { return 6 + nu(); }
   int nu() const { return static_cast<int>(joint_names_.size()); }
-  double mass() const { return mass_; }                  ///< [kg]
-  double weight() const { return mass_ * kGravity; }     ///< [N]
+  double mass() const { return mass_; }               ///< [kg]
+  double weight() const { return mass_ * kGravity; }  ///< [N]
 
-  const std::vector<std::string>& joint_names() const { return joint_names_; }    ///< nu names
+  const std::vector<std::string>& joint_names() const { return joint_names_; }  ///< nu names
   const std::vector<bool>& joint_is_prismatic() const { return joint_is_prismatic_; }
-  const Eigen::VectorXd& position_lower() const { return position_lower_; }       ///< nu [rad]; -inf where none
-  const Eigen::VectorXd& position_upper() const { return position_upper_; }       ///< nu [rad]; +inf where none
-  const Eigen::VectorXd& velocity_limit() const { return velocity_limit_; }       ///< nu [rad/s]; +inf where none
-  const Eigen::VectorXd& torque_limit() const { return torque_limit_; }           ///< nu [N m]; +inf where none
+  const Eigen::VectorXd& position_lower() const { return position_lower_; }  ///< nu [rad]; -inf where none
+  const Eigen::VectorXd& position_upper() const { return position_upper_; }  ///< nu [rad]; +inf where none
+  const Eigen::VectorXd& velocity_limit() const { return velocity_limit_; }  ///< nu [rad/s]; +inf where none
+  const Eigen::VectorXd& torque_limit() const { return torque_limit_; }      ///< nu [N m]; +inf where none
 
   const std::vector<ContactPoint>& contacts() const { return description_.contacts; }
   /// Index of a contact by name; throws InputError that names the nearest.

@@ -4,8 +4,8 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -102,20 +102,23 @@ void check_link(const Place& place, const XMLElement& link, const std::string& n
 
 void check_moving_joint(const Place& place, const XMLElement& joint, const std::string& type) {
   if (type == "continuous") {
-    place.refuse(joint, "type continuous is not supported; give it limits (for example lower=\"-6.3\" upper=\"6.3\") and "
-                        "type=\"revolute\"");
+    place.refuse(joint,
+                 "type continuous is not supported; give it limits (for example lower=\"-6.3\" upper=\"6.3\") and "
+                 "type=\"revolute\"");
   }
   if (type == "floating") {
-    place.refuse(joint, "type floating is not supported; remove this joint and its parent link: Prowl itself lets the "
-                        "root link float");
+    place.refuse(joint,
+                 "type floating is not supported; remove this joint and its parent link: Prowl itself lets the "
+                 "root link float");
   }
   if (type != "revolute" && type != "prismatic") {
     place.refuse(joint, fmt::format("type {} is not supported; expected revolute, prismatic or fixed{}", type,
                                     type == "planar" ? " (model it as two prismatic joints and a revolute one)" : ""));
   }
   if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
-    place.refuse(*mimic, "mimic joints are not supported: every moving joint has its own actuator; remove <mimic>, or "
-                         "make the joint fixed");
+    place.refuse(*mimic,
+                 "mimic joints are not supported: every moving joint has its own actuator; remove <mimic>, or "
+                 "make the joint fixed");
   }
   const XMLElement* axis = joint.FirstChildElement("axis");  // 1 0 0 if not given
   if (axis != nullptr && check_vector(place, axis, "xyz") < 1e-6) {

@@ -46,7 +46,8 @@ void check_index(const std::string& field, int index, std::size_t size) {
 void check_configuration(const std::string& field, const VectorXd& q, int nq) {
   check_finite(field, q, nq);
   const double norm = base_quaternion(q).norm();
-  if (std::abs(norm - 1.0) > kUnitLength) refuse("{}: base quaternion of length {} is not allowed; need 1", field, norm);
+  if (std::abs(norm - 1.0) > kUnitLength)
+    refuse("{}: base quaternion of length {} is not allowed; need 1", field, norm);
 }
 
 void check_surface(const std::string& field, const Surface& surface) {
@@ -90,8 +91,8 @@ void check_bounds(const std::string& field, const VectorXd& lower, const VectorX
 }
 
 /// Bounds on the joints must leave something of what the robot can do.
-void check_within_robot(const std::string& field, const RobotModel& robot, const VectorXd& lower,
-                        const VectorXd& upper, const VectorXd& robot_lower, const VectorXd& robot_upper) {
+void check_within_robot(const std::string& field, const RobotModel& robot, const VectorXd& lower, const VectorXd& upper,
+                        const VectorXd& robot_lower, const VectorXd& robot_upper) {
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
     if (lower(j) <= robot_upper(j) + kRounding && upper(j) >= robot_lower(j) - kRounding) continue;
     refuse("{}: {} to {} for joint '{}' is out of its limits; need something in {} to {}", field, lower(j), upper(j),
@@ -136,14 +137,16 @@ void check_start_contacts(const MotionProblem& problem) {
     const Surface& surface = problem.surfaces[static_cast<std::size_t>(phase.contacts[i].surface)];
     const double gap = surface.distance(kinematics.positions().segment<3>(row)) - contact.radius;
     if (!(std::abs(gap) <= kOnSurface)) {
-      refuse("boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm {} surface '{}'; need at most "
-             "{} mm",
-             contact.name, 1e3 * std::abs(gap), gap > 0.0 ? "above" : "inside", surface.name, 1e3 * kOnSurface);
+      refuse(
+          "boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm {} surface '{}'; need at most "
+          "{} mm",
+          contact.name, 1e3 * std::abs(gap), gap > 0.0 ? "above" : "inside", surface.name, 1e3 * kOnSurface);
     }
     const double speed = velocities.segment<3>(row).norm();
     if (!(speed <= kAtRest)) {
-      refuse("boundary_conditions[0].velocity: contact '{}' of the first phase moves at {:.4g} m/s; need at most {} m/s",
-             contact.name, speed, kAtRest);
+      refuse(
+          "boundary_conditions[0].velocity: contact '{}' of the first phase moves at {:.4g} m/s; need at most {} m/s",
+          contact.name, speed, kAtRest);
     }
   }
 }

@@ -27,7 +27,8 @@ struct BoundaryCondition {
   Eigen::VectorXd torque_lower, torque_upper;
 
   /// One that binds nothing, about q_ref.
-  static BoundaryCondition unbounded(const RobotModel& robot, std::string name, NodeRef at, const Eigen::VectorXd& q_ref);
+  static BoundaryCondition unbounded(const RobotModel& robot, std::string name, NodeRef at,
+                                     const Eigen::VectorXd& q_ref);
 };
 
 /// Tolerances of the certificate on goals [m, rad, m/s or rad/s, N m].
@@ -55,7 +56,8 @@ struct MotionProblem {
 };
 
 /// Throws InputError, naming the field, unless sizes, indices, ranges and finiteness are right, the start is fixed,
-/// inside the joint limits, and has the contacts of the first phase on their surfaces (within 1 mm) and at rest (1 mm/s).
+/// inside the joint limits, and has the contacts of the first phase on their surfaces (within 1 mm) and at rest (1
+/// mm/s).
 void validate(const MotionProblem& problem);
 
 }  // namespace prowl

@@ -10,7 +10,8 @@ std::string counterpart(const std::string& left, const std::vector<std::string>&
 }
 
 TEST(MirrorName, FindsTheRightOfEveryNamingStyle) {
-  EXPECT_EQ(counterpart("lf_haa_joint", {"lf_haa_joint", "lh_haa_joint", "rf_haa_joint", "rh_haa_joint"}), "rf_haa_joint");
+  EXPECT_EQ(counterpart("lf_haa_joint", {"lf_haa_joint", "lh_haa_joint", "rf_haa_joint", "rh_haa_joint"}),
+            "rf_haa_joint");
   EXPECT_EQ(counterpart("LH_FOOT", {"RF_FOOT", "RH_FOOT"}), "RH_FOOT");
   EXPECT_EQ(counterpart("FL_HAA", {"FR_HAA", "HL_HAA", "HR_HAA"}), "FR_HAA");
   EXPECT_EQ(counterpart("RL_calf_joint", {"FR_calf_joint", "RR_calf_joint"}), "RR_calf_joint");

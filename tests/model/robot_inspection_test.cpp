@@ -61,7 +61,7 @@ TEST(RobotInspection, SingularValuesAreThoseOfAllContactsTogether) {
 TEST(RobotInspection, NamesWhatIsKnownToBeOddInTheTestRobots) {
   EXPECT_THAT(texts(inspect(test::hyq()), Kind::inertia),
               testing::UnorderedElementsAre(HasSubstr("next to no mass: base_link 1e-06 kg, lf_foot"),
-                                             HasSubstr("link 'trunk_imu': the principal moments")));
+                                            HasSubstr("link 'trunk_imu': the principal moments")));
 
   RobotDescription anymal = test::anymal_c_description();
   anymal.limits.clear();  // as the URDF says: hips and knees may turn by +-9.42 rad
@@ -85,8 +85,7 @@ TEST(RobotInspection, TheLimitsOfTheRobotFilesAreReal) {
 }
 
 TEST(RobotInspection, WarnsOfOneWrongNumberInTheUrdf) {
-  EXPECT_THAT(texts(inspect_changed("upper=\"1.5\"", "upper=\"15\""), Kind::limit),
-              ElementsAre(HasSubstr("left_hip")));
+  EXPECT_THAT(texts(inspect_changed("upper=\"1.5\"", "upper=\"15\""), Kind::limit), ElementsAre(HasSubstr("left_hip")));
   EXPECT_THAT(texts(inspect_changed("upper=\"1.5\"", "upper=\"1.2\""), Kind::symmetry),
               ElementsAre(HasSubstr("'left_hip' and 'right_hip' differ in position range: -0.5 to 1.2")));
   EXPECT_THAT(texts(inspect_changed("effort=\"50\"", "effort=\"40\""), Kind::symmetry),

@@ -54,8 +54,8 @@ TEST(RobotModel, LoadsTheFiveRobots) {
     EXPECT_EQ(robot.nq(), joints + 7);
     EXPECT_EQ(robot.nv(), robot.pinocchio().model.nv);
     EXPECT_EQ(robot.nq(), robot.pinocchio().model.nq);
-    for (const auto* limit : {&robot.position_lower(), &robot.position_upper(), &robot.velocity_limit(),
-                              &robot.torque_limit()}) {
+    for (const auto* limit :
+         {&robot.position_lower(), &robot.position_upper(), &robot.velocity_limit(), &robot.torque_limit()}) {
       EXPECT_EQ(limit->size(), joints);
       EXPECT_TRUE(limit->allFinite());
     }
@@ -73,10 +73,9 @@ TEST(RobotModel, GravityIsTheOneOfPinocchio) {
 
 TEST(RobotModel, JointsAreInPinocchiosOrderWithTheLimitsOfTheUrdf) {
   const RobotModel robot = test::hyq();
-  EXPECT_THAT(robot.joint_names(),
-              ElementsAre("lf_haa_joint", "lf_hfe_joint", "lf_kfe_joint", "lh_haa_joint", "lh_hfe_joint", "lh_kfe_joint",
-                          "rf_haa_joint", "rf_hfe_joint", "rf_kfe_joint", "rh_haa_joint", "rh_hfe_joint",
-                          "rh_kfe_joint"));
+  EXPECT_THAT(robot.joint_names(), ElementsAre("lf_haa_joint", "lf_hfe_joint", "lf_kfe_joint", "lh_haa_joint",
+                                               "lh_hfe_joint", "lh_kfe_joint", "rf_haa_joint", "rf_hfe_joint",
+                                               "rf_kfe_joint", "rh_haa_joint", "rh_hfe_joint", "rh_kfe_joint"));
   EXPECT_EQ(robot.torque_limit(), Eigen::VectorXd::Constant(12, 150.0));
   EXPECT_EQ(robot.velocity_limit(), Eigen::VectorXd::Constant(12, 12.0));
   EXPECT_NEAR(robot.position_lower()(2), -2.4435, 1e-4);  // lf_kfe_joint
@@ -122,7 +121,7 @@ TEST(RobotModel, TheLowestContactTouchesEvenIfTheBaseIsTilted) {
   const RobotModel robot(description);
   const auto points = contact_points(robot, robot.nominal_configuration());
   EXPECT_NEAR(points[0].z(), 0.02175, 1e-9);  // lf
-  EXPECT_GT(points[1].z(), 0.1);               // lh
+  EXPECT_GT(points[1].z(), 0.1);              // lh
 }
 
 TEST(RobotModel, ContactsMayBeOffsetFromTheirFrame) {

@@ -102,10 +102,14 @@ inline RobotDescription talos_description() {
       }
     }
     const std::map<std::string, double> joints = {
-        {"leg_" + name + "_3_joint", -0.411354},       {"leg_" + name + "_4_joint", 0.859395},
-        {"leg_" + name + "_5_joint", -0.448041},       {"leg_" + name + "_6_joint", -0.001708},
-        {"arm_" + name + "_1_joint", left * 0.25847},  {"arm_" + name + "_2_joint", left * 0.173046},
-        {"arm_" + name + "_3_joint", left * -0.0002},  {"arm_" + name + "_4_joint", -0.525366},
+        {"leg_" + name + "_3_joint", -0.411354},
+        {"leg_" + name + "_4_joint", 0.859395},
+        {"leg_" + name + "_5_joint", -0.448041},
+        {"leg_" + name + "_6_joint", -0.001708},
+        {"arm_" + name + "_1_joint", left * 0.25847},
+        {"arm_" + name + "_2_joint", left * 0.173046},
+        {"arm_" + name + "_3_joint", left * -0.0002},
+        {"arm_" + name + "_4_joint", -0.525366},
         {"arm_" + name + "_7_joint", 0.1},
     };
     robot.nominal_joints.insert(joints.begin(), joints.end());
