@@ -84,7 +84,7 @@ intervals = 5
 time_s = 2.0
 base_displacement_m = [0.05, "free", -0.05]
 [start]
-joints = { lf_haa_joint = -0.1 }
+joints = { lf_haa_joint = -0.1, rf_haa_joint = -0.1, lh_haa_joint = -0.1, rh_haa_joint = -0.1 }
 [cost]
 torque = 1e-3
 )";

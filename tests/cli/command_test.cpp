@@ -1,0 +1,181 @@
+// The command as a user meets it: the real binary, its exit status, what it prints and what it writes.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "../io/test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+/// HyQ stands still, by cost alone: a second of solving.
+const std::string kHold = R"(robot = "hyq.toml"
+[[phase]]
+contacts = "all"
+duration_s = 2.0
+intervals = 5
+[cost]
+joint_position = 1.0
+joint_velocity = 0.1
+torque = 1e-3
+)";
+
+struct Outcome {
+  int status = -1;
+  std::string out, error;
+};
+
+class Command : public testing::Test {
+ protected:
+  Command() {
+    folder_.write("hyq.toml", test::kHyqFile);
+    folder_.write("hold.toml", kHold);
+  }
+  /// Runs a shell script in the test's folder, in which $prowl is the command and $dirs finds the robots.
+  Outcome run(const std::string& script) const {
+    const std::string setup = "cd '" + folder_.path().string() + "'; prowl='" PROWL_COMMAND
+                              "'; dirs='--package-dir " PROWL_ROBOTS_DATA "'; (" + script + ") >.out 2>.err";
+    const int status = std::system(setup.c_str());
+    return {WEXITSTATUS(status), test::read_file(folder_.path() / ".out"), test::read_file(folder_.path() / ".err")};
+  }
+  bool written() const { return std::filesystem::exists(folder_.path() / "out"); }
+  nlohmann::json plan() const { return nlohmann::json::parse(test::read_file(folder_.path() / "out/plan.json")); }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(Command, TellsVersionsAndHelp) {
+  const Outcome version = run("$prowl --version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, StartsWith("prowl "));
+  for (const char* part : {"Ipopt 3.14", "Pinocchio 4", "Eigen 3.4"}) EXPECT_THAT(version.out, HasSubstr(part));
+  for (const char* verb : {"", "plan", "check", "robot"}) {
+    const Outcome help = run(std::string("$prowl ") + verb + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.out, HasSubstr("Example")) << verb;
+  }
+}
+
+TEST_F(Command, SuggestsWhatWasMeant) {
+  const Outcome verb = run("$prowl plna hold.toml");
+  EXPECT_EQ(verb.status, 2);
+  EXPECT_THAT(verb.error, HasSubstr("did you mean 'plan'?"));
+  const Outcome option = run("$prowl plan hold.toml --intervalls 7");
+  EXPECT_EQ(option.status, 2);
+  EXPECT_THAT(option.error, HasSubstr("did you mean '--intervals'?"));
+  EXPECT_EQ(run("$prowl").status, 2);
+  EXPECT_EQ(run("$prowl plan").status, 2);
+}
+
+TEST_F(Command, ShowsARobot) {
+  const Outcome text = run("$prowl robot hyq.toml $dirs");
+  EXPECT_EQ(text.status, 0) << text.error;
+  EXPECT_THAT(text.out, HasSubstr("rank 12"));
+  EXPECT_THAT(text.out, HasSubstr("150 N m"));
+  const auto json = nlohmann::json::parse(run("$prowl robot hyq.toml $dirs --json").out);
+  EXPECT_EQ(json.at("joints").size(), 12u);
+  EXPECT_EQ(run("$prowl robot hyq.toml $dirs >/dev/full").status, 4) << "standard output on a full disk";
+}
+
+TEST_F(Command, PlansAndChecks) {
+  const Outcome result = run("$prowl plan hold.toml $dirs --out out --dt 0.1");
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_THAT(result.out, HasSubstr("certificate: passed"));
+  EXPECT_THAT(result.error, HasSubstr("iteration      objective")) << "no progress";
+  EXPECT_THAT(result.error + result.out, Not(HasSubstr("\x1b"))) << "terminal codes in a pipe";
+  EXPECT_EQ(plan().at("status"), "converged");
+  EXPECT_EQ(plan().at("finished"), true);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/trajectory_uniform.csv"));
+  EXPECT_EQ(run("$prowl check out $dirs").status, 0);
+
+  // Another torque at one node: the motion no longer follows from it.
+  const auto csv = folder_.path() / "out/trajectory.csv";
+  std::istringstream lines(test::read_file(csv));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("0.8,")) {
+      std::size_t at = 0;
+      for (int column = 0; column < 21 + 36 + 2; ++column) at = line.find(',', at) + 1;
+      line = line.substr(0, at) + "149" + line.substr(line.find(',', at));
+    }
+    text += line + "\n";
+  }
+  folder_.write("out/trajectory.csv", text);
+  const Outcome check = run("$prowl check out $dirs");
+  EXPECT_EQ(check.status, 7) << check.out << check.error;
+  EXPECT_THAT(check.out, HasSubstr("FAIL"));
+}
+
+TEST_F(Command, PrintsNothingButJsonIfAsked) {
+  const Outcome result = run("$prowl plan hold.toml $dirs --out out --json");
+  ASSERT_EQ(result.status, 0) << result.error;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("certificate").at("passed"), true);
+  EXPECT_EQ(json.at("solver").at("iterations"), plan().at("solver").at("iterations"));
+}
+
+TEST_F(Command, WritesNothingOnBadInput) {
+  folder_.write("bad.toml", test::replaced(kHold, "duration_s", "duration"));
+  for (const char* arguments : {"bad.toml $dirs", "missing.toml", ". $dirs", "hold.toml $dirs --dt nan",
+                                "hold.toml $dirs --max-time 0", "hold.toml $dirs --intervals 0", "hold.toml $dirs --dt 1e-9"}) {
+    const Outcome result = run(std::string("$prowl plan --out out ") + arguments);
+    EXPECT_EQ(result.status, 2) << arguments << result.error;
+    EXPECT_FALSE(written()) << arguments;
+    EXPECT_THAT(result.error, StartsWith("prowl: ")) << arguments;
+    EXPECT_EQ(result.out, "");
+  }
+  EXPECT_THAT(run("$prowl plan bad.toml $dirs").error,
+              StartsWith("prowl: bad.toml:4:1: phase[0].duration: unknown key; did you mean 'duration_s'?"));
+  EXPECT_EQ(run("$prowl check missing").status, 2);
+}
+
+TEST_F(Command, LooksAtTheFolderBeforeItSolves) {
+  folder_.write("file", "");
+  const Outcome result = run("$prowl plan hold.toml $dirs --out file/out");
+  EXPECT_EQ(result.status, 4);
+  EXPECT_THAT(result.error, Not(HasSubstr("iteration"))) << "a solve for nothing";
+  folder_.write("out/thesis.tex", "years of work");
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 4);
+  EXPECT_EQ(test::read_file(folder_.path() / "out/thesis.tex"), "years of work");
+}
+
+TEST_F(Command, SaysThatALimitWasReached) {
+  const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, -0.1]\n";
+  folder_.write("shift.toml", kHold + shift);
+  const Outcome result = run("$prowl plan shift.toml $dirs --out out --max-iterations 1");
+  EXPECT_EQ(result.status, 6) << result.error;
+  EXPECT_EQ(plan().at("status"), "iteration_limit");
+  EXPECT_EQ(plan().at("finished"), false);
+  EXPECT_EQ(run("$prowl check out $dirs").status, 6) << "a check does not finish it";
+}
+
+TEST_F(Command, KeepsTheBestIterateOnInterrupt) {
+  const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, -0.1]\n";
+  folder_.write("shift.toml", kHold + shift);
+  // Ctrl-C once the first iteration is reported; 400 intervals take far longer than the signal.
+  const Outcome result = run(
+      "$prowl plan shift.toml $dirs --out out --intervals 400 2>progress & pid=$!; "
+      "for i in $(seq 600); do grep -q ' s$' progress && break; sleep 0.1; done; kill -INT $pid; wait $pid");
+  EXPECT_EQ(result.status, 130) << result.error;
+  ASSERT_TRUE(written());
+  EXPECT_EQ(plan().at("status"), "interrupted");
+  EXPECT_EQ(plan().at("finished"), false);
+  EXPECT_THAT(result.out, HasSubstr("not finished: interrupted"));
+}
+
+TEST_F(Command, SaysThatAGoalIsOutOfReach) {
+  const std::string far = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, 1.5]\n";  // twice its legs
+  folder_.write("far.toml", kHold + far);
+  const Outcome result = run("$prowl plan far.toml $dirs --out out --intervals 2 --max-iterations 3000");
+  EXPECT_EQ(result.status, 3) << result.error;
+  EXPECT_EQ(plan().at("finished"), false);
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,5 @@
+if(PROWL_BUILD_CLI)
+  prowl_test(cli/command prowl::io nlohmann_json::nlohmann_json)
+  target_compile_definitions(cli_command_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
+  add_dependencies(cli_command_test prowl_cli)
+endif()
