@@ -103,6 +103,7 @@ TEST(InverseKinematics, PutsAStartOutsideTheLimitsInside) {
   VectorXd start = robot.nominal_configuration();
   const auto targets = places_at(robot, start);
   start(7) = robot.position_upper()(0) + 0.3;
+  expect_within_limits(robot, inverse_kinematics(robot, start, {}).q);
   const InverseKinematics found = inverse_kinematics(robot, start, targets);
   EXPECT_TRUE(found.converged);
   expect_within_limits(robot, found.q);

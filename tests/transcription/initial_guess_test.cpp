@@ -12,14 +12,16 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A motion of 2 s and 40 intervals on all contacts, from rest in the nominal posture.
+/// A motion of 2 s and 40 intervals on all contacts, from rest in the nominal posture, heading away from the x axis.
 MotionProblem standing(const RobotDescription& description) {
   MotionProblem problem{.robot = RobotModel(description)};
   problem.surfaces = {Surface{}};
   Phase phase{.name = "stand", .duration = {2.0, 2.0}, .intervals = 40};
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) phase.contacts.push_back({c, 0});
   problem.phases = {phase};
-  auto start = BoundaryCondition::unbounded(problem.robot, "start", {0, 0}, problem.robot.nominal_configuration());
+  const VectorXd turn = 1.2 * VectorXd::Unit(problem.robot.nv(), 5);
+  auto start = BoundaryCondition::unbounded(problem.robot, "start", {0, 0},
+                                            integrate(problem.robot.nominal_configuration(), turn));
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
@@ -175,6 +177,19 @@ TEST(InitialGuess, LetsFreeCoordinatesPassAWaypoint) {
   EXPECT_NEAR(guess.nodes[20].q(0), problem.start_configuration()(0) + 0.04, 1e-9) << "forward is halfway at half time";
 }
 
+TEST(InitialGuess, PassesAWaypointAtThePrescribedVelocity) {
+  MotionProblem problem = standing(test::hyq_description());
+  BoundaryCondition passing = base_goal(problem, {0, 20}, Vector3d(0.02, 0.03, -0.03), Vector3d::Zero());
+  const Vector3d velocity(0.06, -0.02, -0.03);  // in the base frame
+  passing.velocity_lower.head<3>() = passing.velocity_upper.head<3>() = velocity;
+  problem.boundary_conditions.push_back(passing);
+  problem.boundary_conditions.push_back(base_goal(problem, {0, 40}, Vector3d(0.04, 0.06, -0.06), Vector3d::Zero()));
+  const Trajectory guess = guess_of(problem);
+  expect_meets_conditions(problem, guess);
+  const Vector3d moved = guess.nodes[21].q.head<3>() - guess.nodes[19].q.head<3>();
+  EXPECT_LT((moved / 0.1 - base_rotation(guess.nodes[20].q) * velocity).norm(), 0.1 * velocity.norm());
+}
+
 TEST(InitialGuess, KeepsThePostureOfLegsInTheAir) {
   MotionProblem problem = standing(test::hyq_description());
   const int lf = problem.robot.contact_index("lf_foot");
@@ -211,6 +226,16 @@ TEST(InitialGuess, BringsJointsToAPrescribedPosture) {
   const Trajectory guess = guess_of(problem);
   expect_meets_conditions(problem, guess);
   EXPECT_NEAR(guess.nodes[20].q(8), problem.start_configuration()(8) + 0.15, 1e-9);
+}
+
+TEST(InitialGuess, PutsAPrescribedJointBeforeTheFeet) {
+  MotionProblem problem = standing(test::hyq_description());
+  const VectorXd change = VectorXd::Unit(problem.robot.nv(), 7) * 0.3;
+  auto posture = BoundaryCondition::unbounded(problem.robot, "one joint", {0, 40},
+                                              integrate(problem.start_configuration(), change));
+  posture.configuration_lower(7) = posture.configuration_upper(7) = 0.0;
+  problem.boundary_conditions.push_back(posture);
+  expect_meets_conditions(problem, guess_of(problem));
 }
 
 }  // namespace

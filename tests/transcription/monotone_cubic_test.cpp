@@ -46,6 +46,11 @@ TEST(MonotoneCubic, TakesGivenSlopes) {
   for (const double t : {0.3, 1.0, 2.7}) EXPECT_NEAR(line(t), 1.0 + 2.0 * t, 1e-14);
 }
 
+TEST(MonotoneCubic, KeepsAStraightLineStraight) {
+  const MonotoneCubic line({{0.0, 1.0, 2.0}, {1.0, 3.0, {}}, {3.0, 7.0, {}}, {3.5, 8.0, 2.0}});
+  for (const double t : {0.2, 0.9, 1.5, 2.8, 3.4}) EXPECT_NEAR(line(t), 1.0 + 2.0 * t, 1e-14);
+}
+
 TEST(MonotoneCubic, IsConstantBeyondItsEnds) {
   const MonotoneCubic curve(kWaypoints);
   EXPECT_EQ(curve(-3.0), 1.0);
