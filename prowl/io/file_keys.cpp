@@ -99,7 +99,7 @@ const FileKeys& robot_file_keys() {
       {"", "nominal", "[nominal]", "the posture that motions start from unless said otherwise"},
       {"", "limits", "[limits.JOINT]", "limits that replace those of the URDF"},
       {"contact", "name", "string", "unique in the robot"},
-      {"contact", "frame", "string", "link or joint of the URDF"},
+      {"contact", "frame", "string", "link or fixed joint of the URDF"},
       {"contact", "radius_m", "number >= 0 [m]; default 0", "of the ball around the point"},
       {"contact", "offset_m", "3 numbers [m]; default [0, 0, 0]", "centre of the ball, in the frame"},
       {"nominal", "base_rpy_rad", "3 numbers [rad]; default [0, 0, 0]",
