@@ -52,9 +52,9 @@ struct BoundaryChecks {
   explicit BoundaryChecks(const GoalTolerance& tolerance)
       : position("goal position", "m", tolerance.position),
         angle("goal angle", "rad", tolerance.angle),
-        velocity("goal velocity", "m/s, rad/s", tolerance.velocity) {}
+        velocity("goal velocity", "SI", tolerance.velocity) {}
 
-  WorstCase start{"start state", "m, rad, m/s, rad/s", Limits::start_state};
+  WorstCase start{"start state", "SI", Limits::start_state};
   WorstCase position, angle, velocity;
   WorstCase torque{"goal torque", "of limit", Limits::goal_torque};
 

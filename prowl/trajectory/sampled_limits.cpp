@@ -116,7 +116,7 @@ class JointChecks {
 
  private:
   const RobotModel& robot_;
-  WorstCase position_{"joint position beyond limit", "rad or m", Limits::joint_position};
+  WorstCase position_{"joint position beyond limit", "SI", Limits::joint_position};
   WorstCase velocity_{"joint velocity", "of limit", Limits::velocity_ratio};
   WorstCase torque_{"joint torque", "of limit", Limits::torque_ratio};
 };
