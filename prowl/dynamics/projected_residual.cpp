@@ -1,27 +1,52 @@
 #include "prowl/dynamics/projected_residual.hpp"
 
+#include <algorithm>
+
 #include "prowl/error.hpp"
 
 namespace prowl {
 
-ProjectedResidual::ProjectedResidual(const RobotModel& robot, std::vector<int> contacts)
+ProjectedResidual::ProjectedResidual(const RobotModel& robot, std::vector<int> contacts, std::vector<int> chosen_rows)
     : mass_(robot.mass()),
       terms_(robot),
       kinematics_(std::move(contacts)),
+      chosen_rows_(std::move(chosen_rows)),
       second_(robot.nv()),
-      kinematic_second_(robot.nv()) {}
+      kinematic_second_(robot.nv()) {
+  for (int row = 0; row < kinematics_.rows(); ++row) {
+    if (std::ranges::find(chosen_rows_, row) == chosen_rows_.end()) kept_rows_.push_back(row);
+  }
+}
+
+void ProjectedResidual::compute_gram_inverse() {
+  if (chosen_rows_.empty()) {
+    projector_.compute(kinematics_.jacobian());
+    gram_inverse_ = projector_.gram_inverse();
+    return;
+  }
+  kept_ = kinematics_.jacobian()(kept_rows_, Eigen::all);
+  projector_.compute(kept_);
+  gram_inverse_.setZero(kinematics_.rows(), kinematics_.rows());
+  gram_inverse_(kept_rows_, kept_rows_) = projector_.gram_inverse();
+}
 
 void ProjectedResidual::compute_forces(const DynamicsPoint& point) {
   const auto nu = point.tau.size();
   kinematics_.set_configuration(terms_);
   kinematics_.set_motion(point.v, point.a + point.stabilisation.kd * point.v);
-  projector_.compute(kinematics_.jacobian());
+  compute_gram_inverse();
 
   r_ = terms_.inverse_dynamics();
   r_.tail(nu) -= point.tau;
+  for (std::size_t i = 0; i < chosen_rows_.size(); ++i) {
+    r_ -= point.chosen_forces(static_cast<Eigen::Index>(i)) * kinematics_.jacobian().row(chosen_rows_[i]).transpose();
+  }
   e_ = kinematics_.acceleration() + point.stabilisation.kp * (kinematics_.positions() - point.anchors);
-  f_ = projector_.gram_inverse() * (kinematics_.jacobian() * r_ - mass_ * e_);
+  f_ = gram_inverse_ * (kinematics_.jacobian() * r_ - mass_ * e_);
   c_ = r_ - kinematics_.jacobian().transpose() * f_;
+  for (std::size_t i = 0; i < chosen_rows_.size(); ++i) {
+    f_(chosen_rows_[i]) = point.chosen_forces(static_cast<Eigen::Index>(i));
+  }
   if (!c_.allFinite() || !f_.allFinite()) {
     throw NumericalError("the projected dynamics are not finite here: a state, torque or inertia is NaN or too large");
   }
@@ -37,7 +62,7 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   compute_forces(point);
 
   const Eigen::MatrixXd& J = kinematics_.jacobian();
-  const Eigen::MatrixXd& W = projector_.gram_inverse();
+  const Eigen::MatrixXd& W = gram_inverse_;
   const double kd = point.stabilisation.kd, kp = point.stabilisation.kp;
   const auto nu = point.tau.size();
 
@@ -60,12 +85,19 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   df_.v = J * dc_.v - mass_ * (work_m_ + kd * J);
   df_.a = J * dc_.a - mass_ * J;
   df_.tau = -J.rightCols(nu);
-  for (Eigen::MatrixXd* y : {&df_.q, &df_.v, &df_.a, &df_.tau}) *y = W * *y;
+  dc_.w = -J(chosen_rows_, Eigen::all).transpose();
+  df_.w = J * dc_.w;
+  dc_.e.setZero(terms_.nv(), J.rows());
+  for (Eigen::MatrixXd* y : {&df_.q, &df_.v, &df_.a, &df_.tau, &df_.w}) *y = W * *y;
+  df_.e = -mass_ * W;
 
   dc_.q -= J.transpose() * df_.q;
   dc_.v -= J.transpose() * df_.v;
   dc_.a -= J.transpose() * df_.a;
   dc_.tau -= J.transpose() * df_.tau;
+  dc_.w -= J.transpose() * df_.w;
+  dc_.e -= J.transpose() * df_.e;
+  for (std::size_t i = 0; i < chosen_rows_.size(); ++i) df_.w(chosen_rows_[i], static_cast<Eigen::Index>(i)) = 1.0;
   if (has_full_rank()) return;
 
   // Redundant contacts: the part of e that no motion can remove turns with J, and so does the choice of f.
@@ -90,7 +122,8 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
 
   // (c, f) solve  c + J' f = r,  J c = s e.  With the adjoint (l1, l2) of that system,
   //   d2(mu.c + nu.f) = l1.d2r + s l2.d2e - f.d2J l1 - l2.d2J c - 2 df.dJ l1 - 2 l2.dJ dc.
-  const Eigen::VectorXd l2 = projector_.gram_inverse() * (J * mu - nu);
+  // A chosen row has no part in either sum but its force, w in r: l2 is zero there.
+  const Eigen::VectorXd l2 = gram_inverse_ * (J * mu - nu);
   const Eigen::VectorXd l1 = mu - J.transpose() * l2;
 
   second_.set_zero();
@@ -118,6 +151,8 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   hessian_.qv -= work_m_.transpose() * df_.v + work_n_.transpose() * dc_.v;
   hessian_.qa -= work_m_.transpose() * df_.a + work_n_.transpose() * dc_.a;
   hessian_.qtau = -(work_m_.transpose() * df_.tau + work_n_.transpose() * dc_.tau);
+  hessian_.qw = -(work_m_.transpose() * df_.w + work_n_.transpose() * dc_.w);
+  hessian_.qe = -(work_m_.transpose() * df_.e + work_n_.transpose() * dc_.e);
   return hessian_;
 }
 

@@ -20,16 +20,19 @@ struct DynamicsPoint {
   Eigen::VectorXd q, v, a, tau;
   Eigen::VectorXd anchors;
   ContactStabilisation stabilisation;
+  Eigen::VectorXd chosen_forces;  ///< w, one a row of `chosen_rows` [N]
 };
 
-/// First derivatives of a vector y(q, v, a, tau); q in the tangent of configuration.hpp.
+/// First derivatives of a vector y(q, v, a, tau, w, e); q in the tangent of configuration.hpp. e is the stabilised contact
+/// acceleration, all rows of the set, as if it could be shifted by itself: with it follow the derivatives in the anchors
+/// (de = -kp d anchor) and in the gains (de = J v dkd + (p - anchor) dkp).
 struct PointDerivatives {
-  Eigen::MatrixXd q, v, a, tau;
+  Eigen::MatrixXd q, v, a, tau, w, e;
 };
 
-/// Second derivatives of a scalar s(q, v, a, tau) that is linear in a and tau: the blocks that are not zero.
+/// Second derivatives of a scalar s(q, v, a, tau, w, e) that is linear in all but q and v: the blocks that are not zero.
 struct PointHessian {
-  Eigen::MatrixXd qq, qv, qa, qtau, vv;
+  Eigen::MatrixXd qq, qv, qa, qtau, qw, qe, vv;
 };
 
 /// Inverse form of the projected dynamics (docs/theory.md, after Pardo et al. 2016, eq. (9), (11)):
@@ -42,10 +45,14 @@ struct PointHessian {
 /// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold; s, the
 /// mass of the robot [kg], only gives both the unit of a force. Any set of contacts: none, or redundant ones, where J
 /// loses rank and f is the choice of least norm (first derivatives hold at constant rank).
+///
+/// Redundant contacts may also be given `chosen_rows`: rows of J that depend on the others. Their forces w are then inputs,
+/// their rows of e are left out, and the forces of the other rows follow: (f_S, w) are all forces that do the same, f = Z w
+/// and a particular force. c = 0 has the same solutions, as far as the rows of e that are left out agree with the others.
 /// One object holds the work space of one thread; results stay until the next evaluation.
 class ProjectedResidual {
  public:
-  ProjectedResidual(const RobotModel& robot, std::vector<int> contacts);
+  ProjectedResidual(const RobotModel& robot, std::vector<int> contacts, std::vector<int> chosen_rows = {});
 
   const std::vector<int>& contacts() const { return kinematics_.contacts(); }
 
@@ -58,11 +65,11 @@ class ProjectedResidual {
   const Eigen::VectorXd& forces() const { return f_; }         ///< 3 per contact of the set, world frame
   const PointDerivatives& residual_derivatives() const { return dc_; }  ///< nv rows
   const PointDerivatives& force_derivatives() const { return df_; }     ///< 3 rows a contact
-  int rank() const { return projector_.rank(); }               ///< of J
-  bool has_full_rank() const { return rank() == kinematics_.rows(); }
+  int rank() const { return projector_.rank(); }               ///< of the rows of J that are not chosen
+  bool has_full_rank() const { return projector_.full_rank(); }
 
   /// Hessian of mu . c + nu . f at fixed mu (nv) and nu (3 a contact), at the point of the last evaluate_with_derivatives.
-  /// Needs J of full rank.
+  /// Needs full rank of the rows of J that are not chosen.
   const PointHessian& hessian(const DynamicsPoint& point, const Eigen::VectorXd& mu, const Eigen::VectorXd& nu);
 
   /// Positions of the contacts of the set at the last evaluation, and their derivatives.
@@ -72,11 +79,15 @@ class ProjectedResidual {
 
  private:
   void compute_forces(const DynamicsPoint& point);
+  void compute_gram_inverse();
 
   double mass_;
   RigidBodyTerms terms_;
   ContactKinematics kinematics_;
-  Projector projector_;
+  std::vector<int> chosen_rows_, kept_rows_;
+  Projector projector_;          ///< of the kept rows
+  Eigen::MatrixXd kept_;         ///< those rows of J, if not all
+  Eigen::MatrixXd gram_inverse_; ///< (J J')⁺ of the kept rows, zero in the chosen ones
   Eigen::VectorXd r_, e_, c_, f_;
   PointDerivatives dc_, df_;
   PointHessian hessian_;
