@@ -97,6 +97,10 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   dc_.tau -= J.transpose() * df_.tau;
   dc_.w -= J.transpose() * df_.w;
   dc_.e -= J.transpose() * df_.e;
+  Eigen::MatrixXd e_gains(J.rows(), 2);
+  e_gains << J * point.v, kinematics_.positions() - point.anchors;
+  dc_.gains = dc_.e * e_gains;
+  df_.gains = df_.e * e_gains;
   for (std::size_t i = 0; i < chosen_rows_.size(); ++i) df_.w(chosen_rows_[i], static_cast<Eigen::Index>(i)) = 1.0;
   if (has_full_rank()) return;
 
@@ -153,6 +157,15 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   hessian_.qtau = -(work_m_.transpose() * df_.tau + work_n_.transpose() * dc_.tau);
   hessian_.qw = -(work_m_.transpose() * df_.w + work_n_.transpose() * dc_.w);
   hessian_.qe = -(work_m_.transpose() * df_.e + work_n_.transpose() * dc_.e);
+
+  hessian_.de = mass_ * l2;
+  hessian_.qgains = -(work_m_.transpose() * df_.gains + work_n_.transpose() * dc_.gains);
+  kinematics_.set_motion(Eigen::VectorXd::Zero(terms_.nv()), point.v);
+  kinematics_.acceleration_dq(work_m_);  // d(J v)/dq
+  hessian_.qgains.col(0) += work_m_.transpose() * hessian_.de;
+  hessian_.qgains.col(1) += kinematics_.positions_dq().transpose() * hessian_.de;
+  hessian_.vgains.setZero(terms_.nv(), 2);
+  hessian_.vgains.col(0) = J.transpose() * hessian_.de;
   return hessian_;
 }
 

@@ -24,15 +24,18 @@ struct DynamicsPoint {
 };
 
 /// First derivatives of a vector y(q, v, a, tau, w, e); q in the tangent of configuration.hpp. e is the stabilised contact
-/// acceleration, all rows of the set, as if it could be shifted by itself: with it follow the derivatives in the anchors
-/// (de = -kp d anchor) and in the gains (de = J v dkd + (p - anchor) dkp).
+/// acceleration, all rows of the set, as if it could be shifted by itself: the derivative in the anchors is -kp times that.
+/// gains: kd and kp.
 struct PointDerivatives {
-  Eigen::MatrixXd q, v, a, tau, w, e;
+  Eigen::MatrixXd q, v, a, tau, w, e, gains;
 };
 
-/// Second derivatives of a scalar s(q, v, a, tau, w, e) that is linear in all but q and v: the blocks that are not zero.
+/// Second derivatives of a scalar s(q, v, a, tau, w, e, kd, kp) that is linear in all but q and v: the blocks that are not
+/// zero, but that of kp and the anchors, which is -de (below).
 struct PointHessian {
   Eigen::MatrixXd qq, qv, qa, qtau, qw, qe, vv;
+  Eigen::MatrixXd qgains, vgains;  ///< two columns, kd and kp
+  Eigen::VectorXd de;              ///< first derivative of s in e
 };
 
 /// Inverse form of the projected dynamics (docs/theory.md, after Pardo et al. 2016, eq. (9), (11)):
@@ -55,6 +58,8 @@ class ProjectedResidual {
   ProjectedResidual(const RobotModel& robot, std::vector<int> contacts, std::vector<int> chosen_rows = {});
 
   const std::vector<int>& contacts() const { return kinematics_.contacts(); }
+
+  const std::vector<int>& chosen_rows() const { return chosen_rows_; }
 
   /// c and f. Throws NumericalError if they are not finite.
   void evaluate(const DynamicsPoint& point);

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "prowl/model/limit_curve.hpp"
+
 namespace prowl {
 
 /// A place on the robot that may touch a surface: a point fixed to a frame of the URDF, at the centre of a ball of the
@@ -24,6 +26,10 @@ struct JointLimits {
   std::optional<double> position_upper;  ///< [rad] or [m]
   std::optional<double> velocity;        ///< [rad/s] or [m/s], symmetric
   std::optional<double> torque;          ///< [N m] or [N], symmetric
+  /// Torque limit over the joint position, both ways: (position, limit), over all of the joint's range. Empty: none.
+  LimitCurve::Table torque_over_position = {};
+  /// Limit of the torque in the direction of positive velocity: (velocity, limit). Mirrored for the other. Empty: none.
+  LimitCurve::Table torque_over_velocity = {};
 };
 
 /// What a robot file says, as plain data. Names are not yet checked against the URDF: RobotModel does that.

@@ -167,8 +167,11 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
     position_upper_(j) = limits.position_upper.value_or(position_upper_(j));
     velocity_limit_(j) = limits.velocity.value_or(velocity_limit_(j));
     torque_limit_(j) = limits.torque.value_or(torque_limit_(j));
+    add_torque_curve(name, static_cast<int>(j), limits.torque_over_position, false);
+    add_torque_curve(name, static_cast<int>(j), limits.torque_over_velocity, true);
   }
   check_limits(*this);
+  check_torque_curves();
 
   nominal_configuration_ = Eigen::VectorXd::Zero(nq());
   if (!description_.nominal_base_rpy.allFinite()) {
@@ -196,6 +199,7 @@ RobotModel::RobotModel(const RobotModel& other)
       position_upper_(other.position_upper_),
       velocity_limit_(other.velocity_limit_),
       torque_limit_(other.torque_limit_),
+      torque_curves_(other.torque_curves_),
       nominal_configuration_(other.nominal_configuration_),
       mass_(other.mass_) {}
 
@@ -210,6 +214,7 @@ RobotModel& RobotModel::operator=(RobotModel other) noexcept {
   std::swap(position_upper_, other.position_upper_);
   std::swap(velocity_limit_, other.velocity_limit_);
   std::swap(torque_limit_, other.torque_limit_);
+  std::swap(torque_curves_, other.torque_curves_);
   std::swap(nominal_configuration_, other.nominal_configuration_);
   std::swap(mass_, other.mass_);
   return *this;

@@ -42,6 +42,17 @@ class RobotModel {
   const Eigen::VectorXd& position_upper() const { return position_upper_; }  ///< nu [rad]; +inf where none
   const Eigen::VectorXd& velocity_limit() const { return velocity_limit_; }  ///< nu [rad/s]; +inf where none
   const Eigen::VectorXd& torque_limit() const { return torque_limit_; }      ///< nu [N m]; +inf where none
+  /// Torque limits that depend on the state, besides torque_limit(): -phi(q) <= tau <= phi(q) of one joint, and
+  /// -psi(-v) <= tau <= psi(v).
+  struct TorqueCurve {
+    int joint = 0;  ///< 0 ... nu - 1
+    bool over_velocity = false;
+    LimitCurve curve;
+  };
+  const std::vector<TorqueCurve>& torque_curves() const { return torque_curves_; }
+  /// The torques that joint j can give at this position and velocity, all limits together [N m].
+  double torque_upper(int joint, double position, double velocity) const;
+  double torque_lower(int joint, double position, double velocity) const;
 
   const std::vector<ContactPoint>& contacts() const { return description_.contacts; }
   /// Index of a contact by name; throws InputError that names the nearest.
@@ -54,11 +65,15 @@ class RobotModel {
   static constexpr double kGravity = 9.81;  ///< [m/s^2], Pinocchio's default
 
  private:
+  void add_torque_curve(const std::string& name, int joint, const LimitCurve::Table& table, bool over_velocity);
+  void check_torque_curves() const;
+
   RobotDescription description_;
   std::unique_ptr<const PinocchioModel> pinocchio_;
   std::vector<std::string> joint_names_;
   std::vector<bool> joint_is_prismatic_;
   Eigen::VectorXd position_lower_, position_upper_, velocity_limit_, torque_limit_;
+  std::vector<TorqueCurve> torque_curves_;
   Eigen::VectorXd nominal_configuration_;
   double mass_ = 0.0;
 };

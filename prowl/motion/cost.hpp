@@ -14,9 +14,9 @@ struct ContactPositionCost {
 
 /// Quadratic cost of one instant:
 ///
-///   1/2 ( |q (-) q_ref|^2_Wq + |v|^2_Wv + |a|^2_Wa + |tau - tau_ref|^2_Wtau + sum_c |f_c|^2_Wf + contact positions )
+///   w_t + 1/2 ( |q (-) q_ref|^2_Wq + |v|^2_Wv + |a|^2_Wa + |tau - tau_ref|^2_Wtau + sum_c |f_c|^2_Wf + contact positions )
 ///
-/// with diagonal weights >= 0. The running cost is its integral over time, the terminal cost its value at the last node
+/// with diagonal weights >= 0. w_t makes time itself cost, for phases of free duration. The running cost is its integral over time, the terminal cost its value at the last node
 /// (there only the terms of q and v count). q (-) q_ref is prowl::difference(q_ref, q): its first six entries weigh the
 /// base pose. tau_ref is normally the static torque of the start.
 struct QuadraticCost {
@@ -26,6 +26,7 @@ struct QuadraticCost {
   Eigen::VectorXd acceleration_weight;  ///< nv
   Eigen::VectorXd tau_ref;              ///< nu [N m]
   Eigen::VectorXd torque_weight;        ///< nu
+  double time_weight = 0.0;             ///< w_t [1/s]; of no meaning in a terminal cost
   Eigen::Vector3d force_weight = Eigen::Vector3d::Zero();  ///< world x y z, the same for every contact [1/N^2]
   std::vector<ContactPositionCost> contact_positions;
 };

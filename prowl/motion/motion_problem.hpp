@@ -49,6 +49,7 @@ struct MotionProblem {
   std::vector<BoundaryCondition> boundary_conditions;  ///< the first is the start and fixes all of q and v
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
+  double swing_clearance = 0.0;  ///< of contacts in the air above the surfaces they pass, in the middle of the swing [m]
   GoalTolerance goal_tolerance;
 
   const BoundaryCondition& start() const { return boundary_conditions.front(); }

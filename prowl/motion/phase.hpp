@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,8 @@ namespace prowl {
 struct PhaseContact {
   int contact = 0;  ///< index into RobotModel::contacts()
   int surface = 0;  ///< index into MotionProblem::surfaces
+  /// Where a contact that lands in this phase has to touch, world frame [m]; on the surface. Free where not given.
+  std::optional<Eigen::Vector3d> place = {};
 };
 
 /// How long a phase lasts [s]: fixed where min == max, else chosen by the optimiser between the two.

@@ -2,17 +2,25 @@
 
 namespace prowl {
 
-DecisionLayout::DecisionLayout(const Mesh& mesh, int nv, std::vector<int> contacts_per_phase)
-    : nv_(nv), num_nodes_(static_cast<int>(mesh.nodes.size())) {
-  int row = 0;
-  for (const MeshNode& node : mesh.nodes) {
-    const int contacts = contacts_per_phase[static_cast<std::size_t>(node.phase)];
-    node_rows_.push_back(row);
-    friction_counts_.push_back(contacts);
-    row += nv_ + contacts;
+DecisionLayout::DecisionLayout(const MotionProblem& problem, const ContactSchedule& schedule, const Mesh& mesh,
+                               const std::vector<int>& num_chosen, const std::vector<int>& rows)
+    : nv_(problem.robot.nv()) {
+  nodes_.push_back(0);
+  for (int k = 0; k < mesh.size(); ++k) {
+    const int chosen = num_chosen[static_cast<std::size_t>(mesh.nodes[static_cast<std::size_t>(k)].phase)];
+    nodes_.push_back(nodes_.back() + 3 * nv_ + nu() + chosen);
+    node_rows_.push_back(num_constraints_);
+    num_constraints_ += rows[static_cast<std::size_t>(k)];
   }
-  first_link_row_ = row;
-  num_constraints_ = row + 2 * nv_ * num_links();
+  first_link_row_ = num_constraints_;
+  num_constraints_ += 2 * nv_ * num_links();
+
+  num_variables_ = nodes_.back();
+  for (const Phase& phase : problem.phases) durations_.push_back(phase.duration.is_fixed() ? -1 : num_variables_++);
+  for (const Stance& stance : schedule.stances()) {
+    places_.push_back(stance.lands() ? num_variables_ : -1);
+    if (stance.lands()) num_variables_ += 2;
+  }
 }
 
 }  // namespace prowl

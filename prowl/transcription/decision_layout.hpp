@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
+#include "prowl/motion/contact_schedule.hpp"
 #include "prowl/transcription/mesh.hpp"
 
 namespace prowl {
@@ -10,8 +10,10 @@ namespace prowl {
 /// Where everything is in the decision variables z and in the constraints g: the only index arithmetic of the
 /// transcription.
 ///
-/// z: for each node of the mesh  (base position, rotation vector theta, joints | v | a | tau).
-/// g: for each node  (dynamics c, nv rows | friction cone, one row an active contact),
+/// z: for each node of the mesh  (base position, rotation vector theta, joints | v | a | tau | w), then what nodes share:
+///    for each phase of free duration its duration, for each contact that lands two surface coordinates of its place.
+///    w are the forces of dependent contact rows, of a number that goes with the phase.
+/// g: for each node its rows (NodeFunctions),
 ///    for each interval  (defects of q, nv rows | defects of v, nv rows),
 ///    for each phase switch  (continuity of q, nv rows | of v, nv rows).
 ///
@@ -19,35 +21,39 @@ namespace prowl {
 /// by a boundary condition there), so that theta stays near zero and bounds on a goal's rotation are bounds on theta.
 class DecisionLayout {
  public:
-  DecisionLayout(const Mesh& mesh, int nv, std::vector<int> contacts_per_phase);
+  /// `num_chosen`: size of w, one a phase. `rows`: of each node.
+  DecisionLayout(const MotionProblem& problem, const ContactSchedule& schedule, const Mesh& mesh,
+                 const std::vector<int>& num_chosen, const std::vector<int>& rows);
 
-  int num_variables() const { return num_nodes_ * node_size(); }
+  int num_variables() const { return num_variables_; }
   int num_constraints() const { return num_constraints_; }
-  int num_nodes() const { return num_nodes_; }
-  int node_size() const { return 3 * nv_ + nu(); }
+  int num_nodes() const { return static_cast<int>(node_rows_.size()); }
   int nv() const { return nv_; }
   int nu() const { return nv_ - 6; }
 
-  int node(int k) const { return k * node_size(); }  ///< first variable of node k
+  int node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }  ///< first variable of node k
+  int node_size(int k) const { return nodes_[static_cast<std::size_t>(k) + 1] - node(k); }
   int q(int k) const { return node(k); }
   int v(int k) const { return node(k) + nv_; }
   int a(int k) const { return node(k) + 2 * nv_; }
   int tau(int k) const { return node(k) + 3 * nv_; }
+  int w(int k) const { return tau(k) + nu(); }
+  int num_w(int k) const { return node_size(k) - 3 * nv_ - nu(); }
 
-  int dynamics_row(int k) const { return node_rows_[static_cast<std::size_t>(k)]; }
-  int friction_row(int k) const { return dynamics_row(k) + nv_; }
-  int friction_count(int k) const { return friction_counts_[static_cast<std::size_t>(k)]; }
+  int first_shared() const { return nodes_.back(); }
+  int duration(int phase) const { return durations_[static_cast<std::size_t>(phase)]; }  ///< -1 if it is fixed
+  int place(int stance) const { return places_[static_cast<std::size_t>(stance)]; }      ///< -1 if it does not land
 
+  int node_row(int k) const { return node_rows_[static_cast<std::size_t>(k)]; }  ///< first row of node k
   /// Rows that link node k and node k + 1: the defects of an interval, or continuity at a phase switch.
   int link_row(int k) const { return first_link_row_ + 2 * nv_ * k; }
-  int num_links() const { return num_nodes_ - 1; }
+  int num_links() const { return num_nodes() - 1; }
 
  private:
   int nv_;
-  int num_nodes_;
-  int first_link_row_ = 0;
-  int num_constraints_ = 0;
-  std::vector<int> node_rows_, friction_counts_;
+  int num_variables_ = 0, num_constraints_ = 0, first_link_row_ = 0;
+  std::vector<int> nodes_;  ///< and the end of the last
+  std::vector<int> node_rows_, durations_, places_;
 };
 
 }  // namespace prowl

@@ -6,7 +6,6 @@ namespace prowl {
 
 namespace {
 
-constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
 constexpr const char* kBaseMotion[] = {"x", "y", "z", "rotation x", "rotation y", "rotation z"};
 
 std::string coordinate(const MotionProblem& problem, int i, const char* const (&base)[6]) {
@@ -26,32 +25,51 @@ std::string Transcription::describe_constraint(int row) const {
   std::string what;
   int k = 0;
   if (row < layout_.link_row(0)) {
-    while (k + 1 < layout_.num_nodes() && row >= layout_.dynamics_row(k + 1)) ++k;
-    const int i = row - layout_.dynamics_row(k);
-    if (i < nv) {
-      what = coordinate(problem_, i, kBaseForce) + ", equations of motion";
-    } else {
-      const Phase& phase = problem_.phases[static_cast<std::size_t>(mesh_.nodes[static_cast<std::size_t>(k)].phase)];
-      const int contact = phase.contacts[static_cast<std::size_t>(i - nv)].contact;
-      what = problem_.robot.contacts()[static_cast<std::size_t>(contact)].name + ", friction cone";
-    }
+    while (k + 1 < layout_.num_nodes() && row >= layout_.node_row(k + 1)) ++k;
+    what = functions(k).describe_row(mesh_node(k).node, row - layout_.node_row(k));
   } else {
     k = (row - layout_.link_row(0)) / (2 * nv);
     const int i = row - layout_.link_row(k);
     what = coordinate(problem_, i % nv, kBaseMotion) + (i < nv ? ", position" : ", velocity") +
            (is_interval(k) ? " over the interval" : " across the phase switch");
   }
-  return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_.nodes[static_cast<std::size_t>(k)].time);
+  return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_node(k).time);
 }
 
 std::string Transcription::describe_variable(int index) const {
+  if (index >= layout_.first_shared()) return describe_shared(index);
   const int nv = layout_.nv();
-  const int k = index / layout_.node_size(), i = index % layout_.node_size();
+  int k = 0;
+  while (index >= layout_.node(k + 1)) ++k;
+  const int i = index - layout_.node(k);
   constexpr const char* kKinds[] = {"position", "velocity", "acceleration"};
-  const std::string what = i < 3 * nv
-                               ? fmt::format("{} {}", kKinds[i / nv], coordinate(problem_, i % nv, kBaseMotion))
-                               : "torque " + problem_.robot.joint_names()[static_cast<std::size_t>(i - 3 * nv)];
-  return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_.nodes[static_cast<std::size_t>(k)].time);
+  std::string what;
+  if (i < 3 * nv) {
+    what = fmt::format("{} {}", kKinds[i / nv], coordinate(problem_, i % nv, kBaseMotion));
+  } else if (i < 3 * nv + layout_.nu()) {
+    what = "torque " + problem_.robot.joint_names()[static_cast<std::size_t>(i - 3 * nv)];
+  } else {
+    const int row = functions(k).chosen_rows()[static_cast<std::size_t>(index - layout_.w(k))];
+    const int contact = functions(k).contacts()[static_cast<std::size_t>(row / 3)];
+    what = fmt::format("force {} of {}", "xyz"[row % 3], problem_.robot.contacts()[static_cast<std::size_t>(contact)].name);
+  }
+  return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_node(k).time);
+}
+
+std::string Transcription::describe_shared(int index) const {
+  for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
+    if (layout_.duration(static_cast<int>(p)) == index) {
+      return fmt::format("phase {} '{}', duration", p + 1, problem_.phases[p].name);
+    }
+  }
+  std::size_t s = 0;
+  while (layout_.place(static_cast<int>(s)) != index && layout_.place(static_cast<int>(s)) + 1 != index) ++s;
+  const Stance& stance = schedule_.stances()[s];
+  return fmt::format("phase {} '{}', place {} of {} on {}", stance.first_phase + 1,
+                     problem_.phases[static_cast<std::size_t>(stance.first_phase)].name,
+                     index - layout_.place(static_cast<int>(s)) + 1,
+                     problem_.robot.contacts()[static_cast<std::size_t>(stance.contact)].name,
+                     problem_.surfaces[static_cast<std::size_t>(stance.surface)].name);
 }
 
 }  // namespace prowl

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
-#include "prowl/transcription/defects.hpp"
+#include "prowl/transcription/independent_contacts.hpp"
 #include "prowl/transcription/transcription_bounds.hpp"
 
 namespace prowl {
@@ -13,72 +15,111 @@ namespace prowl {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::Vector3d;
+using Eigen::VectorXd;
 
-/// Places of the start's contacts: a contact that holds stays there.
-Eigen::VectorXd contact_anchors(const MotionProblem& problem, const Phase& phase) {
+std::vector<NodeFunctions> functions_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
+                                               const Mesh& mesh, const Trajectory& guess) {
+  std::vector<NodeFunctions> functions;
+  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
+    const VectorXd& q = guess.nodes[static_cast<std::size_t>(mesh.index({p, 0}))].q;
+    functions.emplace_back(problem, schedule, p, phase_contacts(problem, schedule, p, q));
+  }
+  return functions;
+}
+
+std::vector<int> sizes_of_w(const std::vector<NodeFunctions>& phases) {
+  std::vector<int> sizes;
+  for (const NodeFunctions& phase : phases) sizes.push_back(static_cast<int>(phase.chosen_rows().size()));
+  return sizes;
+}
+
+std::vector<int> rows_of_nodes(const std::vector<NodeFunctions>& phases, const Mesh& mesh) {
+  std::vector<int> rows;
+  for (const MeshNode& node : mesh.nodes) rows.push_back(phases[static_cast<std::size_t>(node.phase)].num_rows(node.node));
+  return rows;
+}
+
+/// Anchors of each phase's contacts, those that land at the origin of their surface coordinates: a contact that is held
+/// from the start stays at the place that the start has.
+std::vector<VectorXd> anchor_origins(const MotionProblem& problem, const ContactSchedule& schedule) {
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(problem.start_configuration());
-  Eigen::VectorXd anchors(3 * static_cast<Index>(phase.contacts.size()));
-  for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
-    anchors.segment<3>(static_cast<Index>(3 * i)) = terms.contact_position(phase.contacts[i].contact);
+  std::vector<VectorXd> origins;
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const auto& contacts = problem.phases[p].contacts;
+    VectorXd& anchors = origins.emplace_back(3 * static_cast<Index>(contacts.size()));
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Stance& stance =
+          schedule.stances()[static_cast<std::size_t>(schedule.stance(static_cast<int>(p), static_cast<int>(i)))];
+      const double radius = problem.robot.contacts()[static_cast<std::size_t>(stance.contact)].radius;
+      anchors.segment<3>(static_cast<Index>(3 * i)) =
+          stance.lands() ? problem.surfaces[static_cast<std::size_t>(stance.surface)].at({0.0, 0.0}, radius)
+                         : terms.contact_position(stance.contact);
+    }
   }
-  return anchors;
-}
-
-std::vector<int> contacts_per_phase(const MotionProblem& problem) {
-  std::vector<int> counts;
-  for (const Phase& phase : problem.phases) counts.push_back(static_cast<int>(phase.contacts.size()));
-  return counts;
-}
-
-/// Base of node k, where z_q are the node's configuration variables.
-BaseState base_state(const Eigen::VectorXd& z, const DecisionLayout& layout, const Eigen::Matrix3d& chart, int k) {
-  return {chart, z.segment<3>(layout.q(k)), z.segment<3>(layout.q(k) + 3), z.segment<3>(layout.v(k)),
-          z.segment<3>(layout.v(k) + 3)};
+  return origins;
 }
 
 }  // namespace
 
 Transcription::Transcription(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess)
     : problem_(problem),
+      schedule_(problem),
       mesh_(mesh),
-      layout_(mesh, problem.robot.nv(), contacts_per_phase(problem)),
+      phases_(functions_of_phases(problem, schedule_, mesh, guess)),
+      anchor_origins_(anchor_origins(problem, schedule_)),
+      layout_(problem, schedule_, mesh, sizes_of_w(phases_), rows_of_nodes(phases_, mesh)),
       charts_(rotation_charts(problem, mesh, guess)) {
-  refuse_what_is_not_supported(problem);
-  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
-    const Phase& phase = problem.phases[p];
-    const double step = mesh_.nodes[static_cast<std::size_t>(mesh_.index({static_cast<int>(p), 0}))].h_out;
-    phases_.emplace_back(problem, phase, contact_anchors(problem, phase), step);
+  std::set<std::pair<int, int>> pairs;
+  for (int p = 0; p < static_cast<int>(phases_.size()); ++p) {
+    std::vector<int>& shared = shared_.emplace_back();
+    if (layout_.duration(p) >= 0) shared.push_back(layout_.duration(p));
+    for (const int i : phases_[static_cast<std::size_t>(p)].landed()) {
+      const int place = layout_.place(schedule_.stance(p, i));
+      shared.insert(shared.end(), {place, place + 1});
+    }
+    for (const int row : shared) {
+      for (const int col : shared) {
+        if (row >= col) pairs.insert({row - layout_.first_shared(), col - layout_.first_shared()});
+      }
+    }
   }
-  const VariableBounds bounds = variable_bounds(problem, mesh, layout_);
+  shared_pairs_.assign(pairs.begin(), pairs.end());
+
+  const VariableBounds bounds = variable_bounds(problem, schedule_, mesh, layout_);
   variable_lower_ = bounds.lower;
   variable_upper_ = bounds.upper;
   constraint_lower_.setZero(num_constraints());
   constraint_upper_.setZero(num_constraints());
-  for (int k = 0; k < layout_.num_nodes(); ++k) {  // friction cones: g >= 0
-    constraint_upper_.segment(layout_.friction_row(k), layout_.friction_count(k)).setConstant(
-        std::numeric_limits<double>::infinity());
+  for (int k = 0; k < layout_.num_nodes(); ++k) {
+    const int node = mesh_node(k).node;
+    for (int row = 0; row < functions(k).num_rows(node); ++row) {
+      constraint_lower_(layout_.node_row(k) + row) = functions(k).lower(node, row);
+      constraint_upper_(layout_.node_row(k) + row) = functions(k).upper(node, row);
+    }
   }
   values_.resize(static_cast<std::size_t>(layout_.num_nodes()));
   set_patterns();
-
-  evaluate_nodes(pack(guess), false);
-  for (std::size_t p = 0; p < phases_.size(); ++p) {
-    if (phases_[p].contacts_are_independent()) continue;
-    throw InputError(fmt::format(
-        "phase '{}': its {} contact points are not independent (the contact Jacobian loses rank at the initial guess); "
-        "planning with redundant contacts is not supported yet: list fewer contact points",
-        problem.phases[p].name, problem.phases[p].contacts.size()));
-  }
 }
 
-bool Transcription::is_interval(int k) const { return step(k) > 0.0; }
+double Transcription::duration(const VectorXd& z, int phase) const {
+  const int index = layout_.duration(phase);
+  return index >= 0 ? z(index) : problem_.phases[static_cast<std::size_t>(phase)].duration.min;
+}
 
-NodePoint Transcription::node_point(const Eigen::VectorXd& z, int k) const {
+double Transcription::step(const VectorXd& z, int k) const {
+  const int phase = phase_of(k);
+  return duration(z, phase) / problem_.phases[static_cast<std::size_t>(phase)].intervals;
+}
+
+NodePoint Transcription::node_point(const VectorXd& z, int k) const {
   const int nv = layout_.nv(), nu = layout_.nu();
-  const MeshNode& node = mesh_.nodes[static_cast<std::size_t>(k)];
+  const MeshNode& node = mesh_node(k);
+  const auto phase = static_cast<std::size_t>(node.phase);
   NodePoint point;
+  point.node = node.node;
   point.theta = z.segment<3>(layout_.q(k) + 3);
   point.q.resize(nv + 1);
   point.q.head<3>() = z.segment<3>(layout_.q(k));
@@ -87,128 +128,147 @@ NodePoint Transcription::node_point(const Eigen::VectorXd& z, int k) const {
   point.v = z.segment(layout_.v(k), nv);
   point.a = z.segment(layout_.a(k), nv);
   point.tau = z.segment(layout_.tau(k), nu);
-  point.cost_weight = 0.5 * (node.h_in + node.h_out);
+  point.w = z.segment(layout_.w(k), layout_.num_w(k));
+  point.duration = duration(z, node.phase);
+  point.anchors = anchor_origins_[phase];
+  for (const int i : phases_[phase].landed()) {
+    const Surface& surface =
+        problem_.surfaces[static_cast<std::size_t>(problem_.phases[phase].contacts[static_cast<std::size_t>(i)].surface)];
+    point.anchors.segment<3>(3 * i) += surface.axes() * z.segment<2>(layout_.place(schedule_.stance(node.phase, i)));
+  }
+  const double share = 0.5 * ((node.h_in > 0.0) + (node.h_out > 0.0));
+  point.cost_weight = share * step(z, k);
   point.terminal_weight = k + 1 == layout_.num_nodes() ? 1.0 : 0.0;
   return point;
 }
 
-void Transcription::evaluate_nodes(const Eigen::VectorXd& z, bool with_derivatives) {
+IntervalEnd Transcription::interval_end(const VectorXd& z, int k) const {
+  const int nv = layout_.nv();
+  return {charts_[static_cast<std::size_t>(k)], z.segment(layout_.q(k), nv), z.segment(layout_.v(k), nv),
+          z.segment(layout_.a(k), nv)};
+}
+
+IntervalDefects Transcription::interval(const VectorXd& z, int k) const {
+  return {interval_end(z, k), interval_end(z, k + 1), step(z, k)};
+}
+
+void Transcription::evaluate_nodes(const VectorXd& z, bool with_derivatives) {
   if (evaluated_at_.size() == z.size() && evaluated_at_ == z && (have_derivatives_ || !with_derivatives)) return;
   evaluated_at_.resize(0);  // in case that an evaluation throws half-way
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    NodeFunctions& functions = phases_[static_cast<std::size_t>(mesh_.nodes[static_cast<std::size_t>(k)].phase)];
     NodeValues& values = values_[static_cast<std::size_t>(k)];
     try {
       const NodePoint point = node_point(z, k);
-      with_derivatives ? functions.evaluate_with_derivatives(point, values) : functions.evaluate(point, values);
+      with_derivatives ? functions(k).evaluate_with_derivatives(point, values) : functions(k).evaluate(point, values);
     } catch (const NumericalError& error) {
-      throw NumericalError(fmt::format("{}, t = {:.3f} s: {}", describe_node(k), mesh_.nodes[static_cast<std::size_t>(k)].time,
-                                       error.what()));
+      throw NumericalError(fmt::format("{}, t = {:.3f} s: {}", describe_node(k), mesh_node(k).time, error.what()));
     }
   }
   evaluated_at_ = z;
   have_derivatives_ = with_derivatives;
 }
 
-double Transcription::cost(const Eigen::VectorXd& z) {
+double Transcription::cost(const VectorXd& z) {
   evaluate_nodes(z, false);
   double total = 0.0;
   for (const NodeValues& values : values_) total += values.cost;
   return total;
 }
 
-void Transcription::cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient) {
+void Transcription::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradient) {
   evaluate_nodes(z, true);
+  gradient.setZero();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    gradient.segment(layout_.node(k), layout_.node_size()) = values_[static_cast<std::size_t>(k)].cost_gradient;
+    const VectorXd& slope = values_[static_cast<std::size_t>(k)].cost_gradient;
+    for (int j = 0; j < functions(k).num_columns(); ++j) gradient(column(k, j)) += slope(j);
   }
 }
 
-void Transcription::constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) {
+void Transcription::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   evaluate_nodes(z, false);
-  const int nv = layout_.nv(), nu = layout_.nu();
+  const int nv = layout_.nv();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const Eigen::VectorXd& rows = values_[static_cast<std::size_t>(k)].rows;
-    g.segment(layout_.dynamics_row(k), rows.size()) = rows;
+    const VectorXd& rows = values_[static_cast<std::size_t>(k)].rows;
+    g.segment(layout_.node_row(k), rows.size()) = rows;
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
-    const double half = 0.5 * step(k);
-    const int row = layout_.link_row(k);
-    g.segment(row, nv) = z.segment(layout_.q(k + 1), nv) - z.segment(layout_.q(k), nv);
-    g.segment(row + nv, nv) = z.segment(layout_.v(k + 1), nv) - z.segment(layout_.v(k), nv) -
-                              half * (z.segment(layout_.a(k), nv) + z.segment(layout_.a(k + 1), nv));
-    if (!is_interval(k)) continue;  // both nodes of a phase switch have one chart: the difference is the condition
-    const BaseDefects base(base_state(z, layout_, charts_[static_cast<std::size_t>(k)], k),
-                           base_state(z, layout_, charts_[static_cast<std::size_t>(k + 1)], k + 1), step(k));
-    g.segment<3>(row) = base.position();
-    g.segment<3>(row + 3) = base.rotation();
-    g.segment(row + 6, nu) -= half * (z.segment(layout_.v(k) + 6, nu) + z.segment(layout_.v(k + 1) + 6, nu));
+    if (is_interval(k)) {
+      g.segment(layout_.link_row(k), 2 * nv) = interval(z, k).value();
+    } else {  // both nodes of a phase switch have one chart: the difference is the condition
+      g.segment(layout_.link_row(k), 2 * nv) = z.segment(layout_.q(k + 1), 2 * nv) - z.segment(layout_.q(k), 2 * nv);
+    }
   }
+}
+
+int Transcription::column(int k, int j) const {
+  const int own = layout_.node_size(k);
+  return j < own ? layout_.node(k) + j
+                 : shared_[static_cast<std::size_t>(phase_of(k))][static_cast<std::size_t>(j - own)];
 }
 
 /// Calls emit(row, col, value) for each non-zero of the Jacobian, always in the same order. Without derivatives (z empty)
 /// the values mean nothing and only the places count.
 template <class Emit>
-void Transcription::visit_jacobian(const Eigen::VectorXd& z, Emit emit) const {
+void Transcription::visit_jacobian(const VectorXd& z, Emit emit) const {
   const int nv = layout_.nv(), nu = layout_.nu();
   const bool pattern_only = z.size() == 0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const Eigen::MatrixXd& rows = values_[static_cast<std::size_t>(k)].rows_jacobian;
-    for (int i = 0; i < nv + layout_.friction_count(k); ++i) {
-      for (int j = 0; j < layout_.node_size(); ++j) {
-        emit(layout_.dynamics_row(k) + i, layout_.node(k) + j, pattern_only ? 0.0 : rows(i, j));
+    const MatrixXd& rows = values_[static_cast<std::size_t>(k)].rows_jacobian;
+    for (int i = 0; i < functions(k).num_rows(mesh_node(k).node); ++i) {
+      for (int j = 0; j < functions(k).num_columns(); ++j) {
+        emit(layout_.node_row(k) + i, column(k, j), pattern_only ? 0.0 : rows(i, j));
       }
     }
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
     const int row = layout_.link_row(k);
-    const double half = 0.5 * step(k);
-    for (int i = 0; i < nv; ++i) {
-      emit(row + nv + i, layout_.v(k) + i, -1.0);
-      emit(row + nv + i, layout_.v(k + 1) + i, 1.0);
-      if (is_interval(k)) {
-        emit(row + nv + i, layout_.a(k) + i, -half);
-        emit(row + nv + i, layout_.a(k + 1) + i, -half);
-      }
-    }
     if (!is_interval(k)) {
-      for (int i = 0; i < nv; ++i) {
+      for (int i = 0; i < 2 * nv; ++i) {
         emit(row + i, layout_.q(k) + i, -1.0);
         emit(row + i, layout_.q(k + 1) + i, 1.0);
       }
       continue;
     }
-    for (int i = 0; i < nu; ++i) {
-      emit(row + 6 + i, layout_.q(k) + 6 + i, -1.0);
-      emit(row + 6 + i, layout_.q(k + 1) + 6 + i, 1.0);
-      emit(row + 6 + i, layout_.v(k) + 6 + i, -half);
-      emit(row + 6 + i, layout_.v(k + 1) + 6 + i, -half);
-    }
+    const int free_duration = layout_.duration(phase_of(k));
+    double half = 0.0;
     BaseDefects::Matrix3x12 rotation = BaseDefects::Matrix3x12::Zero();
+    Eigen::Matrix3d d_theta[2], d_v[2];
+    VectorXd d_duration = VectorXd::Zero(2 * nv);
     if (!pattern_only) {
-      rotation = BaseDefects(base_state(z, layout_, charts_[static_cast<std::size_t>(k)], k),
-                             base_state(z, layout_, charts_[static_cast<std::size_t>(k + 1)], k + 1), step(k))
-                     .rotation_derivative();
-    }
-    for (const int end : {k, k + 1}) {
-      Eigen::Matrix3d d_theta = Eigen::Matrix3d::Zero(), d_v = Eigen::Matrix3d::Zero();
-      if (!pattern_only) {
-        const WorldVelocity velocity(charts_[static_cast<std::size_t>(end)], z.segment<3>(layout_.q(end) + 3),
-                                     z.segment<3>(layout_.v(end)));
-        d_theta = velocity.d_theta;
-        d_v = velocity.d_v;
+      const IntervalDefects defects = interval(z, k);
+      half = 0.5 * step(z, k);
+      rotation = defects.rotation_derivative();
+      for (const int end : {0, 1}) {
+        d_theta[end] = defects.position_dtheta(end);
+        d_v[end] = defects.position_dv(end);
       }
-      const int first = end == k ? 0 : 6;
+      if (free_duration >= 0) {
+        d_duration = defects.d_step() / problem_.phases[static_cast<std::size_t>(phase_of(k))].intervals;
+      }
+    }
+    for (const int end : {0, 1}) {
+      const int node = k + end;
+      const double sign = end == 0 ? -1.0 : 1.0;
       for (int i = 0; i < 3; ++i) {
-        emit(row + i, layout_.q(end) + i, end == k ? -1.0 : 1.0);
+        emit(row + i, layout_.q(node) + i, sign);
         for (int j = 0; j < 3; ++j) {
-          emit(row + i, layout_.q(end) + 3 + j, -half * d_theta(i, j));
-          emit(row + i, layout_.v(end) + j, -half * d_v(i, j));
-          emit(row + 3 + i, layout_.q(end) + 3 + j, rotation(i, first + j));
-          emit(row + 3 + i, layout_.v(end) + 3 + j, rotation(i, first + 3 + j));
+          emit(row + i, layout_.q(node) + 3 + j, d_theta[end](i, j));
+          emit(row + i, layout_.v(node) + j, d_v[end](i, j));
+          emit(row + 3 + i, layout_.q(node) + 3 + j, rotation(i, 6 * end + j));
+          emit(row + 3 + i, layout_.v(node) + 3 + j, rotation(i, 6 * end + 3 + j));
         }
       }
+      for (int i = 6; i < 6 + nu; ++i) {
+        emit(row + i, layout_.q(node) + i, sign);
+        emit(row + i, layout_.v(node) + i, -half);
+      }
+      for (int i = 0; i < nv; ++i) {
+        emit(row + nv + i, layout_.v(node) + i, sign);
+        emit(row + nv + i, layout_.a(node) + i, -half);
+      }
     }
+    if (free_duration < 0) continue;
+    for (int i = 0; i < 2 * nv; ++i) emit(row + i, free_duration, d_duration(i));
   }
 }
 
@@ -219,83 +279,94 @@ void Transcription::set_patterns() {
       pattern.cols.push_back(col);
     };
   };
-  visit_jacobian(Eigen::VectorXd(), add(jacobian_pattern_));
-  const auto size = static_cast<Index>(layout_.node_size());
-  const std::vector<Eigen::MatrixXd> nodes(static_cast<std::size_t>(layout_.num_nodes()), Eigen::MatrixXd(size, size));
+  visit_jacobian(VectorXd(), add(jacobian_pattern_));
+  std::vector<MatrixXd> nodes;
+  for (int k = 0; k < layout_.num_nodes(); ++k) nodes.emplace_back(functions(k).num_columns(), functions(k).num_columns());
   const std::vector<Eigen::Matrix<double, 6, 6>> links(static_cast<std::size_t>(layout_.num_links()));
-  visit_hessian(nodes, links, add(hessian_pattern_));
+  const int num_shared = num_variables() - layout_.first_shared();
+  visit_hessian(nodes, links, MatrixXd(num_shared, num_shared), add(hessian_pattern_));
 }
 
-void Transcription::jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> values) {
+void Transcription::jacobian(const VectorXd& z, Eigen::Ref<VectorXd> values) {
   evaluate_nodes(z, true);
   Index next = 0;
   visit_jacobian(z, [&](int, int, double value) { values(next++) = value; });
 }
 
-/// As visit_jacobian, for the lower triangle of the Hessian: a dense block a node, and over each interval the block of
-/// (theta, angular velocity) at its end with those at its start.
+/// As visit_jacobian, for the lower triangle of the Hessian: a dense block a node, over each interval the block of
+/// (theta, angular velocity) at its end with those at its start, each node with what its phase shares, and what is
+/// shared by itself.
 template <class Emit>
-void Transcription::visit_hessian(const std::vector<Eigen::MatrixXd>& nodes,
-                                  const std::vector<Eigen::Matrix<double, 6, 6>>& links, Emit emit) const {
+void Transcription::visit_hessian(const std::vector<MatrixXd>& nodes,
+                                  const std::vector<Eigen::Matrix<double, 6, 6>>& links, const MatrixXd& shared,
+                                  Emit emit) const {
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    for (int j = 0; j < layout_.node_size(); ++j) {
-      for (int i = j; i < layout_.node_size(); ++i) {
-        emit(layout_.node(k) + i, layout_.node(k) + j, nodes[static_cast<std::size_t>(k)](i, j));
-      }
+    const MatrixXd& node = nodes[static_cast<std::size_t>(k)];
+    for (int j = 0; j < layout_.node_size(k); ++j) {
+      for (int i = j; i < static_cast<int>(node.rows()); ++i) emit(column(k, i), column(k, j), node(i, j));
     }
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (!is_interval(k)) continue;
-    const auto column = [&](int node, int i) { return i < 3 ? layout_.q(node) + 3 + i : layout_.v(node) + i; };
+    const auto turning = [&](int node, int i) { return i < 3 ? layout_.q(node) + 3 + i : layout_.v(node) + i; };
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) emit(column(k + 1, i), column(k, j), links[static_cast<std::size_t>(k)](i, j));
+      for (int j = 0; j < 6; ++j) emit(turning(k + 1, i), turning(k, j), links[static_cast<std::size_t>(k)](i, j));
     }
   }
+  for (const auto& [row, col] : shared_pairs_) {
+    emit(layout_.first_shared() + row, layout_.first_shared() + col, shared(row, col));
+  }
 }
 
-void Transcription::hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
-                            Eigen::Ref<Eigen::VectorXd> values) {
-  std::vector<Eigen::MatrixXd> nodes(static_cast<std::size_t>(layout_.num_nodes()));
+void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorXd& multipliers,
+                            Eigen::Ref<VectorXd> values) {
+  const int nv = layout_.nv();
+  const int num_shared = num_variables() - layout_.first_shared();
+  std::vector<MatrixXd> nodes(static_cast<std::size_t>(layout_.num_nodes()));
   std::vector<Eigen::Matrix<double, 6, 6>> links(static_cast<std::size_t>(layout_.num_links()));
+  MatrixXd shared = MatrixXd::Zero(num_shared, num_shared);
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    NodeFunctions& functions = phases_[static_cast<std::size_t>(mesh_.nodes[static_cast<std::size_t>(k)].phase)];
-    functions.hessian(node_point(z, k), cost_factor,
-                      multipliers.segment(layout_.dynamics_row(k), functions.num_rows()),
-                      nodes[static_cast<std::size_t>(k)]);
+    functions(k).hessian(node_point(z, k), cost_factor,
+                         multipliers.segment(layout_.node_row(k), functions(k).num_rows(mesh_node(k).node)),
+                         nodes[static_cast<std::size_t>(k)]);
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
-    if (is_interval(k)) add_defect_hessian(z, multipliers, k, nodes, links[static_cast<std::size_t>(k)]);
+    if (!is_interval(k)) continue;
+    const IntervalDefects::Hessian bent = interval(z, k).hessian(multipliers.segment(layout_.link_row(k), 2 * nv));
+    links[static_cast<std::size_t>(k)] = bent.link;
+    const int free_duration = layout_.duration(phase_of(k));
+    const double per_step = 1.0 / problem_.phases[static_cast<std::size_t>(phase_of(k))].intervals;
+    for (const int end : {0, 1}) {
+      MatrixXd& node = nodes[static_cast<std::size_t>(k + end)];
+      node.block<3, 3>(3, nv) += bent.theta_v[end];
+      node.block<3, 3>(nv, 3) += bent.theta_v[end].transpose();
+      const auto place = [&](int i) { return i < 3 ? 3 + i : nv + i; };
+      for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) node(place(i), place(j)) += bent.turn[end](i, j);
+      }
+      if (free_duration < 0) continue;
+      node.row(layout_.node_size(k + end)).head(3 * nv) += per_step * bent.step[end].transpose();
+    }
+    if (free_duration < 0) continue;
+    const int d = free_duration - layout_.first_shared();
+    shared(d, d) += per_step * per_step * bent.step_step;
+  }
+  for (int k = 0; k < layout_.num_nodes(); ++k) {
+    const std::vector<int>& variables = shared_[static_cast<std::size_t>(phase_of(k))];
+    const int own = layout_.node_size(k);
+    for (std::size_t i = 0; i < variables.size(); ++i) {
+      for (std::size_t j = 0; j < variables.size(); ++j) {
+        const int row = variables[i] - layout_.first_shared(), col = variables[j] - layout_.first_shared();
+        shared(row, col) += nodes[static_cast<std::size_t>(k)](own + static_cast<int>(i), own + static_cast<int>(j));
+      }
+    }
   }
   Index next = 0;
-  visit_hessian(nodes, links, [&](int, int, double value) { values(next++) = value; });
+  visit_hessian(nodes, links, shared, [&](int, int, double value) { values(next++) = value; });
 }
 
-/// Adds what bends in the defects of the base over the interval from node k.
-void Transcription::add_defect_hessian(const Eigen::VectorXd& z, const Eigen::VectorXd& multipliers, int k,
-                                       std::vector<Eigen::MatrixXd>& nodes, Eigen::Matrix<double, 6, 6>& link) const {
-  const int row = layout_.link_row(k);
-  const BaseDefects base(base_state(z, layout_, charts_[static_cast<std::size_t>(k)], k),
-                         base_state(z, layout_, charts_[static_cast<std::size_t>(k + 1)], k + 1), step(k));
-  const BaseDefects::Matrix12 rotation = base.rotation_hessian(multipliers.segment<3>(row + 3));
-  link = rotation.bottomLeftCorner<6, 6>();
-  const Vector3d pull = -0.5 * step(k) * multipliers.segment<3>(row);
-  const int theta = 3, v = layout_.nv(), w = layout_.nv() + 3;
-  for (const int end : {k, k + 1}) {
-    const int first = end == k ? 0 : 6;
-    Eigen::MatrixXd& node = nodes[static_cast<std::size_t>(end)];
-    const WorldVelocityHessian velocity(charts_[static_cast<std::size_t>(end)], z.segment<3>(layout_.q(end) + 3),
-                                        z.segment<3>(layout_.v(end)), pull);
-    node.block<3, 3>(theta, theta) += velocity.theta_theta + rotation.block<3, 3>(first, first);
-    node.block<3, 3>(theta, v) += velocity.theta_v;
-    node.block<3, 3>(v, theta) += velocity.theta_v.transpose();
-    node.block<3, 3>(theta, w) += rotation.block<3, 3>(first, first + 3);
-    node.block<3, 3>(w, theta) += rotation.block<3, 3>(first + 3, first);
-    node.block<3, 3>(w, w) += rotation.block<3, 3>(first + 3, first + 3);
-  }
-}
-
-Eigen::VectorXd Transcription::pack(const Trajectory& trajectory) const {
-  Eigen::VectorXd z(num_variables());
+VectorXd Transcription::pack(const Trajectory& trajectory) const {
+  VectorXd z(num_variables());
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const TrajectoryPoint& point = trajectory.nodes[static_cast<std::size_t>(k)];
     z.segment<3>(layout_.q(k)) = base_position(point.q);
@@ -305,25 +376,47 @@ Eigen::VectorXd Transcription::pack(const Trajectory& trajectory) const {
     z.segment(layout_.v(k), layout_.nv()) = point.v;
     z.segment(layout_.a(k), layout_.nv()) = point.a;
     z.segment(layout_.tau(k), layout_.nu()) = point.tau;
+    const std::vector<int>& chosen = functions(k).chosen_rows();
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const int contact = functions(k).contacts()[static_cast<std::size_t>(chosen[i] / 3)];
+      z(layout_.w(k) + static_cast<Index>(i)) = point.force(3 * contact + chosen[i] % 3);
+    }
+  }
+  for (int p = 0; p < static_cast<int>(phases_.size()); ++p) {
+    if (layout_.duration(p) < 0) continue;
+    const int last = problem_.phases[static_cast<std::size_t>(p)].intervals;
+    z(layout_.duration(p)) = trajectory.nodes[static_cast<std::size_t>(mesh_.index({p, last}))].time -
+                             trajectory.nodes[static_cast<std::size_t>(mesh_.index({p, 0}))].time;
+  }
+  RigidBodyTerms terms(problem_.robot);
+  for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
+    const Stance& stance = schedule_.stances()[s];
+    if (!stance.lands()) continue;
+    terms.update_kinematics(trajectory.nodes[static_cast<std::size_t>(mesh_.index({stance.first_phase, 0}))].q);
+    z.segment<2>(layout_.place(static_cast<int>(s))) =
+        problem_.surfaces[static_cast<std::size_t>(stance.surface)].coordinates(terms.contact_position(stance.contact));
   }
   return z;
 }
 
-Trajectory Transcription::unpack(const Eigen::VectorXd& z) {
+Trajectory Transcription::unpack(const VectorXd& z) {
   evaluate_nodes(z, false);
   Trajectory trajectory;
+  double phase_start = 0.0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const MeshNode& node = mesh_.nodes[static_cast<std::size_t>(k)];
+    const MeshNode& node = mesh_node(k);
+    const int intervals = problem_.phases[static_cast<std::size_t>(node.phase)].intervals;
     NodePoint from = node_point(z, k);
     TrajectoryPoint point;
-    point.time = node.time;
+    point.time = phase_start + from.duration * node.node / intervals;
+    if (node.node == intervals) phase_start = point.time;
     point.phase = node.phase;
     point.q = std::move(from.q);
     point.v = std::move(from.v);
     point.a = std::move(from.a);
     point.tau = std::move(from.tau);
     point.force.setZero(3 * static_cast<Index>(problem_.robot.contacts().size()));
-    const std::vector<int>& contacts = phases_[static_cast<std::size_t>(node.phase)].contacts();
+    const std::vector<int>& contacts = functions(k).contacts();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       point.force.segment<3>(3 * contacts[i]) =
           values_[static_cast<std::size_t>(k)].forces.segment<3>(static_cast<Index>(3 * i));

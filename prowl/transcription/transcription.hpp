@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "prowl/motion/contact_schedule.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 #include "prowl/transcription/decision_layout.hpp"
+#include "prowl/transcription/interval_defects.hpp"
 #include "prowl/transcription/mesh.hpp"
 #include "prowl/transcription/node_functions.hpp"
 
@@ -15,16 +17,15 @@ namespace prowl {
 
 /// Direct transcription by the trapezoid: a motion problem as a nonlinear program.
 ///
-/// At every node the projected dynamics c(q, v, a, tau) = 0 and the friction cones of the recovered forces hold; over
-/// every interval q and v follow the trapezoid of v and a; all else (joint, velocity and torque limits, start, goals)
-/// are bounds on the decision variables. Cost: the running cost by the trapezoid, and the terminal cost.
+/// At every node the projected dynamics c(q, v, a, tau) = 0, the friction cones of the recovered forces and what else
+/// NodeFunctions lists hold; over every interval q and v follow the trapezoid of v and a; all else (joint, velocity and
+/// torque limits, start, goals, durations, places of contacts) are bounds on the decision variables. Cost: the running
+/// cost by the trapezoid, and the terminal cost.
 /// Betts, Practical Methods for Optimal Control, 2010, sec. 4.5; docs/transcription.md.
-///
-/// Needs fixed durations, independent contacts, and no contact that closes after the start.
 class Transcription : public Nlp {
  public:
-  /// `guess` (one point a node) fixes the chart of the base's rotation at each node. Throws InputError if the problem
-  /// is outside what the transcription can do.
+  /// `guess` (one point a node) fixes the chart of the base's rotation at each node. Throws InputError if bounds
+  /// contradict each other.
   Transcription(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess);
 
   Eigen::VectorXd pack(const Trajectory& trajectory) const;
@@ -51,25 +52,39 @@ class Transcription : public Nlp {
   std::string describe_variable(int index) const override;
 
  private:
+  const MeshNode& mesh_node(int k) const { return mesh_.nodes[static_cast<std::size_t>(k)]; }
+  int phase_of(int k) const { return mesh_node(k).phase; }
+  const NodeFunctions& functions(int k) const { return phases_[static_cast<std::size_t>(phase_of(k))]; }
+  NodeFunctions& functions(int k) { return phases_[static_cast<std::size_t>(phase_of(k))]; }
+  /// Whether nodes k and k + 1 are the ends of an interval; else they are a phase switch.
+  bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
+  double duration(const Eigen::VectorXd& z, int phase) const;
+  double step(const Eigen::VectorXd& z, int k) const;
+  NodePoint node_point(const Eigen::VectorXd& z, int k) const;
+  IntervalDefects interval(const Eigen::VectorXd& z, int k) const;
+  IntervalEnd interval_end(const Eigen::VectorXd& z, int k) const;
+  void evaluate_nodes(const Eigen::VectorXd& z, bool with_derivatives);
+
+  /// Decision variable of column j of node k's derivatives.
+  int column(int k, int j) const;
   void set_patterns();
   template <class Emit>
   void visit_jacobian(const Eigen::VectorXd& z, Emit emit) const;
   template <class Emit>
   void visit_hessian(const std::vector<Eigen::MatrixXd>& nodes, const std::vector<Eigen::Matrix<double, 6, 6>>& links,
-                     Emit emit) const;
-  void add_defect_hessian(const Eigen::VectorXd& z, const Eigen::VectorXd& multipliers, int k,
-                          std::vector<Eigen::MatrixXd>& nodes, Eigen::Matrix<double, 6, 6>& link) const;
+                     const Eigen::MatrixXd& shared, Emit emit) const;
   std::string describe_node(int k) const;
-  NodePoint node_point(const Eigen::VectorXd& z, int k) const;
-  bool is_interval(int k) const;  ///< between nodes k and k + 1; else a phase switch
-  double step(int k) const { return mesh_.nodes[static_cast<std::size_t>(k)].h_out; }
-  void evaluate_nodes(const Eigen::VectorXd& z, bool with_derivatives);
+  std::string describe_shared(int index) const;
 
   MotionProblem problem_;
+  ContactSchedule schedule_;
   Mesh mesh_;
+  std::vector<NodeFunctions> phases_;            ///< what holds at a node, one a phase
+  std::vector<std::vector<int>> shared_;         ///< decision variables that the nodes of a phase share
+  std::vector<Eigen::VectorXd> anchor_origins_;  ///< anchors of each phase's contacts where the places are zero
   DecisionLayout layout_;
-  std::vector<Eigen::Matrix3d> charts_;  ///< one a node
-  std::vector<NodeFunctions> phases_;    ///< what holds at a node, one a phase
+  std::vector<Eigen::Matrix3d> charts_;          ///< one a node
+  std::vector<std::pair<int, int>> shared_pairs_;  ///< of shared variables (row >= column, from first_shared) in one phase
   Eigen::VectorXd variable_lower_, variable_upper_, constraint_lower_, constraint_upper_;
   SparsityPattern jacobian_pattern_, hessian_pattern_;
 

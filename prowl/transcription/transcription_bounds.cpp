@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool holds(const Phase& phase, int contact) {
-  return std::any_of(phase.contacts.begin(), phase.contacts.end(),
-                     [&](const PhaseContact& c) { return c.contact == contact; });
-}
-
 /// All nodes at the time of a node: itself and, at a phase switch, its twin.
 std::vector<int> nodes_at_time_of(const Mesh& mesh, int k) {
   std::vector<int> nodes{k};
@@ -31,6 +26,23 @@ std::vector<int> nodes_at_time_of(const Mesh& mesh, int k) {
 bool binds_rotation(const BoundaryCondition& condition) {
   return condition.configuration_lower.segment<3>(3).maxCoeff() > -kInfinity ||
          condition.configuration_upper.segment<3>(3).minCoeff() < kInfinity;
+}
+
+/// A place that the task gives, or the box around a patch (its edges are rows of their own where it is no box).
+void bound_place(const MotionProblem& problem, const Stance& stance, int first, VariableBounds& bounds) {
+  const Surface& surface = problem.surfaces[static_cast<std::size_t>(stance.surface)];
+  if (stance.place) {
+    bounds.lower.segment<2>(first) = bounds.upper.segment<2>(first) = surface.coordinates(*stance.place);
+    return;
+  }
+  if (surface.patch.empty()) return;
+  Eigen::Vector2d lower = surface.patch.front(), upper = lower;
+  for (const Eigen::Vector2d& corner : surface.patch) {
+    lower = lower.cwiseMin(corner);
+    upper = upper.cwiseMax(corner);
+  }
+  bounds.lower.segment<2>(first) = lower;
+  bounds.upper.segment<2>(first) = upper;
 }
 
 void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
@@ -49,23 +61,6 @@ void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, co
 
 }  // namespace
 
-void refuse_what_is_not_supported(const MotionProblem& problem) {
-  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
-    const Phase& phase = problem.phases[p];
-    if (!phase.duration.is_fixed()) {
-      throw InputError(fmt::format("phase '{}': a duration between {:g} and {:g} s is asked for, but only fixed durations "
-                                   "are supported yet: give one number", phase.name, phase.duration.min,
-                                   phase.duration.max));
-    }
-    for (const PhaseContact& contact : phase.contacts) {
-      if (p == 0 || holds(problem.phases[p - 1], contact.contact)) continue;
-      throw InputError(fmt::format("phase '{}': contact '{}' closes during the motion, which is not supported yet: only "
-                                   "contacts of the phase before can hold", phase.name,
-                                   problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name));
-    }
-  }
-}
-
 std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess) {
   std::vector<Eigen::Matrix3d> charts;
   for (int k = 0; k < mesh.size(); ++k) {
@@ -81,7 +76,8 @@ std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const
   return charts;
 }
 
-VariableBounds variable_bounds(const MotionProblem& problem, const Mesh& mesh, const DecisionLayout& layout) {
+VariableBounds variable_bounds(const MotionProblem& problem, const ContactSchedule& schedule, const Mesh& mesh,
+                               const DecisionLayout& layout) {
   const RobotModel& robot = problem.robot;
   const int nu = layout.nu();
   VariableBounds bounds;
@@ -94,6 +90,15 @@ VariableBounds variable_bounds(const MotionProblem& problem, const Mesh& mesh, c
     bounds.upper.segment(layout.v(k) + 6, nu) = robot.velocity_limit();
     bounds.lower.segment(layout.tau(k), nu) = -robot.torque_limit();
     bounds.upper.segment(layout.tau(k), nu) = robot.torque_limit();
+  }
+  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
+    const Duration& duration = problem.phases[static_cast<std::size_t>(p)].duration;
+    if (layout.duration(p) < 0) continue;
+    bounds.lower(layout.duration(p)) = duration.min;
+    bounds.upper(layout.duration(p)) = duration.max;
+  }
+  for (std::size_t s = 0; s < schedule.stances().size(); ++s) {
+    if (schedule.stances()[s].lands()) bound_place(problem, schedule.stances()[s], layout.place(static_cast<int>(s)), bounds);
   }
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
     const int k = mesh.index(condition.at);

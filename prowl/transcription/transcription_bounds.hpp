@@ -10,10 +10,6 @@
 
 namespace prowl {
 
-/// Throws InputError for what a motion problem may ask but the transcription cannot do yet: free durations, and contacts
-/// that close after the start.
-void refuse_what_is_not_supported(const MotionProblem& problem);
-
 /// A chart R_chart of the base's rotation for each node: that of the boundary condition there, so that its bounds are
 /// bounds on theta, else that of the guess. Both nodes of a phase switch get the same.
 std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess);
@@ -21,7 +17,9 @@ std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const
 struct VariableBounds {
   Eigen::VectorXd lower, upper;  ///< one a decision variable
 };
-/// Limits of the robot at every node, and the boundary conditions at theirs. Throws InputError where they contradict.
-VariableBounds variable_bounds(const MotionProblem& problem, const Mesh& mesh, const DecisionLayout& layout);
+/// Limits of the robot at every node, the boundary conditions at theirs, durations, and places of contacts that land.
+/// Throws InputError where they contradict.
+VariableBounds variable_bounds(const MotionProblem& problem, const ContactSchedule& schedule, const Mesh& mesh,
+                               const DecisionLayout& layout);
 
 }  // namespace prowl

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "prowl/motion/motion_problem.hpp"
+
+namespace prowl {
+
+/// A contact held without a break, over consecutive phases, at one place of one surface.
+struct Stance {
+  int contact = 0;
+  int surface = 0;
+  int first_phase = 0, last_phase = 0;
+  std::optional<Eigen::Vector3d> place;  ///< where the task puts it, world frame [m]; else the optimiser chooses
+
+  /// It begins during the motion: the contact lands. Else it is there from the start, at the place that the start has.
+  bool lands() const { return first_phase > 0; }
+};
+
+/// A contact in the air without a break, over consecutive phases.
+struct Swing {
+  int contact = 0;
+  int first_phase = 0, last_phase = 0;
+  int before = -1, after = -1;  ///< stances on either side; -1 at the start and at the end of the motion
+};
+
+/// Who holds what and when, read off the phases: the only place that knows when contacts open and close.
+class ContactSchedule {
+ public:
+  explicit ContactSchedule(const MotionProblem& problem);
+
+  const std::vector<Stance>& stances() const { return stances_; }
+  const std::vector<Swing>& swings() const { return swings_; }  ///< every contact of the robot, also those never held
+
+  /// Stance of the i-th contact of a phase; index into stances().
+  int stance(int phase, int i) const { return held_[static_cast<std::size_t>(phase)][static_cast<std::size_t>(i)]; }
+  /// The i-th contact of a phase lands at its first node.
+  bool lands(int phase, int i) const;
+  /// The i-th contact of a phase opens at its last node: it is not held in the phase after.
+  bool opens(int phase, int i) const;
+
+ private:
+  int num_phases_;
+  std::vector<Stance> stances_;
+  std::vector<Swing> swings_;
+  std::vector<std::vector<int>> held_;
+};
+
+}  // namespace prowl

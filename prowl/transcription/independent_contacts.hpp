@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "prowl/motion/contact_schedule.hpp"
+#include "prowl/transcription/node_functions.hpp"
+
+namespace prowl {
+
+/// Rows of `candidates` that are independent of the rows of `given` and of each other, as many as there are, in order.
+/// Rows count as dependent where Projector would: kRankThreshold of the largest.
+std::vector<int> independent_rows(const Eigen::MatrixXd& given, const Eigen::MatrixXd& candidates);
+
+/// How the contacts of a phase depend on each other, at configuration q of its first node (the rank of a contact set is
+/// a matter of the robot's shape, so that one posture tells it): contacts that stay come first, those that land add
+/// what is left.
+PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
+                             const Eigen::VectorXd& q);
+
+}  // namespace prowl

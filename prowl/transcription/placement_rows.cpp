@@ -1,0 +1,172 @@
+#include "prowl/transcription/placement_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace prowl {
+
+namespace {
+
+constexpr double kGravity = 9.81;  // [m/s^2]; only a scale here
+
+int nodes_of(const MotionProblem& problem, int first_phase, int last_phase) {
+  int intervals = 0;
+  for (int p = first_phase; p <= last_phase; ++p) intervals += problem.phases[static_cast<std::size_t>(p)].intervals;
+  return intervals;
+}
+
+/// Part of the clearance at progress s in [0, 1] of a swing: none where it leaves and where it lands, all in the middle,
+/// or at the end that is not on a surface.
+double clearance_profile(const Swing& swing, double s) {
+  const double from = swing.before >= 0 ? s : 1.0, to = swing.after >= 0 ? 1.0 - s : 1.0;
+  if (swing.before >= 0 && swing.after >= 0) return 4.0 * from * to;
+  return swing.before >= 0 || swing.after >= 0 ? from * to * (2.0 - from * to) : 0.0;
+}
+
+}  // namespace
+
+PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
+                             const std::vector<LandingAxes>& landing)
+    : length_(problem.robot.nominal_configuration()(2)), speed_(std::sqrt(kGravity * length_)), kinematics_({}) {
+  rows_.resize(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(phase)].intervals) + 1);
+  add_landing(problem, schedule, phase, landing);
+  for (const Swing& swing : schedule.swings()) {
+    if (swing.first_phase <= phase && phase <= swing.last_phase) add_clearance(problem, schedule, phase, swing);
+  }
+  kinematics_ = ContactKinematics(points_);
+}
+
+int PlacementRows::point_of(int contact) {
+  const auto found = std::ranges::find(points_, contact);
+  if (found != points_.end()) return static_cast<int>(found - points_.begin());
+  points_.push_back(contact);
+  return static_cast<int>(points_.size()) - 1;
+}
+
+void PlacementRows::add_landing(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
+                                const std::vector<LandingAxes>& landing) {
+  const auto& contacts = problem.phases[static_cast<std::size_t>(phase)].contacts;
+  for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
+    if (!schedule.lands(phase, i)) continue;
+    const PhaseContact& contact = contacts[static_cast<std::size_t>(i)];
+    const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+    Eigen::Matrix3d axes;
+    axes << surface.axes(), surface.normal;
+    const std::string& name = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name;
+    const LandingAxes& along = landing[static_cast<std::size_t>(i)];
+    for (const int axis : along.place) {
+      rows_[0].push_back({Kind::place, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / length_,
+                          name + ", landing place on " + surface.name});
+    }
+    for (const int axis : along.velocity) {
+      rows_[0].push_back({Kind::velocity, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / speed_,
+                          name + ", velocity at landing"});
+    }
+  }
+}
+
+// Surfaces without an edge are passed during the whole swing. A patch is passed while the foot is near it, and where that
+// is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the second.
+void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
+                                  const Swing& swing) {
+  const int total = nodes_of(problem, swing.first_phase, swing.last_phase);
+  const int before = nodes_of(problem, swing.first_phase, phase - 1);
+  const int intervals = problem.phases[static_cast<std::size_t>(phase)].intervals;
+  const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
+  const auto surface_of = [&](int stance) {
+    return stance < 0 ? -1 : schedule.stances()[static_cast<std::size_t>(stance)].surface;
+  };
+  const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(swing.contact)];
+  for (int k = 0; k <= intervals; ++k) {
+    // The first node of a swing is where it left, the last where it lands; of a switch in between one node is enough.
+    if (k == 0 && phase == swing.first_phase) continue;
+    if (k == intervals && !is_last_phase) continue;
+    const double progress = static_cast<double>(before + k) / total;
+    for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
+      const Surface& surface = problem.surfaces[static_cast<std::size_t>(s)];
+      const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5) ||
+                          (s == surface_of(swing.after) && progress >= 0.5);
+      if (!passes) continue;
+      const double height = problem.swing_clearance * clearance_profile(swing, progress);
+      rows_[static_cast<std::size_t>(k)].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,
+                                                    surface.normal.dot(surface.point) + contact.radius,
+                                                    height / length_, 1.0 / length_,
+                                                    contact.name + ", clearance above " + surface.name});
+    }
+  }
+}
+
+double PlacementRows::upper(int k, int row) const {
+  return at(k, row).kind == Kind::clearance ? std::numeric_limits<double>::infinity() : at(k, row).lower;
+}
+
+std::string PlacementRows::describe(int k, int row) const { return at(k, row).what; }
+
+void PlacementRows::evaluate(int k, const RigidBodyTerms& terms, const Eigen::VectorXd& v,
+                             const Eigen::VectorXd& anchors, Eigen::Ref<Eigen::VectorXd> values) {
+  if (count(k) == 0) return;
+  v_ = v;
+  kinematics_.set_configuration(terms);
+  for (int i = 0; i < count(k); ++i) {
+    const Row& row = at(k, i);
+    const Eigen::Index first = 3 * row.point;
+    double value = 0.0;
+    switch (row.kind) {
+      case Kind::place:
+        value = row.axis.dot(kinematics_.positions().segment<3>(first) - anchors.segment<3>(3 * row.held));
+        break;
+      case Kind::velocity:
+        value = row.axis.dot(kinematics_.jacobian().middleRows<3>(first) * v);
+        break;
+      case Kind::clearance:
+        value = row.axis.dot(kinematics_.positions().segment<3>(first)) - row.offset;
+        break;
+    }
+    values(i) = row.scale * value;
+  }
+}
+
+void PlacementRows::derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv,
+                                Eigen::Ref<Eigen::MatrixXd> danchors) {
+  dq.setZero();
+  dv.setZero();
+  danchors.setZero();
+  if (count(k) == 0) return;
+  kinematics_.set_motion(Eigen::VectorXd::Zero(v_.size()), v_);
+  kinematics_.acceleration_dq(velocity_dq_);
+  for (int i = 0; i < count(k); ++i) {
+    const Row& row = at(k, i);
+    const Eigen::Index first = 3 * row.point;
+    const Eigen::RowVector3d axis = row.scale * row.axis.transpose();
+    if (row.kind == Kind::velocity) {
+      dq.row(i) = axis * velocity_dq_.middleRows<3>(first);
+      dv.row(i) = axis * kinematics_.jacobian().middleRows<3>(first);
+      continue;
+    }
+    dq.row(i) = axis * kinematics_.positions_dq().middleRows<3>(first);
+    if (row.kind == Kind::place) danchors.row(i).segment<3>(3 * row.held) = -axis;
+  }
+}
+
+void PlacementRows::add_hessian(int k, const Eigen::VectorXd& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
+                                Eigen::Ref<Eigen::MatrixXd> qv) {
+  if (count(k) == 0) return;
+  Eigen::VectorXd on_position = Eigen::VectorXd::Zero(kinematics_.rows());
+  Eigen::VectorXd on_velocity = Eigen::VectorXd::Zero(kinematics_.rows());
+  for (int i = 0; i < count(k); ++i) {
+    const Row& row = at(k, i);
+    (row.kind == Kind::velocity ? on_velocity : on_position).segment<3>(3 * row.point) +=
+        multipliers(i) * row.scale * row.axis;
+  }
+  Eigen::MatrixXd bend = Eigen::MatrixXd::Zero(qq.rows(), qq.cols());
+  kinematics_.add_position_hessian(on_position, 1.0, bend);
+  SecondDerivatives second(static_cast<int>(v_.size()));
+  second.set_zero();
+  kinematics_.set_motion(Eigen::VectorXd::Zero(v_.size()), v_);
+  kinematics_.add_acceleration_hessian(on_velocity, second);
+  qq += bend + second.qq;
+  qv += second.qa;  // J u is the acceleration of a = u at rest
+}
+
+}  // namespace prowl

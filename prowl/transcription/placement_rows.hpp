@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/motion/contact_schedule.hpp"
+
+namespace prowl {
+
+/// Along which axes of its surface (0 and 1 along it, 2 the normal) a contact that lands is put to its place and
+/// stopped. All three, unless other contacts already settle some of them.
+struct LandingAxes {
+  std::vector<int> place = {0, 1, 2};
+  std::vector<int> velocity = {0, 1, 2};
+};
+
+/// Constraints of one phase on where contacts are, at node k = 0 ... intervals of it:
+/// - a contact that lands at its first node is at its anchor and at rest:  axis . (p - anchor) = 0,  axis . J v = 0;
+/// - a contact in the air keeps its clearance of the surfaces that it passes:  normal . (p - point) - radius >= height(k).
+/// Lengths are divided by the robot's standing height l, velocities by sqrt(g l).
+class PlacementRows {
+ public:
+  /// `landing`: one for each contact of the phase; of no meaning for those that do not land.
+  PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
+                const std::vector<LandingAxes>& landing);
+
+  int count(int k) const { return static_cast<int>(rows_[static_cast<std::size_t>(k)].size()); }
+  double lower(int k, int row) const { return at(k, row).lower; }
+  double upper(int k, int row) const;
+  std::string describe(int k, int row) const;
+
+  /// Values at the configuration of `terms` and velocity v; anchors of the phase's contacts, 3 rows each, world.
+  void evaluate(int k, const RigidBodyTerms& terms, const Eigen::VectorXd& v, const Eigen::VectorXd& anchors,
+                Eigen::Ref<Eigen::VectorXd> values);
+  /// After evaluate(): derivatives in the tangent of q, in v and in the anchors. Set whole.
+  void derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv,
+                   Eigen::Ref<Eigen::MatrixXd> danchors);
+  /// After derivatives() or evaluate(): adds the second derivatives of multipliers . rows; qv is the mixed block.
+  void add_hessian(int k, const Eigen::VectorXd& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
+                   Eigen::Ref<Eigen::MatrixXd> qv);
+
+ private:
+  enum class Kind { place, velocity, clearance };
+  struct Row {
+    Kind kind;
+    int point;              ///< place of the contact among the points of kinematics_
+    int held;               ///< place among the contacts of the phase, if it lands
+    Eigen::Vector3d axis;   ///< world
+    double offset;          ///< clearance: normal . point + radius
+    double lower, scale;
+    std::string what;
+  };
+  const Row& at(int k, int row) const { return rows_[static_cast<std::size_t>(k)][static_cast<std::size_t>(row)]; }
+  void add_landing(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
+                   const std::vector<LandingAxes>& landing);
+  void add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const Swing& swing);
+  int point_of(int contact);
+
+  double length_, speed_;
+  std::vector<int> points_;
+  std::vector<std::vector<Row>> rows_;
+  ContactKinematics kinematics_;
+  Eigen::MatrixXd velocity_dq_;
+  Eigen::VectorXd v_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Torque limits that depend on the state, at one node: two rows >= 0 for each curve phi of the robot,
+///   over the position   phi(q) - tau,   phi(q) + tau
+///   over the velocity   phi(v) - tau,   phi(-v) + tau
+/// (Pardo et al. 2016 print one side), divided by the largest torque that the curve's table has.
+class TorqueRows {
+ public:
+  explicit TorqueRows(const RobotModel& robot);
+
+  int count() const { return 2 * static_cast<int>(curves_.size()); }
+  std::string describe(int row) const;
+
+  /// joints, rates, tau: nu each.
+  void evaluate(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates, const Eigen::VectorXd& tau,
+                Eigen::Ref<Eigen::VectorXd> values) const;
+  /// Derivatives in (joints, rates, tau). Set whole.
+  void derivatives(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates, Eigen::Ref<Eigen::MatrixXd> d_joints,
+                   Eigen::Ref<Eigen::MatrixXd> d_rates, Eigen::Ref<Eigen::MatrixXd> d_tau) const;
+  /// Adds the second derivatives of multipliers . rows, which are diagonal.
+  void add_hessian(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates, const Eigen::VectorXd& multipliers,
+                   Eigen::Ref<Eigen::VectorXd> joints_diagonal, Eigen::Ref<Eigen::VectorXd> rates_diagonal) const;
+
+ private:
+  /// Where row 0 or 1 of a curve reads it.
+  static double argument(const RobotModel::TorqueCurve& limit, int side, const Eigen::VectorXd& joints,
+                         const Eigen::VectorXd& rates) {
+    return limit.over_velocity ? (side == 0 ? rates(limit.joint) : -rates(limit.joint)) : joints(limit.joint);
+  }
+
+  std::vector<RobotModel::TorqueCurve> curves_;
+  std::vector<std::string> names_;
+  Eigen::VectorXd scale_;  ///< one a curve
+};
+
+}  // namespace prowl
