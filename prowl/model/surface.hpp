@@ -31,6 +31,14 @@ struct Surface {
   Eigen::Vector3d at(const Eigen::Vector2d& coordinates, double height = 0.0) const {
     return point + axes() * coordinates + height * normal;
   }
+  /// Whether surface coordinates are inside the patch, or on its edge; always on a plane without one.
+  bool contains(const Eigen::Vector2d& p) const {
+    for (std::size_t i = 0; i < patch.size(); ++i) {
+      const Eigen::Vector2d edge = patch[(i + 1) % patch.size()] - patch[i], to = p - patch[i];
+      if (edge.x() * to.y() - edge.y() * to.x() < 0.0) return false;
+    }
+    return true;
+  }
   /// Surface coordinates of a world point [m].
   Eigen::Vector2d coordinates(const Eigen::Vector3d& p) const { return axes().transpose() * (p - point); }
 

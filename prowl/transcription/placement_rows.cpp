@@ -63,6 +63,14 @@ void PlacementRows::add_landing(const MotionProblem& problem, const ContactSched
       rows_[0].push_back({Kind::velocity, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / speed_,
                           name + ", velocity at landing"});
     }
+    if (contact.place) continue;
+    for (std::size_t corner = 0; corner < surface.patch.size(); ++corner) {
+      const Eigen::Vector2d edge = surface.patch[(corner + 1) % surface.patch.size()] - surface.patch[corner];
+      const Eigen::Vector3d inward = surface.axes() * Eigen::Vector2d(-edge.y(), edge.x()).normalized();
+      rows_[0].push_back({Kind::inside, point_of(contact.contact), i, inward,
+                          inward.dot(surface.at(surface.patch[corner])), 0.0, 1.0 / length_,
+                          name + ", landing place inside " + surface.name});
+    }
   }
 }
 
@@ -98,7 +106,8 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
 }
 
 double PlacementRows::upper(int k, int row) const {
-  return at(k, row).kind == Kind::clearance ? std::numeric_limits<double>::infinity() : at(k, row).lower;
+  const Kind kind = at(k, row).kind;
+  return kind == Kind::place || kind == Kind::velocity ? at(k, row).lower : std::numeric_limits<double>::infinity();
 }
 
 std::string PlacementRows::describe(int k, int row) const { return at(k, row).what; }
@@ -118,6 +127,9 @@ void PlacementRows::evaluate(int k, const RigidBodyTerms& terms, const Eigen::Ve
         break;
       case Kind::velocity:
         value = row.axis.dot(kinematics_.jacobian().middleRows<3>(first) * v);
+        break;
+      case Kind::inside:
+        value = row.axis.dot(anchors.segment<3>(3 * row.held)) - row.offset;
         break;
       case Kind::clearance:
         value = row.axis.dot(kinematics_.positions().segment<3>(first)) - row.offset;
@@ -144,6 +156,10 @@ void PlacementRows::derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Re
       dv.row(i) = axis * kinematics_.jacobian().middleRows<3>(first);
       continue;
     }
+    if (row.kind == Kind::inside) {
+      danchors.row(i).segment<3>(3 * row.held) = axis;
+      continue;
+    }
     dq.row(i) = axis * kinematics_.positions_dq().middleRows<3>(first);
     if (row.kind == Kind::place) danchors.row(i).segment<3>(3 * row.held) = -axis;
   }
@@ -156,6 +172,7 @@ void PlacementRows::add_hessian(int k, const Eigen::VectorXd& multipliers, Eigen
   Eigen::VectorXd on_velocity = Eigen::VectorXd::Zero(kinematics_.rows());
   for (int i = 0; i < count(k); ++i) {
     const Row& row = at(k, i);
+    if (row.kind == Kind::inside) continue;
     (row.kind == Kind::velocity ? on_velocity : on_position).segment<3>(3 * row.point) +=
         multipliers(i) * row.scale * row.axis;
   }

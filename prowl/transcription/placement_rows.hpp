@@ -18,6 +18,7 @@ struct LandingAxes {
 
 /// Constraints of one phase on where contacts are, at node k = 0 ... intervals of it:
 /// - a contact that lands at its first node is at its anchor and at rest:  axis . (p - anchor) = 0,  axis . J v = 0;
+///   its anchor is inside the patch that it lands on:  inward . (anchor - corner) >= 0 for each edge;
 /// - a contact in the air keeps its clearance of the surfaces that it passes:  normal . (p - point) - radius >= height(k).
 /// Lengths are divided by the robot's standing height l, velocities by sqrt(g l).
 class PlacementRows {
@@ -42,13 +43,13 @@ class PlacementRows {
                    Eigen::Ref<Eigen::MatrixXd> qv);
 
  private:
-  enum class Kind { place, velocity, clearance };
+  enum class Kind { place, velocity, inside, clearance };
   struct Row {
     Kind kind;
     int point;              ///< place of the contact among the points of kinematics_
     int held;               ///< place among the contacts of the phase, if it lands
     Eigen::Vector3d axis;   ///< world
-    double offset;          ///< clearance: normal . point + radius
+    double offset;          ///< clearance: normal . point + radius; inside: inward . corner
     double lower, scale;
     std::string what;
   };

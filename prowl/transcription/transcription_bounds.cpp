@@ -28,23 +28,6 @@ bool binds_rotation(const BoundaryCondition& condition) {
          condition.configuration_upper.segment<3>(3).minCoeff() < kInfinity;
 }
 
-/// A place that the task gives, or the box around a patch (its edges are rows of their own where it is no box).
-void bound_place(const MotionProblem& problem, const Stance& stance, int first, VariableBounds& bounds) {
-  const Surface& surface = problem.surfaces[static_cast<std::size_t>(stance.surface)];
-  if (stance.place) {
-    bounds.lower.segment<2>(first) = bounds.upper.segment<2>(first) = surface.coordinates(*stance.place);
-    return;
-  }
-  if (surface.patch.empty()) return;
-  Eigen::Vector2d lower = surface.patch.front(), upper = lower;
-  for (const Eigen::Vector2d& corner : surface.patch) {
-    lower = lower.cwiseMin(corner);
-    upper = upper.cwiseMax(corner);
-  }
-  bounds.lower.segment<2>(first) = lower;
-  bounds.upper.segment<2>(first) = upper;
-}
-
 void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
              const std::string& what) {
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
@@ -98,7 +81,11 @@ VariableBounds variable_bounds(const MotionProblem& problem, const ContactSchedu
     bounds.upper(layout.duration(p)) = duration.max;
   }
   for (std::size_t s = 0; s < schedule.stances().size(); ++s) {
-    if (schedule.stances()[s].lands()) bound_place(problem, schedule.stances()[s], layout.place(static_cast<int>(s)), bounds);
+    const Stance& stance = schedule.stances()[s];
+    if (!stance.lands() || !stance.place) continue;
+    const Surface& surface = problem.surfaces[static_cast<std::size_t>(stance.surface)];
+    const int first = layout.place(static_cast<int>(s));
+    bounds.lower.segment<2>(first) = bounds.upper.segment<2>(first) = surface.coordinates(*stance.place);
   }
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
     const int k = mesh.index(condition.at);

@@ -1,0 +1,82 @@
+#include "prowl/transcription/contact_path.hpp"
+
+#include <algorithm>
+
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// The point of a patch nearest to surface coordinates; they themselves on a plane without an edge.
+Eigen::Vector2d inside(const Surface& surface, const Eigen::Vector2d& coordinates) {
+  if (surface.contains(coordinates)) return coordinates;
+  Eigen::Vector2d nearest = coordinates;
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < surface.patch.size(); ++i) {
+    const Eigen::Vector2d a = surface.patch[i], edge = surface.patch[(i + 1) % surface.patch.size()] - a;
+    const Eigen::Vector2d on_edge = a + edge * std::clamp(edge.dot(coordinates - a) / edge.squaredNorm(), 0.0, 1.0);
+    if ((on_edge - coordinates).norm() < distance) {
+      distance = (on_edge - coordinates).norm();
+      nearest = on_edge;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+ContactPath::ContactPath(const MotionProblem& problem, const Mesh& mesh, const PosturePath& posture)
+    : problem_(problem), mesh_(mesh), schedule_(problem) {
+  RigidBodyTerms terms(problem.robot);
+  const VectorXd& start = problem.start_configuration();
+  terms.update_kinematics(start);
+  for (const Stance& stance : schedule_.stances()) {
+    const Vector3d at_start = terms.contact_position(stance.contact);
+    if (!stance.lands()) {
+      places_.push_back(at_start);
+      continue;
+    }
+    const Surface& surface = problem.surfaces[static_cast<std::size_t>(stance.surface)];
+    const double radius = problem.robot.contacts()[static_cast<std::size_t>(stance.contact)].radius;
+    const Span held = span(stance.first_phase, stance.last_phase);
+    const VectorXd q = posture(0.5 * (held.start + held.end));
+    const Vector3d carried =
+        base_position(q) + base_rotation(q) * (base_rotation(start).transpose() * (at_start - base_position(start)));
+    places_.push_back(surface.at(inside(surface, surface.coordinates(stance.place.value_or(carried))), radius));
+  }
+}
+
+ContactPath::Span ContactPath::span(int first_phase, int last_phase) const {
+  const auto time = [&](NodeRef at) { return mesh_.nodes[static_cast<std::size_t>(mesh_.index(at))].time; };
+  return {time({first_phase, 0}),
+          time({last_phase, problem_.phases[static_cast<std::size_t>(last_phase)].intervals})};
+}
+
+std::vector<ContactTarget> ContactPath::targets(int k) const {
+  const MeshNode& node = mesh_.nodes[static_cast<std::size_t>(k)];
+  const auto now = [&](const auto& time) { return time.first_phase <= node.phase && node.phase <= time.last_phase; };
+  std::vector<ContactTarget> targets;
+  for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
+    if (now(schedule_.stances()[s])) targets.push_back({schedule_.stances()[s].contact, places_[s]});
+  }
+  for (const Swing& swing : schedule_.swings()) {
+    if (!now(swing) || swing.before < 0 || swing.after < 0) continue;
+    const Span time = span(swing.first_phase, swing.last_phase);
+    const double s = (node.time - time.start) / (time.end - time.start);
+    const Vector3d& from = places_[static_cast<std::size_t>(swing.before)];
+    const Vector3d& to = places_[static_cast<std::size_t>(swing.after)];
+    const int surface = schedule_.stances()[static_cast<std::size_t>(swing.after)].surface;
+    const Vector3d lift = problem_.swing_clearance * problem_.surfaces[static_cast<std::size_t>(surface)].normal;
+    // At rest at both ends; an arc of four thirds of the clearance, so as not to start on the bound.
+    const double along = s * s * (3.0 - 2.0 * s), arc = 16.0 * s * s * (1.0 - s) * (1.0 - s);
+    targets.push_back({swing.contact, from + along * (to - from) + arc * 4.0 / 3.0 * lift});
+  }
+  return targets;
+}
+
+}  // namespace prowl

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "prowl/dynamics/inverse_kinematics.hpp"
+#include "prowl/motion/contact_schedule.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/posture_path.hpp"
+
+namespace prowl {
+
+/// Where the contacts of an initial guess are: held ones at their places, those in the air between them.
+///
+/// A contact that lands does so where the task puts it, else under the place on the robot where the start has it: the
+/// start's contact, carried along with the base to the middle of the stance, then dropped on its surface. In the air a
+/// contact goes from place to place in an arc over both. One that never lands again, or was never held, keeps the posture of
+/// its leg.
+class ContactPath {
+ public:
+  ContactPath(const MotionProblem& problem, const Mesh& mesh, const PosturePath& posture);
+
+  /// Of node k of the mesh.
+  std::vector<ContactTarget> targets(int k) const;
+
+ private:
+  struct Span {
+    double start, end;  ///< [s]
+  };
+  Span span(int first_phase, int last_phase) const;
+
+  const MotionProblem& problem_;
+  const Mesh& mesh_;
+  ContactSchedule schedule_;
+  std::vector<Eigen::Vector3d> places_;  ///< one a stance, of the contact point: its radius above the surface
+};
+
+}  // namespace prowl
