@@ -39,6 +39,7 @@ void add_running_weights(FileKeys& keys) {
   keys.push_back({"cost", "torque", joints, "weight on torques about torque_reference [1/(N m)²]"});
   keys.push_back({"cost", "torque_reference", "\"static\" or \"zero\"; default \"static\"",
                   "torques that cost nothing: those that hold the start posture on the first phase's contacts, or zero"});
+  keys.push_back({"cost", "time", "number >= 0; default 0", "cost of every second, for phases of free duration [1/s]"});
   keys.push_back({"cost", "force", vector, "weight on every contact's force, world x y z [1/N²]"});
 }
 
@@ -46,29 +47,37 @@ FileKeys make_task_file_keys() {
   FileKeys keys = {
       {"", "name", "string; default: the file's name", "name of the motion"},
       {"", "robot", "path", "robot file, relative to this file"},
-      {"", "surface", "[[surface]]; default: a floor at z = 0", "planes that contacts may touch"},
+      {"", "surface", "[[surface]]; default: a floor at z = 0", "planes and patches that contacts may touch"},
       {"", "start", "[start]; default: the robot's nominal posture", "where the motion begins, at rest"},
       {"", "phase", "[[phase]], one or more", "times with one set of contacts, in order"},
       {"", "goal", "[[goal]]", "what has to hold exactly at some times"},
       {"", "cost", "[cost]", "running cost: half the sum of weight x difference², integrated over time"},
       {"", "terminal_cost", "[terminal_cost]", "the same at the last node, not integrated"},
+      {"", "swing_clearance_m", "number >= 0 [m]; default 5 % of the standing height",
+       "of contacts in the air above the surfaces that they pass, in the middle of the swing"},
       {"", "solver", "[solver]", "when the solver stops"},
       {"surface", "name", "string", "for phases to refer to"},
       {"surface", "point_m", "3 numbers [m]; default [0, 0, 0]", "any point of the plane, world frame"},
       {"surface", "normal", "3 numbers; default [0, 0, 1]", "points out of the ground; any length but zero"},
+      {"surface", "patch_m", "3 or more [number, number]; default: a plane without an edge",
+       "corners of a convex patch, counterclockwise seen from outside, in surface coordinates: lengths from point_m along "
+       "x turned into the plane, and across"},
       {"surface", "friction", "number > 0 [-]; default 0.5", "Coulomb coefficient"},
       {"start", "joints", "{joint = number} [rad]", "in place of the robot's nominal ones"},
       {"start", "base_position_m", "3 numbers [m]; default: over the origin, lowest contact on z = 0", "world frame"},
       {"start", "base_rpy_rad", "3 numbers [rad]; default: the robot's nominal ones", "R = Rz(yaw) Ry(pitch) Rx(roll)"},
       {"phase", "name", "string; default \"phase 1\", \"phase 2\", ...", "for goals and messages"},
-      {"phase", "contacts", "\"all\", or a list of contacts or {contact, surface}",
+      {"phase", "contacts", "\"all\", or a list of contacts or {contact, surface, place_m}",
        "contacts that hold their place; on the first surface unless said"},
-      {"phase", "duration_s", "number > 0 [s]", "how long it lasts"},
+      {"phase", "duration_s", "number > 0, or [min, max] [s]", "how long it lasts; between two bounds the optimiser chooses"},
       {"phase", "intervals", "integer, 1 to 10000", "equal mesh intervals that it is cut into"},
       {"phase.contacts", "contact", "string", "name of a contact of the robot"},
       {"phase.contacts", "surface", "string", "name of the surface that it touches"},
+      {"phase.contacts", "place_m", "3 numbers [m]; default: free on the surface",
+       "where a contact that lands in this phase has to touch, world frame; on the surface"},
       {"goal", "time_s", "number > 0 [s], at a node", "when; this or phase"},
       {"goal", "phase", "string", "when: at the end of the phase with this name"},
+      {"goal", "fraction", "number, 0 to 1, at a node; default 1", "with phase: at this part of it, in place of its end"},
       {"goal", "base_position_m", kBounds3, "place of the base, world frame [m]"},
       {"goal", "base_displacement_m", kBounds3, "the same from where it starts, world axes [m]"},
       {"goal", "base_rpy_rad", "3 x (number or \"free\")",
@@ -108,6 +117,10 @@ const FileKeys& robot_file_keys() {
       {"limits", "position_rad", "[min, max] [rad]", "joint position"},
       {"limits", "velocity_radps", "number > 0 [rad/s]", "joint speed, both ways"},
       {"limits", "torque_Nm", "number > 0 [N m]", "joint torque, both ways"},
+      {"limits", "torque_over_position", "4 or more [rad, N m]; default none",
+       "torque limit over the joint position, both ways: a smooth curve through these points, over all of its range"},
+      {"limits", "torque_over_velocity", "4 or more [rad/s, N m]; default none",
+       "limit of the torque in the direction of positive velocity, over all of -velocity ... velocity; mirrored for the other"},
   };
   return keys;
 }

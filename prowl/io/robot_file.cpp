@@ -40,6 +40,20 @@ void read_nominal(const TomlTable& table, RobotDescription& robot) {
   }
 }
 
+LimitCurve::Table read_curve(const TomlValue& value) {
+  LimitCurve::Table table;
+  for (const TomlValue& point : value.as_list()) {
+    const std::vector<TomlValue> entries = point.as_list(2);
+    table.emplace_back(entries[0].as_number(), entries[1].as_number(NumberRange::positive()));
+  }
+  try {
+    LimitCurve{table};
+  } catch (const InputError& error) {
+    value.fail(error.what());
+  }
+  return table;
+}
+
 JointLimits read_limits(const TomlTable& table) {
   JointLimits limits;
   if (const auto position = table.find("position_rad")) {
@@ -50,6 +64,8 @@ JointLimits read_limits(const TomlTable& table) {
   }
   if (const auto velocity = table.find("velocity_radps")) limits.velocity = velocity->as_number(NumberRange::positive());
   if (const auto torque = table.find("torque_Nm")) limits.torque = torque->as_number(NumberRange::positive());
+  if (const auto curve = table.find("torque_over_position")) limits.torque_over_position = read_curve(*curve);
+  if (const auto curve = table.find("torque_over_velocity")) limits.torque_over_velocity = read_curve(*curve);
   return limits;
 }
 

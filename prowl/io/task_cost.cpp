@@ -98,6 +98,7 @@ void read_running_cost(const TomlTable& table, const MotionProblem& problem, Qua
   read_weight3(table, "base_angular_acceleration", cost.acceleration_weight.segment(3, 3));
   read_joint_weight(table, "joint_acceleration", robot, cost.acceleration_weight.tail(robot.nu()));
   read_joint_weight(table, "torque", robot, cost.torque_weight);
+  if (const auto time = table.find("time")) cost.time_weight = time->as_number(NumberRange::nonnegative());
   Eigen::VectorXd force = cost.force_weight;
   read_weight3(table, "force", force);
   cost.force_weight = force;

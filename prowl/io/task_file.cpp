@@ -17,6 +17,16 @@ namespace {
 
 constexpr int kMostIntervals = 10000;  // of one phase; a typing mistake above that, and gigabytes of memory
 
+std::vector<Eigen::Vector2d> read_patch(const TomlValue& value) {
+  std::vector<Eigen::Vector2d> corners;
+  for (const TomlValue& corner : value.as_list()) {
+    const std::vector<TomlValue> numbers = corner.as_list(2);
+    corners.emplace_back(numbers[0].as_number(), numbers[1].as_number());
+  }
+  if (const std::string fault = Surface::patch_fault(corners); !fault.empty()) value.fail(fault);
+  return corners;
+}
+
 std::vector<Surface> read_surfaces(const TomlTable& root) {
   std::vector<Surface> surfaces;
   for (const TomlTable& table : root.find_tables("surface")) {
@@ -31,6 +41,7 @@ std::vector<Surface> read_surfaces(const TomlTable& root) {
       if (surface.normal.norm() < 1e-6) normal->fail("a vector of length 0 is not allowed");
       surface.normal.normalize();
     }
+    if (const auto patch = table.find("patch_m")) surface.patch = read_patch(*patch);
     if (const auto friction = table.find("friction")) surface.friction = friction->as_number(NumberRange::positive());
     surfaces.push_back(surface);
   }
@@ -99,7 +110,8 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
     if (entry.is_table()) {
       const TomlTable table(entry, task_file_keys(), "phase.contacts");
       contact.contact = find_name(table.need("contact"), "contact", names.contacts);
-      contact.surface = find_name(table.need("surface"), "surface", names.surfaces);
+      if (const auto surface = table.find("surface")) contact.surface = find_name(*surface, "surface", names.surfaces);
+      if (const auto place = table.find("place_m")) contact.place = place->as_vector3();
     } else {
       contact.contact = find_name(entry, "contact", names.contacts);
     }
@@ -112,16 +124,14 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
 }
 
 Duration read_duration(const TomlValue& value) {
-  if (value.is_list()) {
-    const Bounds bounds = value.as_bounds();
-    if (bounds.lower != bounds.upper) {
-      value.fail("a duration between two bounds is not supported yet; need one number > 0 [s]");
-    }
-    value.as_list()[0].as_number(NumberRange::positive());
-    return {bounds.lower, bounds.upper};
+  if (!value.is_list()) {
+    const double duration = value.as_number(NumberRange::positive());
+    return {duration, duration};
   }
-  const double duration = value.as_number(NumberRange::positive());
-  return {duration, duration};
+  const std::vector<TomlValue> ends = value.as_list(2);
+  const Duration duration{ends[0].as_number(NumberRange::positive()), ends[1].as_number(NumberRange::positive())};
+  if (duration.min > duration.max) value.fail("min > max is not allowed; need [min, max]");
+  return duration;
 }
 
 std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names) {
@@ -186,7 +196,12 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
                         .boundary_conditions = std::move(conditions),
                         .running_cost = {},
                         .terminal_cost = {},
+                        .swing_clearance = 0.0,
                         .goal_tolerance = {}};
+  constexpr double kSwingClearance = 0.05;  // of the standing height: what a legged robot lifts its feet by on flat ground
+  const auto clearance = root.find("swing_clearance_m");
+  problem.swing_clearance = clearance ? clearance->as_number(NumberRange::nonnegative())
+                                      : kSwingClearance * problem.robot.nominal_configuration()(2);
   read_costs(root, problem);
   return problem;
 }

@@ -45,18 +45,37 @@ NodeRef node_at_time(const TomlValue& value, const std::vector<Phase>& phases) {
                          std::prev(after)->time, after->time));
 }
 
+/// The node at a part of a phase.
+int node_at_fraction(const TomlValue& value, const Phase& phase) {
+  constexpr double kRounding = 1e-6;  // a decimal fraction in a file is not an exact node
+  const double node = value.as_number({.lower = 0.0, .upper = 1.0}) * phase.intervals;
+  if (std::abs(node - std::round(node)) > kRounding * phase.intervals) {
+    value.fail(fmt::format("not at a node of the mesh; the nearest are {:.6g} and {:.6g}",
+                           std::floor(node) / phase.intervals, std::ceil(node) / phase.intervals));
+  }
+  return static_cast<int>(std::lround(node));
+}
+
 NodeRef read_node(const TomlTable& goal, const std::vector<Phase>& phases) {
   const auto time = goal.find("time_s");
   const auto phase = goal.find("phase");
+  const auto fraction = goal.find("fraction");
   if (time && phase) phase->fail("need either time_s or phase, not both");
-  if (time) return node_at_time(*time, phases);
+  if (fraction && !phase) fraction->fail("goes with phase only");
+  if (time) {
+    for (const Phase& p : phases) {
+      if (!p.duration.is_fixed()) time->fail("the duration of phase '" + p.name + "' is free: need phase, not time_s");
+    }
+    return node_at_time(*time, phases);
+  }
   if (!phase) goal.need("time_s");
   std::vector<std::string> names;
   for (const Phase& p : phases) names.push_back(p.name);
   const auto found = std::find(names.begin(), names.end(), phase->as_text());
   if (found == names.end()) phase->fail_unknown_name("phase", names);
   const auto index = static_cast<int>(found - names.begin());
-  return {index, phases[static_cast<std::size_t>(index)].intervals};
+  const Phase& found_phase = phases[static_cast<std::size_t>(index)];
+  return {index, fraction ? node_at_fraction(*fraction, found_phase) : found_phase.intervals};
 }
 
 /// Bounds of three entries of the file, less `origin`, as rows first ... first + 2 of lower and upper.

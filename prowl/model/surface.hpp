@@ -17,6 +17,9 @@ struct Surface {
   /// Corners of a patch in surface coordinates [m], counterclockwise seen from outside; empty for the whole plane.
   std::vector<Eigen::Vector2d> patch = {};
 
+  /// What is wrong with the corners of a patch, "" if nothing: fewer than three, not finite, not convex, clockwise.
+  static std::string patch_fault(const std::vector<Eigen::Vector2d>& corners);
+
   /// Axes of the surface coordinates, unit vectors in the world: the first is x turned into the plane (y, where x is
   /// along the normal), the second completes (first, second, normal) to a right-handed frame. World x y on level ground.
   Eigen::Matrix<double, 3, 2> axes() const {

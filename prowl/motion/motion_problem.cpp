@@ -59,6 +59,21 @@ void check_surface(const std::string& field, const Surface& surface) {
   if (!(surface.friction > 0.0) || !std::isfinite(surface.friction)) {
     refuse("{}.friction: {} is not allowed; need a coefficient > 0", field, surface.friction);
   }
+  if (surface.patch.empty()) return;
+  if (const std::string fault = Surface::patch_fault(surface.patch); !fault.empty()) refuse("{}.patch: {}", field, fault);
+}
+
+void check_place(const MotionProblem& problem, const std::string& field, const PhaseContact& contact) {
+  const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+  check_finite(field, *contact.place, 3);
+  const double gap = surface.distance(*contact.place);
+  if (std::abs(gap) > kOnSurface) {
+    refuse("{}: {:.1f} mm {} surface '{}' is not allowed; need a place on it", field, 1e3 * std::abs(gap),
+           gap > 0.0 ? "above" : "below", surface.name);
+  }
+  if (!surface.contains(surface.coordinates(*contact.place))) {
+    refuse("{}: outside the patch of surface '{}'", field, surface.name);
+  }
 }
 
 void check_phase(const MotionProblem& problem, const std::string& field, const Phase& phase) {
@@ -75,6 +90,22 @@ void check_phase(const MotionProblem& problem, const std::string& field, const P
     if (!used.insert(phase.contacts[i].contact).second) {
       refuse("{}: '{}' is there twice; need each contact once", contact,
              problem.robot.contacts()[static_cast<std::size_t>(phase.contacts[i].contact)].name);
+    }
+    if (phase.contacts[i].place) check_place(problem, contact + ".place", phase.contacts[i]);
+  }
+}
+
+/// A contact holds one surface until it opens.
+void check_surfaces_of_contacts(const MotionProblem& problem) {
+  for (std::size_t p = 1; p < problem.phases.size(); ++p) {
+    for (const PhaseContact& held : problem.phases[p].contacts) {
+      for (const PhaseContact& before : problem.phases[p - 1].contacts) {
+        if (held.contact != before.contact || held.surface == before.surface) continue;
+        refuse("phases[{}]: contact '{}' goes from surface '{}' to '{}' without opening; need a phase between in which it "
+               "is open", p, problem.robot.contacts()[static_cast<std::size_t>(held.contact)].name,
+               problem.surfaces[static_cast<std::size_t>(before.surface)].name,
+               problem.surfaces[static_cast<std::size_t>(held.surface)].name);
+      }
     }
   }
 }
@@ -181,6 +212,7 @@ void check_cost(const std::string& field, const RobotModel& robot, const Quadrat
   check_finite(field + ".tau_ref", cost.tau_ref, robot.nu());
   check_weights(field + ".torque_weight", cost.torque_weight, robot.nu());
   check_weights(field + ".force_weight", cost.force_weight, 3);
+  check_weights(field + ".time_weight", VectorXd::Constant(1, cost.time_weight), 1);
   for (std::size_t i = 0; i < cost.contact_positions.size(); ++i) {
     const std::string place = fmt::format("{}.contact_positions[{}]", field, i);
     check_index(place + ".contact", cost.contact_positions[i].contact, robot.contacts().size());
@@ -218,6 +250,10 @@ void validate(const MotionProblem& problem) {
   if (problem.phases.empty()) refuse("phases: an empty list is not allowed; need one phase or more");
   for (std::size_t i = 0; i < problem.phases.size(); ++i) {
     check_phase(problem, fmt::format("phases[{}]", i), problem.phases[i]);
+  }
+  check_surfaces_of_contacts(problem);
+  if (!(problem.swing_clearance >= 0.0) || !std::isfinite(problem.swing_clearance)) {
+    refuse("swing_clearance: {} is not allowed; need a length >= 0 [m]", problem.swing_clearance);
   }
   if (problem.boundary_conditions.empty()) {
     refuse("boundary_conditions: an empty list is not allowed; need the start as the first");
