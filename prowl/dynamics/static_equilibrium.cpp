@@ -21,16 +21,21 @@ double lever(const Eigen::VectorXd& positions, const Eigen::Vector3d& base) {
 
 StaticEquilibrium static_equilibrium(const RobotModel& robot, const Eigen::VectorXd& q,
                                      const std::vector<int>& contacts) {
-  RigidBodyTerms terms(robot);
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(robot.nv());
-  terms.update(q, rest, rest);
-  const Eigen::VectorXd& gravity = terms.inverse_dynamics();
+  return equilibrium_in_motion(robot, q, rest, rest, contacts);
+}
+
+StaticEquilibrium equilibrium_in_motion(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                        const Eigen::VectorXd& a, const std::vector<int>& contacts) {
+  RigidBodyTerms terms(robot);
+  terms.update(q, v, a);
+  const Eigen::VectorXd& total = terms.inverse_dynamics();
 
   StaticEquilibrium result;
-  result.tau = gravity.tail(robot.nu());
+  result.tau = total.tail(robot.nu());
   result.force.setZero(3 * static_cast<Eigen::Index>(robot.contacts().size()));
   if (contacts.empty()) {
-    result.residual = gravity.head<6>().norm();
+    result.residual = total.head<6>().norm();
     return result;
   }
 
@@ -40,7 +45,7 @@ StaticEquilibrium static_equilibrium(const RobotModel& robot, const Eigen::Vecto
   Eigen::Vector<double, 6> scale = Eigen::Vector<double, 6>::Ones();
   scale.tail<3>() /= lever(kinematics.positions(), base_position(q));
   const Eigen::MatrixXd balance = scale.asDiagonal() * J.leftCols<6>().transpose();
-  const Eigen::VectorXd load = scale.asDiagonal() * gravity.head<6>();
+  const Eigen::VectorXd load = scale.asDiagonal() * total.head<6>();
 
   // Rank-revealing: two point feet leave the moment about their line unbalanced (rank 5).
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;

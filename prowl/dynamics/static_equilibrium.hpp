@@ -28,4 +28,8 @@ struct StaticEquilibrium {
 StaticEquilibrium static_equilibrium(const RobotModel& robot, const Eigen::VectorXd& q,
                                      const std::vector<int>& contacts);
 
+/// The same in motion: with M a + h(q, v) in the place of g, and the load that the contacts cannot balance likewise.
+StaticEquilibrium equilibrium_in_motion(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                        const Eigen::VectorXd& a, const std::vector<int>& contacts);
+
 }  // namespace prowl

@@ -31,13 +31,13 @@ struct DerivativeReport {
 };
 
 struct DerivativeCheckOptions {
-  double step = 1e-5;               ///< h = step max(1, |z_j|); near the optimum eps^(1/3) of central differences
+  double step = 5e-5;               ///< h = step max(1, |z_j|); fourth-order differences: truncation h^4, rounding eps / h
   double outside_tolerance = 1e-6;  ///< |d| above this outside the pattern is a fault
 };
 
 /// Compares the gradient of the cost and the Jacobian of the constraints with differences of the values, and the
 /// Hessian of cost_factor f + multipliers . g with differences of its gradient (so read `hessian` only if the other two
-/// are right). Takes 2 n evaluations of everything: a test, not a part of a solve.
+/// are right). Takes 4 n evaluations of everything: a test, not a part of a solve.
 DerivativeReport check_derivatives(Nlp& nlp, const Eigen::VectorXd& z, double cost_factor,
                                    const Eigen::VectorXd& multipliers, const DerivativeCheckOptions& options = {});
 

@@ -199,6 +199,9 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetStringValue("hessian_approximation", "exact");
   list.SetNumericValue("tol", options.tolerance);
   list.SetNumericValue("constr_viol_tol", options.tolerance);
+  // `tol` is about the problem as Ipopt scales it; these two about the problem itself, and their defaults are loose.
+  list.SetNumericValue("dual_inf_tol", options.tolerance);
+  list.SetNumericValue("compl_inf_tol", options.tolerance);
   list.SetIntegerValue("acceptable_iter", 0);
   list.SetIntegerValue("max_iter", options.max_iterations);
   list.SetNumericValue("max_wall_time", options.max_seconds);

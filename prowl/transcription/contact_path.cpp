@@ -57,6 +57,15 @@ ContactPath::Span ContactPath::span(int first_phase, int last_phase) const {
           time({last_phase, problem_.phases[static_cast<std::size_t>(last_phase)].intervals})};
 }
 
+std::vector<Vector3d> ContactPath::held_places(int phase) const {
+  std::vector<Vector3d> places;
+  const std::size_t count = problem_.phases[static_cast<std::size_t>(phase)].contacts.size();
+  for (int i = 0; i < static_cast<int>(count); ++i) {
+    places.push_back(places_[static_cast<std::size_t>(schedule_.stance(phase, i))]);
+  }
+  return places;
+}
+
 std::vector<ContactTarget> ContactPath::targets(int k) const {
   const MeshNode& node = mesh_.nodes[static_cast<std::size_t>(k)];
   const auto now = [&](const auto& time) { return time.first_phase <= node.phase && node.phase <= time.last_phase; };

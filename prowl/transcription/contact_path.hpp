@@ -19,6 +19,9 @@ class ContactPath {
  public:
   ContactPath(const MotionProblem& problem, const Mesh& mesh, const PosturePath& posture);
 
+  /// Places of the contacts that a phase holds, in its order.
+  std::vector<Eigen::Vector3d> held_places(int phase) const;
+
   /// Of node k of the mesh.
   std::vector<ContactTarget> targets(int k) const;
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/inverse_kinematics.hpp"
+#include "prowl/dynamics/projector.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/transcription/contact_path.hpp"
 #include "prowl/transcription/posture_path.hpp"
+#include "prowl/transcription/support_path.hpp"
 
 namespace prowl {
 
@@ -31,13 +34,15 @@ std::vector<int> active_contacts(const Phase& phase) {
 void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess) {
   const PosturePath posture(problem, mesh);
   const ContactPath contacts(problem, mesh, posture);
+  const SupportPath support(problem, mesh, posture, contacts);
   const int nu = problem.robot.nu();
 
   VectorXd previous = problem.start_configuration();
   VectorXd previous_on_path = posture(0.0);
   for (int k = 0; k < mesh.size(); ++k) {
     const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
-    const VectorXd on_path = posture(node.time);
+    VectorXd on_path = posture(node.time);
+    on_path.head<2>() += support(node.time);
     VectorXd q = on_path;
     q.tail(nu) = previous.tail(nu) + on_path.tail(nu) - previous_on_path.tail(nu);
     q = inverse_kinematics(problem.robot, q, contacts.targets(k)).q;
@@ -51,39 +56,74 @@ void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajecto
   }
 }
 
-/// A node of the mesh and its neighbours in time, across phase switches: -1 where there is none.
-struct Neighbours {
-  int before = -1, after = -1;
-  Neighbours(const Mesh& mesh, int k) {
-    const auto time = [&](int i) { return mesh.nodes[static_cast<std::size_t>(i)].time; };
-    for (int i = k - 1; i >= 0 && before < 0; --i) before = time(i) < time(k) ? i : -1;
-    for (int i = k + 1; i < mesh.size() && after < 0; ++i) after = time(i) > time(k) ? i : -1;
+/// Contacts of the phases on both sides of node k: at a switch none of either moves.
+std::vector<int> contacts_around(const MotionProblem& problem, const Mesh& mesh, int k) {
+  const auto contacts_of = [&](int node) {
+    return active_contacts(problem.phases[static_cast<std::size_t>(mesh.nodes[static_cast<std::size_t>(node)].phase)]);
+  };
+  std::vector<int> contacts = contacts_of(k);
+  const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+  const int twin = node.h_in == 0.0 ? k - 1 : node.h_out == 0.0 ? k + 1 : k;
+  if (twin < 0 || twin >= mesh.size()) return contacts;
+  for (const int contact : contacts_of(twin)) {
+    if (std::ranges::find(contacts, contact) == contacts.end()) contacts.push_back(contact);
   }
-};
-
-/// Rate at node k of something that is known at the nodes: the slope there of the parabola through it and its
-/// neighbours; at both ends of the motion the one-sided difference. `change(k, i)` is its value at i minus that at k.
-template <typename Change>
-VectorXd rate(const Trajectory& guess, const Neighbours& at, int k, const Change& change) {
-  const auto time = [&](int i) { return guess.nodes[static_cast<std::size_t>(i)].time; };
-  if (at.before < 0) return change(k, at.after) / (time(at.after) - time(k));
-  if (at.after < 0) return -change(k, at.before) / (time(k) - time(at.before));
-  const double h0 = time(k) - time(at.before), h1 = time(at.after) - time(k);
-  return (change(k, at.after) * (h0 / h1) - change(k, at.before) * (h1 / h0)) / (h0 + h1);
+  return contacts;
 }
 
-/// Velocities and accelerations by differences, within limits and boundary conditions.
+/// Takes out of v (or, with v, of a) what moves the contacts: v - J⁺ J v, a - J⁺ (J a + J̇ v).
+class ContactConsistency {
+ public:
+  ContactConsistency(const RobotModel& robot, const VectorXd& q, std::vector<int> contacts)
+      : kinematics_(std::move(contacts)) {
+    RigidBodyTerms terms(robot);
+    terms.update_kinematics(q);
+    kinematics_.set_configuration(terms);
+    projector_.compute(kinematics_.jacobian());
+  }
+  void correct_velocity(VectorXd& v) {
+    v -= kinematics_.jacobian().transpose() * (projector_.gram_inverse() * (kinematics_.jacobian() * v));
+  }
+  void correct_acceleration(const VectorXd& v, VectorXd& a) {
+    kinematics_.set_motion(v, a);
+    a -= kinematics_.jacobian().transpose() * (projector_.gram_inverse() * kinematics_.acceleration());
+  }
+
+ private:
+  ContactKinematics kinematics_;
+  Projector projector_;
+};
+
+/// Rate at node k of something that is known at the nodes, from nodes `before` and `after` (k itself at an end): the slope
+/// there of the parabola through all three, or the one-sided difference. `change(i)` is its value at i minus that at k.
+template <typename Change>
+VectorXd rate(const Mesh& mesh, int before, int k, int after, const Change& change) {
+  const auto time = [&](int i) { return mesh.nodes[static_cast<std::size_t>(i)].time; };
+  if (before == k && after == k) return VectorXd::Zero(change(k).size());
+  if (before == k) return change(after) / (time(after) - time(k));
+  if (after == k) return -change(before) / (time(k) - time(before));
+  const double h0 = time(k) - time(before), h1 = time(after) - time(k);
+  return (change(after) * (h0 / h1) - change(before) * (h1 / h0)) / (h0 + h1);
+}
+
+/// Velocities and accelerations by differences, consistent with the contacts, within limits and boundary conditions.
 void set_rates(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess) {
   const auto at = [&](int i) -> TrajectoryPoint& { return guess.nodes[static_cast<std::size_t>(i)]; };
-  const auto displacement = [&](int k, int i) {
-    VectorXd d = difference(at(k).q, at(i).q);
-    d.head<3>() = base_rotation(at(k).q).transpose() * d.head<3>();
-    return d;
-  };
-  const auto velocity_change = [&](int k, int i) -> VectorXd { return at(i).v - at(k).v; };
+  const auto time = [&](int i) { return mesh.nodes[static_cast<std::size_t>(i)].time; };
   const VectorXd& limit = problem.robot.velocity_limit();
   for (int k = 0; k < mesh.size(); ++k) {
-    at(k).v = rate(guess, Neighbours(mesh, k), k, displacement);
+    // Neighbours in time, across phase switches: the velocity is continuous there.
+    int before = k, after = k;
+    while (before > 0 && time(before) == time(k)) --before;
+    while (after + 1 < mesh.size() && time(after) == time(k)) ++after;
+    if (time(before) == time(k)) before = k;
+    if (time(after) == time(k)) after = k;
+    at(k).v = rate(mesh, before, k, after, [&](int i) {
+      VectorXd d = difference(at(k).q, at(i).q);
+      d.head<3>() = base_rotation(at(k).q).transpose() * d.head<3>();
+      return d;
+    });
+    ContactConsistency(problem.robot, at(k).q, contacts_around(problem, mesh, k)).correct_velocity(at(k).v);
     at(k).v.tail(problem.robot.nu()) = clamp(at(k).v.tail(problem.robot.nu()), -limit, limit);
   }
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
@@ -91,16 +131,31 @@ void set_rates(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess
       if (point.time == time_of(condition, mesh)) point.v = clamp(point.v, condition.velocity_lower, condition.velocity_upper);
     }
   }
-  for (int k = 0; k < mesh.size(); ++k) at(k).a = rate(guess, Neighbours(mesh, k), k, velocity_change);
+  for (int k = 0; k < mesh.size(); ++k) {
+    // Neighbours of the same phase only: the acceleration jumps at a switch.
+    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+    at(k).a = rate(mesh, node.h_in > 0.0 ? k - 1 : k, k, node.h_out > 0.0 ? k + 1 : k,
+                   [&](int i) -> VectorXd { return at(i).v - at(k).v; });
+    const Phase& phase = problem.phases[static_cast<std::size_t>(node.phase)];
+    ContactConsistency(problem.robot, at(k).q, active_contacts(phase)).correct_acceleration(at(k).v, at(k).a);
+  }
 }
 
+/// Torques and forces that make the motion, within limits. A contact that opens has no force at its last node.
 void set_torques(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess) {
   const VectorXd& limit = problem.robot.torque_limit();
-  for (TrajectoryPoint& point : guess.nodes) {
-    const Phase& phase = problem.phases[static_cast<std::size_t>(point.phase)];
-    const StaticEquilibrium rest = static_equilibrium(problem.robot, point.q, active_contacts(phase));
-    point.tau = clamp(rest.tau, -limit, limit);
-    point.force = rest.force;
+  const ContactSchedule schedule(problem);
+  for (int k = 0; k < mesh.size(); ++k) {
+    TrajectoryPoint& point = guess.nodes[static_cast<std::size_t>(k)];
+    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+    const auto& held = problem.phases[static_cast<std::size_t>(point.phase)].contacts;
+    std::vector<int> loaded;
+    for (int i = 0; i < static_cast<int>(held.size()); ++i) {
+      if (node.h_out > 0.0 || !schedule.opens(point.phase, i)) loaded.push_back(held[static_cast<std::size_t>(i)].contact);
+    }
+    const StaticEquilibrium moving = equilibrium_in_motion(problem.robot, point.q, point.v, point.a, loaded);
+    point.tau = clamp(moving.tau, -limit, limit);
+    point.force = moving.force;
   }
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
     VectorXd& tau = guess.nodes[static_cast<std::size_t>(mesh.index(condition.at))].tau;

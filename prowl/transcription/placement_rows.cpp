@@ -16,12 +16,13 @@ int nodes_of(const MotionProblem& problem, int first_phase, int last_phase) {
   return intervals;
 }
 
-/// Part of the clearance at progress s in [0, 1] of a swing: none where it leaves and where it lands, all in the middle,
-/// or at the end that is not on a surface.
+/// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at an end that is not on a
+/// surface. A contact leaves and lands at rest, so that its height can only begin and end with the square of the time.
 double clearance_profile(const Swing& swing, double s) {
+  if (swing.before < 0 && swing.after < 0) return 0.0;
   const double from = swing.before >= 0 ? s : 1.0, to = swing.after >= 0 ? 1.0 - s : 1.0;
-  if (swing.before >= 0 && swing.after >= 0) return 4.0 * from * to;
-  return swing.before >= 0 || swing.after >= 0 ? from * to * (2.0 - from * to) : 0.0;
+  const double both = swing.before >= 0 && swing.after >= 0 ? 4.0 : 1.0;
+  return both * from * from * both * to * to;
 }
 
 }  // namespace

@@ -412,6 +412,8 @@ Trajectory Transcription::unpack(const VectorXd& z) {
     if (node.node == intervals) phase_start = point.time;
     point.phase = node.phase;
     point.q = std::move(from.q);
+    // Of the two quaternions of a rotation the one that goes on without a jump.
+    if (k > 0 && point.q.segment<4>(3).dot(trajectory.nodes.back().q.segment<4>(3)) < 0.0) point.q.segment<4>(3) *= -1.0;
     point.v = std::move(from.v);
     point.a = std::move(from.a);
     point.tau = std::move(from.tau);

@@ -33,8 +33,12 @@ void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, co
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
     double& lo = bounds.lower(first + i);
     double& up = bounds.upper(first + i);
+    const double limit_lower = lo, limit_upper = up;
     lo = std::max(lo, lower(i));
     up = std::min(up, upper(i));
+    // A start or goal on a limit of the robot, but for the rounding of its decimals: the limit counts.
+    constexpr double kRounding = 1e-9;
+    if (lo > up && lo <= up + kRounding) lo = up = std::clamp(lower(i), limit_lower, limit_upper);
     if (lo > up) {
       throw InputError(fmt::format("{}: asks for a value between {:.6g} and {:.6g}, which the robot's limits or another "
                                    "condition at the same time exclude (entry {})", what, lower(i), upper(i), i));

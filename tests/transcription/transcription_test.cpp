@@ -129,6 +129,119 @@ TEST(Transcription, PackAndUnpackAreInverse) {
   EXPECT_LT(test::relative_error(nlp.pack(nlp.unpack(z)), z), 1e-12);
 }
 
+TEST(Transcription, QuaternionsDoNotJump) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("flight", {}, 2.0, 20)});
+  problem.boundary_conditions.resize(1);
+  Eigen::VectorXd turn = Eigen::VectorXd::Zero(problem.robot.nv());
+  turn(5) = -2.4;  // beyond the half turn at which a quaternion made from a matrix changes its sign
+  auto turned = BoundaryCondition::unbounded(problem.robot, "turned", {0, 20},
+                                             integrate(problem.robot.nominal_configuration(), turn));
+  turned.configuration_lower.head<6>().setZero();
+  turned.configuration_upper.head<6>().setZero();
+  problem.boundary_conditions.push_back(turned);
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  Transcription nlp(problem, mesh, guess);
+  const Trajectory motion = nlp.unpack(nlp.pack(guess));
+  for (std::size_t k = 1; k < motion.nodes.size(); ++k) {
+    EXPECT_GT(motion.nodes[k].q.segment<4>(3).dot(motion.nodes[k - 1].q.segment<4>(3)), 0.9);
+  }
+}
+
+TEST(Transcription, ALimitCountsAgainstTheRoundingOfAGoal) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  problem.boundary_conditions.resize(1);
+  Eigen::VectorXd q = problem.robot.nominal_configuration();
+  q(7) = problem.robot.position_upper()(0) + 5e-10;
+  auto goal = BoundaryCondition::unbounded(problem.robot, "goal", {0, 2}, q);
+  goal.configuration_lower(6) = goal.configuration_upper(6) = 0.0;
+  problem.boundary_conditions.push_back(goal);
+  const Mesh mesh = make_mesh(problem);
+  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const int first = 2 * (3 * problem.robot.nv() + problem.robot.nu()) + 6;
+  EXPECT_EQ(nlp.variable_lower()(first), problem.robot.position_upper()(0));
+  EXPECT_EQ(nlp.variable_upper()(first), problem.robot.position_upper()(0));
+
+  problem.boundary_conditions[1].q_ref(7) += 1e-3;
+  EXPECT_THROW(Transcription(problem, mesh, initial_guess(problem, mesh)), InputError);
+}
+
+/// Bounds of all variables at a node that say more than the robot's limits.
+TEST(Transcription, LimitsAndGoalsAreBounds) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 3)});
+  auto& goal = problem.boundary_conditions[1];
+  goal.velocity_lower(2) = -0.1;
+  goal.velocity_upper(2) = 0.2;
+  goal.torque_lower(4) = 3.0;
+  const Mesh mesh = make_mesh(problem);
+  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const RobotModel& robot = problem.robot;
+  const int nv = robot.nv(), nu = robot.nu(), size = 3 * nv + nu;
+  for (int k = 1; k < 4; ++k) {
+    EXPECT_EQ(nlp.variable_lower().segment(k * size + 6, nu), robot.position_lower());
+    EXPECT_EQ(nlp.variable_upper().segment(k * size + 6, nu), robot.position_upper());
+    EXPECT_EQ(nlp.variable_upper().segment(k * size + nv + 6, nu), robot.velocity_limit());
+    EXPECT_EQ(nlp.variable_upper().segment(k * size + 3 * nv, nu), robot.torque_limit());
+    EXPECT_EQ(nlp.variable_lower()(k * size + 3 * nv + 4), k == 3 ? 3.0 : -robot.torque_limit()(4));
+  }
+  const int last = 3 * size;
+  EXPECT_EQ(nlp.variable_lower()(last + nv + 2), -0.1);
+  EXPECT_EQ(nlp.variable_upper()(last + nv + 2), 0.2);
+  EXPECT_EQ(nlp.variable_lower().segment<3>(last), nlp.variable_upper().segment<3>(last));
+  EXPECT_EQ(Eigen::Vector3d(nlp.variable_lower().segment<3>(last)), goal.q_ref.head<3>());
+  EXPECT_TRUE(nlp.variable_upper().segment<3>(last + 3).isZero(0.0)) << "the chart is the goal's rotation";
+}
+
+/// The running cost is integrated by the trapezoid: a motion that stands still costs its rate times the time.
+TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.3, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
+  problem.boundary_conditions.resize(1);
+  problem.running_cost.force_weight.setZero();
+  problem.running_cost.contact_positions.clear();
+  problem.terminal_cost.contact_positions.clear();
+  problem.running_cost.time_weight = 0.7;
+  const Mesh mesh = make_mesh(problem);
+  Trajectory guess = initial_guess(problem, mesh);
+  for (TrajectoryPoint& point : guess.nodes) {
+    point.q = problem.start_configuration();
+    point.v.setConstant(0.2);
+    point.a.setConstant(-0.3);
+    point.tau.setConstant(5.0);
+  }
+  const auto state_cost = [&](const QuadraticCost& cost) {
+    const Eigen::VectorXd d = difference(cost.q_ref, problem.start_configuration());
+    return 0.5 * (d.cwiseAbs2().dot(cost.configuration_weight) + 0.04 * cost.velocity_weight.sum());
+  };
+  const double running = 0.7 + state_cost(problem.running_cost) + 0.5 * 0.09 * problem.running_cost.acceleration_weight.sum() +
+                         0.5 * 4.0 * problem.running_cost.torque_weight.sum();
+  Transcription nlp(problem, mesh, guess);
+  const double expected = 0.7 * running + state_cost(problem.terminal_cost);
+  EXPECT_NEAR(nlp.cost(nlp.pack(guess)), expected, 1e-12 * expected);
+}
+
+/// What satisfies the defects is what interpolate() means: the certificate and the transcription read one trapezoid.
+TEST(Transcription, DefectsVanishWhereTheInterpolationMeetsTheNextNode) {
+  const MotionProblem problem = everything(test::hyq(), {phase_on("flight", {}, 0.3, 1)});
+  const Mesh mesh = make_mesh(problem);
+  Trajectory motion = initial_guess(problem, mesh);
+  std::mt19937 rng(13);
+  for (TrajectoryPoint& point : motion.nodes) {
+    point.v = test::random_vector(rng, problem.robot.nv(), 1.0);
+    point.a = test::random_vector(rng, problem.robot.nv(), 3.0);
+  }
+  motion.nodes[1].v = motion.nodes[0].v + 0.15 * (motion.nodes[0].a + motion.nodes[1].a);
+  // Twice: the place at the end depends on the rotation there.
+  for (int i = 0; i < 2; ++i) motion.nodes[1].q = interpolate(motion.nodes[0], motion.nodes[1], 0.3).q;
+  Transcription nlp(problem, mesh, motion);
+  Eigen::VectorXd g(nlp.num_constraints());
+  nlp.constraints(nlp.pack(motion), g);
+  EXPECT_LT(g.tail(2 * problem.robot.nv()).cwiseAbs().maxCoeff(), 1e-13);
+  motion.nodes[1].time *= 1.1;  // no part of the variables: the step is the mesh's
+  motion.nodes[1].q(9) += 1e-3;
+  nlp.constraints(nlp.pack(motion), g);
+  EXPECT_GT(g.tail(2 * problem.robot.nv()).cwiseAbs().maxCoeff(), 1e-4);
+}
+
 TEST(Transcription, StandingStillInBalanceSatisfiesEverything) {
   const RobotModel robot = test::hyq();
   MotionProblem problem = everything(robot, {phase_on("a", {0, 1, 2, 3}, 0.4, 2), phase_on("b", {0, 1, 2, 3}, 0.4, 2)});
