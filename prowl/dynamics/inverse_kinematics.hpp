@@ -10,7 +10,7 @@ namespace prowl {
 /// Where a contact point of the robot should be.
 struct ContactTarget {
   int contact = 0;           ///< index into RobotModel::contacts()
-  Eigen::Vector3d position;  ///< of the origin of its frame, world frame [m]
+  Eigen::Vector3d position;  ///< of the contact point (its offset included), world frame [m]
 };
 
 struct InverseKinematics {

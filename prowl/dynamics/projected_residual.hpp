@@ -46,8 +46,8 @@ struct PointHessian {
 ///   c = r - J' f  =  P r + s J⁺ e               n + 6 rows
 ///
 /// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold; s, the
-/// mass of the robot [kg], only gives both the unit of a force. Any set of contacts: none, or redundant ones, where J
-/// loses rank and f is the choice of least norm (first derivatives hold at constant rank).
+/// mass of the robot [kg], is only a weight that makes both of one size (the projection mixes forces and moments as SI
+/// units have them). Any set of contacts: none, or redundant ones, where J loses rank and f is the choice of least norm (first derivatives hold at constant rank).
 ///
 /// Redundant contacts may also be given `chosen_rows`: rows of J that depend on the others. Their forces w are then inputs,
 /// their rows of e are left out, and the forces of the other rows follow: (f_S, w) are all forces that do the same, f = Z w

@@ -141,6 +141,18 @@ void put_on_ground(const PinocchioModel& pin, const std::vector<ContactPoint>& c
   q.head<3>() -= Eigen::Vector3d(mean.x(), mean.y(), lowest);
 }
 
+double distance_of_contacts(const PinocchioModel& pin, const Eigen::VectorXd& q) {
+  if (pin.contact_frames.empty()) return 1.0;
+  pinocchio::Data data(pin.model);
+  pinocchio::framesForwardKinematics(pin.model, data, q);
+  double squares = 0.0;
+  for (const pinocchio::FrameIndex frame : pin.contact_frames) {
+    squares += (data.oMf[frame].translation() - q.head<3>()).squaredNorm();
+  }
+  constexpr double kSmallest = 0.01;  // [m]; a scale must not vanish
+  return std::max(kSmallest, std::sqrt(squares / static_cast<double>(pin.contact_frames.size())));
+}
+
 }  // namespace
 
 RobotModel::RobotModel(RobotDescription description) : description_(std::move(description)) {
@@ -187,6 +199,7 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
     nominal_configuration_(7 + j) = position;
   }
   put_on_ground(*pin, description_.contacts, nominal_configuration_);
+  size_ = distance_of_contacts(*pin, nominal_configuration_);
   pinocchio_ = std::move(pin);
 }
 
@@ -201,7 +214,8 @@ RobotModel::RobotModel(const RobotModel& other)
       torque_limit_(other.torque_limit_),
       torque_curves_(other.torque_curves_),
       nominal_configuration_(other.nominal_configuration_),
-      mass_(other.mass_) {}
+      mass_(other.mass_),
+      size_(other.size_) {}
 
 RobotModel::RobotModel(RobotModel&&) noexcept = default;
 
@@ -217,6 +231,7 @@ RobotModel& RobotModel::operator=(RobotModel other) noexcept {
   std::swap(torque_curves_, other.torque_curves_);
   std::swap(nominal_configuration_, other.nominal_configuration_);
   std::swap(mass_, other.mass_);
+  std::swap(size_, other.size_);
   return *this;
 }
 

@@ -60,6 +60,9 @@ class RobotModel {
 
   const Eigen::VectorXd& nominal_configuration() const { return nominal_configuration_; }  ///< nq
 
+  /// Size of the robot: RMS distance of its contact points from the base in the nominal posture [m], at least 1 cm.
+  double size() const { return size_; }
+
   const PinocchioModel& pinocchio() const { return *pinocchio_; }
 
   static constexpr double kGravity = 9.81;  ///< [m/s^2], Pinocchio's default
@@ -76,6 +79,7 @@ class RobotModel {
   std::vector<TorqueCurve> torque_curves_;
   Eigen::VectorXd nominal_configuration_;
   double mass_ = 0.0;
+  double size_ = 1.0;
 };
 
 }  // namespace prowl

@@ -21,11 +21,11 @@ struct ContactPositionCost {
 /// base pose. tau_ref is normally the static torque of the start.
 struct QuadraticCost {
   Eigen::VectorXd q_ref;                ///< nq
-  Eigen::VectorXd configuration_weight; ///< nv
-  Eigen::VectorXd velocity_weight;      ///< nv
-  Eigen::VectorXd acceleration_weight;  ///< nv
+  Eigen::VectorXd configuration_weight; ///< nv: base displacement (world) [1/m^2], rotation [1/rad^2], joints [1/rad^2]
+  Eigen::VectorXd velocity_weight;      ///< nv: base twist (base frame) and joint rates [s^2/m^2, s^2/rad^2]
+  Eigen::VectorXd acceleration_weight;  ///< nv, likewise [s^4/m^2, s^4/rad^2]
   Eigen::VectorXd tau_ref;              ///< nu [N m]
-  Eigen::VectorXd torque_weight;        ///< nu
+  Eigen::VectorXd torque_weight;        ///< nu [1/(N m)^2]
   double time_weight = 0.0;             ///< w_t [1/s]; of no meaning in a terminal cost
   Eigen::Vector3d force_weight = Eigen::Vector3d::Zero();  ///< world x y z, the same for every contact [1/N^2]
   std::vector<ContactPositionCost> contact_positions;

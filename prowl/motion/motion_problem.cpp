@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
@@ -182,6 +183,29 @@ void check_start_contacts(const MotionProblem& problem) {
   }
 }
 
+/// Each rotation is bound about its own q_ref: at one time there can be one.
+void check_rotations(const MotionProblem& problem) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::map<int, std::size_t> binding;  // by the number of phases and nodes before: both sides of a switch are one time
+  for (std::size_t i = 0; i < problem.boundary_conditions.size(); ++i) {
+    const BoundaryCondition& condition = problem.boundary_conditions[i];
+    if (condition.configuration_lower.segment<3>(3).maxCoeff() == -kInfinity &&
+        condition.configuration_upper.segment<3>(3).minCoeff() == kInfinity) {
+      continue;
+    }
+    int time = condition.at.node;
+    for (int p = 0; p < condition.at.phase; ++p) time += problem.phases[static_cast<std::size_t>(p)].intervals;
+    const auto [other, is_first] = binding.insert({time, i});
+    if (is_first) continue;
+    refuse("boundary_conditions[{}].configuration: it binds the base's rotation at the time at which "
+           "boundary_conditions[{}] does; need one condition there", i, other->second);
+  }
+}
+
+void check_weightless(const std::string& field, const VectorXd& weights) {
+  if (!weights.isZero(0.0)) refuse("{}: has no meaning in a terminal cost; need 0", field);
+}
+
 void check_start(const MotionProblem& problem) {
   const BoundaryCondition& start = problem.start();
   if (!(start.at == NodeRef{0, 0})) {
@@ -261,9 +285,14 @@ void validate(const MotionProblem& problem) {
   for (std::size_t i = 0; i < problem.boundary_conditions.size(); ++i) {
     check_condition(problem, fmt::format("boundary_conditions[{}]", i), problem.boundary_conditions[i]);
   }
+  check_rotations(problem);
   check_start(problem);
   check_cost("running_cost", problem.robot, problem.running_cost);
   check_cost("terminal_cost", problem.robot, problem.terminal_cost);
+  check_weightless("terminal_cost.acceleration_weight", problem.terminal_cost.acceleration_weight);
+  check_weightless("terminal_cost.torque_weight", problem.terminal_cost.torque_weight);
+  check_weightless("terminal_cost.force_weight", problem.terminal_cost.force_weight);
+  check_weightless("terminal_cost.time_weight", VectorXd::Constant(1, problem.terminal_cost.time_weight));
   check_tolerance("position", problem.goal_tolerance.position);
   check_tolerance("angle", problem.goal_tolerance.angle);
   check_tolerance("velocity", problem.goal_tolerance.velocity);

@@ -31,7 +31,7 @@ struct BoundaryCondition {
                                      const Eigen::VectorXd& q_ref);
 };
 
-/// Tolerances of the certificate on goals [m, rad, m/s or rad/s, N m].
+/// Tolerances of the certificate on goals [m, rad, m/s and rad/s].
 struct GoalTolerance {
   double position = 1e-3;
   double angle = 1e-3;

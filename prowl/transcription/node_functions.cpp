@@ -58,13 +58,13 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
         problem.surfaces[static_cast<std::size_t>(surface)].axes();
   }
 
-  const double height = problem.robot.nominal_configuration()(2);
+  const double size = problem.robot.size();
   force_scale_ = 1.0 / problem.robot.weight();
   dynamics_scale_.setConstant(nv_, force_scale_);
-  dynamics_scale_.segment<3>(3) /= height;
+  dynamics_scale_.segment<3>(3) /= size;
   for (int i = 0; i < 6; ++i) force_names_.push_back(std::string("base ") + kBaseForce[i]);
   for (int i = 0; i < nu_; ++i) {
-    if (!problem.robot.joint_is_prismatic()[static_cast<std::size_t>(i)]) dynamics_scale_(6 + i) /= height;
+    if (!problem.robot.joint_is_prismatic()[static_cast<std::size_t>(i)]) dynamics_scale_(6 + i) /= size;
     force_names_.push_back(problem.robot.joint_names()[static_cast<std::size_t>(i)]);
   }
 }

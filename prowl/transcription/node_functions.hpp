@@ -37,7 +37,7 @@ struct NodeValues {
 ///   torque limits over position and velocity | places of contacts (PlacementRows)
 ///
 /// Rows are scaled by the size of the robot, so that one tolerance means the same for 2.5 kg and for 80 kg: forces by its
-/// weight, moments by its weight times its standing height.
+/// weight, moments by its weight times RobotModel::size().
 class NodeFunctions {
  public:
   NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts);

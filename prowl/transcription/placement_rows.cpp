@@ -29,7 +29,7 @@ double clearance_profile(const Swing& swing, double s) {
 
 PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                              const std::vector<LandingAxes>& landing)
-    : length_(problem.robot.nominal_configuration()(2)), speed_(std::sqrt(kGravity * length_)), kinematics_({}) {
+    : length_(problem.robot.size()), speed_(std::sqrt(kGravity * length_)), kinematics_({}) {
   rows_.resize(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(phase)].intervals) + 1);
   add_landing(problem, schedule, phase, landing);
   for (const Swing& swing : schedule.swings()) {

@@ -20,7 +20,7 @@ struct LandingAxes {
 /// - a contact that lands at its first node is at its anchor and at rest:  axis . (p - anchor) = 0,  axis . J v = 0;
 ///   its anchor is inside the patch that it lands on:  inward . (anchor - corner) >= 0 for each edge;
 /// - a contact in the air keeps its clearance of the surfaces that it passes:  normal . (p - point) - radius >= height(k).
-/// Lengths are divided by the robot's standing height l, velocities by sqrt(g l).
+/// Lengths are divided by the size l of the robot, velocities by sqrt(g l).
 class PlacementRows {
  public:
   /// `landing`: one for each contact of the phase; of no meaning for those that do not land.

@@ -155,6 +155,28 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"negative", [](P& p) { p.running_cost.velocity_weight(3) = -1.0; },
                 "running_cost.velocity_weight[3]: -1 is not allowed; need a weight >= 0"},
+        Mistake{"clearance", [](P& p) { p.swing_clearance = -0.1; }, "swing_clearance: -0.1 is not allowed"},
+        Mistake{"clockwise", [](P& p) { p.surfaces[0].patch = {{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}; },
+                "surfaces[0].patch: the corners after corner 1 do not turn left"},
+        Mistake{"two_corners", [](P& p) { p.surfaces[0].patch = {{0.0, 0.0}, {0.0, 1.0}}; },
+                "surfaces[0].patch: a patch of 2 corners is not allowed; need 3 or more"},
+        Mistake{"place", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.02); },
+                "phases[0].contacts[1].place: 20.0 mm above surface 'floor' is not allowed"},
+        Mistake{"slides", [](P& p) {
+                  p.surfaces.push_back(Surface{.name = "step", .point = {0.0, 0.0, 0.1}});
+                  p.phases.push_back(p.phases[0]);
+                  p.phases[1].contacts[2].surface = 1;
+                }, "goes from surface 'floor' to 'step' without opening"},
+        Mistake{"two_rotations", [](P& p) {
+                  p.phases.push_back(p.phases[0]);
+                  for (BoundaryCondition* condition : {&p.boundary_conditions[1], &p.boundary_conditions.emplace_back()}) {
+                    *condition = BoundaryCondition::unbounded(p.robot, "goal", {0, 5}, p.start_configuration());
+                    condition->configuration_lower.segment<3>(3).setZero();
+                  }
+                  p.boundary_conditions[2].at = {1, 0};  // the other side of the switch: the same time
+                }, "boundary_conditions[2].configuration: it binds the base's rotation at the time at which"},
+        Mistake{"terminal", [](P& p) { p.terminal_cost.force_weight.setOnes(); },
+                "terminal_cost.force_weight: has no meaning in a terminal cost"},
         Mistake{"size", [](P& p) { p.terminal_cost.torque_weight.setZero(11); },
                 "terminal_cost.torque_weight: 11 entries are not allowed; need 12"},
         Mistake{"reference", [](P& p) { p.running_cost.tau_ref(0) = kInfinity; }, "running_cost.tau_ref[0]: inf"},

@@ -54,6 +54,9 @@ MotionProblem everything(RobotModel robot, const std::vector<Phase>& phases) {
   cost.force_weight = Eigen::Vector3d(3e-4, 2e-4, 1e-4);
   cost.contact_positions = {{2, {0.1, 0.2, 0.3}, {4.0, 5.0, 6.0}}};
   problem.terminal_cost = cost;
+  problem.terminal_cost.acceleration_weight.setZero();
+  problem.terminal_cost.torque_weight.setZero();
+  problem.terminal_cost.force_weight.setZero();
   problem.terminal_cost.contact_positions = {{0, {0.3, 0.2, 0.1}, {7.0, 5.0, 6.0}}, {3, {0.0, 0.2, 0.1}, {1.0, 2.0, 3.0}}};
   return problem;
 }

@@ -1,0 +1,99 @@
+// Every task of the repository, planned from its file alone by the command: the motions that Prowl promises.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "../io/test_files.hpp"
+
+namespace prowl {
+namespace {
+
+const std::filesystem::path kTasks = std::filesystem::path(PROWL_SOURCE_DIR) / "tasks";
+
+/// robot/motion of every task, in order.
+std::vector<std::string> shipped_tasks() {
+  std::vector<std::string> tasks;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kTasks)) {
+    if (entry.path().extension() != ".toml") continue;
+    tasks.push_back(std::filesystem::relative(entry.path(), kTasks).replace_extension().string());
+  }
+  std::ranges::sort(tasks);
+  return tasks;
+}
+
+struct Planned {
+  int status = -1;
+  nlohmann::json plan;
+
+  const nlohmann::json& check(const std::string& name) const {
+    const auto& checks = plan.at("certificate").at("checks");
+    return *std::ranges::find_if(checks, [&](const auto& check) { return check.at("name") == name; });
+  }
+};
+
+Planned plan(const std::string& task, const std::string& options, const test::TempFolder& folder) {
+  const std::filesystem::path out = folder.path() / "out";
+  const std::string command = std::string("'" PROWL_COMMAND "' plan '") + (kTasks / (task + ".toml")).string() + "' " +
+                              options + " --package-dir '" PROWL_ROBOTS_DATA "' --out '" + out.string() +
+                              "' >/dev/null 2>&1";
+  Planned planned;
+  planned.status = WEXITSTATUS(std::system(command.c_str()));
+  planned.plan = nlohmann::json::parse(test::read_file(out / "plan.json"));
+  return planned;
+}
+
+class ShippedTask : public testing::TestWithParam<std::string> {
+ protected:
+  test::TempFolder folder_;
+};
+
+TEST_P(ShippedTask, ConvergesAndIsWhatTheCertificateSays) {
+  const Planned planned = plan(GetParam(), "", folder_);
+  EXPECT_EQ(planned.plan.at("status"), "converged");
+  if (GetParam() == "hyq/stand") {  // six nodes, as in the paper: said to be too few
+    EXPECT_EQ(planned.status, 7);
+    EXPECT_EQ(planned.plan.at("certificate").at("grade"), "failed");
+    EXPECT_EQ(planned.check("local integration error").at("passed"), false);
+    return;
+  }
+  EXPECT_EQ(planned.status, 0);
+  EXPECT_EQ(planned.plan.at("certificate").at("passed"), true);
+  EXPECT_LT(planned.check("contact drift").at("worst"), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedTask, testing::ValuesIn(shipped_tasks()), [](const auto& info) {
+  std::string name = info.param;
+  std::ranges::replace(name, '/', '_');
+  return name;
+});
+
+TEST(ShippedTasks, AreThoseOfFourRobots) {
+  const std::vector<std::string> tasks = shipped_tasks();
+  for (const char* task : {"hyq/hold", "hyq/stand", "hyq/crouch", "anymal_c/stand", "anymal_c/crouch", "go2/stand",
+                           "go2/crouch", "solo12/stand", "solo12/crouch"}) {
+    EXPECT_THAT(tasks, testing::Contains(task));
+  }
+}
+
+TEST(ShippedTasks, hyqStandPassesWithFortyIntervals) {
+  const test::TempFolder folder;
+  const Planned planned = plan("hyq/stand", "--intervals 40", folder);
+  EXPECT_EQ(planned.status, 0);
+  EXPECT_EQ(planned.plan.at("certificate").at("grade"), "draft");
+}
+
+/// The order of the transcribed motion: half the step, an eighth of the integration error of an interval.
+TEST(ShippedTasks, hyqCrouchIsOfThirdOrder) {
+  const test::TempFolder folder;
+  const auto error = [&](const char* intervals) {
+    const Planned planned = plan("hyq/crouch", std::string("--max-iterations 100 --intervals ") + intervals, folder);
+    return planned.check("local integration error").at("worst").get<double>();
+  };
+  EXPECT_GT(error("40") / error("80"), 6.5);
+}
+
+}  // namespace
+}  // namespace prowl
