@@ -6,6 +6,7 @@
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "output.hpp"
+#include "prowl/io/mesh_advice.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
 
@@ -24,11 +25,11 @@ int run_check(const CheckArguments& arguments) {
   record.plan.certificate = certify(record.task.problem, record.plan.trajectory);
   const Certificate& certificate = record.plan.certificate;
   if (certificate.grade != recorded) {
-    fmt::print(stderr, "note: plan.json says grade {}, this check says {}\n", to_string(recorded),
-               to_string(certificate.grade));
+    print_message(fmt::format("note: plan.json says grade {}, this check says {}\n", to_string(recorded),
+                              to_string(certificate.grade)));
   }
   print_result(arguments.json ? plan_report_json(record, arguments.directory)
-                              : plan_summary(record) + certificate_summary(certificate) + mesh_advice(record));
+                              : plan_summary(record, " (as planned)") + certificate_summary(certificate) + mesh_advice(record));
   return exit_status(record.plan.result.status, certificate);
 }
 

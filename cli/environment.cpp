@@ -30,6 +30,9 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs) {
   for (const auto& path : path_list("ROS_PACKAGE_PATH")) search.folders.push_back(path);
   std::error_code ignored;  // a working directory that was removed has nothing to offer
   search.working_directory = std::filesystem::current_path(ignored);
+  // CLONE/build/bin/prowl: found from any working directory, without a path compiled in.
+  const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  search.clone = executable.parent_path().parent_path().parent_path();
   return search;
 }
 

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "output.hpp"
 #include "prowl/error.hpp"
 #include "prowl/model/nearest_name.hpp"
 
@@ -55,8 +57,13 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    fmt::print(stderr, "prowl: {}{}\nMore with prowl --help.\n", error.what(), suggestion(app, argc, argv));
+    if (error.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      app.exit(error, text);
+      print_result(text.str());
+      return kPassed;
+    }
+    print_message(fmt::format("prowl: {}{}\nMore with prowl --help.\n", error.what(), suggestion(app, argc, argv)));
     return kBadInput;
   }
   return status;
@@ -66,9 +73,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   const auto report = [](const std::exception& error, int status) {
-    fmt::print(stderr, "prowl: {}\n", error.what());
+    print_message(fmt::format("prowl: {}\n", error.what()));
     return status;
   };
+  open_standard_streams();
   try {
     return run(argc, argv);
   } catch (const prowl::InputError& error) {

@@ -13,6 +13,7 @@
 #include "progress.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/file_keys.hpp"
+#include "prowl/io/mesh_advice.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
@@ -47,7 +48,7 @@ int run_plan(const PlanArguments& arguments) {
                                                           : std::filesystem::path(arguments.out);
   check_plan_directory(out);
   double duration = 0.0;
-  for (const Phase& phase : task.problem.phases) duration += phase.duration.min;
+  for (const Phase& phase : task.problem.phases) duration += phase.duration.max;
   if (arguments.step && duration / *arguments.step > kMostSamples) {
     throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *arguments.step, duration));
   }
@@ -58,6 +59,7 @@ int run_plan(const PlanArguments& arguments) {
   Plan plan = make_plan(task.problem, IpoptSolver(), options);
 
   const PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions()};
+  if (holds_good_plan(out)) print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
   write_plan(out, record, arguments.step);
   if (arguments.json) {
     print_result(plan_report_json(record, out));

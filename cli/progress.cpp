@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include "output.hpp"
 
 namespace prowl::cli {
 
@@ -11,12 +11,11 @@ std::function<void(const SolveProgress&)> progress_printer() {
   constexpr int kLinesAHeading = 20;
   return [line = 0, in_terminal = ::isatty(STDERR_FILENO) == 1](const SolveProgress& progress) mutable {
     if (line == 0 || (in_terminal && line % kLinesAHeading == 0)) {
-      fmt::print(stderr, "{:>9}  {:>13}  {:>10}  {:>10}  {:>9}\n", "iteration", "objective", "constraint", "dual",
-                 "elapsed");
+      print_message(fmt::format("{:>9}  {:>13}  {:>10}  {:>10}  {:>9}\n", "iteration", "objective", "constraint", "dual",
+                                "elapsed"));
     }
-    fmt::print(stderr, "{:>9}  {:>13.6e}  {:>10.2e}  {:>10.2e}  {:>7.2f} s\n", progress.iteration, progress.cost,
-               progress.constraint_violation, progress.dual_violation, progress.elapsed_seconds);
-    std::fflush(stderr);
+    print_message(fmt::format("{:>9}  {:>13.6e}  {:>10.2e}  {:>10.2e}  {:>7.2f} s\n", progress.iteration, progress.cost,
+                              progress.constraint_violation, progress.dual_violation, progress.elapsed_seconds));
     ++line;
   };
 }

@@ -13,13 +13,16 @@ namespace {
 struct RobotArguments {
   std::string robot;
   std::vector<std::string> package_dirs;
+  bool frames = false;
   bool json = false;
 };
 
 int run_robot(const RobotArguments& arguments) {
-  const RobotModel robot = load_robot(read_text_file(arguments.robot), package_search(arguments.package_dirs));
+  const RobotModel robot = load_robot(read_text_file(arguments.robot), package_search(arguments.package_dirs),
+                                      {.needs_contacts = false});
   const RobotInspection inspection = inspect(robot);
-  print_result(arguments.json ? robot_report_json(robot, inspection) : robot_summary(robot, inspection));
+  print_result(arguments.json ? robot_report_json(robot, inspection)
+                              : robot_summary(robot, inspection) + (arguments.frames ? frame_list(robot) : ""));
   return kPassed;
 }
 
@@ -29,10 +32,13 @@ void add_robot_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<RobotArguments>();
   CLI::App* const verb = app.add_subcommand("robot", "Show what Prowl understands of a robot, and what looks wrong");
   verb->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
+  verb->add_flag("--frames", arguments->frames, "List also the frames that contacts may be fixed to");
   verb->add_flag("--json", arguments->json, "Print the result as JSON");
   verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
       ->type_name("DIR")->expected(1)->take_all();
-  verb->footer("Example:\n  prowl robot robots/hyq.toml\n\nExit status: 0, 2 bad input, 4 files.");
+  verb->footer("Examples:\n  prowl robot robots/hyq.toml\n"
+               "  prowl robot new.toml --frames     of a file that has no contacts yet\n\n"
+               "Exit status: 0, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_robot(*arguments); });
 }
 

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <vector>
 
 #include "prowl/error.hpp"
 
@@ -52,7 +53,7 @@ class SiblingFolder {
  public:
   explicit SiblingFolder(const fs::path& folder) {
     for (int attempt = 0;; ++attempt) {
-      path_ = folder.parent_path() / fmt::format(".{}.{}-{}.new", folder.filename().string(), ::getpid(), attempt);
+      path_ = folder.parent_path() / fmt::format(".prowl-{}-{}.new", ::getpid(), attempt);
       if (::mkdir(path_.c_str(), 0777) == 0) return;
       if (errno != EEXIST || attempt == 100) fail(path_, "cannot make this folder", errno);
     }
@@ -94,6 +95,35 @@ fs::path real_path(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+/// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them again:
+/// permissions tell nothing of /proc, of names too long, or of a disk that is full.
+void try_to_make(const fs::path& path) {
+  std::error_code error;
+  std::vector<fs::path> missing;  // from the inside out
+  for (fs::path above = path.parent_path(); !fs::exists(above, error) && above != above.parent_path();) {
+    missing.push_back(above);
+    above = above.parent_path();
+  }
+  const auto remove_missing = [&missing] {
+    for (const fs::path& folder : missing) ::rmdir(folder.c_str());
+  };
+  try {
+    fs::create_directories(path.parent_path());
+    const SiblingFolder trial(path);
+    if (!fs::exists(path, error)) {
+      exchange(trial.path(), path);
+      ::rmdir(path.c_str());
+    }
+  } catch (const fs::filesystem_error& failure) {
+    remove_missing();
+    throw FileError(fmt::format("{}: cannot make this folder: {}", failure.path1().string(), failure.code().message()));
+  } catch (const FileError&) {
+    remove_missing();
+    throw;
+  }
+  remove_missing();
+}
+
 }  // namespace
 
 void check_replaceable(const fs::path& folder, const std::set<std::string>& own_names) {
@@ -108,10 +138,7 @@ void check_replaceable(const fs::path& folder, const std::set<std::string>& own_
     }
     if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
   }
-  fs::path above = path.parent_path();
-  while (!fs::exists(above, error) && above != above.parent_path()) above = above.parent_path();
-  if (!fs::is_directory(above, error)) throw FileError(fmt::format("{}: not a folder", above.string()));
-  if (::access(above.c_str(), W_OK | X_OK) != 0) fail(above, "cannot write there", errno);
+  try_to_make(path);
 }
 
 void write_folder_atomically(const fs::path& folder, const std::map<std::string, std::string>& files,

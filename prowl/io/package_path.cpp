@@ -33,21 +33,25 @@ std::vector<fs::path> wheel_shares(const fs::path& folder) {
   return shares;
 }
 
+std::vector<fs::path> folders_with_venv(const fs::path& robot_file, const PackageSearch& search) {
+  std::vector<fs::path> folders = ancestors(robot_file.parent_path());
+  const auto add = [&folders](const fs::path& folder) {
+    if (std::find(folders.begin(), folders.end(), folder) == folders.end()) folders.push_back(folder);
+  };
+  for (const fs::path& folder : ancestors(search.working_directory)) add(folder);
+  if (!search.clone.empty()) add(search.clone);
+  return folders;
+}
+
 std::vector<fs::path> folders_to_search(const fs::path& robot_file, const std::vector<fs::path>& package_dirs,
                                         const PackageSearch& search) {
   std::vector<fs::path> folders = package_dirs;
   folders.insert(folders.end(), search.folders.begin(), search.folders.end());
   const std::vector<fs::path> above = ancestors(robot_file.parent_path());
   folders.insert(folders.end(), above.begin(), above.end());
-  std::vector<fs::path> with_venv = above;
-  if (!search.working_directory.empty()) {
-    const std::vector<fs::path> more = ancestors(search.working_directory);
-    with_venv.insert(with_venv.end(), more.begin(), more.end());
-  }
-  for (const fs::path& folder : with_venv) {
-    for (const fs::path& share : wheel_shares(folder)) {
-      if (std::find(folders.begin(), folders.end(), share) == folders.end()) folders.push_back(share);
-    }
+  for (const fs::path& folder : folders_with_venv(robot_file, search)) {
+    const std::vector<fs::path> shares = wheel_shares(folder);
+    folders.insert(folders.end(), shares.begin(), shares.end());
   }
   return folders;
 }
@@ -86,8 +90,10 @@ fs::path resolve_uri(const std::string& uri, const fs::path& robot_file, const s
     if (base.filename() == package && is_file(base / rest)) return base / rest;
     tried += "\n  " + in_folder.string();
   }
-  throw InputError(fmt::format("\"{}\" not found; give its folder with package_dirs or --package-dir. Tried:{}", uri,
-                               tried));
+  std::string venvs;
+  for (const fs::path& folder : folders_with_venv(robot_path, search)) venvs += "\n  " + (folder / ".venv").string();
+  throw InputError(fmt::format("\"{}\" not found; give its folder with package_dirs or --package-dir. Tried:{}\n"
+                               "and the wheels in each of these that there is:{}", uri, tried, venvs));
 }
 
 }  // namespace prowl

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <fstream>
 #include <set>
 
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
+#include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_json.hpp"
 #include "prowl/io/trajectory_csv.hpp"
 
@@ -18,6 +20,7 @@ const char* const kUniform = "trajectory_uniform.csv";
 const std::set<std::string> kFiles = {kPlan, kNodes, kUniform};
 
 constexpr std::size_t kLongestTrajectory = 1u << 30;  // [bytes]
+constexpr std::size_t kLongestPlan = 128u << 20;      // [bytes]; of which the URDF may be 16 MB
 
 }  // namespace
 
@@ -26,7 +29,7 @@ void check_plan_directory(const std::filesystem::path& directory) { check_replac
 void write_plan(const std::filesystem::path& directory, const PlanRecord& record, std::optional<double> uniform_step) {
   const MotionProblem& problem = record.task.problem;
   std::map<std::string, std::string> files;
-  files[kPlan] = plan_to_json(record).dump(2) + "\n";
+  files[kPlan] = json_text(plan_to_json(record));
   files[kNodes] = trajectory_to_csv(problem, record.plan.trajectory);
   if (uniform_step) {
     files[kUniform] = trajectory_to_csv(problem, sample_uniformly(record.plan.trajectory, *uniform_step));
@@ -34,8 +37,20 @@ void write_plan(const std::filesystem::path& directory, const PlanRecord& record
   write_folder_atomically(directory, files, kFiles);
 }
 
+bool is_good(const Plan& plan) { return plan.result.status == SolveStatus::converged && plan.certificate.passed; }
+
+bool holds_good_plan(const std::filesystem::path& directory) {
+  std::ifstream file(directory / kPlan);
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() && json.contains("good") && json["good"] == true;
+}
+
 PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search) {
-  PlanRecord record = plan_from_json(read_text_file(directory / kPlan), search);
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(directory, ignored)) {
+    throw InputError(fmt::format("{}: a file; need the folder that prowl plan wrote", directory.string()));
+  }
+  PlanRecord record = plan_from_json(read_text_file(directory / kPlan, kLongestPlan), search);
   const SourceText nodes = read_text_file(directory / kNodes, kLongestTrajectory);
   record.plan.trajectory = trajectory_from_csv(record.task.problem, nodes);
   return record;
@@ -45,8 +60,9 @@ std::string plan_report_json(const PlanRecord& record, const std::filesystem::pa
   auto json = plan_to_json(record);
   json["task_file"].erase("text");
   json["robot_file"].erase("text");
+  json["urdf"].erase("text");
   json["directory"] = std::filesystem::absolute(directory).lexically_normal().string();
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace prowl

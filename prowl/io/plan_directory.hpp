@@ -17,6 +17,12 @@ struct PlanRecord {
   std::map<std::string, std::string> versions;  ///< "prowl" -> "0.1.0", "Ipopt" -> ...
 };
 
+/// Whether the plan may be used: the solver converged and the certificate passed.
+bool is_good(const Plan& plan);
+
+/// Whether the folder holds a plan that is good, by its own plan.json: one that a new plan would replace.
+bool holds_good_plan(const std::filesystem::path& directory);
+
 /// Throws FileError if write_plan could not replace this folder; for a look before solving.
 void check_plan_directory(const std::filesystem::path& directory);
 
@@ -25,11 +31,12 @@ void check_plan_directory(const std::filesystem::path& directory);
 void write_plan(const std::filesystem::path& directory, const PlanRecord& record,
                 std::optional<double> uniform_step = std::nullopt);
 
-/// Reads what write_plan wrote; the task comes from the texts in plan.json. Throws InputError naming file and key for
-/// anything missing or wrong, FileError.
+/// Reads what write_plan wrote, but trajectory_uniform.csv; the task comes from the texts in plan.json, and the URDF, too,
+/// if it is no longer where it was. Throws InputError naming file and key for anything missing, wrong or changed since,
+/// FileError.
 PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search);
 
-/// plan.json but for the texts of task and robot: what `prowl plan --json` prints.
+/// plan.json but for the texts of task, robot and URDF: what `prowl plan --json` prints.
 std::string plan_report_json(const PlanRecord& record, const std::filesystem::path& directory);
 
 }  // namespace prowl

@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/io/json_text.hpp"
 
 namespace prowl {
 namespace {
@@ -13,16 +16,31 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kSchemaVersion = 1;
 
+/// As planned [s].
+double phase_duration(const PlanRecord& record, std::size_t phase) {
+  double first = 0.0, last = 0.0;
+  bool any = false;
+  for (const TrajectoryPoint& node : record.plan.trajectory.nodes) {
+    if (node.phase != static_cast<int>(phase)) continue;
+    if (!any) first = node.time;
+    last = node.time;
+    any = true;
+  }
+  const Duration& asked = record.task.problem.phases[phase].duration;
+  return asked.is_fixed() ? asked.min : last - first;
+}
+
 Json problem_to_json(const PlanRecord& record) {
   const MotionProblem& problem = record.task.problem;
   Json phases = Json::array();
-  for (const Phase& phase : problem.phases) {
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const Phase& phase = problem.phases[p];
     Json contacts = Json::array();
     for (const PhaseContact& c : phase.contacts) {
       contacts.push_back(problem.robot.contacts()[static_cast<std::size_t>(c.contact)].name);
     }
     phases.push_back({{"name", phase.name},
-                      {"duration_s", phase.duration.min},
+                      {"duration_s", phase_duration(record, p)},
                       {"intervals", phase.intervals},
                       {"contacts", contacts}});
   }
@@ -70,7 +88,13 @@ class Reader {
   Reader object(const char* key) const { return {where_ + "." + key, need(key)}; }
   bool has(const char* key) const { return json_->contains(key); }
   std::string text(const char* key) const { return get<std::string>(key, need(key).is_string(), "a string"); }
-  int integer(const char* key) const { return get<int>(key, need(key).is_number_integer(), "an integer"); }
+  int integer(const char* key) const {
+    constexpr auto kLargest = std::numeric_limits<int>::max();
+    const Json& value = need(key);  // unsigned where it is not negative, else signed, both of 64 bits
+    const bool fits = value.is_number_unsigned() ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(kLargest)
+                                                 : value.is_number_integer() && value.get<std::int64_t>() >= -kLargest;
+    return get<int>(key, fits, fmt::format("an integer from {} to {}", -kLargest, kLargest));
+  }
   bool flag(const char* key) const { return get<bool>(key, need(key).is_boolean(), "true or false"); }
   /// null stands for NaN and the infinities, which JSON does not have.
   double number(const char* key) const {
@@ -103,6 +127,13 @@ class Reader {
   std::string where_;
   const Json* json_;
 };
+
+/// "line:column" of the byte, which counts from 1.
+std::string place_of(const std::string& text, std::size_t byte) {
+  const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
+  const std::size_t line_start = before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1;
+  return fmt::format("{}:{}", 1 + std::count(before.begin(), before.end(), '\n'), before.size() - line_start + 1);
+}
 
 SolveStatus read_status(const Reader& plan) {
   const std::string name = plan.text("status");
@@ -153,6 +184,8 @@ TaskOverrides read_overrides(const Reader& json) {
   return overrides;
 }
 
+SourceText read_text(const Reader& file) { return {file.text("path"), file.text("text")}; }
+
 SolveResult read_result(const Reader& plan) {
   const Reader solver = plan.object("solver");
   SolveResult result;
@@ -195,9 +228,11 @@ nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
 
 nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
   const Task& task = record.task;
+  const RobotDescription& robot = task.problem.robot.description();
   return {{"schema_version", kSchemaVersion},
           {"name", task.problem.name},
           {"status", to_string(record.plan.result.status)},
+          {"good", is_good(record.plan)},
           {"finished", record.plan.result.status == SolveStatus::converged},
           {"certificate", certificate_to_json(record.plan.certificate)},
           {"solver", solver_to_json(record)},
@@ -205,7 +240,8 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
           {"versions", record.versions},
           {"overrides", overrides_to_json(task.overrides)},
           {"task_file", {{"path", absolute_path(task.task_file.path)}, {"text", task.task_file.text}}},
-          {"robot_file", {{"path", absolute_path(task.robot_file.path)}, {"text", task.robot_file.text}}}};
+          {"robot_file", {{"path", absolute_path(task.robot_file.path)}, {"text", task.robot_file.text}}},
+          {"urdf", {{"path", robot.urdf.string()}, {"text", robot.urdf_text}}}};
 }
 
 PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search) {
@@ -213,17 +249,22 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   try {
     json = Json::parse(source.text);
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(fmt::format("{}: {}", source.path.string(), error.what()));
+    throw InputError(fmt::format("{}:{}: not JSON from here on: the file is cut short or was edited", source.path.string(),
+                                 place_of(source.text, error.byte)));
   }
   const Reader plan(source.path.string() + ": plan", json);
   if (plan.integer("schema_version") != kSchemaVersion) plan.fail("schema_version", std::to_string(kSchemaVersion));
 
-  const Reader task = plan.object("task_file");
-  const Reader robot = plan.object("robot_file");
-  PlanRecord record{.task = parse_task({task.text("path"), task.text("text")}, {robot.text("path"), robot.text("text")},
-                                       search, read_overrides(plan.object("overrides"))),
+  const SourceText urdf = read_text(plan.object("urdf"));
+  PlanRecord record{.task = parse_task(read_text(plan.object("task_file")), read_text(plan.object("robot_file")), search,
+                                       read_overrides(plan.object("overrides")), urdf),
                     .plan = {},
                     .versions = {}};
+  const RobotDescription& robot = record.task.problem.robot.description();
+  if (as_utf8(robot.urdf_text) != urdf.text) {
+    throw InputError(fmt::format("{}: {} has changed since the plan was made; need the URDF as it was, or none there: then "
+                                 "the copy in plan.json is used", source.path.string(), robot.urdf.string()));
+  }
   record.plan.result = read_result(plan);
   record.plan.certificate = read_certificate(plan.object("certificate"));
   record.plan.num_variables = plan.object("problem").integer("variables");

@@ -10,14 +10,15 @@ namespace {
 
 ContactPoint read_contact(const TomlTable& table) {
   ContactPoint contact;
-  contact.name = table.need("name").as_text();
+  contact.name = table.need("name").as_name();
   contact.frame = table.need("frame").as_text();
   if (const auto radius = table.find("radius_m")) contact.radius = radius->as_number(NumberRange::nonnegative());
   if (const auto offset = table.find("offset_m")) contact.offset = offset->as_vector3();
   return contact;
 }
 
-std::vector<ContactPoint> read_contacts(const TomlTable& root) {
+std::vector<ContactPoint> read_contacts(const TomlTable& root, bool needed) {
+  if (!needed && !root.find("contact")) return {};
   root.need("contact");
   std::vector<ContactPoint> contacts;
   for (const TomlTable& table : root.find_tables("contact")) {
@@ -81,6 +82,11 @@ std::string complaint(const RobotDescription& description) {
 
 /// The key that RobotModel complains of: the first without which it no longer does; else the URDF.
 std::string culprit(const RobotDescription& description, const std::string& message) {
+  RobotDescription bare;
+  bare.name = description.name;
+  bare.urdf = description.urdf;
+  bare.urdf_text = description.urdf_text;
+  if (complaint(bare) == message) return "urdf";
   for (std::size_t i = 0; i < description.contacts.size(); ++i) {
     RobotDescription without = description;
     without.contacts.erase(without.contacts.begin() + static_cast<std::ptrdiff_t>(i));
@@ -101,12 +107,13 @@ std::string culprit(const RobotDescription& description, const std::string& mess
 
 }  // namespace
 
-RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search) {
+RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search, const RobotReading& reading) {
   const TomlDocument document(source);
+  document.refuse_key("phase", "this looks like a task file; need the robot file that it names");
   const TomlTable root = document.root(robot_file_keys());
   RobotDescription robot;
-  robot.name = root.need("name").as_text();
-  robot.contacts = read_contacts(root);
+  robot.name = root.need("name").as_name();
+  robot.contacts = read_contacts(root, reading.needs_contacts);
   if (const auto nominal = root.find_table("nominal")) read_nominal(*nominal, robot);
   if (const auto limits = root.find("limits")) {
     for (const auto& [joint, value] : limits->as_free_named_values("joint")) {
@@ -122,7 +129,9 @@ RobotDescription parse_robot_file(const SourceText& source, const PackageSearch&
   try {
     robot.urdf = resolve_uri(uri, source.path, package_dirs, search);
   } catch (const InputError& error) {
-    urdf.fail(error.what());
+    if (!reading.urdf_copy) urdf.fail(error.what());
+    robot.urdf = reading.urdf_copy->path;
+    robot.urdf_text = reading.urdf_copy->text;
   }
   return robot;
 }
@@ -131,8 +140,8 @@ RobotDescription read_robot_file(const std::filesystem::path& path, const Packag
   return parse_robot_file(read_text_file(path), search);
 }
 
-RobotModel load_robot(const SourceText& source, const PackageSearch& search) {
-  const RobotDescription description = parse_robot_file(source, search);
+RobotModel load_robot(const SourceText& source, const PackageSearch& search, const RobotReading& reading) {
+  const RobotDescription description = parse_robot_file(source, search, reading);
   try {
     return RobotModel(description);
   } catch (const InputError& error) {

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "prowl/io/json_text.hpp"
 
 namespace prowl {
 namespace {
@@ -15,10 +16,29 @@ std::string limit(double value, const std::string& unit) {
   return std::isfinite(value) ? fmt::format("{:.4g} {}", value, unit) : "none";
 }
 
+/// No "-0.0000" for a rounding error.
+double without_sign(double value) { return std::abs(value) < 5e-5 ? 0.0 : value; }
+
+std::string contact_table(const RobotModel& robot) {
+  if (robot.contacts().empty()) return "\nno contacts; frames for them: prowl robot --frames\n";
+  std::size_t name_width = 0, frame_width = 0;
+  for (const ContactPoint& contact : robot.contacts()) {
+    name_width = std::max(name_width, contact.name.size());
+    frame_width = std::max(frame_width, contact.frame.size());
+  }
+  std::string text = "\ncontacts\n";
+  for (const ContactPoint& contact : robot.contacts()) {
+    text += fmt::format("  {:<{}}  frame {:<{}}  radius {:g} m, offset {:g} {:g} {:g} m\n", contact.name, name_width,
+                        contact.frame, frame_width, contact.radius, contact.offset.x(), contact.offset.y(),
+                        contact.offset.z());
+  }
+  return text;
+}
+
 std::string joint_table(const RobotModel& robot) {
   std::size_t width = 5;
   for (const std::string& name : robot.joint_names()) width = std::max(width, name.size());
-  std::string text = fmt::format("  {:>2}  {:<{}}  {:>11}  {:>22}  {:>12}  {:>12}\n", "#", "joint", width, "nominal",
+  std::string text = fmt::format("  {:>2}  {:<{}}  {:>13}  {:>24}  {:>12}  {:>12}\n", "#", "joint", width, "nominal",
                                  "position", "velocity", "torque");
   for (int j = 0; j < robot.nu(); ++j) {
     const auto i = static_cast<std::size_t>(j);
@@ -26,7 +46,7 @@ std::string joint_table(const RobotModel& robot) {
     const std::string length = slides ? "m" : "rad";
     const std::string range =
         fmt::format("{:.4g} ... {:.4g} {}", robot.position_lower()(j), robot.position_upper()(j), length);
-    text += fmt::format("  {:>2}  {:<{}}  {:>11}  {:>22}  {:>12}  {:>12}\n", j, robot.joint_names()[i], width,
+    text += fmt::format("  {:>2}  {:<{}}  {:>13}  {:>24}  {:>12}  {:>12}\n", j, robot.joint_names()[i], width,
                         limit(robot.nominal_configuration()(7 + j), length), range,
                         limit(robot.velocity_limit()(j), length + "/s"),
                         limit(robot.torque_limit()(j), slides ? "N" : "N m"));
@@ -60,16 +80,21 @@ std::string robot_summary(const RobotModel& robot, const RobotInspection& inspec
                                  robot.nu(), robot.nv());
   text += fmt::format("  URDF {}\n\n", robot.description().urdf.string());
   text += joint_table(robot);
-  text += "\ncontacts\n";
-  for (const ContactPoint& contact : robot.contacts()) {
-    text += fmt::format("  {:<16}  frame {:<16}  radius {:g} m, offset {:g} {:g} {:g} m\n", contact.name, contact.frame,
-                        contact.radius, contact.offset.x(), contact.offset.y(), contact.offset.z());
+  text += contact_table(robot);
+  text += fmt::format("\nnominal posture: base at {:.4f} {:.4f} {:.4f} m\n", without_sign(q(0)), without_sign(q(1)),
+                      without_sign(q(2)));
+  if (!robot.contacts().empty()) {
+    text += fmt::format("contact Jacobian there: {} rows, rank {}{}\n", inspection.contact_rows, inspection.contact_rank,
+                        inspection.contact_rank < inspection.contact_rows ? " (redundant contacts)" : "");
   }
-  text += fmt::format("\nnominal posture: base at {:.4f} {:.4f} {:.4f} m\n", q(0), q(1), q(2));
-  text += fmt::format("contact Jacobian there: {} rows, rank {}{}\n", inspection.contact_rows, inspection.contact_rank,
-                      inspection.contact_rank < inspection.contact_rows ? " (redundant contacts)" : "");
   text += inspection.warnings.empty() ? "no warnings\n" : "\n";
   for (const RobotWarning& warning : inspection.warnings) text += fmt::format("warning: {}\n", warning.text);
+  return text;
+}
+
+std::string frame_list(const RobotModel& robot) {
+  std::string text = "\nframes that a contact may be fixed to\n";
+  for (const std::string& name : contact_frame_names(robot)) text += "  " + name + "\n";
   return text;
 }
 
@@ -88,12 +113,13 @@ std::string robot_report_json(const RobotModel& robot, const RobotInspection& in
                        {"mass_kg", robot.mass()},
                        {"joints", joints_to_json(robot)},
                        {"contacts", contacts},
+                       {"frames", contact_frame_names(robot)},
                        {"nominal_configuration", vector_to_json(robot.nominal_configuration())},
                        {"contact_rows", inspection.contact_rows},
                        {"contact_rank", inspection.contact_rank},
                        {"contact_singular_values", vector_to_json(inspection.contact_singular_values)},
                        {"warnings", warnings}};
-  return report.dump(2) + "\n";
+  return json_text(report);
 }
 
 }  // namespace prowl

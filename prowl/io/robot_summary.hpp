@@ -8,7 +8,9 @@ namespace prowl {
 
 /// What was understood of a robot: joints in order with limits, mass, contacts, rank of the contact Jacobian, warnings.
 std::string robot_summary(const RobotModel& robot, const RobotInspection& inspection);
-/// The same as JSON; null where there is no limit.
+/// The frames that a contact may be fixed to, one a line.
+std::string frame_list(const RobotModel& robot);
+/// All of this as JSON; null where there is no limit.
 std::string robot_report_json(const RobotModel& robot, const RobotInspection& inspection);
 
 }  // namespace prowl

@@ -25,6 +25,17 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g}{}", value, unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
+/// "failed: local integration error (0.000184 > 0.0001), ...", or "" if none has.
+std::string failed_checks(const Certificate& certificate) {
+  std::string text;
+  for (const CertificateCheck& check : certificate.checks) {
+    if (check.passed) continue;
+    text += fmt::format("{}{} ({} > {})", text.empty() ? "failed: " : ", ", check.name, with_unit(check.worst, ""),
+                        with_unit(check.limit, check.unit));
+  }
+  return text.empty() ? "" : text + "\n";
+}
+
 int count_intervals(const MotionProblem& problem) {
   int intervals = 0;
   for (const Phase& phase : problem.phases) intervals += phase.intervals;
@@ -33,12 +44,11 @@ int count_intervals(const MotionProblem& problem) {
 
 }  // namespace
 
-std::string plan_summary(const PlanRecord& record) {
+std::string plan_summary(const PlanRecord& record, const std::string& when) {
   const MotionProblem& problem = record.task.problem;
   const SolveResult& result = record.plan.result;
-  double duration = 0.0;
-  for (const Phase& phase : problem.phases) duration += phase.duration.min;
-  std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, in_words(result.status));
+  const double duration = record.plan.trajectory.duration();
+  std::string text = fmt::format("{} {}{}: {}\n", problem.robot.name(), problem.name, when, in_words(result.status));
   text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
                       problem.phases.size(), problem.phases.size() == 1 ? "" : "s", count_intervals(problem), duration,
                       record.plan.num_variables, record.plan.num_constraints);
@@ -68,19 +78,8 @@ std::string certificate_summary(const Certificate& certificate) {
     line(check.name, with_unit(check.worst, check.unit), with_unit(check.limit, check.unit),
          fmt::format("{:.3f} s", check.time), check.where, check.passed ? "pass" : "FAIL");
   }
-  return text;
-}
-
-std::string mesh_advice(const PlanRecord& record) {
-  const auto& errors = record.plan.certificate.interval_errors;
-  const auto worst = std::max_element(errors.begin(), errors.end(),
-                                      [](const auto& a, const auto& b) { return a.error < b.error; });
-  constexpr double kGoal = CertificateLimits::integration_error_certified;
-  if (worst == errors.end() || !std::isfinite(worst->error) || worst->error <= kGoal) return "";
-  const int intervals = count_intervals(record.task.problem);
-  const double needed = std::ceil(intervals * std::cbrt(worst->error / kGoal));
-  return fmt::format("local integration error {:.1e} with {} intervals; grade \"certified\" (1e-6) needs about {:g}, as the "
-                     "error falls with the cube of the step\n", worst->error, intervals, needed);
+  text += "A check passes if worst <= limit; where worst is negative, it is what is left to the bound.\n";
+  return text + failed_checks(certificate);
 }
 
 }  // namespace prowl

@@ -6,14 +6,10 @@
 
 namespace prowl {
 
-/// "HyQ crouch: converged after 23 iterations ...", mesh and size, in a few lines.
-std::string plan_summary(const PlanRecord& record);
+/// "HyQ crouch: converged", mesh, size, iterations, in a few lines. `when` goes after the name: " (as planned)".
+std::string plan_summary(const PlanRecord& record, const std::string& when = "");
 
-/// Verdict, grade and a table of all checks: worst value, limit, time and place.
+/// Verdict, grade and a table of all checks: worst value, limit, time and place; the failed ones again in one line.
 std::string certificate_summary(const Certificate& certificate);
-
-/// The mesh at which the local integration error would reach "certified", judged from this one, as it falls with h³; ""
-/// if it is there already or cannot be judged.
-std::string mesh_advice(const PlanRecord& record);
 
 }  // namespace prowl

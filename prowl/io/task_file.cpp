@@ -7,15 +7,19 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/io/interval_shares.hpp"
+#include "prowl/io/problem_fields.hpp"
 #include "prowl/io/robot_file.hpp"
 #include "prowl/io/task_cost.hpp"
 #include "prowl/io/task_goals.hpp"
 #include "prowl/io/toml_value.hpp"
+#include "prowl/model/name_check.hpp"
 
 namespace prowl {
 namespace {
 
 constexpr int kMostIntervals = 10000;  // of one phase; a typing mistake above that, and gigabytes of memory
+constexpr double kShortestNormal = 1e-6;
 
 std::vector<Eigen::Vector2d> read_patch(const TomlValue& value) {
   std::vector<Eigen::Vector2d> corners;
@@ -31,14 +35,16 @@ std::vector<Surface> read_surfaces(const TomlTable& root) {
   std::vector<Surface> surfaces;
   for (const TomlTable& table : root.find_tables("surface")) {
     Surface surface;
-    surface.name = table.need("name").as_text();
+    surface.name = table.need("name").as_name();
     for (const Surface& other : surfaces) {
       if (other.name == surface.name) table.need("name").fail("\"" + surface.name + "\" is already another surface");
     }
     if (const auto point = table.find("point_m")) surface.point = point->as_vector3();
     if (const auto normal = table.find("normal")) {
       surface.normal = normal->as_vector3();
-      if (surface.normal.norm() < 1e-6) normal->fail("a vector of length 0 is not allowed");
+      if (surface.normal.norm() < kShortestNormal) {
+        normal->fail(fmt::format("too short for a direction; need a length of {:g} or more", kShortestNormal));
+      }
       surface.normal.normalize();
     }
     if (const auto patch = table.find("patch_m")) surface.patch = read_patch(*patch);
@@ -140,7 +146,7 @@ std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names)
   for (const TomlTable& table : root.find_tables("phase")) {
     Phase phase;
     const auto name = table.find("name");
-    phase.name = name ? name->as_text() : fmt::format("phase {}", phases.size() + 1);
+    phase.name = name ? name->as_name() : fmt::format("phase {}", phases.size() + 1);
     for (const Phase& other : phases) {
       if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
     }
@@ -153,13 +159,9 @@ std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names)
   return phases;
 }
 
-void override_intervals(std::vector<Phase>& phases, int intervals) {
-  int total = 0;
-  for (const Phase& phase : phases) total += phase.intervals;
-  for (Phase& phase : phases) {
-    const double share = static_cast<double>(intervals) * phase.intervals / total;
-    phase.intervals = std::max(1, static_cast<int>(std::lround(share)));
-  }
+void override_intervals(std::vector<Phase>& phases, const std::vector<int>& file_intervals, int total) {
+  const std::vector<int> shares = share_intervals(file_intervals, total);
+  for (std::size_t p = 0; p < phases.size(); ++p) phases[p].intervals = shares[p];
 }
 
 SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
@@ -177,13 +179,14 @@ SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides)
 }
 
 MotionProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
-                           const TaskOverrides& overrides) {
+                           const TaskOverrides& overrides, std::vector<int>& file_intervals) {
   std::vector<Surface> surfaces = read_surfaces(root);
   ContactNames names;
   for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
   for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
   std::vector<Phase> phases = read_phases(root, names);
-  if (overrides.intervals) override_intervals(phases, *overrides.intervals);
+  for (const Phase& phase : phases) file_intervals.push_back(phase.intervals);
+  if (overrides.intervals) override_intervals(phases, file_intervals, *overrides.intervals);
 
   const TaskStart start = read_start(root, robot, robot_file);
   std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
@@ -210,29 +213,45 @@ std::filesystem::path robot_path(const SourceText& task_file, const TomlTable& r
   return (task_file.path.parent_path() / root.need("robot").as_text()).lexically_normal();
 }
 
+TomlTable task_root(const TomlDocument& document) {
+  document.refuse_key("urdf", "this looks like a robot file; need a task file, which names its robot file with robot = \"...\"");
+  return document.root(task_file_keys());
+}
+
+/// The file's name without its ending, with '_' for what no name may have.
+std::string name_of_file(const std::filesystem::path& path) {
+  std::string name = path.stem().string();
+  for (char& c : name) {
+    if (!is_name(std::string(1, c))) c = '_';
+  }
+  return name;
+}
+
 }  // namespace
 
 Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
-                const TaskOverrides& overrides) {
+                const TaskOverrides& overrides, const std::optional<SourceText>& urdf) {
   const TomlDocument document(task_file);
-  const TomlTable root = document.root(task_file_keys());
+  const TomlTable root = task_root(document);
   root.need("robot").as_text();
   const SolverOptions solver = read_solver(root, overrides);
-  MotionProblem problem = read_problem(root, load_robot(robot_file, search), robot_file, overrides);
+  std::vector<int> file_intervals;
+  MotionProblem problem =
+      read_problem(root, load_robot(robot_file, search, {.urdf_copy = urdf}), robot_file, overrides, file_intervals);
   const auto name = root.find("name");
-  problem.name = name ? name->as_text() : task_file.path.stem().string();
+  problem.name = name ? name->as_name() : name_of_file(task_file.path);
   try {
     validate(problem);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", task_file.path.string(), error.what()));
+    throw InputError(in_terms_of_the_file(task_file, error.what()));
   }
-  return {std::move(problem), solver, task_file, robot_file, overrides};
+  return {std::move(problem), solver, task_file, robot_file, overrides, std::move(file_intervals)};
 }
 
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {
   const SourceText task_file = read_text_file(path);
   const TomlDocument document(task_file);
-  const TomlTable root = document.root(task_file_keys());
+  const TomlTable root = task_root(document);
   const std::filesystem::path robot = robot_path(task_file, root);
   if (!std::filesystem::exists(robot)) root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
   return parse_task(task_file, read_text_file(robot), search, overrides);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "prowl/io/package_path.hpp"
 #include "prowl/io/text_file.hpp"
@@ -23,15 +24,17 @@ struct Task {
   SourceText task_file;
   SourceText robot_file;
   TaskOverrides overrides;
+  std::vector<int> file_intervals;  ///< of each phase, before the overrides
 };
 
 /// Reads a task file (docs/task-file.md) and the robot file that it names. Throws InputError
 /// "file:line:column: key: ..." for whatever is wrong in either.
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides = {});
 
-/// The same from texts at hand: those that a plan keeps. `robot_file` stands for the file that the task names.
+/// The same from texts at hand: those that a plan keeps. `robot_file` stands for the file that the task names, and `urdf`
+/// for the one that the robot names if that is not there.
 Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
-                const TaskOverrides& overrides = {});
+                const TaskOverrides& overrides = {}, const std::optional<SourceText>& urdf = std::nullopt);
 
 /// "hyq_crouch" for tasks/hyq/crouch.toml: folder and name tell one task from another.
 std::string task_slug(const std::filesystem::path& task_file);

@@ -89,13 +89,25 @@ void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int fir
   }
 }
 
-/// Bounds of the joints that the file names, less `origin` (nu), as rows first ... first + nu - 1.
-void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const Eigen::VectorXd& origin, int first,
-                       Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+/// What the robot can do, of each joint.
+struct JointRange {
+  Eigen::VectorXd lower, upper;  ///< nu
+  const char* name;
+};
+
+/// Bounds of the joints that the file names, less `origin` (nu), as the last nu rows of lower and upper.
+void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const JointRange& range,
+                       const Eigen::VectorXd& origin, Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+  constexpr double kRounding = 1e-9;  // [rad, m, rad/s, m/s, N m]
   const std::vector<std::string>& names = robot.joint_names();
+  const Eigen::Index first = lower.size() - robot.nu();
   for (const auto& [name, entry] : value.as_named_values(names, "joint")) {
-    const auto joint = static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+    const Eigen::Index joint = std::find(names.begin(), names.end(), name) - names.begin();
     const Bounds bounds = entry.as_bounds();
+    if (bounds.lower > range.upper(joint) + kRounding || bounds.upper < range.lower(joint) - kRounding) {
+      entry.fail(fmt::format("outside the joint's {} limits; need something from {:.5g} to {:.5g}", range.name,
+                             range.lower(joint), range.upper(joint)));
+    }
     lower(first + joint) = bounds.lower - origin(joint);
     upper(first + joint) = bounds.upper - origin(joint);
   }
@@ -131,14 +143,22 @@ void read_base_orientation(const TomlValue& value, const TaskStart& start, Bound
   set_base_rotation(condition.q_ref, rotation_from_rpy(rpy));
 }
 
+bool binds(const BoundaryCondition& condition) {
+  for (const auto* bounds : {&condition.configuration_lower, &condition.configuration_upper, &condition.velocity_lower,
+                             &condition.velocity_upper, &condition.torque_lower, &condition.torque_upper}) {
+    if (bounds->array().isFinite().any()) return true;
+  }
+  return false;
+}
+
 BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, const RobotModel& robot,
                             const TaskStart& start, const std::vector<Phase>& phases) {
   BoundaryCondition condition = BoundaryCondition::unbounded(robot, name, read_node(goal, phases), start.q);
   read_base_position(goal, start, condition);
   if (const auto rpy = goal.find("base_rpy_rad")) read_base_orientation(*rpy, start, condition);
   if (const auto joints = goal.find("joints")) {
-    read_joint_bounds(*joints, robot, condition.q_ref.tail(robot.nu()), 6, condition.configuration_lower,
-                      condition.configuration_upper);
+    read_joint_bounds(*joints, robot, {robot.position_lower(), robot.position_upper(), "position"},
+                      condition.q_ref.tail(robot.nu()), condition.configuration_lower, condition.configuration_upper);
   }
   if (const auto linear = goal.find("base_linear_velocity_mps")) {
     read_bounds3(*linear, Eigen::Vector3d::Zero(), 0, condition.velocity_lower, condition.velocity_upper);
@@ -148,11 +168,14 @@ BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, cons
   }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(robot.nu());
   if (const auto rates = goal.find("joint_velocity_radps")) {
-    read_joint_bounds(*rates, robot, zero, 6, condition.velocity_lower, condition.velocity_upper);
+    read_joint_bounds(*rates, robot, {-robot.velocity_limit(), robot.velocity_limit(), "velocity"}, zero,
+                      condition.velocity_lower, condition.velocity_upper);
   }
   if (const auto torques = goal.find("torque_Nm")) {
-    read_joint_bounds(*torques, robot, zero, 0, condition.torque_lower, condition.torque_upper);
+    read_joint_bounds(*torques, robot, {-robot.torque_limit(), robot.torque_limit(), "torque"}, zero,
+                      condition.torque_lower, condition.torque_upper);
   }
+  if (!binds(condition)) goal.value().fail("binds nothing; need one key that prescribes or bounds something");
   return condition;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/model/name_check.hpp"
 #include "prowl/model/nearest_name.hpp"
 
 namespace prowl {
@@ -50,7 +51,7 @@ std::string unit_of(const std::string& path) {
 
 }  // namespace
 
-NumberRange angle_range() { return {.lower = -6.2832, .upper = 6.2832}; }
+NumberRange angle_range() { return {.lower = -6.2832, .upper = 6.2832, .hint = "; 5 degrees are 0.087"}; }
 
 std::string NumberRange::to_words() const {
   const bool has_lower = std::isfinite(lower);
@@ -62,7 +63,7 @@ std::string NumberRange::to_words() const {
 }
 
 bool NumberRange::contains(double value) const {
-  return std::isfinite(value) && value <= upper && (above_lower ? value > lower : value >= lower);
+  return std::abs(value) <= kLargest && value <= upper && (above_lower ? value > lower : value >= lower);
 }
 
 void TomlValue::fail(const std::string& message) const {
@@ -73,14 +74,17 @@ void TomlValue::fail_unknown_name(const std::string& what, const std::vector<std
   fail(unknown(fmt::format("{} {}", what, describe(*node_)), node_->value_or<std::string>(""), known));
 }
 
-void TomlValue::fail_type(const std::string& needed) const {
-  fail(fmt::format("{} is not allowed; need {}{}", describe(*node_), needed, unit_of(path_)));
+void TomlValue::fail_type(const std::string& needed, const std::string& hint) const {
+  fail(fmt::format("{} is not allowed; need {}{}{}", describe(*node_), needed, unit_of(path_), hint));
 }
 
 double TomlValue::as_number(const NumberRange& range) const {
   if (!node_->is_number()) fail_type(range.to_words());
   const double value = *node_->value<double>();
-  if (!range.contains(value)) fail_type(range.to_words());
+  if (std::isfinite(value) && std::abs(value) > NumberRange::kLargest) {
+    fail(fmt::format("{:g} is not allowed; need a number of at most {:g} in size", value, NumberRange::kLargest));
+  }
+  if (!range.contains(value)) fail_type(range.to_words(), range.hint);
   return value;
 }
 
@@ -97,6 +101,11 @@ std::string TomlValue::as_text() const {
   const auto* text = node_->as_string();
   if (!text || text->get().empty()) fail_type("a string in quotes, not empty");
   return text->get();
+}
+
+std::string TomlValue::as_name() const {
+  if (const std::string name = as_text(); is_name(name)) return name;
+  fail(fmt::format("this name is not allowed; need {}", kNameRule));
 }
 
 std::vector<TomlValue> TomlValue::as_list() const {
@@ -205,11 +214,19 @@ std::vector<TomlTable> TomlTable::find_tables(const std::string& key) const {
 }
 
 TomlDocument::TomlDocument(const SourceText& source) : source_(source) {
+  if (const std::size_t first = source.text.find_first_not_of(" \t\r\n"); first != std::string::npos && source.text[first] == '<') {
+    throw InputError(fmt::format("{}: this looks like XML; need a TOML file (a URDF is named by a robot file)",
+                                 source.path.string()));
+  }
   try {
     table_ = toml::parse(source_.text, source_.path.string());
   } catch (const toml::parse_error& error) {
     throw InputError(at(source_, error.source()) + std::string(error.description()));
   }
+}
+
+void TomlDocument::refuse_key(const std::string& key, const std::string& message) const {
+  if (const toml::node* node = table_.get(key)) TomlValue(source_, *node, key).fail(message);
 }
 
 TomlTable TomlDocument::root(const FileKeys& keys) const {

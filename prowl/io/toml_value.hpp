@@ -15,11 +15,13 @@
 
 namespace prowl {
 
-/// Numbers that a key accepts, and how to say it.
+/// Numbers that a key accepts, and how to say it. None may be beyond kLargest: sums and products then stay finite.
 struct NumberRange {
+  static constexpr double kLargest = 1e9;
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool above_lower = false;  ///< lower itself is not allowed
+  const char* hint = "";     ///< said after the range
   std::string to_words() const;
   bool contains(double value) const;
 
@@ -46,6 +48,7 @@ class TomlValue {
   double as_number(const NumberRange& range = NumberRange::any()) const;
   int as_integer(int lower, int upper) const;
   std::string as_text() const;  ///< not empty
+  std::string as_name() const;  ///< a text that is_name (model/name_check.hpp) accepts
   std::vector<TomlValue> as_list() const;
   std::vector<TomlValue> as_list(std::size_t size) const;
   Eigen::Vector3d as_vector3(const NumberRange& range = NumberRange::any()) const;
@@ -68,7 +71,7 @@ class TomlValue {
   [[noreturn]] void fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const;
 
  private:
-  [[noreturn]] void fail_type(const std::string& needed) const;
+  [[noreturn]] void fail_type(const std::string& needed, const std::string& hint = "") const;
 
   const SourceText* source_;
   const toml::node* node_;
@@ -105,6 +108,8 @@ class TomlDocument {
   TomlDocument(const TomlDocument&) = delete;  // values point into it
   TomlDocument& operator=(const TomlDocument&) = delete;
   TomlTable root(const FileKeys& keys) const;
+  /// Throws `message` at the key if the top has it: the sign of another kind of file.
+  void refuse_key(const std::string& key, const std::string& message) const;
 
  private:
   SourceText source_;

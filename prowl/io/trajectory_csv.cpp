@@ -28,6 +28,10 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 
 void append(Row& row, const Eigen::VectorXd& values) { row.insert(row.end(), values.begin(), values.end()); }
 
+bool touches(const Phase& phase, int contact) {
+  return std::any_of(phase.contacts.begin(), phase.contacts.end(), [&](const auto& c) { return c.contact == contact; });
+}
+
 Row to_row(const MotionProblem& problem, const TrajectoryPoint& point) {
   Row row = {point.time, static_cast<double>(point.phase)};
   const auto nu = problem.robot.nu();
@@ -38,17 +42,16 @@ Row to_row(const MotionProblem& problem, const TrajectoryPoint& point) {
   append(row, point.v.tail(nu));
   append(row, point.a.tail(nu));
   append(row, point.tau);
-  const std::vector<PhaseContact>& active = problem.phases[static_cast<std::size_t>(point.phase)].contacts;
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
-    const bool touches = std::any_of(active.begin(), active.end(), [&](const auto& a) { return a.contact == c; });
-    row.push_back(touches ? 1.0 : 0.0);
+    row.push_back(touches(problem.phases[static_cast<std::size_t>(point.phase)], c) ? 1.0 : 0.0);
     append(row, point.force.segment<3>(3 * c));
   }
   return row;
 }
 
-TrajectoryPoint from_row(const RobotModel& robot, const Row& row) {
-  TrajectoryPoint point{.time = row[0], .phase = static_cast<int>(row[1]), .q = {}, .v = {}, .a = {}, .tau = {}, .force = {}};
+/// `row` of a node of the given phase.
+TrajectoryPoint from_row(const RobotModel& robot, std::size_t phase, const Row& row) {
+  TrajectoryPoint point{.time = row[0], .phase = static_cast<int>(phase), .q = {}, .v = {}, .a = {}, .tau = {}, .force = {}};
   const double* next = row.data() + 2;
   const auto take = [&next](auto&& target) {
     target = Eigen::Map<const Eigen::VectorXd>(next, target.size());
@@ -68,7 +71,7 @@ TrajectoryPoint from_row(const RobotModel& robot, const Row& row) {
   take(point.a.tail(nu));
   take(point.tau);
   for (Eigen::Index c = 0; c < point.force.size(); c += 3) {
-    ++next;  // contact_<name>: the phase says it
+    ++next;  // contact_<name>: see check_row
     take(point.force.segment(c, 3));
   }
   return point;
@@ -89,19 +92,40 @@ Row parse_row(const std::string& where, std::string_view line, const std::vector
   return row;
 }
 
-/// Throws unless the point is the next node of the mesh: phase by phase, equal steps.
-void check_node(const std::string& where, const MotionProblem& problem, std::size_t phase, int node, double begin,
-                const TrajectoryPoint& point) {
-  const Phase& p = problem.phases[phase];
-  const double time = begin + p.duration.min * node / p.intervals;
-  if (point.phase != static_cast<int>(phase) || std::abs(point.time - time) > 1e-9 * (1.0 + time)) {
-    throw InputError(fmt::format("{}: phase {} at {} s is not allowed; the task's mesh has phase {} at {} s", where,
-                                 point.phase, point.time, phase, time));
+/// Throws unless the row is one of the given phase, with its contacts and a unit quaternion.
+void check_row(const std::string& where, const MotionProblem& problem, std::size_t phase, const Row& row) {
+  const auto refuse = [&](const std::string& column, double value, const std::string& needed) {
+    throw InputError(fmt::format("{}: {}: {} is not allowed; need {}", where, column, value, needed));
+  };
+  if (row[1] != static_cast<double>(phase)) refuse("phase", row[1], fmt::format("{}, as in the task's mesh", phase));
+  const double norm = Eigen::Map<const Eigen::Vector4d>(row.data() + 5).norm();
+  if (std::abs(norm - 1.0) > 1e-6) refuse("norm of base_qx ... base_qw", norm, "a unit quaternion");
+  const std::vector<ContactPoint>& contacts = problem.robot.contacts();
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    const double flag = row[row.size() - 4 * (contacts.size() - c)];
+    const double expected = touches(problem.phases[phase], static_cast<int>(c)) ? 1.0 : 0.0;
+    if (flag != expected) refuse("contact_" + contacts[c].name, flag, fmt::format("{}, as in the task", expected));
   }
-  const double norm = point.q.segment<4>(3).norm();
-  if (std::abs(norm - 1.0) > 1e-6) {
-    throw InputError(fmt::format("{}: base_qx ... base_qw: norm {} is not allowed; need a unit quaternion", where, norm));
+}
+
+/// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in equal steps, as long as it may
+/// last. Returns its end [s].
+double check_times(const std::string& file, const Phase& phase, double begin, const TrajectoryPoint* first, std::size_t line) {
+  constexpr double kRounding = 1e-9;  // of the time
+  const double duration = phase.duration.is_fixed() ? phase.duration.min : first[phase.intervals].time - begin;
+  const double slack = kRounding * (1.0 + begin + phase.duration.max);
+  if (duration < phase.duration.min - slack || duration > phase.duration.max + slack) {
+    throw InputError(fmt::format("{}:{}: phase '{}' lasts {} s; the task allows {} to {} s", file,
+                                 line + static_cast<std::size_t>(phase.intervals), phase.name, duration, phase.duration.min,
+                                 phase.duration.max));
   }
+  for (int node = 0; node <= phase.intervals; ++node) {
+    const double time = begin + duration * node / phase.intervals;
+    if (std::abs(first[node].time - time) <= slack) continue;
+    throw InputError(fmt::format("{}:{}: time_s: {} is not allowed; need {}, as in the task's mesh", file,
+                                 line + static_cast<std::size_t>(node), first[node].time, time));
+  }
+  return begin + duration;
 }
 
 }  // namespace
@@ -135,7 +159,8 @@ Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& s
   const std::string file = source.path.string();
   const std::vector<std::string> columns = trajectory_columns(problem.robot);
   std::vector<std::string_view> lines = split(source.text, '\n');
-  if (lines.back().empty()) lines.pop_back();
+  const bool ends_with_line = lines.back().empty();
+  if (ends_with_line) lines.pop_back();
   if (lines.empty() || lines[0] != fmt::format("{}", fmt::join(columns, ","))) {
     throw InputError(fmt::format("{}:1: the columns are not those of {}", file, problem.robot.name()));
   }
@@ -144,16 +169,19 @@ Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& s
   if (lines.size() != rows + 1) {
     throw InputError(fmt::format("{}: {} rows; the task's mesh has {} nodes", file, lines.size() - 1, rows));
   }
+  if (!ends_with_line) throw InputError(fmt::format("{}: the last line has no end; the file is cut short", file));
   Trajectory trajectory;
   double begin = 0.0;
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const std::size_t first = trajectory.nodes.size();
     for (int node = 0; node <= problem.phases[p].intervals; ++node) {
       const std::size_t line = trajectory.nodes.size() + 1;
       const std::string where = fmt::format("{}:{}", file, line + 1);
-      trajectory.nodes.push_back(from_row(problem.robot, parse_row(where, lines[line], columns)));
-      check_node(where, problem, p, node, begin, trajectory.nodes.back());
+      const Row row = parse_row(where, lines[line], columns);
+      check_row(where, problem, p, row);
+      trajectory.nodes.push_back(from_row(problem.robot, p, row));
     }
-    begin += problem.phases[p].duration.min;
+    begin = check_times(file, problem.phases[p], begin, &trajectory.nodes[first], first + 2);
   }
   return trajectory;
 }

@@ -16,7 +16,7 @@ std::vector<std::string> trajectory_columns(const RobotModel& robot);
 std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& trajectory);
 
 /// Throws InputError "file:line: column: ..." unless the columns are those of the robot, the rows those of the mesh of
-/// the problem, and all numbers finite.
+/// the problem with its contacts, all numbers finite, and the last line whole.
 Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source);
 
 /// Points at 0, step, 2 step, ... and the end; at a phase switch the point of the later phase.

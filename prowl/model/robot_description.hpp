@@ -36,6 +36,7 @@ struct JointLimits {
 struct RobotDescription {
   std::string name;
   std::filesystem::path urdf;  ///< absolute
+  std::string urdf_text = {};  ///< what is in it; read from there if empty
   std::vector<ContactPoint> contacts;
   std::map<std::string, double> nominal_joints;  ///< by joint name [rad] or [m]; joints not named are at 0
   Eigen::Vector3d nominal_base_rpy = Eigen::Vector3d::Zero();  ///< [rad]; x, y and height follow from the contacts

@@ -98,6 +98,16 @@ void check_ground(const RobotModel& robot, const std::vector<Eigen::Vector3d>& p
                                                 fmt::join(heights, ", "))});
 }
 
+void check_coincidence(const RobotModel& robot, const std::vector<Eigen::Vector3d>& points, Warnings& warnings) {
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    for (std::size_t b = a + 1; b < points.size(); ++b) {
+      if ((points[a] - points[b]).norm() > kLevel) continue;
+      warnings.push_back({Kind::contacts, fmt::format("contacts '{}' and '{}' are one point", robot.contacts()[a].name,
+                                                      robot.contacts()[b].name)});
+    }
+  }
+}
+
 /// Right has the limits of left, as they are or mirrored.
 bool same_range(const RobotModel& robot, Eigen::Index left, Eigen::Index right) {
   const double lower = robot.position_lower()(left), upper = robot.position_upper()(left);
@@ -164,6 +174,14 @@ Eigen::MatrixXd contact_jacobian(const PinocchioModel& pin, pinocchio::Data& dat
 
 }  // namespace
 
+std::vector<std::string> contact_frame_names(const RobotModel& robot) {
+  std::vector<std::string> names;
+  for (const pinocchio::Frame& frame : robot.pinocchio().model.frames) {
+    if ((frame.type & (pinocchio::BODY | pinocchio::FIXED_JOINT)) != 0 && frame.name != "universe") names.push_back(frame.name);
+  }
+  return names;
+}
+
 RobotInspection inspect(const RobotModel& robot) {
   const PinocchioModel& pin = robot.pinocchio();
   const Eigen::VectorXd& q = robot.nominal_configuration();
@@ -176,6 +194,7 @@ RobotInspection inspect(const RobotModel& robot) {
   check_inertias(robot, result.warnings);
   check_limits(robot, result.warnings);
   check_ground(robot, points, result.warnings);
+  check_coincidence(robot, points, result.warnings);
   check_joint_symmetry(robot, result.warnings);
   check_contact_symmetry(robot, points, result.warnings);
   check_posture(robot, result.warnings);

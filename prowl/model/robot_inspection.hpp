@@ -15,7 +15,7 @@ struct RobotWarning {
     limit,     ///< a limit that limits nothing
     ground,    ///< contacts not level in the nominal posture
     symmetry,  ///< left and right differ
-    contacts,  ///< the rank of the contact Jacobian hangs on the threshold
+    contacts,  ///< two at one point, or the rank of the contact Jacobian hangs on the threshold
     posture    ///< nominal posture outside the joint limits
   };
   Kind kind;
@@ -33,5 +33,8 @@ struct RobotInspection {
 };
 
 RobotInspection inspect(const RobotModel& robot);
+
+/// What a contact may be fixed to: the links and fixed joints of the URDF.
+std::vector<std::string> contact_frame_names(const RobotModel& robot);
 
 }  // namespace prowl

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <pinocchio/algorithm/frames.hpp>
 #include <pinocchio/parsers/urdf.hpp>
 #include <set>
-#include <sstream>
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
@@ -24,21 +25,27 @@ namespace {
 
 constexpr auto kLinkOrFixedJoint = static_cast<pinocchio::FrameType>(pinocchio::BODY | pinocchio::FIXED_JOINT);
 constexpr pinocchio::JointIndex kBaseJoint = 1;  // 0 is the world
+constexpr std::uintmax_t kLargestUrdf = 16u << 20;  // [bytes]; the largest known are below 1 MB
 
 std::string read_text(const std::filesystem::path& path) {
+  std::error_code error;
   std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (!std::filesystem::is_regular_file(path) || !(text << stream.rdbuf())) {
+  if (!std::filesystem::is_regular_file(path, error) || !stream) {
     throw FileError(fmt::format("{}: cannot be read; expected a URDF file", path.string()));
   }
-  return text.str();
+  if (std::filesystem::file_size(path, error) > kLargestUrdf) {
+    throw InputError(fmt::format("{}: more than {} bytes; expected a URDF file", path.string(), kLargestUrdf));
+  }
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (stream.bad()) throw FileError(fmt::format("{}: cannot be read to its end", path.string()));
+  return text;
 }
 
-void read_urdf(const RobotDescription& description, PinocchioModel& pin) {
-  const std::string xml = read_text(description.urdf);
-  pin.links = check_urdf(description.urdf.string(), xml);
+void read_urdf(RobotDescription& description, PinocchioModel& pin) {
+  if (description.urdf_text.empty()) description.urdf_text = read_text(description.urdf);
+  pin.links = check_urdf(description.urdf.string(), description.urdf_text);
   try {
-    pinocchio::urdf::buildModelFromXML(xml, pinocchio::JointModelFreeFlyer(), pin.model);
+    pinocchio::urdf::buildModelFromXML(description.urdf_text, pinocchio::JointModelFreeFlyer(), pin.model);
   } catch (const std::exception& error) {
     throw InputError(
         fmt::format("{}: not a robot that Pinocchio can build: {}", description.urdf.string(), error.what()));

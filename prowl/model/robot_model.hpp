@@ -28,7 +28,7 @@ class RobotModel {
   RobotModel& operator=(RobotModel other) noexcept;
   ~RobotModel();
 
-  const RobotDescription& description() const { return description_; }
+  const RobotDescription& description() const { return description_; }  ///< with the text of the URDF
   const std::string& name() const { return description_.name; }
   int nq() const { return nv() + 1; }
   int nv() const { return 6 + nu(); }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "prowl/error.hpp"
+#include "prowl/model/name_check.hpp"
 #include "prowl/model/nearest_name.hpp"
 
 namespace prowl {
@@ -23,6 +24,8 @@ using tinyxml2::XMLElement;
 
 constexpr double kLargest = 1e9;         // of any length, mass, inertia [SI]: their products then stay finite
 constexpr std::size_t kMaxLinks = 1000;  // a chain of 3,000 keeps Pinocchio busy for more than 20 s
+// Humanoids with both hands have fewer than 100. Pinocchio keeps four tensors of nv³ numbers: 64 MB here, 4 GB at 500.
+constexpr int kMaxMovingJoints = 120;
 
 /// One link or joint (or the whole robot), for messages: "file:line: joint 'name'".
 struct Place {
@@ -183,6 +186,9 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
     throw InputError(fmt::format("{}:{}: not an XML file ({}); expected a URDF", file, document.ErrorLineNum(),
                                  tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())));
   }
+  if (document.RootElement() == nullptr) {
+    throw InputError(fmt::format("{}:1: no element in it; expected a URDF, <robot name=\"...\">", file));
+  }
   const XMLElement& root = *document.RootElement();
   const Place place{file, fmt::format("<{}>", root.Name())};
   if (std::string(root.Name()) != "robot") place.refuse(root, "not a URDF; expected <robot name=\"...\">");
@@ -209,6 +215,7 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
     line_of.clear();
     for (const XMLElement* e = root.FirstChildElement(kind); e != nullptr; e = e->NextSiblingElement(kind)) {
       const std::string name = text_of(robot, *e, "name");
+      if (!is_name(name)) robot.refuse(*e, fmt::format("this name of a {} is not allowed; need {}", kind, kNameRule));
       const Place place{file, fmt::format("{} '{}'", kind, name)};
       if (const auto [first, is_new] = line_of.emplace(name, e->GetLineNum()); !is_new) {
         place.refuse(*e, fmt::format("the name is used already in line {}; expected unique names", first->second));
@@ -223,8 +230,14 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
   });
   if (links.empty()) robot.refuse(root, "no <link>; expected at least the base");
   Parents parents;
+  int moving = 0;
   visit("joint", [&](const Place& place, const XMLElement& joint, const std::string&) {
     check_joint(place, joint, links, parents);
+    if (text_of(place, joint, "type") == "fixed") return;
+    if (++moving > kMaxMovingJoints) {
+      place.refuse(joint, fmt::format("more than {} moving joints are not allowed; make those fixed that the motion "
+                                      "does not need", kMaxMovingJoints));
+    }
   });
   check_tree(robot, root, links, parents);
   return result;

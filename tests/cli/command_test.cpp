@@ -114,6 +114,52 @@ TEST_F(Command, PlansAndChecks) {
   EXPECT_THAT(check.out, HasSubstr("FAIL"));
 }
 
+TEST_F(Command, PlansWithoutAnybodyListening) {
+  for (const char* listener : {"2>&-", "2>/dev/full", "<&- 2>&-"}) {
+    const Outcome result = run(std::string("$prowl plan hold.toml $dirs --out out ") + listener);
+    EXPECT_EQ(result.status, 0) << listener;
+    EXPECT_EQ(plan().at("status"), "converged") << listener;
+    EXPECT_EQ(run("$prowl check out $dirs").status, 0) << "no progress in the trajectory, " << listener;
+  }
+  EXPECT_EQ(run("$prowl plan missing.toml 2>&-").status, 2);
+  EXPECT_EQ(run("$prowl plan --nothing 2>/dev/full").status, 2);
+}
+
+TEST_F(Command, FailsIfTheResultDoesNotGetThrough) {
+  for (const char* arguments : {"robot hyq.toml $dirs", "--help", "--version", "plan --help"}) {
+    for (const char* closed : {" >/dev/full", " >&-"}) {
+      const Outcome result = run(std::string("$prowl ") + arguments + closed);
+      EXPECT_EQ(result.status, 4) << arguments << closed;
+      EXPECT_THAT(result.error, StartsWith("prowl: standard output: "));
+    }
+  }
+}
+
+TEST_F(Command, PlansFilesWhoseNamesAreNotUtf8) {
+  const Outcome result = run("name=$(printf 'caf\\351'); mkdir $name; cp hold.toml hyq.toml $name; "
+                             "$prowl plan $name/hold.toml $dirs --out out --json && $prowl robot $name/hyq.toml $dirs --json");
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_THAT(plan().at("task_file").at("path").get<std::string>(), HasSubstr("caf\xef\xbf\xbd/hold.toml"));
+}
+
+TEST_F(Command, LooksIntoTheCloneThatItWasBuiltIn) {
+  const std::string share = "clone/.venv/lib/python3.11/site-packages/cmeel.prefix";
+  const Outcome result = run("mkdir -p clone/build/bin " + share + " && ln -s '" PROWL_ROBOTS_DATA "' " + share + "/share && "
+                             "cp $prowl clone/build/bin && clone/build/bin/prowl robot hyq.toml");
+  EXPECT_EQ(result.status, 0) << result.error;
+}
+
+TEST_F(Command, ShowsFramesOfARobotWithoutContacts) {
+  const std::string text = test::kHyqFile;
+  folder_.write("new.toml", text.substr(0, text.find("contact = [")) + text.substr(text.find("[nominal")));
+  const Outcome result = run("$prowl robot new.toml $dirs --frames");
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_THAT(result.out, HasSubstr("\n  lf_foot\n"));
+  EXPECT_THAT(result.out, HasSubstr("no contacts"));
+  folder_.write("new_task.toml", test::replaced(kHold, "hyq.toml", "new.toml"));
+  EXPECT_EQ(run("$prowl plan new_task.toml $dirs --out out").status, 2);
+}
+
 TEST_F(Command, PrintsNothingButJsonIfAsked) {
   const Outcome result = run("$prowl plan hold.toml $dirs --out out --json");
   ASSERT_EQ(result.status, 0) << result.error;
@@ -135,6 +181,7 @@ TEST_F(Command, WritesNothingOnBadInput) {
   EXPECT_THAT(run("$prowl plan bad.toml $dirs").error,
               StartsWith("prowl: bad.toml:4:1: phase[0].duration: unknown key; did you mean 'duration_s'?"));
   EXPECT_EQ(run("$prowl check missing").status, 2);
+  EXPECT_EQ(run("$prowl check hold.toml").error, "prowl: hold.toml: a file; need the folder that prowl plan wrote\n");
 }
 
 TEST_F(Command, LooksAtTheFolderBeforeItSolves) {
@@ -142,6 +189,9 @@ TEST_F(Command, LooksAtTheFolderBeforeItSolves) {
   const Outcome result = run("$prowl plan hold.toml $dirs --out file/out");
   EXPECT_EQ(result.status, 4);
   EXPECT_THAT(result.error, Not(HasSubstr("iteration"))) << "a solve for nothing";
+  const Outcome nowhere = run("$prowl plan hold.toml $dirs --out /proc/prowl");
+  EXPECT_EQ(nowhere.status, 4);
+  EXPECT_THAT(nowhere.error, Not(HasSubstr("iteration"))) << "a solve for nothing";
   folder_.write("out/thesis.tex", "years of work");
   EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 4);
   EXPECT_EQ(test::read_file(folder_.path() / "out/thesis.tex"), "years of work");
@@ -154,7 +204,18 @@ TEST_F(Command, SaysThatALimitWasReached) {
   EXPECT_EQ(result.status, 6) << result.error;
   EXPECT_EQ(plan().at("status"), "iteration_limit");
   EXPECT_EQ(plan().at("finished"), false);
-  EXPECT_EQ(run("$prowl check out $dirs").status, 6) << "a check does not finish it";
+  EXPECT_EQ(plan().at("good"), false);
+  EXPECT_THAT(result.error, Not(HasSubstr("replaces")));
+  const Outcome check = run("$prowl check out $dirs");
+  EXPECT_EQ(check.status, 6) << "a check does not finish it";
+  EXPECT_THAT(check.out, HasSubstr("(as planned): not finished"));
+}
+
+TEST_F(Command, SaysThatItReplacesAGoodPlan) {
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 0);
+  EXPECT_EQ(plan().at("good"), true);
+  EXPECT_THAT(run("$prowl plan hold.toml $dirs --out out --intervals 6").error,
+              HasSubstr("note: replaces an earlier plan that passed, in out"));
 }
 
 TEST_F(Command, KeepsTheBestIterateOnInterrupt) {

@@ -65,6 +65,18 @@ TEST_F(AtomicFolder, RefusesFoldersThatCannotBeWritten) {
   EXPECT_THROW(check_replaceable(folder_.path() / "file", kNames), FileError);
   EXPECT_THROW(check_replaceable(folder_.path() / "file/out", kNames), FileError);
   EXPECT_NO_THROW(check_replaceable(folder_.path() / "new/out", kNames));
+  EXPECT_EQ(entries(), 1u) << "the trial left something behind";
+}
+
+TEST_F(AtomicFolder, FindsOutByTrial) {
+  EXPECT_THROW(check_replaceable("/proc/prowl", kNames), FileError) << "writable for root by its permissions";
+  EXPECT_THROW(check_replaceable(folder_.path() / "new" / std::string(256, 'x'), kNames), FileError);
+  EXPECT_EQ(entries(), 0u) << "the trial left something behind";
+  const fs::path longest = folder_.path() / "new" / std::string(255, 'x');
+  EXPECT_NO_THROW(check_replaceable(longest, kNames));
+  EXPECT_EQ(entries(), 0u);
+  write_folder_atomically(longest, {{"a.txt", "1"}}, kNames);
+  EXPECT_EQ(test::read_file(longest / "a.txt"), "1");
 }
 
 TEST_F(AtomicFolder, RefusesFoldersWithoutPermission) {

@@ -18,6 +18,14 @@ TEST(FileKeys, DocumentationListsExactlyTheDeclaredKeys) {
   EXPECT_THAT(test::read_file(docs / "robot-file.md"), HasSubstr(markdown_table(robot_file_keys())));
 }
 
+// So that the example is one that is planned by the tests, and passes.
+TEST(FileKeys, DocumentationShowsAShippedTask) {
+  const std::filesystem::path source = PROWL_SOURCE_DIR;
+  const std::string task = test::read_file(source / "tasks/hyq/crouch.toml");
+  ASSERT_GT(task.size(), 500u);
+  EXPECT_THAT(test::read_file(source / "docs/task-file.md"), HasSubstr("```toml\n" + task + "```\n"));
+}
+
 TEST(FileKeys, AreDeclaredOnce) {
   for (const FileKeys& keys : {task_file_keys(), robot_file_keys()}) {
     std::set<std::pair<std::string, std::string>> seen;

@@ -11,7 +11,9 @@ class PackagePath : public testing::Test {
  protected:
   std::filesystem::path resolve(const std::string& uri) const {
     return resolve_uri(uri, folder_.path() / "work/robots/dog.toml", {folder_.path() / "own"},
-                       {.folders = {folder_.path() / "given"}, .working_directory = folder_.path() / "elsewhere/deep"});
+                       {.folders = {folder_.path() / "given"},
+                        .working_directory = folder_.path() / "elsewhere/deep",
+                        .clone = folder_.path() / "clone"});
   }
   test::TempFolder folder_;
 };
@@ -20,11 +22,18 @@ class PackagePath : public testing::Test {
 TEST_F(PackagePath, SearchesInOrder) {
   const std::string uri = "package://dog/urdf/dog.urdf";
   EXPECT_THROW(resolve(uri), InputError);
-  for (const char* folder : {"elsewhere/.venv/lib/python3.11/site-packages/cmeel.prefix/share",
+  for (const char* folder : {"clone/.venv/lib/python3.10/site-packages/cmeel.prefix/share", "elsewhere/.venv/lib/python3.11/site-packages/cmeel.prefix/share",
                              "work/.venv/lib/python3.12/site-packages/cmeel.prefix/share", "work", "work/robots", "given",
                              "own"}) {
     const auto file = folder_.write(std::string(folder) + "/dog/urdf/dog.urdf", "");
     EXPECT_EQ(resolve(uri), file);
+  }
+}
+
+TEST_F(PackagePath, SaysWhichEnvironmentsItLookedInto) {
+  const std::string message = test::message_of(folder_.path(), [&] { resolve("package://dog/urdf/dog.urdf"); });
+  for (const char* folder : {"work/robots", "work", "elsewhere/deep", "elsewhere", "clone"}) {
+    EXPECT_NE(message.find(std::string("\n  ") + folder + "/.venv"), std::string::npos) << message;
   }
 }
 

@@ -48,6 +48,14 @@ PlanRecord make_record(const std::filesystem::path& folder) {
   return {.task = task, .plan = plan, .versions = {{"prowl", "1.2.3"}}};
 }
 
+/// `csv` with another value in one cell; line 1 is the heading, columns count from 0.
+std::string with_cell(const std::string& csv, int line, int column, const std::string& value) {
+  std::size_t at = 0;
+  for (int i = 1; i < line; ++i) at = csv.find('\n', at) + 1;
+  for (int i = 0; i < column; ++i) at = csv.find(',', at) + 1;
+  return csv.substr(0, at) + value + csv.substr(csv.find_first_of(",\n", at));
+}
+
 class PlanDirectory : public testing::Test {
  protected:
   std::string message() {
@@ -89,6 +97,21 @@ TEST_F(PlanDirectory, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.versions, record_.versions);
   EXPECT_EQ(read.task.problem.phases.size(), 2u);
   EXPECT_EQ(read.task.task_file.text, record_.task.task_file.text);
+}
+
+TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
+  PlanRecord record = record_;
+  std::string free = test::replaced(record.task.task_file.text, "duration_s = 0.3", "duration_s = [0.2, 0.4]");
+  free = test::replaced(free, "time_s = 2.0", "phase = \"stand\"");
+  record.task = parse_task({folder_.path() / "task.toml", free}, record.task.robot_file, test::test_search());
+  write_plan(out_, record);
+  EXPECT_NEAR(read_plan(out_, test::test_search()).plan.trajectory.duration(), 2.3, 1e-12);
+  const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
+  EXPECT_NEAR(json.at("problem").at("phases").at(1).at("duration_s"), 0.3, 1e-12) << "as planned";
+
+  for (int i = 6; i < 10; ++i) record.plan.trajectory.nodes[static_cast<std::size_t>(i)].time += 0.2 * (i - 6) / 3.0;
+  write_plan(out_, record);
+  EXPECT_THAT(message(), HasSubstr("trajectory.csv:11: phase 'flight' lasts 0.5"));
 }
 
 TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
@@ -147,6 +170,9 @@ TEST_F(PlanDirectory, SamplesAUniformGrid) {
 TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
+  edit("plan.json", "\"schema_version\": 1", "\"schema_version\": 4294967297");
+  EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from ")) << "1 modulo 2^32";
+  write_plan(out_, record_);
   edit("plan.json", "\"schema_version\": 1", "\"schema_version\": 2");
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 2 is not allowed; need 1");
   write_plan(out_, record_);
@@ -154,13 +180,57 @@ TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_THAT(message(), HasSubstr("plan.status: \"fine\" is not allowed; need one of converged, "));
   write_plan(out_, record_);
   edit("plan.json", "\"iterations\": 12", "\"iterations\": \"12\"");
-  EXPECT_EQ(message(), "out/plan.json: plan.solver.iterations: \"12\" is not allowed; need an integer");
+  EXPECT_EQ(message(), "out/plan.json: plan.solver.iterations: \"12\" is not allowed; need an integer from -2147483647 to 2147483647");
   write_plan(out_, record_);
   edit("plan.json", "\"passed\": true,", "");
   EXPECT_EQ(message(), "out/plan.json: plan.certificate.passed: missing");
   write_plan(out_, record_);
+  folder_.write("out/plan.json", "{\n  torn");
+  EXPECT_EQ(message(), "out/plan.json:2:4: not JSON from here on: the file is cut short or was edited");
+  EXPECT_EQ(test::message_of(folder_.path(), [&] { read_plan(out_ / "plan.json", test::test_search()); }),
+            "out/plan.json: a file; need the folder that prowl plan wrote");
+}
+
+TEST_F(PlanDirectory, IsGoodIfTheSolverConvergedAndTheCertificatePassed) {
+  PlanRecord record = record_;
+  for (const bool converged : {false, true}) {
+    for (const bool passed : {false, true}) {
+      record.plan.result.status = converged ? SolveStatus::converged : SolveStatus::time_limit;
+      record.plan.certificate.passed = passed;
+      write_plan(out_, record);
+      EXPECT_EQ(nlohmann::json::parse(test::read_file(out_ / "plan.json")).at("good"), converged && passed);
+      EXPECT_EQ(holds_good_plan(out_), converged && passed);
+    }
+  }
   folder_.write("out/plan.json", "{ torn");
-  EXPECT_THAT(message(), HasSubstr("out/plan.json: "));
+  EXPECT_FALSE(holds_good_plan(out_));
+  EXPECT_FALSE(holds_good_plan(folder_.path() / "none"));
+}
+
+// HyQ with its URDF beside it, which then is lost or edited.
+TEST_F(PlanDirectory, KeepsTheUrdf) {
+  const std::filesystem::path source = record_.task.problem.robot.description().urdf;
+  const auto urdf = folder_.write("hyq.urdf", test::read_file(source) + "<!-- caf\xe9 -->");  // Latin-1, not UTF-8
+  PlanRecord record = record_;
+  const std::string path = "package://example-robot-data/robots/hyq_description/robots/hyq_no_sensors.urdf";
+  record.task = parse_task(record_.task.task_file,
+                           {folder_.path() / "hyq.toml", test::replaced(test::kHyqFile, path, "hyq.urdf")}, {});
+  write_plan(out_, record);
+  EXPECT_EQ(read_plan(out_, {}).task.problem.robot.name(), "HyQ");
+  folder_.write("hyq.urdf", test::read_file(urdf) + " ");
+  EXPECT_EQ(message(), "out/plan.json: hyq.urdf has changed since the plan was made; need the URDF as it was, or none "
+                       "there: then the copy in plan.json is used");
+  std::filesystem::remove(urdf);
+  EXPECT_EQ(read_plan(out_, {}).task.problem.robot.mass(), record_.task.problem.robot.mass());
+}
+
+TEST_F(PlanDirectory, WritesPathsThatAreNotUtf8) {
+  PlanRecord record = record_;
+  record.task.task_file.path = folder_.path() / "caf\xe9.toml";
+  write_plan(out_, record);
+  const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
+  EXPECT_THAT(json.at("task_file").at("path").get<std::string>(), testing::EndsWith("caf\xef\xbf\xbd.toml"));
+  EXPECT_NO_THROW(nlohmann::json::parse(plan_report_json(record, folder_.path() / "\xff")));
 }
 
 TEST_F(PlanDirectory, RefusesATrajectoryThatDoesNotFit) {
@@ -172,7 +242,13 @@ TEST_F(PlanDirectory, RefusesATrajectoryThatDoesNotFit) {
   };
   EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\nnan,0,")),
               testing::Eq("out/trajectory.csv:3: time_s: \"nan\" is not allowed; need a finite number"));
-  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.5,0,")), HasSubstr("trajectory.csv:3: phase 0 at 0.5 s"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.5,0,")), HasSubstr("trajectory.csv:3: time_s: 0.5 is not allowed; need 0.4"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,0.5,")), HasSubstr("trajectory.csv:3: phase: 0.5 is not"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,1e300,")), HasSubstr("trajectory.csv:3: phase: 1e+300 is"));
+  EXPECT_EQ(message_with(csv.substr(0, csv.size() - 1)), "out/trajectory.csv: the last line has no end; the file is cut short");
+  EXPECT_EQ(message_with(with_cell(csv, 9, 73, "1")), "out/trajectory.csv:9: contact_rf_foot: 1 is not allowed; need 0, as in the task");
+  EXPECT_EQ(message_with(with_cell(csv, 9, 69, "0.5")), "out/trajectory.csv:9: contact_lf_foot: 0.5 is not allowed; need 1, as in the task");
+  EXPECT_THAT(message_with(with_cell(csv, 9, 8, "2")), HasSubstr("trajectory.csv:9: norm of base_qx ... base_qw: "));
   EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,")), HasSubstr("trajectory.csv:3: 84 cells; need 85"));
   EXPECT_THAT(message_with(test::replaced(csv, "base_px_m", "base_x_m")), HasSubstr("the columns are not those of HyQ"));
   EXPECT_THAT(message_with(csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1)), HasSubstr("9 rows; the task's mesh has 10"));

@@ -104,6 +104,11 @@ name = "ice"
 friction = 0.1
 normal = [0, 0, 2]
 [[phase]]
+name = "open"
+contacts = ["rh_foot"]
+duration_s = 1
+intervals = 2
+[[phase]]
 name = "three"
 contacts = ["rh_foot", { contact = "lf_foot", surface = "ice" }]
 duration_s = 1
@@ -113,14 +118,14 @@ phase = "three"
 joints = { rf_kfe_joint = -1.2 }
 [cost])";
   const MotionProblem problem = read(test::replaced(kTaskFile, "[cost]", second)).problem;
-  ASSERT_EQ(problem.phases.size(), 2u);
-  ASSERT_EQ(problem.phases[1].contacts.size(), 2u);
-  EXPECT_EQ(problem.phases[1].contacts[0].contact, problem.robot.contact_index("rh_foot"));
-  EXPECT_EQ(problem.phases[1].contacts[0].surface, 0);
-  EXPECT_EQ(problem.phases[1].contacts[1].contact, problem.robot.contact_index("lf_foot"));
-  EXPECT_EQ(problem.phases[1].contacts[1].surface, 1);
+  ASSERT_EQ(problem.phases.size(), 3u);
+  ASSERT_EQ(problem.phases[2].contacts.size(), 2u);
+  EXPECT_EQ(problem.phases[2].contacts[0].contact, problem.robot.contact_index("rh_foot"));
+  EXPECT_EQ(problem.phases[2].contacts[0].surface, 0);
+  EXPECT_EQ(problem.phases[2].contacts[1].contact, problem.robot.contact_index("lf_foot"));
+  EXPECT_EQ(problem.phases[2].contacts[1].surface, 1);
   EXPECT_NEAR(problem.surfaces[1].normal.norm(), 1.0, 1e-15);
-  EXPECT_EQ(problem.boundary_conditions[2].at, (NodeRef{1, 2}));
+  EXPECT_EQ(problem.boundary_conditions[2].at, (NodeRef{2, 2}));
 }
 
 TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
@@ -129,6 +134,11 @@ TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
   EXPECT_EQ(task.problem.boundary_conditions[1].at, (NodeRef{0, 40})) << "the goal stays at its time";
   EXPECT_EQ(task.solver.max_iterations, 7);
   EXPECT_EQ(task.solver.max_seconds, 1.5);
+}
+
+TEST_F(TaskFile, NamesTheKeyOfAPlaceOffItsSurface) {
+  EXPECT_EQ(message("\"all\"", "[{ contact = \"lf_foot\", place_m = [0, 0, 0.1] }]"),
+            "task.toml:5:46: phase[0].contacts[0].place_m: 100.0 mm above surface 'floor' is not allowed; need a place on it");
 }
 
 TEST_F(TaskFile, SlugTellsTasksOfDifferentRobotsApart) {
@@ -148,7 +158,7 @@ TEST_F(TaskFile, RefusesWrongUnit) {
   EXPECT_THAT(message("[start]", "base_rpy_deg = [0, 10, 0]\n[start]"),
               StartsWith("task.toml:11:1: goal[0].base_rpy_deg: unknown key; did you mean 'base_rpy_rad'? Known: "));
   EXPECT_EQ(message("[start]", "base_rpy_rad = [0, 10, 0]\n[start]"),
-            "task.toml:11:20: goal[0].base_rpy_rad[1]: 10 is not allowed; need a number from -6.2832 to 6.2832 [rad]");
+            "task.toml:11:20: goal[0].base_rpy_rad[1]: 10 is not allowed; need a number from -6.2832 to 6.2832 [rad]; 5 degrees are 0.087");
 }
 
 TEST_F(TaskFile, RefusesMissingRobotFile) {
@@ -186,10 +196,54 @@ TEST_F(TaskFile, RefusesNegativeAndZeroDuration) {
             "task.toml:6:14: phase[0].duration_s: 0 is not allowed; need a finite number > 0 [s]");
 }
 
-TEST_F(TaskFile, RefusesFreeDurationForNow) {
+TEST_F(TaskFile, DurationMayBeFreeWithinBounds) {
+  const std::string free = test::replaced(test::replaced(kTaskFile, "2.0\nintervals", "[1.0, 3.0]\nintervals"), "time_s = 2.0", "phase = \"stand\"");
+  EXPECT_EQ(read(free).problem.phases[0].duration.min, 1.0);
+  EXPECT_EQ(read(free).problem.phases[0].duration.max, 3.0);
+  EXPECT_EQ(message("2.0\nintervals", "[3.0, 1.0]\nintervals"),
+            "task.toml:6:14: phase[0].duration_s: min > max is not allowed; need [min, max]");
   EXPECT_EQ(message("2.0\nintervals", "[1.0, 3.0]\nintervals"),
-            "task.toml:6:14: phase[0].duration_s: a duration between two bounds is not supported yet; "
-            "need one number > 0 [s]");
+            "task.toml:9:10: goal[0].time_s: the duration of phase 'stand' is free: need phase, not time_s");
+}
+
+TEST_F(TaskFile, RefusesGoalsThatTheRobotCannotDo) {
+  EXPECT_EQ(message("[start]", "joints = { lf_kfe_joint = -3.0 }\n[start]"),
+            "task.toml:11:27: goal[0].joints.lf_kfe_joint: outside the joint's position limits; need something from -2.4435 to -0.34907");
+  EXPECT_EQ(message("[start]", "joint_velocity_radps = { lf_kfe_joint = [13, 14] }\n[start]"),
+            "task.toml:11:41: goal[0].joint_velocity_radps.lf_kfe_joint: outside the joint's velocity limits; need something from -12 to 12");
+  EXPECT_THAT(message("[start]", "torque_Nm = { lf_kfe_joint = -151 }\n[start]"),
+              HasSubstr("outside the joint's torque limits; need something from -150 to 150"));
+  EXPECT_EQ(message("[start]", "joint_velocity_radps = { lf_kfe_joint = [11, 14] }\n[start]"), "") << "leaves 11 to 12";
+}
+
+TEST_F(TaskFile, RefusesAGoalThatBindsNothing) {
+  EXPECT_EQ(message("base_displacement_m = [0.05, \"free\", -0.05]\n", ""),
+            "task.toml:8:1: goal[0]: binds nothing; need one key that prescribes or bounds something");
+  EXPECT_THAT(message("[0.05, \"free\", -0.05]", "[\"free\", \"free\", \"free\"]"), HasSubstr("binds nothing"));
+}
+
+TEST_F(TaskFile, RefusesNumbersBeyondAllSense) {
+  const std::string surface = "[[surface]]\nname = \"wall\"\nnormal = ";
+  EXPECT_EQ(message("[cost]", surface + "[0, 0, 1e200]\n[cost]"),
+            "task.toml:15:17: surface[0].normal[2]: 1e+200 is not allowed; need a number of at most 1e+09 in size");
+  EXPECT_EQ(message("[cost]", surface + "[0, 0, 1e-200]\n[cost]"),
+            "task.toml:15:10: surface[0].normal: too short for a direction; need a length of 1e-06 or more");
+}
+
+TEST_F(TaskFile, RefusesNamesThatBreakFiles) {
+  EXPECT_THAT(message("\"shift\"", "\"a\\nb\""), StartsWith("task.toml:1:8: name: this name is not allowed; need printable ASCII"));
+  EXPECT_THAT(message("\"stand\"", "\"a,b\""), StartsWith("task.toml:4:8: phase[0].name: this name is not allowed"));
+}
+
+TEST_F(TaskFile, NameOfTheFileStandsForTheName) {
+  folder_.write("hyq.toml", kHyqFile);
+  const auto file = folder_.write("a,b\xff.toml", test::replaced(kTaskFile, "name = \"shift\"\n", ""));
+  EXPECT_EQ(read_task_file(file, test::test_search()).problem.name, "a_b_");
+}
+
+TEST_F(TaskFile, TellsARobotFile) {
+  EXPECT_EQ(message_of(kHyqFile),
+            "task.toml:2:8: urdf: this looks like a robot file; need a task file, which names its robot file with robot = \"...\"");
 }
 
 TEST_F(TaskFile, RefusesNotANumber) {
@@ -247,7 +301,13 @@ TEST_F(TaskFile, RefusesSyntaxErrors) {
 }
 
 TEST_F(TaskFile, RefusesAStartThatHangsInTheAir) {
-  EXPECT_THAT(message("[start]", "[start]\nbase_position_m = [0, 0, 1]"), StartsWith("task.toml: "));
+  EXPECT_THAT(message("[start]", "[start]\nbase_position_m = [0, 0, 1]"),
+              testing::MatchesRegex("task.toml:11:1: start: contact 'lf_foot' of the first phase is [0-9.]+ mm above surface "
+                                    "'floor'; need at most 1 mm"));
+  const std::string no_start = kTaskFile.substr(0, kTaskFile.find("[start]"));
+  const std::string high = "[[surface]]\nname = \"step\"\npoint_m = [0, 0, -0.1]\n";
+  EXPECT_THAT(message_of(no_start + high),
+              StartsWith("task.toml:5:12: phase[0].contacts: contact 'lf_foot' of the first phase is 100.0 mm above"));
 }
 
 TEST_F(TaskFile, RefusesMissingAndSpecialFiles) {

@@ -1,5 +1,6 @@
 prowl_test(io/atomic_folder prowl::io)
 prowl_test(io/file_keys prowl::io)
+prowl_test(io/mesh_advice prowl::io)
 prowl_test(io/package_path prowl::io)
 prowl_test(io/plan_directory prowl::io nlohmann_json::nlohmann_json)
 prowl_test(io/robot_file prowl::io)

@@ -1,6 +1,7 @@
 #include "prowl/model/robot_model.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <limits>
 #include <pinocchio/algorithm/frames.hpp>
@@ -221,6 +222,29 @@ TEST(RobotModel, RefusesBodiesAndLimitsThatCannotBe) {
   EXPECT_THAT(message("velocity=\"10\"", "velocity=\"0\""), HasSubstr("'left_hip': velocity limit 0"));
   EXPECT_THAT(message("lower=\"-0.5\"", "lower=\"1.6\""), HasSubstr("position from 1.6 to 1.5"));
   EXPECT_THAT(message("mass value=\"1\"", "mass value=\"nan\""), HasSubstr("\"nan\""));
+}
+
+TEST(RobotModel, TextStandsForTheFile) {
+  RobotDescription robot = test::small_description("/nowhere/small.urdf");
+  EXPECT_THAT(message_for<FileError>(robot), HasSubstr("/nowhere/small.urdf: cannot be read"));
+  robot.urdf_text = test::small_urdf();
+  EXPECT_EQ(RobotModel(robot).nu(), 2);
+  const test::TemporaryFolder folder;
+  const RobotModel from_file(test::small_description(folder.write("small.urdf", test::small_urdf())));
+  EXPECT_EQ(from_file.description().urdf_text, test::small_urdf());
+}
+
+TEST(RobotModel, MostJointsThatAreAllowedFitIntoMemory) {
+  RobotDescription robot;
+  robot.name = "chain";
+  robot.urdf_text = test::chain_urdf(120);
+  robot.contacts = {{"tip", "l120"}};
+  const RobotModel model(robot);
+  EXPECT_EQ(model.nu(), 120);
+  EXPECT_EQ(contact_points(model, model.nominal_configuration()).size(), 1u);
+  rusage usage;
+  ASSERT_EQ(getrusage(RUSAGE_SELF, &usage), 0);
+  EXPECT_LT(usage.ru_maxrss, 500'000) << "kB; four tensors of nv³ numbers are 64 MB";
 }
 
 TEST(RobotModel, MasslessLinksAreFineWhereFixedJointsMergeThem) {

@@ -1,6 +1,7 @@
 prowl_test(model/so3 prowl::model)
 prowl_test(model/configuration prowl::model)
 prowl_test(model/urdf_check prowl::model)
+prowl_test(model/name_check prowl::model)
 prowl_test(model/nearest_name prowl::model)
 prowl_test(model/mirror_name prowl::model)
 prowl_test(model/robot_model prowl::model pinocchio::pinocchio_default)

@@ -131,6 +131,25 @@ TEST(UrdfCheck, RefusesWhatIsNoXml) {
   EXPECT_THAT(message_for("<robot name=\"empty\"/>"), testing::HasSubstr("no <link>"));
 }
 
+TEST(UrdfCheck, RefusesXmlWithoutAnElement) {
+  EXPECT_THAT(message_for("<!-- to do -->\n"), testing::HasSubstr("robot.urdf:1: no element in it"));
+  EXPECT_THAT(message_for("<?xml version=\"1.0\"?>\n"), testing::HasSubstr("no element in it"));
+}
+
+TEST(UrdfCheck, RefusesNamesThatBreakFilesAndMessages) {
+  for (const char* name : {"left,foot", "left\nfoot", "left&quot;foot", "left\xff_foot", "left_foot ", "\x1b[2J"}) {
+    const std::string xml = replaced(small_urdf(), "link name=\"left_foot\"", std::string("link name=\"") + name + "\"");
+    EXPECT_THAT(message_for(xml), testing::AllOf(testing::StartsWith("robot.urdf:"), testing::HasSubstr("of a link"))) << name;
+  }
+  EXPECT_THAT(message_for(replaced(small_urdf(), "joint name=\"left_hip\"", "joint name=\"left,hip\"")),
+              testing::HasSubstr("of a joint is not allowed"));
+}
+
+TEST(UrdfCheck, RefusesMoreJointsThanTheMemoryIsFor) {
+  EXPECT_EQ(message_for(test::chain_urdf(120)), "accepted");
+  EXPECT_THAT(message_for(test::chain_urdf(121)), testing::HasSubstr("joint 'j121': more than 120 moving joints"));
+}
+
 TEST(UrdfCheck, RefusesAChainTooLongToBeARobot) {
   std::string xml = "<robot name=\"chain\">";
   for (int i = 0; i < 3000; ++i) xml += "<link name=\"l" + std::to_string(i) + "\"/>";

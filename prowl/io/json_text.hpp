@@ -1,0 +1,20 @@
+#pragma once
+
+// Internal to io: the text of a JSON value.
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace prowl {
+
+/// Indented, with a line end. What is not UTF-8 (file names may be anything) becomes U+FFFD: dump() alone would throw,
+/// after the solve.
+inline std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// `text` as it comes back from a JSON file.
+inline std::string as_utf8(const std::string& text) {
+  return nlohmann::ordered_json::parse(json_text(text)).get<std::string>();
+}
+
+}  // namespace prowl

@@ -1,0 +1,64 @@
+#include "prowl/io/mesh_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "prowl/io/interval_shares.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr double kMargin = 1.25;       // on the error
+constexpr int kMostIntervals = 10000;  // that --intervals takes
+
+/// For each phase what its number of intervals has to be a multiple of, so that every goal keeps a node.
+std::vector<int> divisors(const MotionProblem& problem) {
+  std::vector<int> result(problem.phases.size(), 1);
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    const auto phase = static_cast<std::size_t>(condition.at.phase);
+    const int intervals = problem.phases[phase].intervals;
+    result[phase] = std::lcm(result[phase], intervals / std::gcd(intervals, condition.at.node));
+  }
+  return result;
+}
+
+/// The least --intervals, `needed` or more, that keeps every goal at a node.
+std::optional<int> intervals_option(const Task& task, double needed) {
+  const std::vector<int> of_phase = divisors(task.problem);
+  for (double total = std::ceil(needed); total <= kMostIntervals; ++total) {
+    const std::vector<int> shares = share_intervals(task.file_intervals, static_cast<int>(total));
+    bool keeps_goals = true;
+    for (std::size_t p = 0; p < shares.size(); ++p) keeps_goals = keeps_goals && shares[p] % of_phase[p] == 0;
+    if (keeps_goals) return static_cast<int>(total);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string mesh_advice(const PlanRecord& record) {
+  const auto& errors = record.plan.certificate.interval_errors;
+  const auto worst = std::max_element(errors.begin(), errors.end(),
+                                      [](const auto& a, const auto& b) { return a.error < b.error; });
+  if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error)) return "";
+  std::string text;
+  const auto advise = [&](const char* grade, double goal) {
+    if (worst->error <= goal) return;
+    const double needed = static_cast<double>(errors.size()) * std::cbrt(kMargin * worst->error / goal);
+    const std::optional<int> intervals = intervals_option(record.task, needed);
+    const std::string option = intervals ? fmt::format("--intervals {}", *intervals)
+                                         : fmt::format("more than {} intervals", kMostIntervals);
+    text += fmt::format("for grade {} ({:g}) about {}\n", grade, goal, option);
+  };
+  advise("draft", CertificateLimits::integration_error_draft);
+  advise("certified", CertificateLimits::integration_error_certified);
+  if (text.empty()) return "";
+  return fmt::format("local integration error {:.1e} with {} intervals; it falls with the cube of the step:\n", worst->error,
+                     errors.size()) + text;
+}
+
+}  // namespace prowl
