@@ -28,8 +28,9 @@ int run_check(const CheckArguments& arguments) {
     print_message(fmt::format("note: plan.json says grade {}, this check says {}\n", to_string(recorded),
                               to_string(certificate.grade)));
   }
-  print_result(arguments.json ? plan_report_json(record, arguments.directory)
-                              : plan_summary(record, " (as planned)") + certificate_summary(certificate) + mesh_advice(record));
+  print_result(arguments.json
+                   ? plan_report_json(record, arguments.directory)
+                   : plan_summary(record, " (as planned)") + certificate_summary(certificate) + mesh_advice(record));
   return exit_status(record.plan.result.status, certificate);
 }
 

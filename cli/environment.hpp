@@ -8,8 +8,8 @@
 
 namespace prowl::cli {
 
-/// Where to look for package://: --package-dir, then AMENT_PREFIX_PATH/share, then ROS_PACKAGE_PATH; and the .venv of the
-/// clone that this program was built in.
+/// Where to look for package://: --package-dir, then AMENT_PREFIX_PATH/share, then ROS_PACKAGE_PATH; and the .venv of
+/// the clone that this program was built in.
 PackageSearch package_search(const std::vector<std::string>& package_dirs);
 
 /// "prowl", "Ipopt", "Pinocchio", "Eigen" -> version.

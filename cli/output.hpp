@@ -4,8 +4,8 @@
 
 namespace prowl::cli {
 
-/// Gives a closed stdin, stdout or stderr something to stand for it. Else the next file to be opened gets its number, and
-/// messages are written into a plan. Call first.
+/// Gives a closed stdin, stdout or stderr something to stand for it. Else the next file to be opened gets its number,
+/// and messages are written into a plan. Call first.
 void open_standard_streams();
 
 /// Writes a result to stdout. Throws FileError if it does not get through (a full disk behind a redirection).

@@ -59,7 +59,8 @@ int run_plan(const PlanArguments& arguments) {
   Plan plan = make_plan(task.problem, IpoptSolver(), options);
 
   const PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions()};
-  if (holds_good_plan(out)) print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
+  if (holds_good_plan(out))
+    print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
   write_plan(out, record, arguments.step);
   if (arguments.json) {
     print_result(plan_report_json(record, out));

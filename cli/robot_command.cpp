@@ -18,8 +18,8 @@ struct RobotArguments {
 };
 
 int run_robot(const RobotArguments& arguments) {
-  const RobotModel robot = load_robot(read_text_file(arguments.robot), package_search(arguments.package_dirs),
-                                      {.needs_contacts = false});
+  const RobotModel robot =
+      load_robot(read_text_file(arguments.robot), package_search(arguments.package_dirs), {.needs_contacts = false});
   const RobotInspection inspection = inspect(robot);
   print_result(arguments.json ? robot_report_json(robot, inspection)
                               : robot_summary(robot, inspection) + (arguments.frames ? frame_list(robot) : ""));
@@ -36,9 +36,10 @@ void add_robot_command(CLI::App& app, int& status) {
   verb->add_flag("--json", arguments->json, "Print the result as JSON");
   verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
       ->type_name("DIR")->expected(1)->take_all();
-  verb->footer("Examples:\n  prowl robot robots/hyq.toml\n"
-               "  prowl robot new.toml --frames     of a file that has no contacts yet\n\n"
-               "Exit status: 0, 2 bad input, 4 files.");
+  verb->footer(
+      "Examples:\n  prowl robot robots/hyq.toml\n"
+      "  prowl robot new.toml --frames     of a file that has no contacts yet\n\n"
+      "Exit status: 0, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_robot(*arguments); });
 }
 

@@ -95,8 +95,8 @@ fs::path real_path(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
-/// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them again:
-/// permissions tell nothing of /proc, of names too long, or of a disk that is full.
+/// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them
+/// again: permissions tell nothing of /proc, of names too long, or of a disk that is full.
 void try_to_make(const fs::path& path) {
   std::error_code error;
   std::vector<fs::path> missing;  // from the inside out

@@ -42,23 +42,25 @@ std::optional<int> intervals_option(const Task& task, double needed) {
 
 std::string mesh_advice(const PlanRecord& record) {
   const auto& errors = record.plan.certificate.interval_errors;
-  const auto worst = std::max_element(errors.begin(), errors.end(),
-                                      [](const auto& a, const auto& b) { return a.error < b.error; });
-  if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error)) return "";
+  const auto worst =
+      std::max_element(errors.begin(), errors.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+  if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error))
+    return "";
   std::string text;
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;
     const double needed = static_cast<double>(errors.size()) * std::cbrt(kMargin * worst->error / goal);
     const std::optional<int> intervals = intervals_option(record.task, needed);
-    const std::string option = intervals ? fmt::format("--intervals {}", *intervals)
-                                         : fmt::format("more than {} intervals", kMostIntervals);
+    const std::string option =
+        intervals ? fmt::format("--intervals {}", *intervals) : fmt::format("more than {} intervals", kMostIntervals);
     text += fmt::format("for grade {} ({:g}) about {}\n", grade, goal, option);
   };
   advise("draft", CertificateLimits::integration_error_draft);
   advise("certified", CertificateLimits::integration_error_certified);
   if (text.empty()) return "";
-  return fmt::format("local integration error {:.1e} with {} intervals; it falls with the cube of the step:\n", worst->error,
-                     errors.size()) + text;
+  return fmt::format("local integration error {:.1e} with {} intervals; it falls with the cube of the step:\n",
+                     worst->error, errors.size()) +
+         text;
 }
 
 }  // namespace prowl

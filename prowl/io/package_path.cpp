@@ -91,9 +91,15 @@ fs::path resolve_uri(const std::string& uri, const fs::path& robot_file, const s
     tried += "\n  " + in_folder.string();
   }
   std::string venvs;
-  for (const fs::path& folder : folders_with_venv(robot_path, search)) venvs += "\n  " + (folder / ".venv").string();
-  throw InputError(fmt::format("\"{}\" not found; give its folder with package_dirs or --package-dir. Tried:{}\n"
-                               "and the wheels in each of these that there is:{}", uri, tried, venvs));
+  for (const fs::path& folder : folders_with_venv(robot_path, search)) {
+    const fs::path venv = folder / ".venv";
+    std::error_code error;
+    venvs += "\n  " + venv.string() + (fs::is_directory(venv, error) ? "" : " (not there)");
+  }
+  throw InputError(
+      fmt::format("\"{}\" not found; give its folder with package_dirs or --package-dir. Tried:{}\n"
+                  "and the wheels in:{}",
+                  uri, tried, venvs));
 }
 
 }  // namespace prowl

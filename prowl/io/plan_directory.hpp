@@ -31,9 +31,9 @@ void check_plan_directory(const std::filesystem::path& directory);
 void write_plan(const std::filesystem::path& directory, const PlanRecord& record,
                 std::optional<double> uniform_step = std::nullopt);
 
-/// Reads what write_plan wrote, but trajectory_uniform.csv; the task comes from the texts in plan.json, and the URDF, too,
-/// if it is no longer where it was. Throws InputError naming file and key for anything missing, wrong or changed since,
-/// FileError.
+/// Reads what write_plan wrote, but trajectory_uniform.csv; the task comes from the texts in plan.json, and the URDF,
+/// too, if it is no longer where it was. Throws InputError naming file and key for anything missing, wrong or changed
+/// since, FileError.
 PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search);
 
 /// plan.json but for the texts of task, robot and URDF: what `prowl plan --json` prints.

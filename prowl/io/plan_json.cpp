@@ -249,21 +249,23 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   try {
     json = Json::parse(source.text);
   } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: not JSON from here on: the file is cut short or was edited", source.path.string(),
-                                 place_of(source.text, error.byte)));
+    throw InputError(fmt::format("{}:{}: not JSON from here on: the file is cut short or was edited",
+                                 source.path.string(), place_of(source.text, error.byte)));
   }
   const Reader plan(source.path.string() + ": plan", json);
   if (plan.integer("schema_version") != kSchemaVersion) plan.fail("schema_version", std::to_string(kSchemaVersion));
 
   const SourceText urdf = read_text(plan.object("urdf"));
-  PlanRecord record{.task = parse_task(read_text(plan.object("task_file")), read_text(plan.object("robot_file")), search,
-                                       read_overrides(plan.object("overrides")), urdf),
+  PlanRecord record{.task = parse_task(read_text(plan.object("task_file")), read_text(plan.object("robot_file")),
+                                       search, read_overrides(plan.object("overrides")), urdf),
                     .plan = {},
                     .versions = {}};
   const RobotDescription& robot = record.task.problem.robot.description();
   if (as_utf8(robot.urdf_text) != urdf.text) {
-    throw InputError(fmt::format("{}: {} has changed since the plan was made; need the URDF as it was, or none there: then "
-                                 "the copy in plan.json is used", source.path.string(), robot.urdf.string()));
+    throw InputError(
+        fmt::format("{}: {} has changed since the plan was made; need the URDF as it was, or none there: then "
+                    "the copy in plan.json is used",
+                    source.path.string(), robot.urdf.string()));
   }
   record.plan.result = read_result(plan);
   record.plan.certificate = read_certificate(plan.object("certificate"));

@@ -18,7 +18,8 @@ std::vector<std::string> keys_of(const std::string& field) {
   }
   const std::pair<const char*, const char*> kStarts[] = {
       {"phases[", "phase["}, {"surfaces[", "surface["}, {"running_cost", "cost"}};
-  const std::pair<const char*, const char*> kEnds[] = {{".place", "_m"}, {".duration", "_s"}, {".point", "_m"}, {".patch", "_m"}};
+  const std::pair<const char*, const char*> kEnds[] = {
+      {".place", "_m"}, {".duration", "_s"}, {".point", "_m"}, {".patch", "_m"}};
   std::string key = field;
   for (const auto& [start, in_file] : kStarts) {
     if (field.starts_with(start)) key = in_file + rest_after(start);

@@ -1,12 +1,12 @@
 #pragma once
 
-// Internal to io: what validate() says of a MotionProblem, in the words of the task file.
 #include <string>
 
 #include "prowl/io/text_file.hpp"
 
 namespace prowl {
 
+/// What validate() says of a MotionProblem, in the words of the task file that it comes from:
 /// "task.toml:12:1: start: contact 'lf_foot' ..." for "boundary_conditions[0].q_ref: contact 'lf_foot' ...".
 std::string in_terms_of_the_file(const SourceText& task_file, const std::string& complaint);
 

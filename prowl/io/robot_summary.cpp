@@ -84,8 +84,9 @@ std::string robot_summary(const RobotModel& robot, const RobotInspection& inspec
   text += fmt::format("\nnominal posture: base at {:.4f} {:.4f} {:.4f} m\n", without_sign(q(0)), without_sign(q(1)),
                       without_sign(q(2)));
   if (!robot.contacts().empty()) {
-    text += fmt::format("contact Jacobian there: {} rows, rank {}{}\n", inspection.contact_rows, inspection.contact_rank,
-                        inspection.contact_rank < inspection.contact_rows ? " (redundant contacts)" : "");
+    text +=
+        fmt::format("contact Jacobian there: {} rows, rank {}{}\n", inspection.contact_rows, inspection.contact_rank,
+                    inspection.contact_rank < inspection.contact_rows ? " (redundant contacts)" : "");
   }
   text += inspection.warnings.empty() ? "no warnings\n" : "\n";
   for (const RobotWarning& warning : inspection.warnings) text += fmt::format("warning: {}\n", warning.text);

@@ -214,7 +214,8 @@ std::filesystem::path robot_path(const SourceText& task_file, const TomlTable& r
 }
 
 TomlTable task_root(const TomlDocument& document) {
-  document.refuse_key("urdf", "this looks like a robot file; need a task file, which names its robot file with robot = \"...\"");
+  document.refuse_key(
+      "urdf", "this looks like a robot file; need a task file, which names its robot file with robot = \"...\"");
   return document.root(task_file_keys());
 }
 

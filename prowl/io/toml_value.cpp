@@ -214,7 +214,8 @@ std::vector<TomlTable> TomlTable::find_tables(const std::string& key) const {
 }
 
 TomlDocument::TomlDocument(const SourceText& source) : source_(source) {
-  if (const std::size_t first = source.text.find_first_not_of(" \t\r\n"); first != std::string::npos && source.text[first] == '<') {
+  if (const std::size_t first = source.text.find_first_not_of(" \t\r\n");
+      first != std::string::npos && source.text[first] == '<') {
     throw InputError(fmt::format("{}: this looks like XML; need a TOML file (a URDF is named by a robot file)",
                                  source.path.string()));
   }

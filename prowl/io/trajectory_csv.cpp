@@ -51,7 +51,8 @@ Row to_row(const MotionProblem& problem, const TrajectoryPoint& point) {
 
 /// `row` of a node of the given phase.
 TrajectoryPoint from_row(const RobotModel& robot, std::size_t phase, const Row& row) {
-  TrajectoryPoint point{.time = row[0], .phase = static_cast<int>(phase), .q = {}, .v = {}, .a = {}, .tau = {}, .force = {}};
+  TrajectoryPoint point{
+      .time = row[0], .phase = static_cast<int>(phase), .q = {}, .v = {}, .a = {}, .tau = {}, .force = {}};
   const double* next = row.data() + 2;
   const auto take = [&next](auto&& target) {
     target = Eigen::Map<const Eigen::VectorXd>(next, target.size());
@@ -110,14 +111,15 @@ void check_row(const std::string& where, const MotionProblem& problem, std::size
 
 /// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in equal steps, as long as it may
 /// last. Returns its end [s].
-double check_times(const std::string& file, const Phase& phase, double begin, const TrajectoryPoint* first, std::size_t line) {
+double check_times(const std::string& file, const Phase& phase, double begin, const TrajectoryPoint* first,
+                   std::size_t line) {
   constexpr double kRounding = 1e-9;  // of the time
   const double duration = phase.duration.is_fixed() ? phase.duration.min : first[phase.intervals].time - begin;
   const double slack = kRounding * (1.0 + begin + phase.duration.max);
   if (duration < phase.duration.min - slack || duration > phase.duration.max + slack) {
     throw InputError(fmt::format("{}:{}: phase '{}' lasts {} s; the task allows {} to {} s", file,
-                                 line + static_cast<std::size_t>(phase.intervals), phase.name, duration, phase.duration.min,
-                                 phase.duration.max));
+                                 line + static_cast<std::size_t>(phase.intervals), phase.name, duration,
+                                 phase.duration.min, phase.duration.max));
   }
   for (int node = 0; node <= phase.intervals; ++node) {
     const double time = begin + duration * node / phase.intervals;

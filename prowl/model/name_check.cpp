@@ -8,9 +8,8 @@ const char* const kNameRule = "printable ASCII characters without , \" ' and \\,
 
 bool is_name(const std::string& name) {
   if (name.empty() || name.front() == ' ' || name.back() == ' ') return false;
-  return std::all_of(name.begin(), name.end(), [](char c) {
-    return c >= ' ' && c <= '~' && c != ',' && c != '"' && c != '\'' && c != '\\';
-  });
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return c >= ' ' && c <= '~' && c != ',' && c != '"' && c != '\'' && c != '\\'; });
 }
 
 }  // namespace prowl

@@ -177,7 +177,8 @@ Eigen::MatrixXd contact_jacobian(const PinocchioModel& pin, pinocchio::Data& dat
 std::vector<std::string> contact_frame_names(const RobotModel& robot) {
   std::vector<std::string> names;
   for (const pinocchio::Frame& frame : robot.pinocchio().model.frames) {
-    if ((frame.type & (pinocchio::BODY | pinocchio::FIXED_JOINT)) != 0 && frame.name != "universe") names.push_back(frame.name);
+    if ((frame.type & (pinocchio::BODY | pinocchio::FIXED_JOINT)) != 0 && frame.name != "universe")
+      names.push_back(frame.name);
   }
   return names;
 }

@@ -183,7 +183,8 @@ void check_tree(const Place& place, const XMLElement& root, const std::vector<st
 
 const XMLElement& root_of(const std::string& file, const std::string& xml, tinyxml2::XMLDocument& document) {
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
-    throw InputError(fmt::format("{}:{}: not an XML file ({}); expected a URDF", file, document.ErrorLineNum(),
+    throw InputError(fmt::format("{}:{}: not an XML file ({}); expected a URDF", file,
+                                 std::max(1, document.ErrorLineNum()),
                                  tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())));
   }
   if (document.RootElement() == nullptr) {
@@ -236,7 +237,8 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
     if (text_of(place, joint, "type") == "fixed") return;
     if (++moving > kMaxMovingJoints) {
       place.refuse(joint, fmt::format("more than {} moving joints are not allowed; make those fixed that the motion "
-                                      "does not need", kMaxMovingJoints));
+                                      "does not need",
+                                      kMaxMovingJoints));
     }
   });
   check_tree(robot, root, links, parents);

@@ -136,15 +136,17 @@ TEST_F(Command, FailsIfTheResultDoesNotGetThrough) {
 }
 
 TEST_F(Command, PlansFilesWhoseNamesAreNotUtf8) {
-  const Outcome result = run("name=$(printf 'caf\\351'); mkdir $name; cp hold.toml hyq.toml $name; "
-                             "$prowl plan $name/hold.toml $dirs --out out --json && $prowl robot $name/hyq.toml $dirs --json");
+  const Outcome result =
+      run("name=$(printf 'caf\\351'); mkdir $name; cp hold.toml hyq.toml $name; "
+          "$prowl plan $name/hold.toml $dirs --out out --json && $prowl robot $name/hyq.toml $dirs --json");
   EXPECT_EQ(result.status, 0) << result.error;
   EXPECT_THAT(plan().at("task_file").at("path").get<std::string>(), HasSubstr("caf\xef\xbf\xbd/hold.toml"));
 }
 
 TEST_F(Command, LooksIntoTheCloneThatItWasBuiltIn) {
   const std::string share = "clone/.venv/lib/python3.11/site-packages/cmeel.prefix";
-  const Outcome result = run("mkdir -p clone/build/bin " + share + " && ln -s '" PROWL_ROBOTS_DATA "' " + share + "/share && "
+  const Outcome result = run("mkdir -p clone/build/bin " + share + " && ln -s '" PROWL_ROBOTS_DATA "' " + share +
+                             "/share && "
                              "cp $prowl clone/build/bin && clone/build/bin/prowl robot hyq.toml");
   EXPECT_EQ(result.status, 0) << result.error;
 }

@@ -37,7 +37,8 @@ class MeshAdvice : public testing::Test {
   PlanRecord record(double error, const TaskOverrides& overrides = {}) const {
     PlanRecord record{.task = read(overrides), .plan = {}, .versions = {}};
     for (const Phase& phase : record.task.problem.phases) {
-      for (int i = 0; i < phase.intervals; ++i) record.plan.certificate.interval_errors.push_back({0.0, 0.1, 1e-9, "v"});
+      for (int i = 0; i < phase.intervals; ++i)
+        record.plan.certificate.interval_errors.push_back({0.0, 0.1, 1e-9, "v"});
     }
     record.plan.certificate.interval_errors[3].error = error;
     record.plan.result.status = SolveStatus::converged;
@@ -84,8 +85,9 @@ TEST(CertificateSummary, RepeatsTheFailedChecksAtTheEnd) {
   certificate.checks = {{"contact drift", 1e-5, 1e-3, "m", 0.1, "lf_foot", true},
                         {"local integration error", 1.84e-4, 1e-4, "", 0.2, "", false},
                         {"joint torque", 2.0, 1.0, "of limit", 0.2, "", false}};
-  EXPECT_THAT(certificate_summary(certificate),
-              testing::EndsWith("\nfailed: local integration error (0.000184 > 0.0001), joint torque (2 > 1 of limit)\n"));
+  EXPECT_THAT(
+      certificate_summary(certificate),
+      testing::EndsWith("\nfailed: local integration error (0.000184 > 0.0001), joint torque (2 > 1 of limit)\n"));
   certificate.checks.resize(1);
   EXPECT_THAT(certificate_summary(certificate), Not(HasSubstr("failed: ")));
 }

@@ -22,9 +22,10 @@ class PackagePath : public testing::Test {
 TEST_F(PackagePath, SearchesInOrder) {
   const std::string uri = "package://dog/urdf/dog.urdf";
   EXPECT_THROW(resolve(uri), InputError);
-  for (const char* folder : {"clone/.venv/lib/python3.10/site-packages/cmeel.prefix/share", "elsewhere/.venv/lib/python3.11/site-packages/cmeel.prefix/share",
-                             "work/.venv/lib/python3.12/site-packages/cmeel.prefix/share", "work", "work/robots", "given",
-                             "own"}) {
+  for (const char* folder :
+       {"clone/.venv/lib/python3.10/site-packages/cmeel.prefix/share",
+        "elsewhere/.venv/lib/python3.11/site-packages/cmeel.prefix/share",
+        "work/.venv/lib/python3.12/site-packages/cmeel.prefix/share", "work", "work/robots", "given", "own"}) {
     const auto file = folder_.write(std::string(folder) + "/dog/urdf/dog.urdf", "");
     EXPECT_EQ(resolve(uri), file);
   }

@@ -171,7 +171,8 @@ TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
   edit("plan.json", "\"schema_version\": 1", "\"schema_version\": 4294967297");
-  EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from ")) << "1 modulo 2^32";
+  EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from "))
+      << "1 modulo 2^32";
   write_plan(out_, record_);
   edit("plan.json", "\"schema_version\": 1", "\"schema_version\": 2");
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 2 is not allowed; need 1");
@@ -180,7 +181,9 @@ TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_THAT(message(), HasSubstr("plan.status: \"fine\" is not allowed; need one of converged, "));
   write_plan(out_, record_);
   edit("plan.json", "\"iterations\": 12", "\"iterations\": \"12\"");
-  EXPECT_EQ(message(), "out/plan.json: plan.solver.iterations: \"12\" is not allowed; need an integer from -2147483647 to 2147483647");
+  EXPECT_EQ(
+      message(),
+      "out/plan.json: plan.solver.iterations: \"12\" is not allowed; need an integer from -2147483647 to 2147483647");
   write_plan(out_, record_);
   edit("plan.json", "\"passed\": true,", "");
   EXPECT_EQ(message(), "out/plan.json: plan.certificate.passed: missing");
@@ -218,8 +221,9 @@ TEST_F(PlanDirectory, KeepsTheUrdf) {
   write_plan(out_, record);
   EXPECT_EQ(read_plan(out_, {}).task.problem.robot.name(), "HyQ");
   folder_.write("hyq.urdf", test::read_file(urdf) + " ");
-  EXPECT_EQ(message(), "out/plan.json: hyq.urdf has changed since the plan was made; need the URDF as it was, or none "
-                       "there: then the copy in plan.json is used");
+  EXPECT_EQ(message(),
+            "out/plan.json: hyq.urdf has changed since the plan was made; need the URDF as it was, or none "
+            "there: then the copy in plan.json is used");
   std::filesystem::remove(urdf);
   EXPECT_EQ(read_plan(out_, {}).task.problem.robot.mass(), record_.task.problem.robot.mass());
 }
@@ -242,12 +246,18 @@ TEST_F(PlanDirectory, RefusesATrajectoryThatDoesNotFit) {
   };
   EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\nnan,0,")),
               testing::Eq("out/trajectory.csv:3: time_s: \"nan\" is not allowed; need a finite number"));
-  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.5,0,")), HasSubstr("trajectory.csv:3: time_s: 0.5 is not allowed; need 0.4"));
-  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,0.5,")), HasSubstr("trajectory.csv:3: phase: 0.5 is not"));
-  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,1e300,")), HasSubstr("trajectory.csv:3: phase: 1e+300 is"));
-  EXPECT_EQ(message_with(csv.substr(0, csv.size() - 1)), "out/trajectory.csv: the last line has no end; the file is cut short");
-  EXPECT_EQ(message_with(with_cell(csv, 9, 73, "1")), "out/trajectory.csv:9: contact_rf_foot: 1 is not allowed; need 0, as in the task");
-  EXPECT_EQ(message_with(with_cell(csv, 9, 69, "0.5")), "out/trajectory.csv:9: contact_lf_foot: 0.5 is not allowed; need 1, as in the task");
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.5,0,")),
+              HasSubstr("trajectory.csv:3: time_s: 0.5 is not allowed; need 0.4"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,0.5,")),
+              HasSubstr("trajectory.csv:3: phase: 0.5 is not"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,1e300,")),
+              HasSubstr("trajectory.csv:3: phase: 1e+300 is"));
+  EXPECT_EQ(message_with(csv.substr(0, csv.size() - 1)),
+            "out/trajectory.csv: the last line has no end; the file is cut short");
+  EXPECT_EQ(message_with(with_cell(csv, 9, 73, "1")),
+            "out/trajectory.csv:9: contact_rf_foot: 1 is not allowed; need 0, as in the task");
+  EXPECT_EQ(message_with(with_cell(csv, 9, 69, "0.5")),
+            "out/trajectory.csv:9: contact_lf_foot: 0.5 is not allowed; need 1, as in the task");
   EXPECT_THAT(message_with(with_cell(csv, 9, 8, "2")), HasSubstr("trajectory.csv:9: norm of base_qx ... base_qw: "));
   EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,")), HasSubstr("trajectory.csv:3: 84 cells; need 85"));
   EXPECT_THAT(message_with(test::replaced(csv, "base_px_m", "base_x_m")), HasSubstr("the columns are not those of HyQ"));

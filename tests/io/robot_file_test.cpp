@@ -81,22 +81,27 @@ TEST_F(RobotFile, RefusesWrongValues) {
 TEST_F(RobotFile, RefusesNamesThatBreakFiles) {
   for (const char* name : {"lf,foot", "lf\\nfoot", "lf foot ", "f\u00fc\u00df"}) {
     EXPECT_THAT(message("{ name = \"lf_foot\"", std::string("{ name = \"") + name + "\""),
-                StartsWith("hyq.toml:4:12: contact[0].name: this name is not allowed; need printable ASCII")) << name;
+                StartsWith("hyq.toml:4:12: contact[0].name: this name is not allowed; need printable ASCII"))
+        << name;
   }
 }
 
 TEST_F(RobotFile, RefusesNumbersBeyondAllSense) {
-  EXPECT_EQ(message_of(kHyqFile + "[limits.lf_haa_joint]\ntorque_Nm = 1e200\n"),
-            "hyq.toml:23:13: limits.lf_haa_joint.torque_Nm: 1e+200 is not allowed; need a number of at most 1e+09 in size");
+  EXPECT_EQ(
+      message_of(kHyqFile + "[limits.lf_haa_joint]\ntorque_Nm = 1e200\n"),
+      "hyq.toml:23:13: limits.lf_haa_joint.torque_Nm: 1e+200 is not allowed; need a number of at most 1e+09 in size");
 }
 
 TEST_F(RobotFile, TellsOtherKindsOfFiles) {
-  EXPECT_EQ(message_of(test::kTaskFile), "hyq.toml:3:1: phase: this looks like a task file; need the robot file that it names");
-  EXPECT_THAT(message_of("<?xml version=\"1.0\"?>\n<robot name=\"dog\"/>"), StartsWith("hyq.toml: this looks like XML; "));
+  EXPECT_EQ(message_of(test::kTaskFile),
+            "hyq.toml:3:1: phase: this looks like a task file; need the robot file that it names");
+  EXPECT_THAT(message_of("<?xml version=\"1.0\"?>\n<robot name=\"dog\"/>"),
+              StartsWith("hyq.toml: this looks like XML; "));
 }
 
 TEST_F(RobotFile, NeedsContactsUnlessAskedNotTo) {
-  const std::string text = "name = \"HyQ\"\n" + kHyqFile.substr(kHyqFile.find("urdf = "), kHyqFile.find("contact = ") - kHyqFile.find("urdf = "));
+  const std::string text = "name = \"HyQ\"\n" + kHyqFile.substr(kHyqFile.find("urdf = "),
+                                                                kHyqFile.find("contact = ") - kHyqFile.find("urdf = "));
   EXPECT_THAT(message_of(text), StartsWith("hyq.toml:1:1: contact: missing; need "));
   EXPECT_EQ(load_robot({"hyq.toml", text}, test::test_search(), {.needs_contacts = false}).nu(), 12);
 }
@@ -105,7 +110,8 @@ TEST_F(RobotFile, NamesItsLineIfTheUrdfIsEmpty) {
   folder_.write("empty.urdf", "");
   folder_.write("comment.urdf", "<!-- nothing -->");
   for (const char* urdf : {"empty.urdf", "comment.urdf"}) {
-    const std::string text = std::string("name = \"dog\"\nurdf = \"") + urdf + "\"\n[[contact]]\nname = \"foot\"\nframe = \"foot\"\n";
+    const std::string text =
+        std::string("name = \"dog\"\nurdf = \"") + urdf + "\"\n[[contact]]\nname = \"foot\"\nframe = \"foot\"\n";
     EXPECT_THAT(message_of(text), StartsWith(std::string("hyq.toml:2:8: urdf: ") + urdf + ":"));
   }
 }

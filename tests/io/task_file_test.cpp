@@ -138,7 +138,8 @@ TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
 
 TEST_F(TaskFile, NamesTheKeyOfAPlaceOffItsSurface) {
   EXPECT_EQ(message("\"all\"", "[{ contact = \"lf_foot\", place_m = [0, 0, 0.1] }]"),
-            "task.toml:5:46: phase[0].contacts[0].place_m: 100.0 mm above surface 'floor' is not allowed; need a place on it");
+            "task.toml:5:46: phase[0].contacts[0].place_m: 100.0 mm above surface 'floor' is not allowed; need a place "
+            "on it");
 }
 
 TEST_F(TaskFile, SlugTellsTasksOfDifferentRobotsApart) {
@@ -158,7 +159,8 @@ TEST_F(TaskFile, RefusesWrongUnit) {
   EXPECT_THAT(message("[start]", "base_rpy_deg = [0, 10, 0]\n[start]"),
               StartsWith("task.toml:11:1: goal[0].base_rpy_deg: unknown key; did you mean 'base_rpy_rad'? Known: "));
   EXPECT_EQ(message("[start]", "base_rpy_rad = [0, 10, 0]\n[start]"),
-            "task.toml:11:20: goal[0].base_rpy_rad[1]: 10 is not allowed; need a number from -6.2832 to 6.2832 [rad]; 5 degrees are 0.087");
+            "task.toml:11:20: goal[0].base_rpy_rad[1]: 10 is not allowed; need a number from -6.2832 to 6.2832 [rad]; "
+            "5 degrees are 0.087");
 }
 
 TEST_F(TaskFile, RefusesMissingRobotFile) {
@@ -197,7 +199,8 @@ TEST_F(TaskFile, RefusesNegativeAndZeroDuration) {
 }
 
 TEST_F(TaskFile, DurationMayBeFreeWithinBounds) {
-  const std::string free = test::replaced(test::replaced(kTaskFile, "2.0\nintervals", "[1.0, 3.0]\nintervals"), "time_s = 2.0", "phase = \"stand\"");
+  const std::string free = test::replaced(test::replaced(kTaskFile, "2.0\nintervals", "[1.0, 3.0]\nintervals"),
+                                          "time_s = 2.0", "phase = \"stand\"");
   EXPECT_EQ(read(free).problem.phases[0].duration.min, 1.0);
   EXPECT_EQ(read(free).problem.phases[0].duration.max, 3.0);
   EXPECT_EQ(message("2.0\nintervals", "[3.0, 1.0]\nintervals"),
@@ -208,9 +211,11 @@ TEST_F(TaskFile, DurationMayBeFreeWithinBounds) {
 
 TEST_F(TaskFile, RefusesGoalsThatTheRobotCannotDo) {
   EXPECT_EQ(message("[start]", "joints = { lf_kfe_joint = -3.0 }\n[start]"),
-            "task.toml:11:27: goal[0].joints.lf_kfe_joint: outside the joint's position limits; need something from -2.4435 to -0.34907");
+            "task.toml:11:27: goal[0].joints.lf_kfe_joint: outside the joint's position limits; need something from "
+            "-2.4435 to -0.34907");
   EXPECT_EQ(message("[start]", "joint_velocity_radps = { lf_kfe_joint = [13, 14] }\n[start]"),
-            "task.toml:11:41: goal[0].joint_velocity_radps.lf_kfe_joint: outside the joint's velocity limits; need something from -12 to 12");
+            "task.toml:11:41: goal[0].joint_velocity_radps.lf_kfe_joint: outside the joint's velocity limits; need "
+            "something from -12 to 12");
   EXPECT_THAT(message("[start]", "torque_Nm = { lf_kfe_joint = -151 }\n[start]"),
               HasSubstr("outside the joint's torque limits; need something from -150 to 150"));
   EXPECT_EQ(message("[start]", "joint_velocity_radps = { lf_kfe_joint = [11, 14] }\n[start]"), "") << "leaves 11 to 12";
@@ -231,7 +236,8 @@ TEST_F(TaskFile, RefusesNumbersBeyondAllSense) {
 }
 
 TEST_F(TaskFile, RefusesNamesThatBreakFiles) {
-  EXPECT_THAT(message("\"shift\"", "\"a\\nb\""), StartsWith("task.toml:1:8: name: this name is not allowed; need printable ASCII"));
+  EXPECT_THAT(message("\"shift\"", "\"a\\nb\""),
+              StartsWith("task.toml:1:8: name: this name is not allowed; need printable ASCII"));
   EXPECT_THAT(message("\"stand\"", "\"a,b\""), StartsWith("task.toml:4:8: phase[0].name: this name is not allowed"));
 }
 
@@ -243,7 +249,8 @@ TEST_F(TaskFile, NameOfTheFileStandsForTheName) {
 
 TEST_F(TaskFile, TellsARobotFile) {
   EXPECT_EQ(message_of(kHyqFile),
-            "task.toml:2:8: urdf: this looks like a robot file; need a task file, which names its robot file with robot = \"...\"");
+            "task.toml:2:8: urdf: this looks like a robot file; need a task file, which names its robot file with "
+            "robot = \"...\"");
 }
 
 TEST_F(TaskFile, RefusesNotANumber) {
@@ -301,9 +308,10 @@ TEST_F(TaskFile, RefusesSyntaxErrors) {
 }
 
 TEST_F(TaskFile, RefusesAStartThatHangsInTheAir) {
-  EXPECT_THAT(message("[start]", "[start]\nbase_position_m = [0, 0, 1]"),
-              testing::MatchesRegex("task.toml:11:1: start: contact 'lf_foot' of the first phase is [0-9.]+ mm above surface "
-                                    "'floor'; need at most 1 mm"));
+  EXPECT_THAT(
+      message("[start]", "[start]\nbase_position_m = [0, 0, 1]"),
+      testing::MatchesRegex("task.toml:11:1: start: contact 'lf_foot' of the first phase is [0-9.]+ mm above surface "
+                            "'floor'; need at most 1 mm"));
   const std::string no_start = kTaskFile.substr(0, kTaskFile.find("[start]"));
   const std::string high = "[[surface]]\nname = \"step\"\npoint_m = [0, 0, -0.1]\n";
   EXPECT_THAT(message_of(no_start + high),

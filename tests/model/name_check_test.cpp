@@ -19,7 +19,8 @@ TEST(NameCheck, AcceptsExactlyPrintableAsciiThatNoFormatTakesForItsOwn) {
 }
 
 TEST(NameCheck, AcceptsNamesOfRealRobots) {
-  for (const char* name : {"lf_haa_joint", "LF_FOOT", "robot::leg.1/foot", "left foot", "foot <1>"}) EXPECT_TRUE(is_name(name));
+  for (const char* name : {"lf_haa_joint", "LF_FOOT", "robot::leg.1/foot", "left foot", "foot <1>"})
+    EXPECT_TRUE(is_name(name));
   for (const char* name : {"", " foot", "foot ", " "}) EXPECT_FALSE(is_name(name));
 }
 

@@ -138,8 +138,10 @@ TEST(UrdfCheck, RefusesXmlWithoutAnElement) {
 
 TEST(UrdfCheck, RefusesNamesThatBreakFilesAndMessages) {
   for (const char* name : {"left,foot", "left\nfoot", "left&quot;foot", "left\xff_foot", "left_foot ", "\x1b[2J"}) {
-    const std::string xml = replaced(small_urdf(), "link name=\"left_foot\"", std::string("link name=\"") + name + "\"");
-    EXPECT_THAT(message_for(xml), testing::AllOf(testing::StartsWith("robot.urdf:"), testing::HasSubstr("of a link"))) << name;
+    const std::string xml =
+        replaced(small_urdf(), "link name=\"left_foot\"", std::string("link name=\"") + name + "\"");
+    EXPECT_THAT(message_for(xml), testing::AllOf(testing::StartsWith("robot.urdf:"), testing::HasSubstr("of a link")))
+        << name;
   }
   EXPECT_THAT(message_for(replaced(small_urdf(), "joint name=\"left_hip\"", "joint name=\"left,hip\"")),
               testing::HasSubstr("of a joint is not allowed"));

@@ -67,15 +67,16 @@ inline const char* small_urdf() {
 
 /// A chain of `joints` moving links.
 inline std::string chain_urdf(int joints) {
-  const std::string inertial = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" "
-                               "izz=\"1\"/></inertial></link>";
+  const std::string inertial =
+      "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" "
+      "izz=\"1\"/></inertial></link>";
   std::string xml = "<robot name=\"chain\"><link name=\"l0\">" + inertial;
   for (int i = 1; i <= joints; ++i) {
     const std::string child = std::to_string(i);
     const std::string parent = std::to_string(i - 1);
-    xml += "<link name=\"l" + child + "\">" + inertial + "<joint name=\"j" + child + "\" type=\"revolute\"><parent link=\"l" +
-           parent + "\"/><child link=\"l" + child + "\"/><origin xyz=\"0 0 0.1\"/>" +
-           "<limit lower=\"-1\" upper=\"1\" velocity=\"1\" effort=\"1\"/></joint>";
+    xml += "<link name=\"l" + child + "\">" + inertial + "<joint name=\"j" + child +
+           "\" type=\"revolute\"><parent link=\"l" + parent + "\"/><child link=\"l" + child +
+           "\"/><origin xyz=\"0 0 0.1\"/>" + "<limit lower=\"-1\" upper=\"1\" velocity=\"1\" effort=\"1\"/></joint>";
   }
   return xml + "</robot>";
 }
