@@ -1,6 +1,7 @@
 #include "prowl/io/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +67,11 @@ std::string certificate_summary(const Certificate& certificate) {
   line("check", "worst", "limit", "time", "where", "");
   for (const CertificateCheck& check : certificate.checks) {
     line(check.name, with_unit(check.worst, check.unit), with_unit(check.limit, check.unit),
-         fmt::format("{:.3f} s", check.time), check.where, check.passed ? "pass" : "FAIL");
+         fmt::format("{:.3f} s", check.time), check.where, !check.passed ? "FAIL" : check.worst <= check.certified_limit ? "pass" : "draft");
+  }
+  if (!certificate.redundant_contacts.empty()) {
+    text += fmt::format("  redundant contacts, whose forces are the planner's choice: {}\n",
+                        fmt::join(certificate.redundant_contacts, ", "));
   }
   return text;
 }
