@@ -107,6 +107,11 @@ class Reader {
     for (const Json& entry : need(key)) entries.emplace_back(fmt::format("{}.{}[{}]", where_, key, entries.size()), entry);
     return entries;
   }
+  std::vector<std::string> texts(const char* key) const {
+    const Json& list = need(key);
+    const auto is_text = [](const Json& entry) { return entry.is_string(); };
+    return get<std::vector<std::string>>(key, list.is_array() && std::ranges::all_of(list, is_text), "strings");
+  }
   const Json& json() const { return *json_; }
   [[noreturn]] void fail(const char* key, const std::string& needed) const {
     throw InputError(fmt::format("{}.{}: {} is not allowed; need {}", where_, key, need(key).dump(), needed));
@@ -165,7 +170,8 @@ Certificate read_certificate(const Reader& json) {
                                   .unit = check.text("unit"),
                                   .time = check.number("time_s"),
                                   .where = check.text("where"),
-                                  .passed = check.flag("passed")});
+                                  .passed = check.flag("passed"),
+                                  .certified_limit = check.number("certified_limit")});
   }
   for (const Reader& interval : json.list("integration_errors")) {
     certificate.interval_errors.push_back({.start = interval.number("start_s"),
@@ -173,6 +179,7 @@ Certificate read_certificate(const Reader& json) {
                                            .error = interval.number("error"),
                                            .where = interval.text("where")});
   }
+  certificate.redundant_contacts = json.texts("redundant_contacts");
   return certificate;
 }
 
@@ -208,6 +215,7 @@ nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
     checks.push_back({{"name", check.name},
                       {"worst", check.worst},
                       {"limit", check.limit},
+                      {"certified_limit", check.certified_limit},
                       {"unit", check.unit},
                       {"time_s", check.time},
                       {"where", check.where},
@@ -223,7 +231,8 @@ nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
   return {{"passed", certificate.passed},
           {"grade", to_string(certificate.grade)},
           {"checks", checks},
-          {"integration_errors", intervals}};
+          {"integration_errors", intervals},
+          {"redundant_contacts", certificate.redundant_contacts}};
 }
 
 nlohmann::ordered_json plan_to_json(const PlanRecord& record) {

@@ -1,6 +1,7 @@
 #include "prowl/io/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +77,11 @@ std::string certificate_summary(const Certificate& certificate) {
   line("check", "worst", "limit", "time", "where", "");
   for (const CertificateCheck& check : certificate.checks) {
     line(check.name, with_unit(check.worst, check.unit), with_unit(check.limit, check.unit),
-         fmt::format("{:.3f} s", check.time), check.where, check.passed ? "pass" : "FAIL");
+         fmt::format("{:.3f} s", check.time), check.where, !check.passed ? "FAIL" : check.worst <= check.certified_limit ? "pass" : "draft");
+  }
+  if (!certificate.redundant_contacts.empty()) {
+    text += fmt::format("  redundant contacts, whose forces are the planner's choice: {}\n",
+                        fmt::join(certificate.redundant_contacts, ", "));
   }
   text += "A check passes if worst <= limit; where worst is negative, it is what is left to the bound.\n";
   return text + failed_checks(certificate);

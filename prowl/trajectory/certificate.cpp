@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "prowl/trajectory/contact_events.hpp"
+#include "prowl/trajectory/contact_places.hpp"
 #include "prowl/trajectory/integration_error.hpp"
 #include "prowl/trajectory/mesh_interval.hpp"
 #include "prowl/trajectory/node_checks.hpp"
 #include "prowl/trajectory/reintegration.hpp"
 #include "prowl/trajectory/sampled_limits.hpp"
-#include "prowl/trajectory/worst_case.hpp"
 
 namespace prowl {
 namespace {
@@ -22,14 +23,31 @@ PhaseDynamics phase_dynamics(const MotionProblem& problem) {
   return dynamics;
 }
 
-CertificateCheck integration_check(const std::vector<IntervalError>& errors) {
-  WorstCase worst("local integration error", "-", CertificateLimits::integration_error_draft);
-  for (const IntervalError& interval : errors) worst.record(interval.error, interval.start, interval.where);
-  return worst.check();
+std::vector<std::string> redundant_contacts(const MotionProblem& problem, const Trajectory& trajectory,
+                                            PhaseDynamics& dynamics) {
+  const RobotModel& robot = problem.robot;
+  std::vector<bool> is_redundant(robot.contacts().size(), false);
+  std::size_t first_node = 0;
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const TrajectoryPoint& node = trajectory.nodes[first_node];
+    dynamics[p].evaluate(node.q, node.v, node.tau);
+    for (Eigen::Index i = 0; i < node.force.size(); ++i) {
+      const double internal = dynamics[p].internal_part(Eigen::VectorXd::Unit(node.force.size(), i)).norm();
+      if (internal > 1e-6) is_redundant[static_cast<std::size_t>(i / 3)] = true;  // of 1; else 0 but for rounding
+    }
+    first_node += problem.phases[p].intervals + 1;
+  }
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < is_redundant.size(); ++c) {
+    if (is_redundant[c]) names.push_back(robot.contacts()[c].name);
+  }
+  return names;
 }
 
-bool all_passed(const std::vector<CertificateCheck>& checks) {
-  return std::all_of(checks.begin(), checks.end(), [](const CertificateCheck& check) { return check.passed; });
+Grade grade_of(const std::vector<CertificateCheck>& checks) {
+  if (!std::ranges::all_of(checks, &CertificateCheck::passed)) return Grade::failed;
+  const auto is_certified = [](const CertificateCheck& check) { return check.worst <= check.certified_limit; };
+  return std::ranges::all_of(checks, is_certified) ? Grade::certified : Grade::draft;
 }
 
 }  // namespace
@@ -55,19 +73,18 @@ Certificate certify(const MotionProblem& problem, const Trajectory& trajectory) 
   if (!checks.back().passed) return certificate;
 
   PhaseDynamics dynamics = phase_dynamics(problem);
-  certificate.interval_errors = integration_errors(problem.robot, trajectory, dynamics);
-  const CertificateCheck integration = integration_check(certificate.interval_errors);
-  checks.push_back(integration);
-  checks.push_back(reintegration_check(problem.robot, trajectory, dynamics));
-  for (const auto& group : {node_checks(problem, trajectory), sampled_limits(problem, trajectory, dynamics)}) {
+  const IntegrationErrors errors = integration_errors(problem.robot, trajectory, dynamics);
+  certificate.interval_errors = errors.intervals;
+  certificate.redundant_contacts = redundant_contacts(problem, trajectory, dynamics);
+  const ContactPlaces places = contact_places(problem, trajectory, dynamics);
+  for (const auto& group :
+       {errors.checks, {reintegration_check(problem.robot, trajectory, dynamics)},
+        node_checks(problem, trajectory), contact_event_checks(problem, trajectory, places, dynamics),
+        sampled_limits(problem, trajectory, places, dynamics)}) {
     checks.insert(checks.end(), group.begin(), group.end());
   }
-
-  certificate.passed = all_passed(checks);
-  if (certificate.passed) {
-    certificate.grade =
-        integration.worst <= CertificateLimits::integration_error_certified ? Grade::certified : Grade::draft;
-  }
+  certificate.grade = grade_of(checks);
+  certificate.passed = certificate.grade != Grade::failed;
   return certificate;
 }
 

@@ -1,54 +1,79 @@
 #include "prowl/trajectory/constrained_dynamics_oracle.hpp"
 
-#include <pinocchio/algorithm/constrained-dynamics.hpp>
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <pinocchio/algorithm/crba.hpp>
 #include <pinocchio/algorithm/frames.hpp>
+#include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/kinematics.hpp>
+#include <pinocchio/algorithm/rnea.hpp>
 
 #include "prowl/model/pinocchio_model.hpp"
 
 namespace prowl {
 namespace {
 
-// The proximal iteration contracts by μ / (μ + smallest non-zero eigenvalue of J M⁻¹ J'), which is 1e-4 kg⁻¹ and more:
-// three steps. In directions that J does not see rounding is amplified by 1/μ, hence not smaller; there the forces move
-// by a little at every step, so that redundant contacts take all of them.
-constexpr double kProximalMu = 1e-8;
-constexpr double kAccelerationAccuracy = 1e-11;  // [m/s^2]
-constexpr double kForceAccuracy = 1e-7;          // [N], between two steps
-constexpr int kMaxSteps = 8;
+// Pivots of A below this part of the largest are rounding: rows that depend on each other leave 1e-14, and the smallest
+// that a real contact leaves (the light ends of a robot of 80 kg) is 1e-4.
+constexpr double kRankThreshold = 1e-8;
 
 }  // namespace
 
 struct ConstrainedDynamicsOracle::Workspace {
+  using Factors = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+
   const PinocchioModel& pinocchio;
   pinocchio::Data data;
   std::vector<int> contacts;
-  std::vector<pinocchio::RigidConstraintModel> constraint_models;
-  std::vector<pinocchio::RigidConstraintData> constraint_datas;
-  Eigen::VectorXd generalized_force;  // S' tau
+  Eigen::LLT<Eigen::MatrixXd> mass;       // M = L L'
+  Eigen::Matrix<double, 6, Eigen::Dynamic> frame_jacobian;
+  Eigen::MatrixXd A_transposed;           // L⁻¹ J'
+  Factors factors;                        // of it
 
   Workspace(const PinocchioModel& model, const std::vector<int>& held)
-      : pinocchio(model), data(model.model), contacts(held), generalized_force(Eigen::VectorXd::Zero(model.model.nv)) {
-    for (int contact : contacts) {
-      const pinocchio::Frame& frame = model.model.frames[model.contact_frames[contact]];
-      constraint_models.emplace_back(pinocchio::CONTACT_3D, model.model, frame.parentJoint, frame.placement,
-                                     pinocchio::LOCAL_WORLD_ALIGNED);
-      constraint_datas.emplace_back(constraint_models.back());
-    }
-    pinocchio::initConstraintDynamics(model.model, data, constraint_models, constraint_datas);
+      : pinocchio(model),
+        data(model.model),
+        contacts(held),
+        frame_jacobian(6, model.model.nv),
+        A_transposed(model.model.nv, 3 * static_cast<Eigen::Index>(held.size())) {
+    factors.setThreshold(kRankThreshold);
   }
 
-  // By kinematics: in Pinocchio 4.1 settings.absolute_residual leaves out J times the unconstrained acceleration.
-  double largest_contact_acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
-    pinocchio::forwardKinematics(pinocchio.model, data, q, v, a);
-    double largest = 0.0;
-    for (int contact : contacts) {
-      const auto acceleration = pinocchio::getFrameClassicalAcceleration(
-          pinocchio.model, data, pinocchio.contact_frames[contact], pinocchio::LOCAL_WORLD_ALIGNED);
-      const double size = acceleration.linear().cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-      if (!(size <= largest)) largest = size;
+  void factorise(const Eigen::VectorXd& q) {
+    pinocchio::crba(pinocchio.model, data, q);
+    mass.compute(data.M.selfadjointView<Eigen::Upper>());
+    if (contacts.empty()) return;
+    pinocchio::computeJointJacobians(pinocchio.model, data, q);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      frame_jacobian.setZero();
+      pinocchio::getFrameJacobian(pinocchio.model, data, pinocchio.contact_frames[contacts[i]],
+                                  pinocchio::LOCAL_WORLD_ALIGNED, frame_jacobian);
+      A_transposed.middleCols<3>(3 * static_cast<Eigen::Index>(i)) = frame_jacobian.topRows<3>().transpose();
     }
-    return largest;
+    mass.matrixL().solveInPlace(A_transposed);
+    factors.compute(A_transposed);
+  }
+
+  // J a + J̇v, by kinematics instead of by J.
+  Eigen::VectorXd contact_acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
+    pinocchio::forwardKinematics(pinocchio.model, data, q, v, a);
+    Eigen::VectorXd acceleration(A_transposed.cols());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      acceleration.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+          pinocchio::getFrameClassicalAcceleration(pinocchio.model, data, pinocchio.contact_frames[contacts[i]],
+                                                   pinocchio::LOCAL_WORLD_ALIGNED)
+              .linear();
+    }
+    return acceleration;
+  }
+
+  // From the contacts held to all of the robot, zero elsewhere.
+  Eigen::VectorXd of_robot(const Eigen::VectorXd& held_force) const {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pinocchio.contact_frames.size()));
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      force.segment<3>(3 * contacts[i]) = held_force.segment<3>(3 * static_cast<Eigen::Index>(i));
+    }
+    return force;
   }
 };
 
@@ -61,22 +86,35 @@ ConstrainedDynamicsOracle::Motion ConstrainedDynamicsOracle::evaluate(const Eige
                                                                       const Eigen::VectorXd& v,
                                                                       const Eigen::VectorXd& tau) {
   Workspace& w = *workspace_;
-  w.generalized_force.tail(tau.size()) = tau;
-  pinocchio::ProximalSettings settings(kAccelerationAccuracy, kForceAccuracy, kProximalMu, kMaxSteps);
+  w.factorise(q);
+  Eigen::VectorXd x = -pinocchio::nonLinearEffects(w.pinocchio.model, w.data, q, v);
+  x.tail(tau.size()) += tau;
+  w.mass.matrixL().solveInPlace(x);  // b
 
   Motion motion;
-// The warning says only that the interface may change in a later version.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
-  motion.a = pinocchio::constraintDynamics(w.pinocchio.model, w.data, q, v, w.generalized_force, w.constraint_models,
-                                           w.constraint_datas, settings);
-#pragma GCC diagnostic pop
-  motion.residual = w.largest_contact_acceleration(q, v, motion.a);
-  motion.force = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(w.pinocchio.contact_frames.size()));
-  for (std::size_t i = 0; i < w.contacts.size(); ++i) {
-    motion.force.segment<3>(3 * w.contacts[i]) = w.data.lambda_c.segment<3>(3 * static_cast<Eigen::Index>(i));
+  motion.force = w.of_robot(Eigen::VectorXd::Zero(w.A_transposed.cols()));
+  if (!w.contacts.empty()) {
+    const Eigen::VectorXd drift = w.contact_acceleration(q, v, Eigen::VectorXd::Zero(v.size()));
+    const Eigen::VectorXd push = w.factors.transpose().solve(-drift - w.A_transposed.transpose() * x);
+    x += push;
+    motion.force = w.of_robot(w.factors.solve(push));
+  }
+  w.mass.matrixU().solveInPlace(x);
+  motion.a = std::move(x);
+  if (!w.contacts.empty()) {
+    motion.residual = w.contact_acceleration(q, v, motion.a).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   }
   return motion;
+}
+
+Eigen::VectorXd ConstrainedDynamicsOracle::internal_part(const Eigen::VectorXd& force) const {
+  const Workspace& w = *workspace_;
+  Eigen::VectorXd held(w.A_transposed.cols());
+  for (std::size_t i = 0; i < w.contacts.size(); ++i) {
+    held.segment<3>(3 * static_cast<Eigen::Index>(i)) = force.segment<3>(3 * w.contacts[i]);
+  }
+  if (w.contacts.empty() || w.factors.rank() == held.size()) return w.of_robot(Eigen::VectorXd::Zero(held.size()));
+  return w.of_robot(held - w.factors.solve(w.A_transposed * held));  // A'⁺ A': onto the forces that A' sees
 }
 
 ConstrainedDynamicsOracle::ContactPoints ConstrainedDynamicsOracle::contact_points(const Eigen::VectorXd& q,

@@ -1,7 +1,5 @@
 #include "prowl/trajectory/contact_places.hpp"
 
-#include <numeric>
-
 namespace prowl {
 namespace {
 
@@ -12,22 +10,16 @@ std::optional<int> surface_of(const Phase& phase, int contact) {
   return std::nullopt;
 }
 
-std::vector<int> surfaces_around(const ContactPlaces& places, std::size_t phase, std::size_t contact,
-                                 std::size_t num_surfaces) {
-  std::vector<int> around;
-  for (std::size_t p = phase + 1; p-- > 0 && around.empty();) {
-    if (const auto surface = places[p][contact].surface) around.push_back(*surface);
+/// What follows from the phases around: opens, swings.
+void look_around(ContactPlaces& places, std::size_t contact) {
+  const auto is_closed = [&](std::size_t phase) { return places[phase][contact].surface.has_value(); };
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    bool before = false, after = false;
+    for (std::size_t other = 0; other < p; ++other) before = before || is_closed(other);
+    for (std::size_t other = p + 1; other < places.size(); ++other) after = after || is_closed(other);
+    places[p][contact].swings = !is_closed(p) && before && after;
+    places[p][contact].opens = is_closed(p) && p + 1 < places.size() && !is_closed(p + 1);
   }
-  if (places[phase][contact].surface) return around;
-  const std::size_t left = around.size();
-  for (std::size_t p = phase + 1; p < places.size() && around.size() == left; ++p) {
-    if (const auto surface = places[p][contact].surface) around.push_back(*surface);
-  }
-  if (around.empty()) {
-    around.resize(num_surfaces);
-    std::iota(around.begin(), around.end(), 0);
-  }
-  return around;
 }
 
 }  // namespace
@@ -49,11 +41,7 @@ ContactPlaces contact_places(const MotionProblem& problem, const Trajectory& tra
     }
     first_node += problem.phases[p].intervals + 1;
   }
-  for (std::size_t p = 0; p < places.size(); ++p) {
-    for (std::size_t c = 0; c < num_contacts; ++c) {
-      places[p][c].outside_one_of = surfaces_around(places, p, c, problem.surfaces.size());
-    }
-  }
+  for (std::size_t c = 0; c < num_contacts; ++c) look_around(places, c);
   return places;
 }
 

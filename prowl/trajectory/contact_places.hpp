@@ -12,13 +12,11 @@ namespace prowl {
 /// What one contact of the robot does in one phase.
 struct ContactPlace {
   std::optional<int> surface;  ///< the surface that it holds, if it is closed
-  bool closes = false;         ///< closed here, open in the phase before
+  bool closes = false;         ///< closed here, open (or elsewhere) in the phase before
+  bool opens = false;          ///< closed here, open in the phase after
+  bool swings = false;         ///< open here, but closed some time before and some time after
   double time = 0.0;           ///< when it closed [s]
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< where it was at the node where it closed, world frame [m]
-  /// Surfaces that it must be outside of, of one of them at least: its own if closed; if open, the one that it left and
-  /// the one that it will touch; if it never closes, all. Surfaces are planes without an edge: a foot that steps up
-  /// starts below the plane of the step.
-  std::vector<int> outside_one_of;
 };
 
 /// [phase][contact of the robot].

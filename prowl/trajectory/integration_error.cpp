@@ -1,8 +1,11 @@
 #include "prowl/trajectory/integration_error.hpp"
 
 #include <boost/math/quadrature/gauss.hpp>
+#include <deque>
+#include <utility>
 
 #include "prowl/trajectory/state_scale.hpp"
+#include "prowl/trajectory/worst_case.hpp"
 
 namespace prowl {
 namespace {
@@ -29,20 +32,54 @@ Eigen::VectorXd integrated_residual(const MeshInterval& interval, ConstrainedDyn
   return half * sum;
 }
 
+/// Sum of the errors of the intervals in the last second; of the whole motion if it is shorter, of one interval if that
+/// is longer.
+class LastSecond {
+ public:
+  explicit LastSecond(Eigen::Index size) : sum_(Eigen::VectorXd::Zero(size)) {}
+
+  const Eigen::VectorXd& add(double start, double end, Eigen::VectorXd errors) {
+    constexpr double kRounding = 1e-9;  // [s]
+    while (!intervals_.empty() && intervals_.front().start < end - 1.0 - kRounding) {
+      sum_ -= intervals_.front().errors;
+      intervals_.pop_front();
+    }
+    sum_ += errors;
+    intervals_.push_back({start, std::move(errors)});
+    return sum_;
+  }
+
+ private:
+  struct Interval {
+    double start;
+    Eigen::VectorXd errors;
+  };
+  std::deque<Interval> intervals_;
+  Eigen::VectorXd sum_;
+};
+
 }  // namespace
 
-std::vector<IntervalError> integration_errors(const RobotModel& robot, const Trajectory& trajectory,
-                                              PhaseDynamics& dynamics) {
+IntegrationErrors integration_errors(const RobotModel& robot, const Trajectory& trajectory, PhaseDynamics& dynamics) {
+  using Limits = CertificateLimits;
+  WorstCase local("local integration error", "-", Limits::integration_error_draft, Limits::integration_error_certified);
+  WorstCase second("integration error in a second", "-", Limits::second_error_draft, Limits::second_error_certified);
   const Eigen::VectorXd scale = state_scale(trajectory);
-  std::vector<IntervalError> errors;
+  LastSecond last_second(scale.size());
+  IntegrationErrors result;
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
-    const Eigen::VectorXd scaled =
+    const double start = interval.left.time, end = interval.right.time;
+    const Eigen::VectorXd errors =
         integrated_residual(interval, dynamics[interval.left.phase]).cwiseQuotient(scale);
-    Eigen::Index worst = 0;
-    const double error = scaled.maxCoeff<Eigen::PropagateNaN>(&worst);
-    errors.push_back({interval.left.time, interval.right.time, error, state_name(robot, worst)});
+    Eigen::Index i = 0;
+    const double largest = errors.maxCoeff<Eigen::PropagateNaN>(&i);
+    result.intervals.push_back({start, end, largest, state_name(robot, i)});
+    local.record(largest, start, state_name(robot, i));
+    const double in_a_second = last_second.add(start, end, errors).maxCoeff<Eigen::PropagateNaN>(&i);
+    second.record(in_a_second, end, state_name(robot, i));
   }
-  return errors;
+  result.checks = {local.check(), second.check()};
+  return result;
 }
 
 }  // namespace prowl

@@ -102,18 +102,24 @@ void check_boundaries(const MotionProblem& problem, const Trajectory& trajectory
 void check_continuity(const RobotModel& robot, const Trajectory& trajectory, std::vector<CertificateCheck>& checks) {
   WorstCase defect("defect", "-", Limits::defect);
   WorstCase jump("state at phase switch", "-", Limits::defect);
+  WorstCase total("total defect", "-", Limits::total_defect_draft, Limits::total_defect_certified);
   const Eigen::VectorXd scale = state_scale(trajectory);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(scale.size());
   for (std::size_t k = 0; k + 1 < trajectory.nodes.size(); ++k) {
     const TrajectoryPoint& left = trajectory.nodes[k];
     const TrajectoryPoint& right = trajectory.nodes[k + 1];
     const bool inside = left.phase == right.phase;
     const TrajectoryPoint end = inside ? interpolate(left, right, right.time - left.time) : left;
+    const Eigen::VectorXd gap = scaled_difference(end.q, end.v, right.q, right.v, scale).cwiseAbs();
+    sum += gap;
     Eigen::Index i = 0;
-    const double gap = scaled_difference(end.q, end.v, right.q, right.v, scale).cwiseAbs().maxCoeff(&i);
-    (inside ? defect : jump).record(gap, right.time, state_name(robot, i));
+    const double largest = gap.maxCoeff(&i);
+    (inside ? defect : jump).record(largest, right.time, state_name(robot, i));
   }
+  for (Eigen::Index i = 0; i < sum.size(); ++i) total.record(sum(i), trajectory.duration(), state_name(robot, i));
   defect.append_to(checks);
   jump.append_to(checks);
+  total.append_to(checks);
 }
 
 void check_durations(const MotionProblem& problem, const Trajectory& trajectory,

@@ -67,7 +67,8 @@ EndState reintegrate(const MeshInterval& interval, ConstrainedDynamicsOracle& dy
 
 CertificateCheck reintegration_check(const RobotModel& robot, const Trajectory& trajectory, PhaseDynamics& dynamics) {
   const Eigen::VectorXd scale = state_scale(trajectory);
-  WorstCase worst("re-integration", "-", CertificateLimits::reintegration);
+  WorstCase worst("re-integration", "-", CertificateLimits::reintegration_draft,
+                  CertificateLimits::reintegration_certified);
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
     const EndState end = reintegrate(interval, dynamics[interval.left.phase]);
     const Eigen::VectorXd delta = scaled_difference(end.q, end.v, interval.right.q, interval.right.v, scale);

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "prowl/trajectory/contact_places.hpp"
+#include "prowl/trajectory/ground_distance.hpp"
+#include "prowl/trajectory/true_motion.hpp"
 #include "prowl/trajectory/worst_case.hpp"
 
 namespace prowl {
@@ -15,45 +16,78 @@ using Limits = CertificateLimits;
 /// Where each contact is, against where it has to be.
 class ContactChecks {
  public:
-  ContactChecks(const MotionProblem& problem, const Trajectory& trajectory, PhaseDynamics& dynamics)
-      : problem_(problem), places_(contact_places(problem, trajectory, dynamics)) {
-    for (const auto& phase : places_) {
-      for (std::size_t c = 0; c < phase.size(); ++c) {
-        if (phase[c].closes) gap_.record(std::abs(gap(phase[c].anchor, c, *phase[c].surface)), phase[c].time, name(c));
+  ContactChecks(const MotionProblem& problem, const ContactPlaces& places) : problem_(problem), places_(places) {}
+
+  void record(const TrajectoryPoint& point, const ConstrainedDynamicsOracle::ContactPoints& points) {
+    for (std::size_t c = 0; c < problem_.robot.contacts().size(); ++c) {
+      const auto& [name, frame, radius, offset] = problem_.robot.contacts()[c];
+      const ContactPlace& place = places_[point.phase][c];
+      const Eigen::Vector3d position = points.position.col(c);
+      if (place.surface) {
+        penetration_.record(radius - problem_.surfaces[*place.surface].distance(position), point.time, name);
+        drift_.record((position - place.anchor).norm(), point.time, name);
+        velocity_.record(points.velocity.col(c).norm(), point.time, name);
+        continue;
+      }
+      for (const Surface& surface : problem_.surfaces) {
+        penetration_.record(radius - distance_from_ground(surface, position), point.time, name);
       }
     }
   }
 
-  void record(const TrajectoryPoint& point, ConstrainedDynamicsOracle& dynamics) {
-    const auto points = dynamics.contact_points(point.q, point.v);
-    for (std::size_t c = 0; c < problem_.robot.contacts().size(); ++c) {
-      const ContactPlace& place = places_[point.phase][c];
-      const Eigen::Vector3d position = points.position.col(c);
-      double depth = std::numeric_limits<double>::infinity();
-      for (int surface : place.outside_one_of) depth = std::min(depth, -gap(position, c, surface));
-      penetration_.record(depth, point.time, name(c));
-      if (!place.surface) continue;
-      drift_.record((position - place.anchor).norm(), point.time, name(c));
-      velocity_.record(points.velocity.col(c).norm(), point.time, name(c));
-    }
-  }
-
   void append_to(std::vector<CertificateCheck>& checks) const {
-    for (const WorstCase* check : {&gap_, &drift_, &velocity_, &penetration_}) check->append_to(checks);
+    for (const WorstCase* check : {&drift_, &velocity_, &penetration_}) check->append_to(checks);
   }
 
  private:
-  const std::string& name(std::size_t contact) const { return problem_.robot.contacts()[contact].name; }
-  double gap(const Eigen::Vector3d& position, std::size_t contact, int surface) const {
-    return problem_.surfaces[surface].distance(position) - problem_.robot.contacts()[contact].radius;
-  }
-
   const MotionProblem& problem_;
-  ContactPlaces places_;
-  WorstCase gap_{"contact gap at closing", "m", Limits::contact_gap};
+  const ContactPlaces& places_;
   WorstCase drift_{"contact drift", "m", Limits::contact_drift};
   WorstCase velocity_{"contact velocity", "m/s", Limits::contact_velocity};
   WorstCase penetration_{"penetration", "m", Limits::penetration};
+};
+
+/// What is missing at the highest point of every swing from the clearance above the planes without an edge.
+class SwingChecks {
+ public:
+  SwingChecks(const MotionProblem& problem, const ContactPlaces& places)
+      : problem_(problem),
+        places_(places),
+        missing_("swing clearance missing", "m", Limits::missing_clearance * problem.swing_clearance),
+        highest_(problem.robot.contacts().size(), kLow) {}
+
+  /// Points in order of time.
+  void record(const TrajectoryPoint& point, const ConstrainedDynamicsOracle::ContactPoints& points) {
+    for (std::size_t c = 0; c < highest_.size(); ++c) {
+      const ContactPoint& contact = problem_.robot.contacts()[c];
+      if (places_[point.phase][c].swings) {
+        highest_[c] = std::max(highest_[c], height(points.position.col(c)) - contact.radius);
+      } else if (std::isfinite(highest_[c])) {
+        if (problem_.swing_clearance > 0.0) {
+          missing_.record(problem_.swing_clearance - highest_[c], point.time, contact.name);
+        }
+        highest_[c] = kLow;
+      }
+    }
+  }
+
+  void append_to(std::vector<CertificateCheck>& checks) const { missing_.append_to(checks); }
+
+ private:
+  static constexpr double kLow = -std::numeric_limits<double>::infinity();
+
+  double height(const Eigen::Vector3d& position) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Surface& surface : problem_.surfaces) {
+      if (surface.patch.empty()) least = std::min(least, surface.distance(position));
+    }
+    return least;
+  }
+
+  const MotionProblem& problem_;
+  const ContactPlaces& places_;
+  WorstCase missing_;
+  std::vector<double> highest_;  // of the swing so far, each contact [m]
 };
 
 /// What the ground has to do for the motion, by the true dynamics.
@@ -66,7 +100,7 @@ class ForceChecks {
         planned_("planned contact force", "N", Limits::planned_force_over_weight * problem.robot.weight()) {}
 
   void record(const TrajectoryPoint& point, ConstrainedDynamicsOracle& dynamics, bool at_node) {
-    const auto motion = dynamics.evaluate(point.q, point.v, point.tau);
+    const auto motion = true_motion(point, dynamics);
     acceleration_.record(motion.residual, point.time, "");
     for (const PhaseContact& held : problem_.phases[point.phase].contacts) {
       const Surface& surface = problem_.surfaces[held.surface];
@@ -100,13 +134,13 @@ class JointChecks {
   explicit JointChecks(const RobotModel& robot) : robot_(robot) {}
 
   void record(const TrajectoryPoint& point) {
-    for (Eigen::Index i = 0; i < robot_.nu(); ++i) {
+    for (int i = 0; i < robot_.nu(); ++i) {
       const double position = point.q(7 + i);
       const double outside = std::max(robot_.position_lower()(i) - position, position - robot_.position_upper()(i));
       const std::string& name = robot_.joint_names()[i];
       if (outside > -std::numeric_limits<double>::infinity()) position_.record(outside, point.time, name);
       velocity_.record(std::abs(point.v(6 + i)) / robot_.velocity_limit()(i), point.time, name);
-      torque_.record(std::abs(point.tau(i)) / robot_.torque_limit()(i), point.time, name);
+      torque_.record(torque_ratio(i, position, point.v(6 + i), point.tau(i)), point.time, name);
     }
   }
 
@@ -115,6 +149,14 @@ class JointChecks {
   }
 
  private:
+  /// Of what the joint can give in that direction at this position and velocity; infinity if that is nothing.
+  double torque_ratio(int joint, double position, double velocity, double torque) const {
+    const double most = torque > 0.0 ? robot_.torque_upper(joint, position, velocity)
+                                     : -robot_.torque_lower(joint, position, velocity);
+    if (most > 0.0) return std::abs(torque) / most;
+    return torque == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+  }
+
   const RobotModel& robot_;
   WorstCase position_{"joint position beyond limit", "SI", Limits::joint_position};
   WorstCase velocity_{"joint velocity", "of limit", Limits::velocity_ratio};
@@ -124,8 +166,9 @@ class JointChecks {
 }  // namespace
 
 std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const Trajectory& trajectory,
-                                             PhaseDynamics& dynamics) {
-  ContactChecks contacts(problem, trajectory, dynamics);
+                                             const ContactPlaces& places, PhaseDynamics& dynamics) {
+  ContactChecks contacts(problem, places);
+  SwingChecks swings(problem, places);
   ForceChecks forces(problem);
   JointChecks joints(problem.robot);
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
@@ -133,13 +176,16 @@ std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const
     const int pieces = std::max(Limits::grid_intervals, static_cast<int>(std::ceil(h / Limits::grid_step)));
     for (int i = 0; i <= pieces; ++i) {
       const TrajectoryPoint point = interpolate(interval.left, interval.right, h * i / pieces);
-      contacts.record(point, dynamics[point.phase]);
+      const auto points = dynamics[point.phase].contact_points(point.q, point.v);
+      contacts.record(point, points);
+      swings.record(point, points);
       forces.record(point, dynamics[point.phase], i == 0 || i == pieces);
       joints.record(point);
     }
   }
   std::vector<CertificateCheck> checks;
   contacts.append_to(checks);
+  swings.append_to(checks);
   forces.append_to(checks);
   joints.append_to(checks);
   return checks;

@@ -4,13 +4,13 @@
 
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/trajectory/certificate.hpp"
-#include "prowl/trajectory/mesh_interval.hpp"
+#include "prowl/trajectory/contact_places.hpp"
 
 namespace prowl {
 
-/// Contacts, forces and joint limits on a grid of at least ten points a mesh interval and a step of at most 1 ms.
-/// The forces are those that the true dynamics need for the interpolated (q, v, τ), not the planner's.
+/// Contacts, forces and joint limits on a grid of at least ten points a mesh interval and a step of at most 1 ms, both
+/// ends of every phase included. The forces are those of true_motion.hpp, not the planner's.
 std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const Trajectory& trajectory,
-                                             PhaseDynamics& dynamics);
+                                             const ContactPlaces& places, PhaseDynamics& dynamics);
 
 }  // namespace prowl

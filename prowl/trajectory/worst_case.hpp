@@ -14,10 +14,12 @@ namespace prowl {
 /// Keeps the largest of many values, where and when it came; a NaN counts as larger than anything.
 class WorstCase {
  public:
-  WorstCase(std::string name, std::string unit, double limit) {
+  WorstCase(std::string name, std::string unit, double limit) : WorstCase(name, unit, limit, limit) {}
+  WorstCase(std::string name, std::string unit, double limit, double certified_limit) {
     check_.name = std::move(name);
     check_.unit = std::move(unit);
     check_.limit = limit;
+    check_.certified_limit = certified_limit;
   }
 
   void record(double value, double time, std::string_view where) {

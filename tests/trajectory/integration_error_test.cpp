@@ -23,7 +23,7 @@ PhaseDynamics dynamics_of(const test::StanceMotion& motion) {
 double largest_error(test::StanceMotion& motion, const Trajectory& trajectory) {
   PhaseDynamics dynamics = dynamics_of(motion);
   double largest = 0.0;
-  for (const IntervalError& interval : integration_errors(motion.robot(), trajectory, dynamics)) {
+  for (const IntervalError& interval : integration_errors(motion.robot(), trajectory, dynamics).intervals) {
     largest = std::max(largest, interval.error);
   }
   return largest;
@@ -46,7 +46,7 @@ TEST(IntegrationError, IsOneValueAnIntervalAndSeesTheWrongOne) {
   const double clean = largest_error(motion, trajectory);
   trajectory.nodes[7].tau(4) += 20.0;  // [N m]
   PhaseDynamics dynamics = dynamics_of(motion);
-  const auto errors = integration_errors(motion.robot(), trajectory, dynamics);
+  const auto errors = integration_errors(motion.robot(), trajectory, dynamics).intervals;
   ASSERT_EQ(errors.size(), 20u);
   for (std::size_t k = 0; k < errors.size(); ++k) {
     EXPECT_NEAR(errors[k].start, 0.1 * static_cast<double>(k), 1e-12);

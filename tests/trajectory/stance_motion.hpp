@@ -60,18 +60,39 @@ class StanceMotion {
     return point;
   }
 
+  /// At the nodes of a mesh; the trapezoid misses each by O(h³).
   Trajectory on_mesh(int intervals) {
     Trajectory trajectory;
     for (int k = 0; k <= intervals; ++k) trajectory.nodes.push_back(at(duration_ * k / intervals));
     return trajectory;
   }
 
-  /// Torques and forces of least norm at (q, v, a).
-  void add_forces(TrajectoryPoint& point) {
+  /// The same configurations, with the velocities and accelerations by which the trapezoid meets every node. They are
+  /// off by O(h²), and so is what holds the contacts: like the solution of a transcription.
+  Trajectory by_trapezoid(int intervals) {
+    Trajectory trajectory = on_mesh(intervals);
+    const double h = duration_ / intervals;
+    for (int k = 0; k < intervals; ++k) {
+      const TrajectoryPoint& left = trajectory.nodes[k];
+      TrajectoryPoint& right = trajectory.nodes[k + 1];
+      const Eigen::VectorXd start = integrate(left.q, 0.5 * h * tangent_rate(left));
+      right.v = 2.0 / h * difference(start, right.q);
+      right.v.head<3>() = base_rotation(right.q).transpose() * right.v.head<3>();
+      right.a = 2.0 / h * (right.v - left.v) - left.a;
+      add_forces(right);
+    }
+    return trajectory;
+  }
+
+  void add_forces(TrajectoryPoint& point) { add_forces(point, all_contacts()); }
+
+  /// Torques and forces of least norm at (q, v, a), with forces at `held` only.
+  void add_forces(TrajectoryPoint& point, const std::vector<int>& held) {
     terms_.update(point.q, point.v, point.a);
     kinematics_.set_configuration(terms_);
     const Eigen::VectorXd& r = terms_.inverse_dynamics();
-    const Eigen::MatrixXd J = kinematics_.jacobian();
+    Eigen::MatrixXd J = Eigen::MatrixXd::Zero(kinematics_.rows(), robot_.nv());
+    for (const int c : held) J.middleRows<3>(3 * c) = kinematics_.jacobian().middleRows<3>(3 * c);
     point.force = J.leftCols(6).transpose().completeOrthogonalDecomposition().solve(r.head(6));
     point.tau = r.tail(robot_.nu()) - J.rightCols(robot_.nu()).transpose() * point.force;
   }
