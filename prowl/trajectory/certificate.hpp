@@ -15,8 +15,8 @@ struct CertificateLimits {
   // Two where the grade depends on it.
   static constexpr double integration_error_certified = 1e-6;  ///< scaled, per interval and coordinate [-]
   static constexpr double integration_error_draft = 1e-4;      ///< [-]
-  static constexpr double second_error_certified = 4e-4;       ///< the same, summed over any second [-]
-  static constexpr double second_error_draft = 4e-3;           ///< [-]
+  static constexpr double second_error_certified = 2e-4;       ///< the same, summed over any second [-]
+  static constexpr double second_error_draft = 3e-3;           ///< [-]
   static constexpr double reintegration_certified = 5e-6;      ///< scaled, at the end of an interval [-]
   static constexpr double reintegration_draft = 5e-4;          ///< [-]
   static constexpr double defect = 1e-6;                       ///< scaled, also for the state at a phase switch [-]

@@ -169,10 +169,8 @@ INSTANTIATE_TEST_SUITE_P(
                 }, "goes from surface 'floor' to 'step' without opening"},
         Mistake{"two_rotations", [](P& p) {
                   p.phases.push_back(p.phases[0]);
-                  for (BoundaryCondition* condition : {&p.boundary_conditions[1], &p.boundary_conditions.emplace_back()}) {
-                    *condition = BoundaryCondition::unbounded(p.robot, "goal", {0, 5}, p.start_configuration());
-                    condition->configuration_lower.segment<3>(3).setZero();
-                  }
+                  p.boundary_conditions[1].configuration_lower.segment<3>(3).setZero();
+                  p.boundary_conditions.push_back(p.boundary_conditions[1]);
                   p.boundary_conditions[2].at = {1, 0};  // the other side of the switch: the same time
                 }, "boundary_conditions[2].configuration: it binds the base's rotation at the time at which"},
         Mistake{"terminal", [](P& p) { p.terminal_cost.force_weight.setOnes(); },

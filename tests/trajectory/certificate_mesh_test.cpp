@@ -23,6 +23,13 @@ Case standing_with_torques(double factor, int intervals) {
   return c;
 }
 
+TEST(CertificateMesh, TorquesThatAreTooSmallByATenThousandthFail) {
+  const Case c = standing_with_torques(0.9999, 200);
+  const Certificate certificate = certify(c.problem, c.trajectory);
+  EXPECT_LT(find(certificate, "local integration error").worst, 0.3 * Limits::integration_error_draft);
+  EXPECT_EQ(failed_checks(certificate), Names{"integration error in a second"});
+}
+
 TEST(CertificateMesh, TorquesThatAreTooSmallFailOnAFineMesh) {
   const Case c = standing_with_torques(0.999, 1000);
   const Certificate certificate = certify(c.problem, c.trajectory);

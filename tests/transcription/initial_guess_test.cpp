@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "../support/robots.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/model/configuration.hpp"
 
 namespace prowl {
@@ -90,6 +93,19 @@ void expect_finite_and_within_limits(const MotionProblem& problem, const Traject
   }
 }
 
+/// M a + h - S' tau - J' f.
+VectorXd equations_of_motion(const RobotModel& robot, const TrajectoryPoint& point) {
+  RigidBodyTerms terms(robot);
+  terms.update(point.q, point.v, point.a);
+  std::vector<int> contacts(robot.contacts().size());
+  std::iota(contacts.begin(), contacts.end(), 0);
+  ContactKinematics kinematics(contacts);
+  kinematics.set_configuration(terms);
+  VectorXd left = terms.inverse_dynamics() - kinematics.jacobian().transpose() * point.force;
+  left.tail(robot.nu()) -= point.tau;
+  return left;
+}
+
 class InitialGuessOf : public testing::TestWithParam<RobotDescription> {};
 
 TEST_P(InitialGuessOf, GoesToTheGoalWithItsFeetInPlace) {
@@ -104,9 +120,7 @@ TEST_P(InitialGuessOf, GoesToTheGoalWithItsFeetInPlace) {
                              place(problem.robot, problem.start_configuration(), c.contact);
       EXPECT_LT(drift.norm(), 1e-3) << problem.robot.contacts()[static_cast<std::size_t>(c.contact)].name;
     }
-    Vector3d sum = Vector3d::Zero();
-    for (const PhaseContact& c : problem.phases[0].contacts) sum += point.force.segment<3>(3 * c.contact);
-    EXPECT_LT((sum - Vector3d(0.0, 0.0, problem.robot.weight())).norm(), 1e-6 * problem.robot.weight());
+    EXPECT_LT(equations_of_motion(problem.robot, point).norm(), 1e-9 * problem.robot.weight());
   }
 }
 
@@ -210,7 +224,8 @@ TEST(InitialGuess, KeepsThePostureOfLegsInTheAir) {
   const auto leg = [&](std::size_t k) -> Vector3d { return guess.nodes[k].q.segment<3>(7); };  // lf: the first three
   EXPECT_GT((leg(20) - leg(0)).norm(), 1e-3);
   EXPECT_LT((leg(41) - leg(21)).norm(), 1e-12);
-  EXPECT_GT(before.force.segment<3>(3 * lf).norm(), 1.0);
+  EXPECT_GT(guess.nodes[19].force.segment<3>(3 * lf).norm(), 1.0);
+  EXPECT_EQ(before.force.segment<3>(3 * lf).norm(), 0.0) << "unloaded before it opens";
   EXPECT_EQ(after.force.segment<3>(3 * lf).norm(), 0.0);
 }
 
@@ -236,6 +251,54 @@ TEST(InitialGuess, PutsAPrescribedJointBeforeTheFeet) {
   posture.configuration_lower(7) = posture.configuration_upper(7) = 0.0;
   problem.boundary_conditions.push_back(posture);
   expect_meets_conditions(problem, guess_of(problem));
+}
+
+/// HyQ lifts a foot, and puts it down 20 cm ahead.
+MotionProblem stepping() {
+  MotionProblem problem = standing(test::hyq_description());
+  problem.swing_clearance = 0.05;
+  const int lf = problem.robot.contact_index("lf_foot");
+  Phase& shift = problem.phases[0];
+  shift.duration = {0.8, 0.8};
+  Phase swing = shift, settle = shift;
+  std::erase_if(swing.contacts, [&](const PhaseContact& c) { return c.contact == lf; });
+  const Vector3d from = place(problem.robot, problem.start_configuration(), lf);
+  for (PhaseContact& c : settle.contacts) {
+    if (c.contact == lf) c.place = Vector3d(from.x() + 0.2, from.y(), 0.0);
+  }
+  problem.phases.push_back(swing);
+  problem.phases.push_back(settle);
+  return problem;
+}
+
+TEST(InitialGuess, FeetGoFromPlaceToPlaceAboveTheGround) {
+  const MotionProblem problem = stepping();
+  const int lf = problem.robot.contact_index("lf_foot");
+  const Trajectory guess = guess_of(problem);
+  expect_finite_and_within_limits(problem, guess);
+  const Vector3d start = place(problem.robot, problem.start_configuration(), lf);
+  for (const TrajectoryPoint& point : guess.nodes) {
+    const Vector3d foot = place(problem.robot, point.q, lf);
+    if (point.phase == 0) EXPECT_LT((foot - start).norm(), 1e-6);
+    if (point.phase == 1) EXPECT_GT(foot.z(), start.z() - 1e-6);
+    if (point.phase == 2) EXPECT_LT((foot - start - Vector3d(0.2, 0.0, 0.0)).norm(), 1e-6);
+  }
+  EXPECT_GT(place(problem.robot, guess.nodes[41 + 20].q, lf).z(), start.z() + problem.swing_clearance);
+}
+
+TEST(InitialGuess, LeansAwayFromAFootThatLifts) {
+  const MotionProblem problem = stepping();
+  const Vector3d foot = place(problem.robot, problem.start_configuration(), problem.robot.contact_index("lf_foot"));
+  const Trajectory guess = guess_of(problem);
+  const TrajectoryPoint& lifted = guess.nodes[41 + 20];
+  EXPECT_LT(lifted.q.head<2>().dot(foot.head<2>().normalized()), -0.02);
+  for (std::size_t c = 0; c < problem.robot.contacts().size(); ++c) {
+    if (static_cast<int>(c) == problem.robot.contact_index("lf_foot")) continue;
+    EXPECT_GT(lifted.force(3 * static_cast<Eigen::Index>(c) + 2), 0.0) << "no foot pulls";
+  }
+  for (const TrajectoryPoint& point : guess.nodes) {
+    EXPECT_LT(equations_of_motion(problem.robot, point).norm(), 1e-9 * problem.robot.weight());
+  }
 }
 
 }  // namespace
