@@ -24,6 +24,7 @@ namespace {
 struct PlanArguments {
   std::string task;
   std::string out;
+  std::string warm_start;
   std::vector<std::string> package_dirs;
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
@@ -53,12 +54,18 @@ int run_plan(const PlanArguments& arguments) {
     throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *arguments.step, duration));
   }
 
-  SolverOptions options = task.solver;
-  options.on_iteration = progress_printer();
-  options.interrupt = &interrupted;
+  ProgressPrinter progress;
+  PlanOptions options{.solver = task.solver};
+  options.solver.on_iteration = [&](const SolveProgress& iteration) { progress.print(iteration); };
+  options.solver.interrupt = &interrupted;
+  options.on_level = [&](int intervals) { progress.begin_level(intervals); };
+  if (!arguments.warm_start.empty()) {
+    options.start_from = read_plan(arguments.warm_start, package_search(arguments.package_dirs)).plan.trajectory;
+  }
   Plan plan = make_plan(task.problem, IpoptSolver(), options);
 
-  const PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions()};
+  const PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
+                          .warm_start = arguments.warm_start};
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
   write_plan(out, record, arguments.step);
@@ -91,6 +98,9 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--intervals", arguments->overrides.intervals,
                    "Mesh intervals in all, shared out over the phases as in the task file")
       ->check(CLI::Range(1, 10000))->type_name("N");
+  verb->add_option("--warm-start", arguments->warm_start,
+                   "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ")
+      ->type_name("DIR");
   verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
       ->type_name("DIR")->expected(1)->take_all();
   verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/trajectory/certificate.hpp"
@@ -7,17 +10,34 @@
 
 namespace prowl {
 
+/// How one mesh was solved on the way to the last.
+struct LevelResult {
+  int intervals = 0;
+  SolveStatus status = SolveStatus::solver_failed;
+  int iterations = 0;
+  double seconds = 0.0;
+};
+
 /// What comes out: a motion, how it was found, and whether it is any good.
 struct Plan {
   Trajectory trajectory;
-  SolveResult result;
+  SolveResult result;  ///< of the last level; iterations and seconds of all levels together
+  std::vector<LevelResult> levels;
   Certificate certificate;
   int num_variables = 0;
   int num_constraints = 0;
 };
 
-/// The whole way from a problem to a certified motion. Throws InputError if the problem makes no sense, NumericalError
-/// if the model cannot be evaluated at the initial guess; a problem that is too hard is a status in the result.
-Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const SolverOptions& options);
+struct PlanOptions {
+  SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together
+  /// Empty: start from the task alone, on a coarse mesh first. Else start from this motion (see resample()).
+  Trajectory start_from = {};
+  std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
+};
+
+/// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from makes
+/// no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that is too hard is a status
+/// in the result.
+Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options);
 
 }  // namespace prowl

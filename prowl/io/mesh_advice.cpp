@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "prowl/io/interval_shares.hpp"
+#include "prowl/transcription/mesh.hpp"
 
 namespace prowl {
 namespace {
@@ -15,20 +15,9 @@ namespace {
 constexpr double kMargin = 1.25;       // on the error
 constexpr int kMostIntervals = 10000;  // that --intervals takes
 
-/// For each phase what its number of intervals has to be a multiple of, so that every goal keeps a node.
-std::vector<int> divisors(const MotionProblem& problem) {
-  std::vector<int> result(problem.phases.size(), 1);
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    const auto phase = static_cast<std::size_t>(condition.at.phase);
-    const int intervals = problem.phases[phase].intervals;
-    result[phase] = std::lcm(result[phase], intervals / std::gcd(intervals, condition.at.node));
-  }
-  return result;
-}
-
 /// The least --intervals, `needed` or more, that keeps every goal at a node.
 std::optional<int> intervals_option(const Task& task, double needed) {
-  const std::vector<int> of_phase = divisors(task.problem);
+  const std::vector<int> of_phase = interval_divisors(task.problem);
   for (double total = std::ceil(needed); total <= kMostIntervals; ++total) {
     const std::vector<int> shares = share_intervals(task.file_intervals, static_cast<int>(total));
     bool keeps_goals = true;

@@ -15,6 +15,7 @@ struct PlanRecord {
   Task task;
   Plan plan;                                    ///< of the result, z and multipliers are not kept in files
   std::map<std::string, std::string> versions;  ///< "prowl" -> "0.1.0", "Ipopt" -> ...
+  std::string warm_start = {};                  ///< folder of the plan that it started from; "" if from the task alone
 };
 
 /// Whether the plan may be used: the solver converged and the certificate passed.

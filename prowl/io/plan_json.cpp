@@ -54,6 +54,13 @@ Json problem_to_json(const PlanRecord& record) {
 Json solver_to_json(const PlanRecord& record) {
   const SolveResult& result = record.plan.result;
   const SolverOptions& options = record.task.solver;
+  Json levels = Json::array();
+  for (const LevelResult& level : record.plan.levels) {
+    levels.push_back({{"intervals", level.intervals},
+                      {"status", to_string(level.status)},
+                      {"iterations", level.iterations},
+                      {"seconds", level.seconds}});
+  }
   return {{"message", result.message},
           {"cost", result.cost},
           {"constraint_violation", result.constraint_violation},
@@ -61,6 +68,8 @@ Json solver_to_json(const PlanRecord& record) {
           {"iterations", result.iterations},
           {"seconds", result.seconds},
           {"evaluation_seconds", result.evaluation_seconds},
+          {"levels", levels},
+          {"warm_start", record.warm_start},
           {"tolerance", options.tolerance},
           {"max_iterations", options.max_iterations},
           {"max_time_s", options.max_seconds}};
@@ -140,15 +149,15 @@ std::string place_of(const std::string& text, std::size_t byte) {
   return fmt::format("{}:{}", 1 + std::count(before.begin(), before.end(), '\n'), before.size() - line_start + 1);
 }
 
-SolveStatus read_status(const Reader& plan) {
-  const std::string name = plan.text("status");
+SolveStatus read_status(const Reader& json) {
+  const std::string name = json.text("status");
   std::string known;
   for (int s = 0; s <= static_cast<int>(SolveStatus::solver_failed); ++s) {
     const auto status = static_cast<SolveStatus>(s);
     if (name == to_string(status)) return status;
     known += (s == 0 ? "" : ", ") + std::string(to_string(status));
   }
-  plan.fail("status", "one of " + known);
+  json.fail("status", "one of " + known);
 }
 
 Grade read_grade(const Reader& certificate) {
@@ -205,6 +214,14 @@ SolveResult read_result(const Reader& plan) {
   result.seconds = solver.number("seconds");
   result.evaluation_seconds = solver.number("evaluation_seconds");
   return result;
+}
+
+std::vector<LevelResult> read_levels(const Reader& solver) {
+  std::vector<LevelResult> levels;
+  for (const Reader& level : solver.list("levels")) {
+    levels.push_back({level.integer("intervals"), read_status(level), level.integer("iterations"), level.number("seconds")});
+  }
+  return levels;
 }
 
 }  // namespace
@@ -268,7 +285,8 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   PlanRecord record{.task = parse_task(read_text(plan.object("task_file")), read_text(plan.object("robot_file")),
                                        search, read_overrides(plan.object("overrides")), urdf),
                     .plan = {},
-                    .versions = {}};
+                    .versions = {},
+                    .warm_start = {}};
   const RobotDescription& robot = record.task.problem.robot.description();
   if (as_utf8(robot.urdf_text) != urdf.text) {
     throw InputError(
@@ -277,6 +295,8 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                     source.path.string(), robot.urdf.string()));
   }
   record.plan.result = read_result(plan);
+  record.plan.levels = read_levels(plan.object("solver"));
+  record.warm_start = plan.object("solver").text("warm_start");
   record.plan.certificate = read_certificate(plan.object("certificate"));
   record.plan.num_variables = plan.object("problem").integer("variables");
   record.plan.num_constraints = plan.object("problem").integer("constraints");

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prowl/transcription/mesh_levels.hpp"
+
 namespace prowl {
 namespace {
 
@@ -37,10 +39,15 @@ std::string failed_checks(const Certificate& certificate) {
   return text.empty() ? "" : text + "\n";
 }
 
-int count_intervals(const MotionProblem& problem) {
-  int intervals = 0;
-  for (const Phase& phase : problem.phases) intervals += phase.intervals;
-  return intervals;
+/// "33 + 9 on 39 + 135 intervals", or the number alone where there was one mesh.
+std::string iterations_in_words(const Plan& plan) {
+  if (plan.levels.size() < 2) return fmt::format("{} iterations", plan.result.iterations);
+  std::vector<int> iterations, intervals;
+  for (const LevelResult& level : plan.levels) {
+    iterations.push_back(level.iterations);
+    intervals.push_back(level.intervals);
+  }
+  return fmt::format("{} iterations on {} intervals", fmt::join(iterations, " + "), fmt::join(intervals, ", "));
 }
 
 }  // namespace
@@ -53,8 +60,9 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
                       problem.phases.size(), problem.phases.size() == 1 ? "" : "s", count_intervals(problem), duration,
                       record.plan.num_variables, record.plan.num_constraints);
-  text += fmt::format("  solver       {} iterations, {:.2f} s ({:.2f} s evaluating the problem)\n", result.iterations,
-                      result.seconds, result.evaluation_seconds);
+  text += fmt::format("  solver       {}, {:.2f} s ({:.2f} s evaluating the problem)\n",
+                      iterations_in_words(record.plan), result.seconds, result.evaluation_seconds);
+  if (!record.warm_start.empty()) text += fmt::format("  started from {}\n", record.warm_start);
   text += fmt::format("  solution     cost {:.6g}, constraint violation {:.1e}, dual violation {:.1e}\n", result.cost,
                       result.constraint_violation, result.dual_violation);
   if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);

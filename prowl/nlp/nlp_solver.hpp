@@ -34,6 +34,7 @@ struct SolverOptions {
   double tolerance = 1e-6;  ///< on optimality and on constraint violation
   int max_iterations = 300;
   double max_seconds = 300.0;
+  bool start_is_near = false;  ///< a solution of a neighbouring problem: stay near it
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
   const std::atomic<bool>* interrupt = nullptr;            ///< looked at once an iteration; true stops
 };

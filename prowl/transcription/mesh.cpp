@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 namespace prowl {
 
@@ -11,6 +12,16 @@ int Mesh::index(NodeRef ref) const {
   });
   assert(found != nodes.end());
   return static_cast<int>(found - nodes.begin());
+}
+
+std::vector<int> interval_divisors(const MotionProblem& problem) {
+  std::vector<int> divisors(problem.phases.size(), 1);
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    const auto phase = static_cast<std::size_t>(condition.at.phase);
+    const int intervals = problem.phases[phase].intervals;
+    divisors[phase] = std::lcm(divisors[phase], intervals / std::gcd(intervals, condition.at.node));
+  }
+  return divisors;
 }
 
 Mesh make_mesh(const MotionProblem& problem) {

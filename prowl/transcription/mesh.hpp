@@ -25,6 +25,9 @@ struct Mesh {
   int index(NodeRef ref) const;
 };
 
+/// For each phase what its number of intervals has to be a multiple of, so that every goal keeps its node.
+std::vector<int> interval_divisors(const MotionProblem& problem);
+
 /// Equal steps within each phase. A phase of free duration gets the middle of its range.
 Mesh make_mesh(const MotionProblem& problem);
 

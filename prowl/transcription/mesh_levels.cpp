@@ -1,0 +1,50 @@
+#include "prowl/transcription/mesh_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/transcription/mesh.hpp"
+
+namespace prowl {
+
+namespace {
+
+constexpr int kCoarser = 4;
+constexpr int kLeastIntervals = 8;  // with fewer, the trapezoid bends a step into another motion
+
+MotionProblem coarsened(const MotionProblem& problem) {
+  const std::vector<int> divisors = interval_divisors(problem);
+  MotionProblem coarse = problem;
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const int intervals = problem.phases[p].intervals;
+    const int wanted = std::max((intervals + kCoarser - 1) / kCoarser, kLeastIntervals);
+    const int multiple = divisors[p] * ((wanted + divisors[p] - 1) / divisors[p]);
+    coarse.phases[p].intervals = std::min(intervals, multiple);
+  }
+  for (BoundaryCondition& condition : coarse.boundary_conditions) {
+    const auto p = static_cast<std::size_t>(condition.at.phase);
+    condition.at.node = condition.at.node * coarse.phases[p].intervals / problem.phases[p].intervals;
+  }
+  return coarse;
+}
+
+}  // namespace
+
+int count_intervals(const MotionProblem& problem) {
+  int count = 0;
+  for (const Phase& phase : problem.phases) count += phase.intervals;
+  return count;
+}
+
+std::vector<MotionProblem> mesh_levels(const MotionProblem& problem) {
+  std::vector<MotionProblem> levels{problem};
+  for (;;) {
+    MotionProblem coarse = coarsened(levels.back());
+    if (2 * count_intervals(coarse) > count_intervals(levels.back())) break;
+    levels.push_back(std::move(coarse));
+  }
+  std::ranges::reverse(levels);
+  return levels;
+}
+
+}  // namespace prowl

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/trajectory/trajectory.hpp"
+#include "prowl/transcription/mesh.hpp"
+
+namespace prowl {
+
+/// A motion with the phases of the problem, at the nodes of another mesh of it: node i of n of a phase gets the point at
+/// the same fraction of that phase. A phase of another duration than the problem allows is stretched or compressed to
+/// what it allows: rates with the inverse of the time, accelerations with its square, torques and forces as they are.
+///
+/// What the problem asks for otherwise (start, goals, limits) is not looked at: the result is a point to start a solver
+/// from. Throws InputError if the motion is of another robot (sizes) or has other phases than the problem (number).
+Trajectory resample(const Trajectory& motion, const MotionProblem& problem, const Mesh& mesh);
+
+}  // namespace prowl
