@@ -14,6 +14,7 @@
 #include "prowl/error.hpp"
 #include "prowl/io/file_keys.hpp"
 #include "prowl/io/mesh_advice.hpp"
+#include "prowl/io/phase_table.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
@@ -29,6 +30,7 @@ struct PlanArguments {
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
   bool json = false;
+  bool print_phases = false;
 };
 
 constexpr double kMostSamples = 1e7;  // of the uniform grid: some gigabytes of text
@@ -45,6 +47,10 @@ const CLI::Validator kPositive(
 int run_plan(const PlanArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), arguments.overrides);
+  if (arguments.print_phases) {
+    print_result(arguments.json ? phases_json(task.problem) : phase_table(task.problem));
+    return kPassed;
+  }
   const std::filesystem::path out = arguments.out.empty() ? "out" / std::filesystem::path(task_slug(arguments.task))
                                                           : std::filesystem::path(arguments.out);
   check_plan_directory(out);
@@ -103,7 +109,11 @@ void add_plan_command(CLI::App& app, int& status) {
       ->type_name("DIR");
   verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
       ->type_name("DIR")->expected(1)->take_all();
+  CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
+                                             "Print the phases, those of a gait too, and plan nothing");
+  for (const char* unused : {"--out", "--dt", "--max-time", "--max-iterations"}) phases->excludes(unused);
   verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"
+               "  prowl plan tasks/hyq/balance.toml --print-phases\n"
                "  prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out stand\n\n"
                "Exit status: 0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
                "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"

@@ -12,9 +12,9 @@ namespace {
 /// Keys that a field of MotionProblem may come from, the likeliest first.
 std::vector<std::string> keys_of(const std::string& field) {
   const auto rest_after = [&field](const std::string& start) { return field.substr(start.size()); };
-  if (field.starts_with("boundary_conditions[0]")) return {"start", "phase[0].contacts"};
+  if (field.starts_with("boundary_conditions[0]")) return {"start", "phase[0].contacts", "gait"};
   if (const std::string start = "boundary_conditions["; field.starts_with(start)) {
-    return {fmt::format("goal[{}]", std::stoi(rest_after(start)) - 1)};
+    return {fmt::format("goal[{}]", std::stoi(rest_after(start)) - 1), "gait"};
   }
   const std::pair<const char*, const char*> kStarts[] = {
       {"phases[", "phase["}, {"surfaces[", "surface["}, {"running_cost", "cost"}};
@@ -27,6 +27,7 @@ std::vector<std::string> keys_of(const std::string& field) {
   for (const auto& [end, unit] : kEnds) {
     if (field.ends_with(end)) key += unit;
   }
+  if (field.starts_with("phases[")) return {key, "gait"};
   return {key};
 }
 

@@ -11,6 +11,7 @@
 #include "prowl/io/problem_fields.hpp"
 #include "prowl/io/robot_file.hpp"
 #include "prowl/io/task_cost.hpp"
+#include "prowl/io/task_gait.hpp"
 #include "prowl/io/task_goals.hpp"
 #include "prowl/io/toml_value.hpp"
 #include "prowl/model/name_check.hpp"
@@ -94,12 +95,6 @@ TaskStart read_start(const TomlTable& root, const RobotModel& robot, const Sourc
   return start;
 }
 
-int find_name(const TomlValue& value, const std::string& what, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), value.as_text());
-  if (found == names.end()) value.fail_unknown_name(what, names);
-  return static_cast<int>(found - names.begin());
-}
-
 struct ContactNames {
   std::vector<std::string> contacts, surfaces;
 };
@@ -115,11 +110,13 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
     PhaseContact contact;
     if (entry.is_table()) {
       const TomlTable table(entry, task_file_keys(), "phase.contacts");
-      contact.contact = find_name(table.need("contact"), "contact", names.contacts);
-      if (const auto surface = table.find("surface")) contact.surface = find_name(*surface, "surface", names.surfaces);
+      contact.contact = static_cast<int>(table.need("contact").as_one_of("contact", names.contacts));
+      if (const auto surface = table.find("surface")) {
+        contact.surface = static_cast<int>(surface->as_one_of("surface", names.surfaces));
+      }
       if (const auto place = table.find("place_m")) contact.place = place->as_vector3();
     } else {
-      contact.contact = find_name(entry, "contact", names.contacts);
+      contact.contact = static_cast<int>(entry.as_one_of("contact", names.contacts));
     }
     for (const PhaseContact& other : contacts) {
       if (other.contact == contact.contact) entry.fail("this contact is in the list twice");
@@ -127,17 +124,6 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
     contacts.push_back(contact);
   }
   return contacts;
-}
-
-Duration read_duration(const TomlValue& value) {
-  if (!value.is_list()) {
-    const double duration = value.as_number(NumberRange::positive());
-    return {duration, duration};
-  }
-  const std::vector<TomlValue> ends = value.as_list(2);
-  const Duration duration{ends[0].as_number(NumberRange::positive()), ends[1].as_number(NumberRange::positive())};
-  if (duration.min > duration.max) value.fail("min > max is not allowed; need [min, max]");
-  return duration;
 }
 
 std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names) {
@@ -151,7 +137,8 @@ std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names)
       if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
     }
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
-    phase.duration = read_duration(table.need("duration_s"));
+    const Bounds duration = table.need("duration_s").as_range(NumberRange::positive());
+    phase.duration = {duration.lower, duration.upper};
     phase.intervals = table.need("intervals").as_integer(1, kMostIntervals);
     phases.push_back(phase);
   }
@@ -184,13 +171,15 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
   ContactNames names;
   for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
   for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
-  std::vector<Phase> phases = read_phases(root, names);
+  const TaskStart start = read_start(root, robot, robot_file);
+  const std::optional<TaskGait> gait = read_gait(root, robot, surfaces, start);
+  std::vector<Phase> phases = gait ? gait->phases : read_phases(root, names);
   for (const Phase& phase : phases) file_intervals.push_back(phase.intervals);
   if (overrides.intervals) override_intervals(phases, file_intervals, *overrides.intervals);
 
-  const TaskStart start = read_start(root, robot, robot_file);
   std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
   for (BoundaryCondition& goal : read_goals(root, robot, start, phases)) conditions.push_back(std::move(goal));
+  if (gait && gait->displacement) conditions.push_back(arrival(robot, start, *gait->displacement, phases));
 
   MotionProblem problem{.name = "",
                         .robot = std::move(robot),

@@ -190,6 +190,18 @@ BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd
   return start;
 }
 
+BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
+                          const std::vector<Phase>& phases) {
+  const NodeRef end{static_cast<int>(phases.size()) - 1, phases.back().intervals};
+  BoundaryCondition goal = BoundaryCondition::unbounded(robot, "goal 1", end, start.q);
+  goal.q_ref.head<3>() += displacement;
+  goal.configuration_lower.head<6>().setZero();
+  goal.configuration_upper.head<6>().setZero();
+  goal.velocity_lower.head<6>().setZero();
+  goal.velocity_upper.head<6>().setZero();
+  return goal;
+}
+
 std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
                                           const std::vector<Phase>& phases) {
   std::vector<BoundaryCondition> goals;

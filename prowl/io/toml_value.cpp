@@ -144,6 +144,23 @@ Bounds TomlValue::as_bounds() const {
   return {value, value};
 }
 
+Bounds TomlValue::as_range(const NumberRange& range) const {
+  if (!is_list()) {
+    const double value = as_number(range);
+    return {value, value};
+  }
+  const std::vector<TomlValue> ends = as_list(2);
+  const Bounds bounds{ends[0].as_number(range), ends[1].as_number(range)};
+  if (bounds.lower > bounds.upper) fail("min > max is not allowed; need [min, max]");
+  return bounds;
+}
+
+std::size_t TomlValue::as_one_of(const std::string& what, const std::vector<std::string>& known) const {
+  const auto found = std::find(known.begin(), known.end(), as_text());
+  if (found == known.end()) fail_unknown_name(what, known);
+  return static_cast<std::size_t>(found - known.begin());
+}
+
 std::vector<std::pair<std::string, TomlValue>> TomlValue::as_free_named_values(const std::string& what) const {
   const auto* table = node_->as_table();
   if (!table) fail_type(fmt::format("a table {{{} = ...}}", what));

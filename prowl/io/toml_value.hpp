@@ -53,6 +53,9 @@ class TomlValue {
   std::vector<TomlValue> as_list(std::size_t size) const;
   Eigen::Vector3d as_vector3(const NumberRange& range = NumberRange::any()) const;
   Bounds as_bounds() const;     ///< a number, "free" or [lower, upper]
+  Bounds as_range(const NumberRange& range) const;  ///< a number or [min, max]
+  /// Index of a text in `known`, which are names of a `what`.
+  std::size_t as_one_of(const std::string& what, const std::vector<std::string>& known) const;
   /// The entries of a table with names that the user chooses from `known` (joints, contacts).
   std::vector<std::pair<std::string, TomlValue>> as_named_values(const std::vector<std::string>& known,
                                                                  const std::string& what) const;

@@ -170,6 +170,22 @@ TEST_F(Command, PrintsNothingButJsonIfAsked) {
   EXPECT_EQ(json.at("solver").at("iterations"), plan().at("solver").at("iterations"));
 }
 
+TEST_F(Command, PrintsPhasesInPlaceOfPlanning) {
+  folder_.write("walk.toml", "robot = \"hyq.toml\"\n[gait]\nkind = \"walk\"\nstrides = 1\nstride_s = [2, 3]\n"
+                             "stride_length_m = 0.1\n");
+  const Outcome text = run("$prowl plan walk.toml $dirs --print-phases");
+  EXPECT_EQ(text.status, 0) << text.error;
+  EXPECT_THAT(text.out, StartsWith("HyQ walk: 9 phases, 194 intervals, 2.9 to 3.85 s\n"));
+  EXPECT_THAT(text.out, HasSubstr("stride 1: lh_foot swings"));
+  EXPECT_EQ(text.error, "") << "progress of a solve";
+  const Outcome json = run("$prowl plan walk.toml $dirs --print-phases --json --intervals 40");
+  EXPECT_EQ(nlohmann::json::parse(json.out).at("phases").size(), 9u);
+  EXPECT_FALSE(written());
+
+  EXPECT_THAT(run("$prowl plan hold.toml $dirs --print-phases").out, StartsWith("HyQ hold: 1 phase, 5 intervals, 2 s\n"));
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --print-phases --out out").status, 2) << "it writes nothing";
+}
+
 TEST_F(Command, WritesNothingOnBadInput) {
   folder_.write("bad.toml", test::replaced(kHold, "duration_s", "duration"));
   for (const char* arguments : {"bad.toml $dirs", "missing.toml", ". $dirs", "hold.toml $dirs --dt nan",

@@ -297,7 +297,7 @@ TEST_F(TaskFile, RefusesZeroIntervals) {
 
 TEST_F(TaskFile, RefusesNoPhase) {
   EXPECT_EQ(message_of("robot = \"hyq.toml\"\n"),
-            "task.toml:1:1: phase: missing; need [[phase]], one or more: times with one set of contacts, in order");
+            "task.toml:1:1: phase: missing; need [[phase]], one or more, or [gait]: times with one set of contacts, in order");
   EXPECT_EQ(message_of("robot = \"hyq.toml\"\nphase = []\n"),
             "task.toml:2:9: phase: an empty list is not allowed; need one phase or more");
 }

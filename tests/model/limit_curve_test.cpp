@@ -16,6 +16,15 @@ TEST(LimitCurve, GoesThroughItsPoints) {
   EXPECT_EQ(curve.largest(), 145.0);
 }
 
+// scripts/plot_knee draws the same curve; tests/scripts/plot_knee_test.py has the same numbers.
+TEST(LimitCurve, IsTheSplineWithAveragedKnots) {
+  const LimitCurve curve({{0.0, 50.0}, {0.5, 80.0}, {1.0, 90.0}, {1.5, 70.0}, {2.0, 40.0}});
+  EXPECT_NEAR(curve.value(0.2), 63.28, 1e-9);
+  EXPECT_NEAR(curve.value(0.7), 87.38, 1e-9);
+  EXPECT_NEAR(curve.value(1.3), 80.74, 1e-9);
+  EXPECT_NEAR(curve.value(1.9), 45.48, 1e-9);
+}
+
 TEST(LimitCurve, DerivativesAreThoseOfDifferences) {
   const LimitCurve curve(kTable);
   for (const double x : {-2.39, -1.8, -1.5, -0.9, -0.31, -2.6, 0.4}) {  // the last two beyond the table

@@ -1,0 +1,24 @@
+#pragma once
+
+// Internal to io: [gait] of a task file.
+#include <optional>
+#include <vector>
+
+#include "prowl/io/task_goals.hpp"
+#include "prowl/io/toml_value.hpp"
+#include "prowl/motion/phase.hpp"
+
+namespace prowl {
+
+/// What [gait] stands for.
+struct TaskGait {
+  std::vector<Phase> phases;
+  std::optional<Eigen::Vector3d> displacement;  ///< of the base at the end [m]; none if the file has goals of its own
+};
+
+/// None if the file has no [gait]. Throws InputError on anything wrong in it, on [[phase]] beside it, and if the robot is
+/// not one on four legs.
+std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot, const std::vector<Surface>& surfaces,
+                                  const TaskStart& start);
+
+}  // namespace prowl

@@ -1,0 +1,124 @@
+#include "prowl/motion/gait.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Vector3d;
+
+/// Adds up the phases; knows the robot's contacts by name.
+class PhaseList {
+ public:
+  PhaseList(const Gait& gait, const RobotModel& robot, const Feet& feet) : gait_(gait), robot_(robot), feet_(feet) {}
+
+  /// A phase in which all contacts hold but those of these feet.
+  void add(std::string name, const std::vector<Foot>& swinging, const Duration& duration) {
+    constexpr double kRounding = 1e-9;     // 0.3 s at 50/s are 15 intervals, not 16
+    constexpr int kFewestIntervals = 2;    // a swing keeps its clearance at the nodes inside
+    Phase phase;
+    phase.name = std::move(name);
+    phase.duration = duration;
+    phase.intervals = std::max(
+        kFewestIntervals, static_cast<int>(std::ceil(duration.max * gait_.intervals_per_second * (1.0 - kRounding))));
+    for (int contact = 0; contact < static_cast<int>(robot_.contacts().size()); ++contact) {
+      const auto is_contact = [&](Foot foot) { return feet_[static_cast<std::size_t>(foot)] == contact; };
+      if (std::ranges::none_of(swinging, is_contact)) phase.contacts.push_back({contact, gait_.surface});
+    }
+    phases_.push_back(std::move(phase));
+  }
+
+  /// A part of the stride.
+  Duration share(double part) const { return {part * gait_.stride.min, part * gait_.stride.max}; }
+
+  /// "lf_foot and rh_foot swing", "lh_foot swings"
+  std::string sentence(const std::vector<Foot>& group, const std::string& verb) const {
+    std::string names;
+    for (const Foot foot : group) {
+      const auto contact = static_cast<std::size_t>(feet_[static_cast<std::size_t>(foot)]);
+      names += (names.empty() ? "" : " and ") + robot_.contacts()[contact].name;
+    }
+    return names + " " + verb + (group.size() == 1 ? "s" : "");
+  }
+
+  std::vector<Phase> take() { return std::move(phases_); }
+
+ private:
+  const Gait& gait_;
+  const RobotModel& robot_;
+  const Feet& feet_;
+  std::vector<Phase> phases_;
+};
+
+}  // namespace
+
+std::optional<Feet> find_feet(const RobotModel& robot) {
+  if (robot.contacts().size() != 4) return std::nullopt;
+  RigidBodyTerms terms(robot);
+  terms.update_kinematics(robot.nominal_configuration());
+  // Both axes of the base, not of the world: a robot may be posed with any yaw.
+  const Eigen::Matrix3d to_base = base_rotation(robot.nominal_configuration()).transpose();
+  std::array<Vector3d, 4> places;
+  Vector3d middle = Vector3d::Zero();
+  for (int contact = 0; contact < 4; ++contact) {
+    places[static_cast<std::size_t>(contact)] = to_base * terms.contact_position(contact);
+    middle += places[static_cast<std::size_t>(contact)] / 4.0;
+  }
+  Feet feet = {-1, -1, -1, -1};
+  for (int contact = 0; contact < 4; ++contact) {
+    const Vector3d from_middle = places[static_cast<std::size_t>(contact)] - middle;
+    const bool fore = from_middle.x() > 0.0, left = from_middle.y() > 0.0;
+    const Foot foot = fore ? (left ? Foot::lf : Foot::rf) : (left ? Foot::lh : Foot::rh);
+    int& place = feet[static_cast<std::size_t>(foot)];
+    if (place >= 0) return std::nullopt;
+    place = contact;
+  }
+  return feet;
+}
+
+const std::vector<GaitPattern>& gait_patterns() {
+  using enum Foot;
+  // A duty factor above the least leaves time in which all feet stand. Without it the feet on the ground lose their force
+  // at the very moment at which the next ones touch it.
+  static const std::vector<GaitPattern> patterns = {
+      {"walk", {{lh}, {lf}, {rh}, {rf}}, 0.8},
+      {"trot", {{lf, rh}, {rf, lh}}, 0.6},
+      {"pace", {{lf, lh}, {rf, rh}}, 0.6},
+      {"bound", {{lh, rh}, {lf, rf}}, 0.6},
+  };
+  return patterns;
+}
+
+std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet) {
+  constexpr double kShortestStand = 1e-6;  // [s]
+  const auto& swings = gait.pattern.swings;
+  const double swing = 1.0 - gait.duty_factor, stand = gait.duty_factor - gait.pattern.least_duty_factor();
+  PhaseList phases(gait, robot, feet);
+  phases.add("start", {}, {gait.start, gait.start});
+  for (int stride = 1; stride <= gait.strides; ++stride) {
+    for (std::size_t i = 0; i < swings.size(); ++i) {
+      phases.add(fmt::format("stride {}: {}", stride, phases.sentence(swings[i], "swing")), swings[i],
+                 phases.share(swing));
+      const bool is_last = stride == gait.strides && i + 1 == swings.size();
+      if (is_last || stand * gait.stride.max < kShortestStand) continue;
+      phases.add(fmt::format("stride {}: {}", stride, phases.sentence(swings[i], "land")), {}, phases.share(stand));
+    }
+  }
+  phases.add("settle", {}, {gait.settle, gait.settle});
+  return phases.take();
+}
+
+Vector3d along_surface(const Surface& surface, double heading, double length) {
+  const Vector3d flat(std::cos(heading), std::sin(heading), 0.0);
+  const Vector3d climbing = flat - surface.normal.dot(flat) / surface.normal.z() * Vector3d::UnitZ();
+  return length * climbing.normalized();
+}
+
+}  // namespace prowl

@@ -1,0 +1,179 @@
+// [gait] of a task file.
+#include <gmock/gmock.h>
+
+#include "prowl/io/task_file.hpp"
+#include "prowl/model/configuration.hpp"
+#include "test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::string kGaitFile = R"(robot = "hyq.toml"
+[gait]
+kind = "trot"
+strides = 3
+stride_s = 0.8
+stride_length_m = 0.2
+[cost]
+torque = 1e-3
+)";
+
+class TaskGait : public testing::Test {
+ protected:
+  Task read(const std::string& task, const TaskOverrides& overrides = {}) {
+    folder_.write("hyq.toml", test::kHyqFile);
+    return read_task_file(folder_.write("task.toml", task), test::test_search(), overrides);
+  }
+  std::string message_of(const std::string& task) {
+    return test::message_of(folder_.path(), [&] { read(task); });
+  }
+  /// What the user sees if `from` in the right task is replaced by `to`.
+  std::string message(const std::string& from, const std::string& to) {
+    return message_of(test::replaced(kGaitFile, from, to));
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(TaskGait, StandsForPhasesAndAGoal) {
+  const MotionProblem problem = read(kGaitFile).problem;
+  ASSERT_EQ(problem.phases.size(), 1u + 3 * 4 - 1 + 1);
+  EXPECT_EQ(problem.phases[1].name, "stride 1: lf_foot and rh_foot swing");
+  EXPECT_NEAR(problem.phases[1].duration.min, 0.4 * 0.8, 1e-12);
+  EXPECT_EQ(problem.phases[1].intervals, 16);
+
+  ASSERT_EQ(problem.boundary_conditions.size(), 2u);
+  const BoundaryCondition& goal = problem.boundary_conditions[1];
+  EXPECT_EQ(goal.name, "goal 1");
+  EXPECT_EQ(goal.at, (NodeRef{12, 25}));
+  const Eigen::VectorXd moved = difference(problem.start_configuration(), goal.q_ref);
+  EXPECT_NEAR((moved.head<3>() - Eigen::Vector3d(0.6, 0.0, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR(moved.tail(15).norm(), 0.0, 1e-12);
+}
+
+/// The same condition as written out in full, but for what [[goal]] calls the motion.
+TEST_F(TaskGait, GoalIsThatOfAGoalInTheFile) {
+  const BoundaryCondition implied = read(kGaitFile).problem.boundary_conditions[1];
+  const std::string goal = R"([[goal]]
+phase = "settle"
+base_displacement_m = [0.6, 0, 0]
+base_rpy_rad = [0, 0, 0]
+base_linear_velocity_mps = [0, 0, 0]
+base_angular_velocity_radps = [0, 0, 0]
+[cost])";
+  const std::string written = test::replaced(test::replaced(kGaitFile, "stride_length_m = 0.2\n", ""), "[cost]", goal);
+  const BoundaryCondition wanted = read(written).problem.boundary_conditions.at(1);
+  EXPECT_EQ(implied.at, wanted.at);
+  EXPECT_TRUE(implied.q_ref.isApprox(wanted.q_ref, 1e-14));
+  EXPECT_EQ(implied.configuration_lower, wanted.configuration_lower);
+  EXPECT_EQ(implied.configuration_upper, wanted.configuration_upper);
+  EXPECT_EQ(implied.velocity_lower, wanted.velocity_lower);
+  EXPECT_EQ(implied.velocity_upper, wanted.velocity_upper);
+  EXPECT_EQ(implied.torque_upper, wanted.torque_upper);
+}
+
+TEST_F(TaskGait, GoesWhereTheBaseFacesUnlessSaid) {
+  const auto place = [&](const std::string& to) {
+    const MotionProblem problem = read(test::replaced(kGaitFile, "[cost]", to + "\n[cost]")).problem;
+    return Eigen::Vector3d(base_position(problem.boundary_conditions.at(1).q_ref) -
+                           base_position(problem.start_configuration()));
+  };
+  EXPECT_NEAR((place("[start]\nbase_rpy_rad = [0, 0, 1.0]") - 0.6 * Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0)).norm(),
+              0.0, 1e-12);
+  EXPECT_NEAR((place("heading_rad = 3.0") - 0.6 * Eigen::Vector3d(std::cos(3.0), std::sin(3.0), 0)).norm(), 0.0, 1e-12);
+}
+
+TEST_F(TaskGait, TakesAllItsKeys) {
+  const MotionProblem problem = read(R"(robot = "hyq.toml"
+[[surface]]
+name = "wall"
+normal = [1, 0, 0]
+[[surface]]
+name = "ground"
+[gait]
+kind = "walk"
+strides = 1
+stride_s = [2, 3]
+stride_length_m = 0
+duty_factor = 0.75
+start_s = 0.3
+settle_s = 0.7
+surface = "ground"
+intervals_per_second = 20
+)").problem;
+  ASSERT_EQ(problem.phases.size(), 6u);
+  EXPECT_EQ(problem.phases[0].duration.min, 0.3);
+  EXPECT_EQ(problem.phases[5].duration.max, 0.7);
+  EXPECT_EQ(problem.phases[1].duration.min, 0.5);
+  EXPECT_EQ(problem.phases[1].duration.max, 0.75);
+  EXPECT_EQ(problem.phases[1].intervals, 15);
+  EXPECT_EQ(problem.phases[1].contacts[0].surface, 1);
+}
+
+TEST_F(TaskGait, OverridesShareOutItsIntervals) {
+  const Task task = read(kGaitFile, {.intervals = 352});
+  EXPECT_EQ(task.file_intervals.size(), task.problem.phases.size());
+  int intervals = 0;
+  for (const int count : task.file_intervals) intervals += count;
+  EXPECT_EQ(intervals, 25 + 3 * (2 * 16 + 2 * 4) - 4 + 25);
+  EXPECT_EQ(task.problem.phases[1].intervals, 34) << "of 166 in all 16 are this phase's";
+  EXPECT_EQ(task.problem.boundary_conditions[1].at, (NodeRef{12, task.problem.phases[12].intervals}));
+}
+
+TEST_F(TaskGait, RefusesPhasesBesideIt) {
+  EXPECT_EQ(message("[cost]", "[[phase]]\ncontacts = \"all\"\nduration_s = 1\nintervals = 2\n[cost]"),
+            "task.toml:2:1: gait: the file also has [[phase]]; need one of the two");
+}
+
+TEST_F(TaskGait, RefusesAGoalOfItsOwnBesideGoals) {
+  const std::string goal = "[[goal]]\nphase = \"settle\"\nbase_displacement_m = [0, 0, 0]\n[cost]";
+  EXPECT_EQ(message("[cost]", goal), "task.toml:6:19: gait.stride_length_m: has no use beside [[goal]], which says where "
+                                     "to go; need one of the two");
+  EXPECT_EQ(message("stride_length_m = 0.2\n", ""),
+            "task.toml:2:1: gait.stride_length_m: missing; need number >= 0 [m]; not with [[goal]]: how far the base goes "
+            "along the surface in each");
+}
+
+TEST_F(TaskGait, RefusesWhatIsNoGait) {
+  EXPECT_EQ(message("\"trot\"", "\"trott\""),
+            "task.toml:3:8: gait.kind: unknown gait \"trott\"; did you mean 'trot'? Known: walk, trot, pace, bound");
+  EXPECT_THAT(message("strides = 3", "strides = 0"), StartsWith("task.toml:4:11: gait.strides: 0 is not allowed"));
+  EXPECT_THAT(message("stride_s = 0.8", "stride_s = [0.9, 0.8]"),
+              StartsWith("task.toml:5:12: gait.stride_s: min > max is not allowed"));
+  EXPECT_THAT(message("stride_s = 0.8", "stride_s = 0"), HasSubstr("need a finite number > 0 [s]"));
+  EXPECT_EQ(message("strides = 3", "strides = 3\nduty_factor = 0.4"),
+            "task.toml:5:15: gait.duty_factor: 0.4 is not allowed; need a number from 0.5 to 0.99; with less, swings "
+            "overlap: write the phases out as [[phase]]");
+  EXPECT_THAT(message("strides = 3", "strides = 3\nstrids = 1"), HasSubstr("did you mean 'strides'?"));
+  EXPECT_THAT(message("stride_length_m = 0.2", "stride_length_m = -0.2"), StartsWith("task.toml:6:19: "));
+}
+
+TEST_F(TaskGait, RefusesMoreIntervalsThanFitInMemory) {
+  EXPECT_EQ(message("stride_s = 0.8", "stride_s = 800"),
+            "task.toml:2:1: gait: 120050 mesh intervals, 2401 s of 50 a second, are not allowed; need at most 10000");
+}
+
+TEST_F(TaskGait, RefusesAWall) {
+  const std::string wall = "[[surface]]\nname = \"wall\"\nnormal = [1, 0, 0]\n[cost]";
+  EXPECT_EQ(message("[cost]", wall),
+            "task.toml:2:1: gait: surface 'wall' is too steep to walk on; need its normal upward");
+}
+
+TEST_F(TaskGait, RefusesARobotWithoutFourFeet) {
+  folder_.write("one.toml", test::replaced(test::kHyqFile,
+                                           "  { name = \"rh_foot\", frame = \"rh_foot\", radius_m = 0.02175 },\n", ""));
+  EXPECT_EQ(message("hyq.toml", "one.toml"),
+            "task.toml:2:1: gait: a gait needs four contacts, one fore left, fore right, hind left and hind right in the "
+            "nominal posture; the 3 of HyQ are not that: write the phases out as [[phase]]");
+}
+
+TEST_F(TaskGait, IsNamedWhereItsStartIsOffTheSurface) {
+  const std::string high = "[[surface]]\nname = \"step\"\npoint_m = [0, 0, -0.1]\n[cost]";
+  EXPECT_THAT(message("[cost]", high), StartsWith("task.toml:2:1: gait: contact 'lf_foot' of the first phase is 100.0 mm"));
+}
+
+}  // namespace
+}  // namespace prowl
