@@ -18,6 +18,7 @@
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/transcription/resample.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -44,6 +45,17 @@ const CLI::Validator kPositive(
     },
     "NUMBER > 0");
 
+/// The motion of --warm-start, once it is known to fit.
+Trajectory read_start(const PlanArguments& arguments, const MotionProblem& problem) {
+  Trajectory motion = read_plan(arguments.warm_start, package_search(arguments.package_dirs)).plan.trajectory;
+  try {
+    resample(motion, problem, make_mesh(problem));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--warm-start {}: {}", arguments.warm_start, error.what()));
+  }
+  return motion;
+}
+
 int run_plan(const PlanArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), arguments.overrides);
@@ -66,7 +78,7 @@ int run_plan(const PlanArguments& arguments) {
   options.solver.interrupt = &interrupted;
   options.on_level = [&](int intervals) { progress.begin_level(intervals); };
   if (!arguments.warm_start.empty()) {
-    options.start_from = read_plan(arguments.warm_start, package_search(arguments.package_dirs)).plan.trajectory;
+    options.start_from = read_start(arguments, task.problem);
   }
   Plan plan = make_plan(task.problem, IpoptSolver(), options);
 

@@ -1,7 +1,6 @@
 #include "prowl/transcription/mesh_levels.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "prowl/transcription/mesh.hpp"
 

@@ -236,6 +236,41 @@ TEST_F(Command, SaysThatItReplacesAGoodPlan) {
               HasSubstr("note: replaces an earlier plan that passed, in out"));
 }
 
+TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
+  const Outcome result = run("$prowl plan hold.toml $dirs --out out --intervals 64");
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_THAT(result.error, HasSubstr("mesh of 16 intervals\n"));
+  EXPECT_THAT(result.error, HasSubstr("mesh of 64 intervals\n"));
+  const auto& solver = plan().at("solver");
+  ASSERT_EQ(solver.at("levels").size(), 2u);
+  EXPECT_EQ(solver.at("iterations"),
+            solver.at("levels")[0].at("iterations").get<int>() + solver.at("levels")[1].at("iterations").get<int>());
+  EXPECT_THAT(result.out, HasSubstr(" iterations on 16, 64 intervals"));
+}
+
+TEST_F(Command, StartsFromAPlan) {
+  const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.02, 0, -0.05]\n";
+  folder_.write("shift.toml", kHold + shift);
+  ASSERT_EQ(run("$prowl plan shift.toml $dirs --out first --intervals 80").status, 0);
+  // The same from its own solution: nothing is left to find. Then another goal on another mesh.
+  const Outcome again = run("$prowl plan shift.toml $dirs --out out --intervals 80 --warm-start first");
+  EXPECT_EQ(again.status, 0) << again.error;
+  EXPECT_EQ(plan().at("solver").at("warm_start"), "first");
+  EXPECT_EQ(plan().at("solver").at("levels").size(), 1u);
+  EXPECT_LE(plan().at("solver").at("iterations").get<int>(), 4);
+  folder_.write("further.toml", kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.03, 0.01, -0.06]\n");
+  const Outcome further = run("$prowl plan further.toml $dirs --out out --intervals 100 --warm-start first");
+  EXPECT_EQ(further.status, 0) << further.error;
+  EXPECT_THAT(further.out, HasSubstr("started from first\n"));
+  EXPECT_EQ(run("$prowl check out $dirs").status, 0);
+
+  folder_.write("two.toml", kHold + "[[phase]]\ncontacts = \"all\"\nduration_s = 1.0\nintervals = 5\n");
+  const Outcome other = run("$prowl plan two.toml $dirs --warm-start first");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_EQ(other.error, "prowl: --warm-start first: the motion to start from has 1 phases, the task 2\n");
+  EXPECT_EQ(run("$prowl plan shift.toml $dirs --warm-start nowhere").status, 2);
+}
+
 TEST_F(Command, KeepsTheBestIterateOnInterrupt) {
   const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, -0.1]\n";
   folder_.write("shift.toml", kHold + shift);

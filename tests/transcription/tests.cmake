@@ -1,4 +1,6 @@
 prowl_test(transcription/mesh prowl::transcription)
+prowl_test(transcription/mesh_levels prowl::transcription)
+prowl_test(transcription/resample prowl::transcription)
 prowl_test(transcription/monotone_cubic prowl::transcription)
 prowl_test(transcription/initial_guess prowl::transcription)
 prowl_test(transcription/transcription prowl::transcription)

@@ -1,0 +1,60 @@
+#include "prowl/transcription/mesh_levels.hpp"
+
+#include <gmock/gmock.h>
+
+#include "../support/robots.hpp"
+#include "prowl/transcription/mesh.hpp"
+
+namespace prowl {
+namespace {
+
+MotionProblem with_intervals(std::vector<int> intervals) {
+  MotionProblem problem{.robot = test::hyq()};
+  for (const int count : intervals) problem.phases.push_back({.name = "p", .duration = {1.0, 1.0}, .intervals = count});
+  return problem;
+}
+
+std::vector<std::vector<int>> intervals_of_levels(const MotionProblem& problem) {
+  std::vector<std::vector<int>> levels;
+  for (const MotionProblem& level : mesh_levels(problem)) {
+    levels.emplace_back();
+    for (const Phase& phase : level.phases) levels.back().push_back(phase.intervals);
+  }
+  return levels;
+}
+
+using testing::ElementsAre;
+
+TEST(MeshLevels, GoFromCoarseToFineByFour) {
+  EXPECT_THAT(intervals_of_levels(with_intervals({400})), ElementsAre(ElementsAre(25), ElementsAre(100), ElementsAre(400)));
+}
+
+TEST(MeshLevels, KeepEightIntervalsAPhase) {
+  EXPECT_THAT(intervals_of_levels(with_intervals({4, 100})), ElementsAre(ElementsAre(4, 8), ElementsAre(4, 25), ElementsAre(4, 100)));
+}
+
+TEST(MeshLevels, LeaveOutWhatSavesLittle) {
+  EXPECT_THAT(intervals_of_levels(with_intervals({15})), ElementsAre(ElementsAre(15)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({16})), ElementsAre(ElementsAre(8), ElementsAre(16)));
+}
+
+TEST(MeshLevels, KeepEveryGoalAtItsTime) {
+  MotionProblem problem = with_intervals({10, 90});
+  for (const NodeRef at : {NodeRef{0, 0}, NodeRef{1, 30}, NodeRef{1, 45}, NodeRef{1, 90}}) {
+    problem.boundary_conditions.push_back(
+        BoundaryCondition::unbounded(problem.robot, "goal", at, problem.robot.nominal_configuration()));
+  }
+  const std::vector<MotionProblem> levels = mesh_levels(problem);
+  ASSERT_EQ(levels.size(), 2u);
+  EXPECT_EQ(levels[0].phases[1].intervals, 24);  // 23 are a quarter, and it takes a multiple of six
+  for (const MotionProblem& level : levels) {
+    const Mesh mesh = make_mesh(level);
+    for (std::size_t i = 0; i < level.boundary_conditions.size(); ++i) {
+      const double times[] = {0.0, 1.0 + 1.0 / 3.0, 1.5, 2.0};
+      EXPECT_NEAR(mesh.nodes[static_cast<std::size_t>(mesh.index(level.boundary_conditions[i].at))].time, times[i], 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prowl
