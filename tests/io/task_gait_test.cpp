@@ -1,5 +1,8 @@
 // [gait] of a task file.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <cmath>
 
 #include "prowl/io/task_file.hpp"
 #include "prowl/model/configuration.hpp"
@@ -84,6 +87,23 @@ TEST_F(TaskGait, GoesWhereTheBaseFacesUnlessSaid) {
   EXPECT_NEAR((place("[start]\nbase_rpy_rad = [0, 0, 1.0]") - 0.6 * Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0)).norm(),
               0.0, 1e-12);
   EXPECT_NEAR((place("heading_rad = 3.0") - 0.6 * Eigen::Vector3d(std::cos(3.0), std::sin(3.0), 0)).norm(), 0.0, 1e-12);
+}
+
+TEST_F(TaskGait, ClimbsASlope) {
+  constexpr double slope = 0.26;
+  // The whole scene turned about the origin: what stood on the floor stands on the slope.
+  const Eigen::Matrix3d turn = rotation_from_rpy({0.0, -slope, 0.0});
+  const Eigen::Vector3d base = turn * base_position(read(kGaitFile).problem.start_configuration());
+  const Eigen::Vector3d normal = turn.col(2);
+  const std::string scene = fmt::format("[[surface]]\nname = \"slope\"\nnormal = [{}, {}, {}]\n"
+                                        "[start]\nbase_rpy_rad = [0, {}, 0]\nbase_position_m = [{}, {}, {}]\n[cost]",
+                                        normal.x(), normal.y(), normal.z(), -slope, base.x(), base.y(), base.z());
+  const MotionProblem problem = read(test::replaced(kGaitFile, "[cost]", scene)).problem;
+  const BoundaryCondition& goal = problem.boundary_conditions.at(1);
+  const Eigen::Vector3d moved = base_position(goal.q_ref) - base_position(problem.start_configuration());
+  EXPECT_NEAR((moved - 0.6 * turn.col(0)).norm(), 0.0, 1e-12);
+  EXPECT_GT(moved.z(), 0.1);
+  EXPECT_TRUE(base_rotation(goal.q_ref).isApprox(turn, 1e-12)) << "turned as at the start";
 }
 
 TEST_F(TaskGait, TakesAllItsKeys) {
