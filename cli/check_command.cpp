@@ -6,7 +6,6 @@
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "output.hpp"
-#include "prowl/io/mesh_advice.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
 
@@ -30,7 +29,7 @@ int run_check(const CheckArguments& arguments) {
   }
   print_result(arguments.json
                    ? plan_report_json(record, arguments.directory)
-                   : plan_summary(record, " (as planned)") + certificate_summary(certificate) + mesh_advice(record));
+                   : plan_report(record, " (as planned)"));
   return exit_status(record.plan.result.status, certificate);
 }
 

@@ -13,7 +13,6 @@
 #include "progress.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/file_keys.hpp"
-#include "prowl/io/mesh_advice.hpp"
 #include "prowl/io/phase_table.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
@@ -90,8 +89,7 @@ int run_plan(const PlanArguments& arguments) {
   if (arguments.json) {
     print_result(plan_report_json(record, out));
   } else {
-    print_result(plan_summary(record) + certificate_summary(record.plan.certificate) + mesh_advice(record) +
-                 fmt::format("written to {}\n", out.string()));
+    print_result(plan_report(record) + fmt::format("written to {}\n", out.string()));
   }
   return exit_status(record.plan.result.status, record.plan.certificate);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "prowl/error.hpp"
+#include "prowl/feasibility/feasibility.hpp"
+#include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/transcription/initial_guess.hpp"
 #include "prowl/transcription/mesh.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
@@ -19,6 +21,18 @@ bool is_worth_going_on_from(SolveStatus status) {
          status != SolveStatus::solver_failed;
 }
 
+/// What is written of a problem that was not solved: the guess and how far it is off.
+SolveResult not_solved(Transcription& nlp, const Eigen::VectorXd& z) {
+  SolveResult result{.status = SolveStatus::infeasible, .message = "not started: there is no solution", .z = z};
+  Eigen::VectorXd rows(nlp.num_constraints());
+  nlp.constraints(z, rows);
+  result.cost = nlp.cost(z);
+  result.constraint_violation = constraint_violation(nlp, z, rows);
+  return result;
+}
+
+/// Solves the problem on its mesh from plan.trajectory, or from the task alone if that is empty, and adds what comes out to
+/// the plan. A problem with reasons against it is not solved.
 void solve_level(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options, Plan& plan) {
   const Mesh mesh = make_mesh(problem);
   const Trajectory guess =
@@ -27,13 +41,14 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   if (const auto reason = solver.why_unsupported(nlp)) throw InputError(*reason);
 
   SolverOptions level_options = options.solver;
-  level_options.start_is_near = !plan.levels.empty() && !plan.trajectory.empty();
+  level_options.start_is_near = !plan.trajectory.empty();
   constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
   level_options.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
   if (options.on_level) options.on_level(count_intervals(problem));
 
   const SolveResult before = std::move(plan.result);
-  plan.result = solver.solve(nlp, nlp.pack(guess), level_options);
+  const Eigen::VectorXd start = nlp.pack(guess);
+  plan.result = plan.reasons.empty() ? solver.solve(nlp, start, level_options) : not_solved(nlp, start);
   plan.levels.push_back({count_intervals(problem), plan.result.status, plan.result.iterations, plan.result.seconds});
   plan.result.iterations += before.iterations;
   plan.result.seconds += before.seconds;
@@ -48,10 +63,15 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
 Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options) {
   validate(problem);
   Plan plan;
+  plan.reasons = proofs_of_infeasibility(problem);
   plan.trajectory = options.start_from;
-  for (const MotionProblem& level : plan.trajectory.empty() ? mesh_levels(problem) : std::vector{problem}) {
+  const bool one_level = !plan.trajectory.empty() || !plan.reasons.empty();
+  for (const MotionProblem& level : one_level ? std::vector{problem} : mesh_levels(problem)) {
     if (!plan.levels.empty() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(level, solver, options, plan);
+  }
+  if (plan.reasons.empty() && plan.result.status != SolveStatus::converged) {
+    plan.hints = doubts(problem, initial_guess(problem, make_mesh(problem)), solver);
   }
   plan.certificate = certify(problem, plan.trajectory);
   return plan;

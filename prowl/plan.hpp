@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "prowl/motion/motion_problem.hpp"
@@ -26,6 +27,11 @@ struct Plan {
   Certificate certificate;
   int num_variables = 0;
   int num_constraints = 0;
+  /// Why there can be no such motion, proven before the solve (proofs_of_infeasibility). If there is a reason the status is
+  /// infeasible, the solver did not run, and the trajectory is the initial guess.
+  std::vector<std::string> reasons;
+  /// After a solve that did not converge: what may be the matter (doubts).
+  std::vector<std::string> hints;
 };
 
 struct PlanOptions {

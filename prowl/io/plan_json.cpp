@@ -260,6 +260,8 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
           {"status", to_string(record.plan.result.status)},
           {"good", is_good(record.plan)},
           {"finished", record.plan.result.status == SolveStatus::converged},
+          {"reasons", record.plan.reasons},
+          {"hints", record.plan.hints},
           {"certificate", certificate_to_json(record.plan.certificate)},
           {"solver", solver_to_json(record)},
           {"problem", problem_to_json(record)},
@@ -298,6 +300,8 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   record.plan.levels = read_levels(plan.object("solver"));
   record.warm_start = plan.object("solver").text("warm_start");
   record.plan.certificate = read_certificate(plan.object("certificate"));
+  record.plan.reasons = plan.texts("reasons");
+  record.plan.hints = plan.texts("hints");
   record.plan.num_variables = plan.object("problem").integer("variables");
   record.plan.num_constraints = plan.object("problem").integer("constraints");
   const Reader versions = plan.object("versions");

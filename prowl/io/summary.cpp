@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prowl/io/mesh_advice.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
@@ -56,6 +57,12 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   const MotionProblem& problem = record.task.problem;
   const SolveResult& result = record.plan.result;
   const double duration = record.plan.trajectory.duration();
+  if (!record.plan.reasons.empty()) {
+    std::string text = fmt::format("{} {}{}: infeasible, and certain to be: the solver did not start\n", problem.robot.name(),
+                                   problem.name, when);
+    for (const std::string& reason : record.plan.reasons) text += fmt::format("  reason       {}\n", reason);
+    return text;
+  }
   std::string text = fmt::format("{} {}{}: {}\n", problem.robot.name(), problem.name, when, in_words(result.status));
   text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
                       problem.phases.size(), problem.phases.size() == 1 ? "" : "s", count_intervals(problem), duration,
@@ -66,6 +73,7 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   text += fmt::format("  solution     cost {:.6g}, constraint violation {:.1e}, dual violation {:.1e}\n", result.cost,
                       result.constraint_violation, result.dual_violation);
   if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);
+  for (const std::string& hint : record.plan.hints) text += fmt::format("  hint         {}\n", hint);
   return text;
 }
 
@@ -93,6 +101,11 @@ std::string certificate_summary(const Certificate& certificate) {
   }
   text += "A check passes if worst <= limit; where worst is negative, it is what is left to the bound.\n";
   return text + failed_checks(certificate);
+}
+
+std::string plan_report(const PlanRecord& record, const std::string& when) {
+  if (!record.plan.reasons.empty()) return plan_summary(record, when);
+  return plan_summary(record, when) + certificate_summary(record.plan.certificate) + mesh_advice(record);
 }
 
 }  // namespace prowl

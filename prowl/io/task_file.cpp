@@ -14,6 +14,7 @@
 #include "prowl/io/task_gait.hpp"
 #include "prowl/io/task_goals.hpp"
 #include "prowl/io/toml_value.hpp"
+#include "prowl/model/configuration.hpp"
 #include "prowl/model/name_check.hpp"
 
 namespace prowl {
@@ -75,7 +76,29 @@ void check_start(const RobotModel& robot, const Eigen::VectorXd& q, const std::o
   }
 }
 
-TaskStart read_start(const TomlTable& root, const RobotModel& robot, const SourceText& robot_file) {
+int find_name(const TomlValue& value, const std::string& what, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), value.as_text());
+  if (found == names.end()) value.fail_unknown_name(what, names);
+  return static_cast<int>(found - names.begin());
+}
+
+/// The inverse of rotation_from_rpy.
+Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
+  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), std::atan2(R(1, 0), R(0, 0))};
+}
+
+/// Takes a posture from the level ground, z = 0, to a surface: turned the shortest way, what was at the origin at its point.
+void put_on(const Surface& surface, TaskStart& start) {
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), surface.normal).toRotationMatrix();
+  const Eigen::Matrix3d R = turn * base_rotation(start.q);
+  start.q.head<3>() = (surface.point + turn * start.q.head<3>()).eval();
+  set_base_rotation(start.q, R);
+  start.rpy = rpy_of(R);
+}
+
+TaskStart read_start(const TomlTable& root, const RobotModel& robot, const SourceText& robot_file,
+                     const std::vector<Surface>& surfaces) {
   TaskStart start{robot.nominal_configuration(), robot.description().nominal_base_rpy};
   std::optional<TomlValue> joints;
   if (const auto table = root.find_table("start")) {
@@ -89,7 +112,14 @@ TaskStart read_start(const TomlTable& root, const RobotModel& robot, const Sourc
     if (const auto rpy = table->find("base_rpy_rad")) posture.nominal_base_rpy = rpy->as_vector3(angle_range());
     // A robot with this as its nominal posture puts it on the ground.
     start = {RobotModel(posture).nominal_configuration(), posture.nominal_base_rpy};
-    if (const auto position = table->find("base_position_m")) start.q.head<3>() = position->as_vector3();
+    const auto position = table->find("base_position_m");
+    if (position) start.q.head<3>() = position->as_vector3();
+    if (const auto on = table->find("on")) {
+      if (position) on->fail("need either on or base_position_m, not both");
+      std::vector<std::string> names;
+      for (const Surface& surface : surfaces) names.push_back(surface.name);
+      put_on(surfaces[static_cast<std::size_t>(find_name(*on, "surface", names))], start);
+    }
   }
   check_start(robot, start.q, joints, robot_file);
   return start;
@@ -171,7 +201,7 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
   ContactNames names;
   for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
   for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
-  const TaskStart start = read_start(root, robot, robot_file);
+  const TaskStart start = read_start(root, robot, robot_file, surfaces);
   const std::optional<TaskGait> gait = read_gait(root, robot, surfaces, start);
   std::vector<Phase> phases = gait ? gait->phases : read_phases(root, names);
   for (const Phase& phase : phases) file_intervals.push_back(phase.intervals);

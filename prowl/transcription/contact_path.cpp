@@ -1,34 +1,13 @@
 #include "prowl/transcription/contact_path.hpp"
 
-#include <algorithm>
-
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/nearest_in_patch.hpp"
 
 namespace prowl {
 
-namespace {
-
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-/// The point of a patch nearest to surface coordinates; they themselves on a plane without an edge.
-Eigen::Vector2d inside(const Surface& surface, const Eigen::Vector2d& coordinates) {
-  if (surface.contains(coordinates)) return coordinates;
-  Eigen::Vector2d nearest = coordinates;
-  double distance = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < surface.patch.size(); ++i) {
-    const Eigen::Vector2d a = surface.patch[i], edge = surface.patch[(i + 1) % surface.patch.size()] - a;
-    const Eigen::Vector2d on_edge = a + edge * std::clamp(edge.dot(coordinates - a) / edge.squaredNorm(), 0.0, 1.0);
-    if ((on_edge - coordinates).norm() < distance) {
-      distance = (on_edge - coordinates).norm();
-      nearest = on_edge;
-    }
-  }
-  return nearest;
-}
-
-}  // namespace
 
 ContactPath::ContactPath(const MotionProblem& problem, const Mesh& mesh, const PosturePath& posture)
     : problem_(problem), mesh_(mesh), schedule_(problem) {
@@ -47,7 +26,7 @@ ContactPath::ContactPath(const MotionProblem& problem, const Mesh& mesh, const P
     const VectorXd q = posture(0.5 * (held.start + held.end));
     const Vector3d carried =
         base_position(q) + base_rotation(q) * (base_rotation(start).transpose() * (at_start - base_position(start)));
-    places_.push_back(surface.at(inside(surface, surface.coordinates(stance.place.value_or(carried))), radius));
+    places_.push_back(surface.at(nearest_in_patch(surface, surface.coordinates(stance.place.value_or(carried))), radius));
   }
 }
 

@@ -10,6 +10,7 @@
 namespace prowl {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -285,21 +286,30 @@ TEST_F(Command, KeepsTheBestIterateOnInterrupt) {
   EXPECT_THAT(result.out, HasSubstr("not finished: interrupted"));
 }
 
-TEST_F(Command, SaysThatAGoalIsOutOfReach) {
-  // Twice its legs. Smooth, for on a coarse mesh a rough motion gets there by drift, which is for the certificate to see.
-  const std::string far = R"([cost]
-joint_velocity = 0.1
-base_linear_acceleration = 1.0
-joint_acceleration = 0.01
-torque = 1e-5
-[[goal]]
-time_s = 2.0
-base_displacement_m = [0, 0, 1.5]
-)";
-  folder_.write("far.toml", kPhase + far);
-  const Outcome result = run("$prowl plan far.toml $dirs --out out --max-iterations 3000");
-  EXPECT_EQ(result.status, 3) << result.error;
+TEST_F(Command, SaysWhyThereIsNoMotionWithoutTryingOne) {
+  folder_.write("far.toml", kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, 1.5]\n");
+  const Outcome far = run("$prowl plan far.toml $dirs --out out");
+  EXPECT_EQ(far.status, 3) << far.error;
+  EXPECT_THAT(far.out, AllOf(HasSubstr("goal 1, phase 'phase 1': contact lf_foot is out of reach"), HasSubstr("written to out")));
+  EXPECT_THAT(far.out, Not(HasSubstr("certificate"))) << "of an initial guess";
+  EXPECT_THAT(far.error, Not(HasSubstr("iteration"))) << "a solve for nothing";
+  EXPECT_EQ(plan().at("status"), "infeasible");
   EXPECT_EQ(plan().at("finished"), false);
+  EXPECT_EQ(plan().at("reasons").size(), 4u);
+
+  folder_.write("slope.toml", kHold + R"([[surface]]
+name = "slope"
+normal = [-0.5, 0, 0.8660254]   # 30 degrees
+friction = 0.5
+[start]
+on = "slope"
+)");
+  const Outcome slope = run("$prowl plan slope.toml $dirs --out out");
+  EXPECT_EQ(slope.status, 3) << slope.error;
+  EXPECT_THAT(slope.out, HasSubstr("surface 'slope' has 0.5 and needs 0.577"));
+  const Outcome check = run("$prowl check out $dirs");
+  EXPECT_EQ(check.status, 3) << "a check does not make it feasible";
+  EXPECT_THAT(check.out, HasSubstr("(as planned): infeasible"));
 }
 
 }  // namespace

@@ -70,6 +70,30 @@ TEST_F(TaskFile, StartIsFixedAndGoalBindsWhatIsNamed) {
   EXPECT_EQ(goal.velocity_lower, Eigen::VectorXd::Constant(18, -kInfinity));
 }
 
+TEST_F(TaskFile, StartsOnASurfaceTurnedWithIt) {
+  const std::string slope = R"([[surface]]
+name = "slope"
+point_m = [1, 2, 3]
+normal = [-1, 0, 2]
+[start]
+on = "slope")";
+  const MotionProblem level = read(kTaskFile).problem;
+  const MotionProblem on_slope = read(test::replaced(kTaskFile, "[start]", slope)).problem;
+  const Eigen::VectorXd &q = on_slope.start_configuration(), &q_level = level.start_configuration();
+  const Eigen::Vector3d normal = Eigen::Vector3d(-1, 0, 2).normalized();
+  EXPECT_EQ(q.tail(12), q_level.tail(12));
+  EXPECT_NEAR(on_slope.surfaces[0].distance(base_position(q)), q_level(2), 1e-12) << "as high above it as above level ground";
+  EXPECT_NEAR((base_rotation(q) * Eigen::Vector3d::UnitZ() - normal).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((base_rotation(q) * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-12) << "no more than that";
+  // Angles of a goal that are free are those of the start.
+  const std::string goal = "base_rpy_rad = [\"free\", \"free\", 0]\n";
+  const MotionProblem turned = read(test::replaced(kTaskFile, "[start]", goal + slope)).problem;
+  EXPECT_NEAR((base_rotation(turned.boundary_conditions[1].q_ref) - base_rotation(q)).norm(), 0.0, 1e-12);
+
+  EXPECT_THAT(message("[start]", slope + "\nbase_position_m = [0, 0, 1]"), HasSubstr("need either on or base_position_m"));
+  EXPECT_THAT(message("[start]", "[start]\non = \"slop\""), HasSubstr("surface"));
+}
+
 TEST_F(TaskFile, GoalReadsOrientationVelocityJointsAndTorques) {
   const MotionProblem problem = read(test::replaced(kTaskFile, "[start]", R"(base_rpy_rad = [0.1, "free", 0.3]
 base_angular_velocity_radps = [0, [-1, 2], "free"]

@@ -19,6 +19,7 @@ ALLOWED = {
     # Of dynamics neither: the certificate must not share the projection with the planner.
     "trajectory": {"model", "motion"},
     "transcription": {"model", "dynamics", "motion", "trajectory", "nlp"},
+    "feasibility": {"model", "dynamics", "motion", "trajectory", "nlp"},
     "feedback": {"model", "dynamics", "trajectory"},
     "simulation": {"model", "motion", "trajectory", "feedback"},
     "io": None,  # what it needs

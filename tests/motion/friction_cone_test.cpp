@@ -53,6 +53,13 @@ TEST(FrictionCone, ConeOfATiltedSurfaceIsTheConeOfTheFloorTilted) {
   for (const Vector3d& force : forces()) EXPECT_NEAR(slope.value(turn * force), floor.value(force), 1e-10);
 }
 
+// By hand: 100 N straight up on a slope of 15 degrees are 96.59 N along its normal and 25.88 N along the slope.
+TEST(FrictionCone, OfAForceStraightUpOnASlopeIsTheOneOfTheTiltedNormal) {
+  const Vector3d normal(-0.2588190451, 0.0, 0.9659258263), up(0.0, 0.0, 100.0);
+  EXPECT_NEAR((FrictionCone{normal, 0.5, 1e-6}).value(up), 22.4144, 1e-3);
+  EXPECT_NEAR((FrictionCone{normal, 0.26, 1e-6}).value(up), -0.7678, 1e-3);
+}
+
 TEST(FrictionCone, DerivativesAreThoseOfDifferences) {
   const double step = 1e-4;
   for (const FrictionCone& cone : cones()) {

@@ -1,0 +1,64 @@
+#include "prowl/dynamics/body_bounds.hpp"
+
+#include <cmath>
+
+#include "prowl/model/pinocchio_model.hpp"
+
+namespace prowl {
+
+namespace {
+
+constexpr pinocchio::JointIndex kBaseJoint = 1;
+
+/// Where the chain from the base to a joint's body begins, and how long it is up to that joint's origin.
+struct Chain {
+  Eigen::Vector3d root = Eigen::Vector3d::Zero();
+  double length = 0.0;
+  int first_joint = -1;
+};
+
+Chain chain_to(const RobotModel& robot, pinocchio::JointIndex joint) {
+  const pinocchio::Model& model = robot.pinocchio().model;
+  Chain chain;
+  for (; joint != kBaseJoint; joint = model.parents[joint]) {
+    const Eigen::Vector3d& step = model.jointPlacements[joint].translation();
+    chain.first_joint = model.idx_vs[joint] - 6;
+    const auto j = static_cast<std::size_t>(chain.first_joint);
+    if (robot.joint_is_prismatic()[j]) {
+      chain.length += std::max(std::abs(robot.position_lower()(chain.first_joint)),
+                               std::abs(robot.position_upper()(chain.first_joint)));
+    }
+    if (model.parents[joint] == kBaseJoint) {
+      chain.root = step;
+    } else {
+      chain.length += step.norm();
+    }
+  }
+  return chain;
+}
+
+}  // namespace
+
+ContactReach contact_reach(const RobotModel& robot, int contact) {
+  const PinocchioModel& pin = robot.pinocchio();
+  const pinocchio::Frame& frame = pin.model.frames[pin.contact_frames[static_cast<std::size_t>(contact)]];
+  const Eigen::Vector3d& tip = frame.placement.translation();
+  if (frame.parentJoint == kBaseJoint) return {tip, 0.0, -1};
+  const Chain chain = chain_to(robot, frame.parentJoint);
+  return {chain.root, chain.length + tip.norm(), chain.first_joint};
+}
+
+MassReach mass_reach(const RobotModel& robot) {
+  const pinocchio::Model& model = robot.pinocchio().model;
+  MassReach result{model.inertias[kBaseJoint].mass() * model.inertias[kBaseJoint].lever()};
+  for (pinocchio::JointIndex joint = kBaseJoint + 1; joint < model.joints.size(); ++joint) {
+    const Chain chain = chain_to(robot, joint);
+    result.centre += model.inertias[joint].mass() * chain.root;
+    result.radius += model.inertias[joint].mass() * (chain.length + model.inertias[joint].lever().norm());
+  }
+  result.centre /= robot.mass();
+  result.radius /= robot.mass();
+  return result;
+}
+
+}  // namespace prowl

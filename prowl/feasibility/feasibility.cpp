@@ -1,0 +1,96 @@
+#include "prowl/feasibility/feasibility.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/feasibility/known_facts.hpp"
+#include "prowl/feasibility/reach_check.hpp"
+#include "prowl/feasibility/slide_check.hpp"
+#include "prowl/feasibility/standing_load.hpp"
+#include "prowl/model/nearest_in_patch.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kAtItsPlace = 1e-3;  // [m]
+constexpr double kFull = 0.999;       // of the weight, or of a torque limit: less is less
+
+/// Contacts that a posture does not have where they have to be.
+std::vector<std::string> missed_places(const MotionProblem& problem, const ContactSchedule& schedule, int p, const VectorXd& q,
+                                       const std::string& when) {
+  const auto places = known_places(problem, schedule);
+  RigidBodyTerms terms(problem.robot);
+  terms.update_kinematics(q);
+  std::vector<std::string> missed;
+  const auto& held = problem.phases[static_cast<std::size_t>(p)].contacts;
+  for (int i = 0; i < static_cast<int>(held.size()); ++i) {
+    const PhaseContact& phase_contact = held[static_cast<std::size_t>(i)];
+    const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(phase_contact.contact)];
+    const Surface& surface = problem.surfaces[static_cast<std::size_t>(phase_contact.surface)];
+    const Vector3d is = terms.contact_position(phase_contact.contact);
+    const Vector3d should = places[static_cast<std::size_t>(schedule.stance(p, i))].value_or(
+        surface.at(nearest_in_patch(surface, surface.coordinates(is)), contact.radius));
+    const double gap = (is - should).norm();
+    if (gap <= kAtItsPlace) continue;
+    missed.push_back(fmt::format("{}: no posture found that has contact {} in its place: {:.3g} m off", when, contact.name, gap));
+  }
+  return missed;
+}
+
+/// "" if the robot can stand still in this posture, or if the solver does not know.
+std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase, const VectorXd& q, const NlpSolver& solver) {
+  if (phase.contacts.empty()) return "";
+  const StandingLoad load = standing_load(problem, q, phase.contacts, solver);
+  if (!load.solved || load.share >= kFull) return "";
+  if (load.share < 1.0 - kFull) {
+    return "cannot stand still in the guessed posture: its contacts cannot balance the weight (place of the feet, friction)";
+  }
+  const RobotModel& robot = problem.robot;
+  std::vector<std::string> joints;
+  for (int j = 0; j < robot.nu(); ++j) {
+    const double needed = load.torque_needed(j);
+    const double limit = needed < 0.0 ? robot.torque_lower(j, q(7 + j), 0.0) : robot.torque_upper(j, q(7 + j), 0.0);
+    if (std::abs(load.share * needed) < kFull * std::abs(limit)) continue;
+    joints.push_back(fmt::format("{} needs {:.3g} {} of {:.3g}", robot.joint_names()[static_cast<std::size_t>(j)],
+                                 std::abs(needed), robot.joint_is_prismatic()[static_cast<std::size_t>(j)] ? "N" : "N m",
+                                 std::abs(limit)));
+  }
+  return fmt::format("cannot stand still in the guessed posture: {}", fmt::join(joints, ", "));
+}
+
+}  // namespace
+
+std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem) {
+  std::vector<std::string> reasons = contacts_out_of_reach(problem);
+  if (const auto reason = why_it_slides(problem)) reasons.push_back(*reason);
+  return reasons;
+}
+
+std::vector<std::string> doubts(const MotionProblem& problem, const Trajectory& guess, const NlpSolver& solver) {
+  const ContactSchedule schedule(problem);
+  std::vector<std::string> lines;
+  for (std::size_t k = 0; k < guess.nodes.size(); ++k) {
+    const int p = guess.nodes[k].phase;
+    const bool starts = k == 0 || guess.nodes[k - 1].phase != p;
+    const bool ends = k + 1 == guess.nodes.size() || guess.nodes[k + 1].phase != p;
+    if (!starts && !ends) continue;
+    const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    const std::string when = fmt::format("{} of phase '{}'", starts ? "start" : "end", phase.name);
+    const std::vector<std::string> missed = missed_places(problem, schedule, p, guess.nodes[k].q, when);
+    lines.insert(lines.end(), missed.begin(), missed.end());
+    if (!missed.empty()) continue;  // it stands nowhere
+    const std::string reason = why_it_cannot_stand(problem, phase, guess.nodes[k].q, solver);
+    if (!reason.empty()) lines.push_back(when + ": " + reason);
+  }
+  return lines;
+}
+
+}  // namespace prowl

@@ -1,0 +1,127 @@
+#include "prowl/feasibility/slide_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "prowl/dynamics/body_bounds.hpp"
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/feasibility/friction_support.hpp"
+#include "prowl/feasibility/known_facts.hpp"
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMargin = 0.01;  // [m]; far above what goals and contacts are allowed to be off by
+
+struct MassMotion {
+  Vector3d position, velocity;  ///< world frame
+};
+
+MassMotion centre_of_mass_at_start(const MotionProblem& problem) {
+  const Eigen::VectorXd& q = problem.start_configuration();
+  RigidBodyTerms terms(problem.robot);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(problem.robot.nv());
+  terms.update_with_derivatives(q, rest, rest);
+  // The rows of the base's force: m (1, -[c]x, ...), c from the base in its frame.
+  const Eigen::Matrix3d moment = terms.mass_matrix().block<3, 3>(0, 3) / problem.robot.mass();
+  const Vector3d c(moment(1, 2), moment(2, 0), moment(0, 1));
+  const Vector3d momentum = terms.mass_matrix().topRows<3>() * problem.start().velocity_lower;
+  const Eigen::Matrix3d R = base_rotation(q);
+  return {base_position(q) + R * c, R * momentum / problem.robot.mass()};
+}
+
+/// When a node is reached [s].
+struct TimeRange {
+  double first = 0.0, last = 0.0;
+};
+
+TimeRange time_of(const MotionProblem& problem, NodeRef at) {
+  TimeRange time;
+  const auto add = [&](int phase, double part) {
+    const Duration& duration = problem.phases[static_cast<std::size_t>(phase)].duration;
+    time.first += part * duration.min;
+    time.last += part * duration.max;
+  };
+  for (int p = 0; p < at.phase; ++p) add(p, 1.0);
+  add(at.phase, static_cast<double>(at.node) / problem.phases[static_cast<std::size_t>(at.phase)].intervals);
+  return time;
+}
+
+std::string friction_in_words(const std::vector<Surface>& surfaces) {
+  if (surfaces.empty()) return "no contact holds the robot";
+  const double factor = friction_factor_needed(surfaces);
+  std::string text = "too little friction to stand: ";
+  for (const Surface& surface : surfaces) {
+    text += fmt::format("{}surface '{}' has {:.3g}", &surface == surfaces.data() ? "" : ", ", surface.name, surface.friction);
+    if (std::isfinite(factor)) text += fmt::format(" and needs {:.3g}", factor * surface.friction);
+  }
+  return std::isfinite(factor) ? text : text + "; no friction would do";
+}
+
+/// What keeps the centre of mass from sliding on, and how far it lets it: d . c >= least_along_d.
+struct Hold {
+  std::string name;
+  TimeRange time;
+  double least_along_d;
+};
+
+std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSchedule& schedule, int p, const Vector3d& d) {
+  const RobotModel& robot = problem.robot;
+  const MassReach mass = mass_reach(robot);
+  std::vector<Hold> holds;
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    if (condition.at.phase != p) continue;
+    holds.push_back({condition.name, time_of(problem, condition.at),
+                     point_bounds(condition, mass.centre).least_along(d) - mass.radius});
+  }
+  const auto places = known_places(problem, schedule);
+  const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+  for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
+    const auto& place = places[static_cast<std::size_t>(schedule.stance(p, i))];
+    if (!place) continue;
+    const int contact = phase.contacts[static_cast<std::size_t>(i)].contact;
+    const ContactReach leg = contact_reach(robot, contact);
+    holds.push_back({"contact " + robot.contacts()[static_cast<std::size_t>(contact)].name,
+                     time_of(problem, {p, phase.intervals}),
+                     d.dot(*place) - (leg.length + (leg.root - mass.centre).norm() + mass.radius)});
+  }
+  return holds;
+}
+
+}  // namespace
+
+std::optional<std::string> why_it_slides(const MotionProblem& problem) {
+  const MassMotion start = centre_of_mass_at_start(problem);
+  const ContactSchedule schedule(problem);
+  std::set<int> touched;
+  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
+    const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    for (const PhaseContact& contact : phase.contacts) touched.insert(contact.surface);
+    std::vector<Surface> surfaces;
+    for (const int surface : touched) surfaces.push_back(problem.surfaces[static_cast<std::size_t>(surface)]);
+    const auto slide = slide_on(surfaces);
+    if (!slide) return std::nullopt;  // nor with the surfaces of later phases
+
+    const double speed = slide->direction.dot(start.velocity);
+    const double acceleration = RobotModel::kGravity * slide->shortfall;
+    for (const Hold& hold : holds_of_phase(problem, schedule, p, slide->direction)) {
+      // Of all times at which it may be reached the one that is kindest to the robot.
+      const double time = std::clamp(speed / acceleration, hold.time.first, hold.time.last);
+      const double slid = 0.5 * acceleration * time * time - speed * time;
+      const double allowed = slide->direction.dot(start.position) - hold.least_along_d;
+      if (!(slid > allowed + kMargin)) continue;
+      return fmt::format("phase '{}': {}. Within {:.3g} s the robot would slide {:.2f} m or more, and {} allows {:.2f} m at "
+                         "most", phase.name, friction_in_words(surfaces), time, slid, hold.name, std::max(0.0, allowed));
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace prowl

@@ -1,0 +1,162 @@
+// Tasks by their text, as a user writes them.
+#include "prowl/feasibility/feasibility.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "prowl/io/task_file.hpp"
+#include "prowl/plan.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "tests/io/test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+/// HyQ stands for two seconds on a slope that falls towards -x, and ends at rest where it began.
+std::string on_a_slope(double degrees, double friction) {
+  const double angle = degrees * 3.14159265358979 / 180.0;
+  return "robot = \"hyq.toml\"\n[[surface]]\nname = \"slope\"\nnormal = [" + std::to_string(-std::sin(angle)) + ", 0, " +
+         std::to_string(std::cos(angle)) + "]\nfriction = " + std::to_string(friction) + R"(
+[start]
+on = "slope"
+[[phase]]
+name = "stand"
+contacts = "all"
+duration_s = 2.0
+intervals = 4
+[[goal]]
+time_s = 2.0
+base_displacement_m = [0, 0, 0]
+base_linear_velocity_mps = [0, 0, 0]
+base_angular_velocity_radps = [0, 0, 0]
+[cost]
+joint_velocity = 0.1
+base_linear_acceleration = 1.0
+joint_acceleration = 0.01
+torque = 1e-4
+)";
+}
+
+const std::string kStand = R"(robot = "hyq.toml"
+[[phase]]
+name = "stand"
+contacts = "all"
+duration_s = 1.0
+intervals = 4
+[[goal]]
+time_s = 1.0
+base_displacement_m = [0, 0, -0.05]
+[cost]
+joint_velocity = 0.1
+base_linear_acceleration = 1.0
+joint_acceleration = 0.01
+torque = 1e-4
+)";
+
+class Feasibility : public testing::Test {
+ protected:
+  MotionProblem problem(const std::string& task, const std::string& robot = test::kHyqFile) const {
+    folder_.write("hyq.toml", robot);
+    return read_task_file(folder_.write("task.toml", task), test::test_search(), {}).problem;
+  }
+  static std::vector<std::string> doubts_of(const MotionProblem& problem) {
+    return doubts(problem, initial_guess(problem, make_mesh(problem)), IpoptSolver());
+  }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(Feasibility, OfASlopeIsAMatterOfFriction) {
+  for (const auto& [degrees, friction, needed] : {std::tuple{30.0, 0.5, "0.5 and needs 0.577"}, {15.0, 0.2, "0.2 and needs 0.268"}}) {
+    const MotionProblem slope = problem(on_a_slope(degrees, friction));
+    EXPECT_THAT(proofs_of_infeasibility(slope),
+                ElementsAre(AllOf(HasSubstr("phase 'stand'"), HasSubstr(std::string("surface 'slope' has ") + needed))));
+    const Plan plan = make_plan(slope, IpoptSolver(), {});
+    EXPECT_EQ(plan.result.status, SolveStatus::infeasible);
+    EXPECT_EQ(plan.result.iterations, 0);
+    EXPECT_EQ(plan.reasons, proofs_of_infeasibility(slope));
+    EXPECT_FALSE(plan.certificate.passed);
+  }
+}
+
+TEST_F(Feasibility, OfAGentleSlopeIsNotDoubted) {
+  const MotionProblem slope = problem(on_a_slope(15.0, 0.5));
+  EXPECT_THAT(proofs_of_infeasibility(slope), IsEmpty());
+  EXPECT_THAT(doubts_of(slope), IsEmpty());
+  const Plan plan = make_plan(slope, IpoptSolver(), {});
+  EXPECT_EQ(plan.result.status, SolveStatus::converged);
+  EXPECT_THAT(plan.hints, IsEmpty());
+}
+
+TEST_F(Feasibility, OfAGoalOutOfReachNamesTheFeet) {
+  const MotionProblem high = problem(test::replaced(kStand, "[0, 0, -0.05]", "[0, 0, 0.5]\nbase_rpy_rad = [0, 0, 0]"));
+  const auto reasons = proofs_of_infeasibility(high);
+  ASSERT_THAT(reasons, SizeIs(4));
+  for (const std::string& reason : reasons) {
+    EXPECT_THAT(reason, AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("_foot is out of reach")));
+  }
+}
+
+TEST_F(Feasibility, OfAPlaceOutOfReachNamesTheFoot) {
+  const std::string step = R"(
+[[phase]]
+name = "swing"
+contacts = ["rf_foot", "lh_foot", "rh_foot"]
+duration_s = 0.5
+intervals = 4
+[[phase]]
+name = "land"
+contacts = ["rf_foot", "lh_foot", "rh_foot", { contact = "lf_foot", place_m = [PLACE, 0.3, 0] }]
+duration_s = 0.5
+intervals = 4
+[[goal]]
+phase = "land"
+base_displacement_m = [0.1, 0, 0]
+base_rpy_rad = [0, 0, 0]
+)";
+  EXPECT_THAT(proofs_of_infeasibility(problem(kStand + test::replaced(step, "PLACE", "0.5"))), IsEmpty());
+  EXPECT_THAT(proofs_of_infeasibility(problem(kStand + test::replaced(step, "PLACE", "1.5"))),
+              ElementsAre(AllOf(HasSubstr("goal 2, phase 'land'"), HasSubstr("lf_foot"))));
+}
+
+/// Too weak a joint may still do, in a posture or a motion that nobody has thought of: a hint, and only after a solve.
+TEST_F(Feasibility, OfWeakJointsIsDoubted) {
+  const std::string weak = test::kHyqFile + "[limits.lf_kfe_joint]\ntorque_Nm = 10\n[limits.rh_kfe_joint]\ntorque_Nm = 10\n" +
+                           "[limits.rf_kfe_joint]\ntorque_Nm = 10\n";
+  const MotionProblem stand = problem(kStand, weak);
+  EXPECT_THAT(proofs_of_infeasibility(stand), IsEmpty());
+  const Plan plan = make_plan(stand, IpoptSolver(), {.max_iterations = 3});
+  EXPECT_NE(plan.result.status, SolveStatus::converged);
+  ASSERT_THAT(plan.hints, SizeIs(2)) << "both ends of the phase";
+  EXPECT_THAT(plan.hints[0], AllOf(HasSubstr("start of phase 'stand'"), HasSubstr("_kfe_joint needs"), HasSubstr("N m of 10")));
+  EXPECT_THAT(plan.hints[1], HasSubstr("end of phase 'stand'"));
+}
+
+TEST_F(Feasibility, OfAPostureThatIsNotFoundIsDoubted) {
+  // Within the length of the legs, but not within what their joints do.
+  const MotionProblem low = problem(test::replaced(kStand, "[0, 0, -0.05]", "[0.55, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]"));
+  EXPECT_THAT(proofs_of_infeasibility(low), IsEmpty());
+  EXPECT_THAT(doubts_of(low), testing::Contains(AllOf(HasSubstr("end of phase 'stand'"), HasSubstr("no posture found"),
+                                                      HasSubstr("h_foot"))));
+}
+
+TEST_F(Feasibility, OfTheShippedTasksIsNeverDisproven) {
+  int tasks = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(PROWL_SOURCE_DIR) + "/tasks")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++tasks;
+    EXPECT_THAT(proofs_of_infeasibility(read_task_file(entry.path(), test::test_search(), {}).problem), IsEmpty()) << entry.path();
+  }
+  EXPECT_GE(tasks, 10);
+}
+
+}  // namespace
+}  // namespace prowl

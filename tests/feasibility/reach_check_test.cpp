@@ -1,0 +1,86 @@
+#include "prowl/feasibility/reach_check.hpp"
+
+#include <gmock/gmock.h>
+
+#include "prowl/feasibility/known_facts.hpp"
+#include "tests/support/standing_problem.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::AllOf;
+using testing::Each;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TEST(ReachCheck, LetsPassWhatTheLegsReach) {
+  EXPECT_THAT(contacts_out_of_reach(test::standing_problem()), IsEmpty());
+  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.1, 0.0, -0.15})), IsEmpty());
+  // Straight legs: HyQ stands at 0.61 m, its legs are 0.78 m.
+  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.1})), IsEmpty());
+}
+
+TEST(ReachCheck, NamesGoalPhaseContactAndLeg) {
+  const auto reasons = contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5}));
+  ASSERT_THAT(reasons, SizeIs(4));
+  EXPECT_THAT(reasons, Each(AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("is 0.7"))));
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("lf_foot"), HasSubstr("lf_haa_joint")));
+}
+
+TEST(ReachCheck, ConcludesNothingFromWhatAGoalLeavesFree) {
+  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5});
+  problem.boundary_conditions[1].configuration_lower(2) = -0.6;  // anything from below the start up to there
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
+  problem = test::with_base_goal(test::standing_problem(), {0.6, 0.0, 0.0});
+  EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(4));
+  problem.boundary_conditions[1].configuration_lower(0) = -std::numeric_limits<double>::infinity();
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
+}
+
+TEST(ReachCheck, TakesAnyRotationWhereTheGoalLeavesItFree) {
+  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.4});
+  EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(4));
+  problem.boundary_conditions[1].configuration_lower.segment<3>(3).setConstant(-1.0);
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "it may hang its head";
+}
+
+MotionProblem stepping() {
+  MotionProblem problem = test::standing_problem();
+  Phase lifted = problem.phases[0], landed = problem.phases[0];
+  lifted.name = "lifted";
+  lifted.contacts.erase(lifted.contacts.begin());
+  landed.name = "landed";
+  problem.phases.push_back(lifted);
+  problem.phases.push_back(landed);
+  return problem;
+}
+
+TEST(ReachCheck, TakesThePlacesOfLandings) {
+  MotionProblem problem = stepping();
+  problem.phases[2].contacts[0].place = Eigen::Vector3d(0.5, 0.3, 0.0);
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
+  problem.phases[2].contacts[0].place = Eigen::Vector3d(1.5, 0.3, 0.0);
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "the base may come along";
+  const auto reasons = contacts_out_of_reach(test::with_base_goal(problem, {0.1, 0.0, 0.0}));
+  ASSERT_THAT(reasons, SizeIs(1));
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'landed'"), HasSubstr("lf_foot")));
+
+  problem.phases[2].contacts[0].place = Eigen::Vector3d(3.5, 0.3, 0.0);
+  const auto apart = contacts_out_of_reach(problem);
+  ASSERT_THAT(apart, testing::Not(IsEmpty())) << "not even by splits";
+  EXPECT_THAT(apart, Each(AllOf(HasSubstr("phase 'landed'"), HasSubstr("lf_foot"), HasSubstr("apart"))));
+}
+
+TEST(ReachCheck, TakesTheNearestOfAPatchWhereTheOptimiserChooses) {
+  MotionProblem problem = test::with_base_goal(stepping(), {0.0, 0.0, 0.0});
+  problem.surfaces.push_back({.name = "stone", .patch = {{-0.2, -0.2}, {0.2, -0.2}, {0.2, 0.2}, {-0.2, 0.2}}});
+  problem.phases[2].contacts[0].surface = 1;
+  problem.surfaces[1].point = {0.6, 0.4, 0.1};
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
+  problem.surfaces[1].point = {1.5, 0.4, 0.1};
+  EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(1));
+}
+
+}  // namespace
+}  // namespace prowl

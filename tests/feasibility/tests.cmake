@@ -1,0 +1,5 @@
+prowl_test(feasibility/friction_support prowl::feasibility)
+prowl_test(feasibility/reach_check prowl::feasibility)
+prowl_test(feasibility/slide_check prowl::feasibility)
+prowl_test(feasibility/standing_load prowl::feasibility prowl::solvers)
+prowl_test(feasibility/feasibility prowl::io prowl::solvers)
