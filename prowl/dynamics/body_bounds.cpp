@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/configuration.hpp"
 #include "prowl/model/pinocchio_model.hpp"
 
 namespace prowl {
@@ -46,6 +48,18 @@ ContactReach contact_reach(const RobotModel& robot, int contact) {
   if (frame.parentJoint == kBaseJoint) return {tip, 0.0, -1};
   const Chain chain = chain_to(robot, frame.parentJoint);
   return {chain.root, chain.length + tip.norm(), chain.first_joint};
+}
+
+MassMotion centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
+  RigidBodyTerms terms(robot);
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(robot.nv());
+  terms.update_with_derivatives(q, rest, rest);
+  // The rows of the base's force: m (1, -[c]x, ...), c from the base in its frame, so that they give the momentum too.
+  const Eigen::Matrix3d moment = terms.mass_matrix().block<3, 3>(0, 3) / robot.mass();
+  const Eigen::Vector3d c(moment(1, 2), moment(2, 0), moment(0, 1));
+  const Eigen::Vector3d momentum = terms.mass_matrix().topRows<3>() * v;
+  const Eigen::Matrix3d R = base_rotation(q);
+  return {base_position(q) + R * c, R * momentum / robot.mass()};
 }
 
 MassReach mass_reach(const RobotModel& robot) {

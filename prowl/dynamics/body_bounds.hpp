@@ -19,7 +19,13 @@ struct ContactReach {
 };
 ContactReach contact_reach(const RobotModel& robot, int contact);
 
-/// The same for the centre of mass: within `radius` of `centre`, a point of the base.
+/// Centre of mass and its velocity, world frame [m, m/s].
+struct MassMotion {
+  Eigen::Vector3d position, velocity;
+};
+MassMotion centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+/// How far the centre of mass can be from the base whatever the joints do, likewise: within `radius` of `centre`, a point of the base.
 struct MassReach {
   Eigen::Vector3d centre;  ///< base frame [m]
   double radius = 0.0;     ///< [m]

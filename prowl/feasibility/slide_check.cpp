@@ -7,10 +7,8 @@
 #include <set>
 
 #include "prowl/dynamics/body_bounds.hpp"
-#include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/feasibility/friction_support.hpp"
 #include "prowl/feasibility/known_facts.hpp"
-#include "prowl/model/configuration.hpp"
 
 namespace prowl {
 
@@ -19,23 +17,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMargin = 0.01;  // [m]; far above what goals and contacts are allowed to be off by
-
-struct MassMotion {
-  Vector3d position, velocity;  ///< world frame
-};
-
-MassMotion centre_of_mass_at_start(const MotionProblem& problem) {
-  const Eigen::VectorXd& q = problem.start_configuration();
-  RigidBodyTerms terms(problem.robot);
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(problem.robot.nv());
-  terms.update_with_derivatives(q, rest, rest);
-  // The rows of the base's force: m (1, -[c]x, ...), c from the base in its frame.
-  const Eigen::Matrix3d moment = terms.mass_matrix().block<3, 3>(0, 3) / problem.robot.mass();
-  const Vector3d c(moment(1, 2), moment(2, 0), moment(0, 1));
-  const Vector3d momentum = terms.mass_matrix().topRows<3>() * problem.start().velocity_lower;
-  const Eigen::Matrix3d R = base_rotation(q);
-  return {base_position(q) + R * c, R * momentum / problem.robot.mass()};
-}
 
 /// When a node is reached [s].
 struct TimeRange {
@@ -98,7 +79,7 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
 }  // namespace
 
 std::optional<std::string> why_it_slides(const MotionProblem& problem) {
-  const MassMotion start = centre_of_mass_at_start(problem);
+  const MassMotion start = centre_of_mass(problem.robot, problem.start_configuration(), problem.start().velocity_lower);
   const ContactSchedule schedule(problem);
   std::set<int> touched;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {

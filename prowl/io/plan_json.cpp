@@ -189,6 +189,9 @@ Certificate read_certificate(const Reader& json) {
                                            .where = interval.text("where")});
   }
   certificate.redundant_contacts = json.texts("redundant_contacts");
+  for (const Reader& phase : json.list("contact_ranks")) {
+    certificate.contact_ranks.push_back({phase.text("phase"), phase.integer("rows"), phase.integer("rank")});
+  }
   return certificate;
 }
 
@@ -245,11 +248,16 @@ nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
                          {"error", interval.error},
                          {"where", interval.where}});
   }
+  Json ranks = Json::array();
+  for (const ContactRank& rank : certificate.contact_ranks) {
+    ranks.push_back({{"phase", rank.phase}, {"rows", rank.rows}, {"rank", rank.rank}});
+  }
   return {{"passed", certificate.passed},
           {"grade", to_string(certificate.grade)},
           {"checks", checks},
           {"integration_errors", intervals},
-          {"redundant_contacts", certificate.redundant_contacts}};
+          {"redundant_contacts", certificate.redundant_contacts},
+          {"contact_ranks", ranks}};
 }
 
 nlohmann::ordered_json plan_to_json(const PlanRecord& record) {

@@ -96,8 +96,12 @@ std::string certificate_summary(const Certificate& certificate) {
          fmt::format("{:.3f} s", check.time), check.where, !check.passed ? "FAIL" : check.worst <= check.certified_limit ? "pass" : "draft");
   }
   if (!certificate.redundant_contacts.empty()) {
-    text += fmt::format("  redundant contacts, whose forces are the planner's choice: {}\n",
-                        fmt::join(certificate.redundant_contacts, ", "));
+    std::vector<std::string> ranks;
+    for (const ContactRank& phase : certificate.contact_ranks) {
+      if (phase.rank < phase.rows) ranks.push_back(fmt::format("'{}' rank {} of {} rows", phase.phase, phase.rank, phase.rows));
+    }
+    text += fmt::format("  forces of {}: a choice, those of other contacts are unique ({})\n",
+                        fmt::join(certificate.redundant_contacts, ", "), fmt::join(ranks, ", "));
   }
   text += "A check passes if worst <= limit; where worst is negative, it is what is left to the bound.\n";
   return text + failed_checks(certificate);

@@ -1,6 +1,7 @@
 #include "prowl/trajectory/certificate.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "prowl/trajectory/contact_events.hpp"
 #include "prowl/trajectory/contact_places.hpp"
@@ -23,25 +24,28 @@ PhaseDynamics phase_dynamics(const MotionProblem& problem) {
   return dynamics;
 }
 
-std::vector<std::string> redundant_contacts(const MotionProblem& problem, const Trajectory& trajectory,
-                                            PhaseDynamics& dynamics) {
+/// Which contact forces the motion does not tell: all that internal_part leaves of them.
+void find_redundant_contacts(const MotionProblem& problem, const Trajectory& trajectory, PhaseDynamics& dynamics,
+                             Certificate& certificate) {
   const RobotModel& robot = problem.robot;
   std::vector<bool> is_redundant(robot.contacts().size(), false);
   std::size_t first_node = 0;
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const TrajectoryPoint& node = trajectory.nodes[first_node];
     dynamics[p].evaluate(node.q, node.v, node.tau);
+    double free = 0.0;  // dimension of what may be chosen: the trace of the projector on it
     for (Eigen::Index i = 0; i < node.force.size(); ++i) {
-      const double internal = dynamics[p].internal_part(Eigen::VectorXd::Unit(node.force.size(), i)).norm();
-      if (internal > 1e-6) is_redundant[static_cast<std::size_t>(i / 3)] = true;  // of 1; else 0 but for rounding
+      const Eigen::VectorXd internal = dynamics[p].internal_part(Eigen::VectorXd::Unit(node.force.size(), i));
+      free += internal(i);
+      if (internal.norm() > 1e-6) is_redundant[static_cast<std::size_t>(i / 3)] = true;  // of 1; else 0 but for rounding
     }
+    const int rows = 3 * static_cast<int>(problem.phases[p].contacts.size());
+    certificate.contact_ranks.push_back({problem.phases[p].name, rows, rows - static_cast<int>(std::lround(free))});
     first_node += problem.phases[p].intervals + 1;
   }
-  std::vector<std::string> names;
   for (std::size_t c = 0; c < is_redundant.size(); ++c) {
-    if (is_redundant[c]) names.push_back(robot.contacts()[c].name);
+    if (is_redundant[c]) certificate.redundant_contacts.push_back(robot.contacts()[c].name);
   }
-  return names;
 }
 
 Grade grade_of(const std::vector<CertificateCheck>& checks) {
@@ -75,7 +79,7 @@ Certificate certify(const MotionProblem& problem, const Trajectory& trajectory) 
   PhaseDynamics dynamics = phase_dynamics(problem);
   const IntegrationErrors errors = integration_errors(problem.robot, trajectory, dynamics);
   certificate.interval_errors = errors.intervals;
-  certificate.redundant_contacts = redundant_contacts(problem, trajectory, dynamics);
+  find_redundant_contacts(problem, trajectory, dynamics, certificate);
   const ContactPlaces places = contact_places(problem, trajectory, dynamics);
   for (const auto& group :
        {errors.checks, {reintegration_check(problem.robot, trajectory, dynamics)},

@@ -60,6 +60,13 @@ struct IntervalError {
   std::string where;              ///< coordinate of the state
 };
 
+/// Rows of the contact Jacobian of a phase, and how many of them are independent. The forces of `rank` combinations follow from
+/// the motion; rows - rank are a choice.
+struct ContactRank {
+  std::string phase;
+  int rows = 0, rank = 0;
+};
+
 /// Whether a finished motion is what was asked for, judged from the motion alone (docs/verification.md).
 /// A check that has nothing to look at (a flight has no contact drift) is not in the list.
 struct Certificate {
@@ -70,6 +77,7 @@ struct Certificate {
   /// Contacts with forces that the motion does not tell (points of a flat foot): they are one choice of many, the
   /// planner's, and only that one was checked against friction and pulling. In the robot's order.
   std::vector<std::string> redundant_contacts;
+  std::vector<ContactRank> contact_ranks;  ///< one a phase, at its first node
 };
 
 const char* to_string(Grade grade);

@@ -13,12 +13,31 @@ using Eigen::Vector3d;
 
 std::vector<RobotModel> robots() { return {test::hyq(), test::anymal_c(), test::solo12(), test::go2(), test::talos()}; }
 
-Vector3d centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q) {
-  RigidBodyTerms terms(robot);
-  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(robot.nv());
-  terms.update_with_derivatives(q, rest, rest);
-  const Eigen::Matrix3d moment = terms.mass_matrix().block<3, 3>(0, 3) / robot.mass();
-  return {moment(1, 2), moment(2, 0), moment(0, 1)};  // base frame
+// The weight turns the robot about its base by its lever.
+TEST(CentreOfMass, IsWhereTheWeightActs) {
+  for (const RobotModel& robot : robots()) {
+    test::RandomStates states(robot, 5);
+    const Eigen::VectorXd q = states.configuration(), rest = Eigen::VectorXd::Zero(robot.nv());
+    RigidBodyTerms terms(robot);
+    terms.update(q, rest, rest);
+    const Vector3d lever = centre_of_mass(robot, q, rest).position - base_position(q);
+    const Vector3d moment = base_rotation(q) * terms.inverse_dynamics().segment<3>(3);
+    EXPECT_LT((lever.cross(Vector3d(0.0, 0.0, robot.weight())) - moment).norm(), 1e-9 * robot.weight());
+    EXPECT_GT(moment.norm(), 1e-3 * robot.weight()) << "the moment says nothing";
+  }
+}
+
+TEST(CentreOfMass, MovesAtItsVelocity) {
+  for (const RobotModel& robot : robots()) {
+    test::RandomStates states(robot, 6);
+    const Eigen::VectorXd q = states.configuration(), v = states.velocity();
+    const double step = 1e-6;
+    Eigen::VectorXd tangent = v;
+    tangent.head<3>() = base_rotation(q) * v.head<3>();
+    const Vector3d ahead = centre_of_mass(robot, integrate(q, step * tangent), v).position;
+    const Vector3d behind = centre_of_mass(robot, integrate(q, -step * tangent), v).position;
+    EXPECT_LT((centre_of_mass(robot, q, v).velocity - (ahead - behind) / (2.0 * step)).norm(), 1e-6);
+  }
 }
 
 TEST(BodyBounds, HoldInAnyPosture) {
@@ -34,7 +53,8 @@ TEST(BodyBounds, HoldInAnyPosture) {
         const Vector3d p = base_rotation(q).transpose() * (terms.contact_position(c) - base_position(q));
         EXPECT_LE((p - leg.root).norm(), leg.length + 1e-9) << robot.name();
       }
-      EXPECT_LE((centre_of_mass(robot, q) - mass.centre).norm(), mass.radius) << robot.name();
+      const Vector3d c = centre_of_mass(robot, q, Eigen::VectorXd::Zero(robot.nv())).position - base_position(q);
+      EXPECT_LE((base_rotation(q).transpose() * c - mass.centre).norm(), mass.radius) << robot.name();
     }
   }
 }

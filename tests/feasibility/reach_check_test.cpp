@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/feasibility/known_facts.hpp"
+#include "prowl/model/so3.hpp"
+#include "tests/support/random_point.hpp"
 #include "tests/support/standing_problem.hpp"
 
 namespace prowl {
@@ -80,6 +83,33 @@ TEST(ReachCheck, TakesTheNearestOfAPatchWhereTheOptimiserChooses) {
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
   problem.surfaces[1].point = {1.5, 0.4, 0.1};
   EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(1));
+  problem.boundary_conditions[1].configuration_upper(0) = 1.0;  // the base may come along
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
+}
+
+/// Where a posture is found there is one: that is what must never be called out of reach.
+TEST(ReachCheck, NeverForbidsAPostureThatExists) {
+  std::mt19937 rng(12);
+  int found = 0, forbidden = 0;
+  for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2()}) {
+    const MotionProblem standing = test::standing_problem(robot);
+    const double height = robot.nominal_configuration()(2);
+    std::vector<ContactTarget> targets;
+    const auto places = known_places(standing, ContactSchedule(standing));
+    for (int c = 0; c < 4; ++c) targets.push_back({c, *places[static_cast<std::size_t>(c)]});
+    for (int i = 0; i < 100; ++i) {
+      MotionProblem problem = test::with_base_goal(standing, test::random_vector(rng, 3, 0.5 * height));
+      Eigen::VectorXd& q = problem.boundary_conditions[1].q_ref;
+      set_base_rotation(q, base_rotation(q) * so3::exp(test::random_vector(rng, 3, 0.3)));
+      const bool is_forbidden = !contacts_out_of_reach(problem).empty();
+      forbidden += is_forbidden;
+      if (!inverse_kinematics(robot, q, targets).converged) continue;
+      ++found;
+      EXPECT_FALSE(is_forbidden) << robot.name();
+    }
+  }
+  EXPECT_GT(found, 50);
+  EXPECT_GT(forbidden, 20);
 }
 
 }  // namespace

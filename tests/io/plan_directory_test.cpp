@@ -45,6 +45,7 @@ PlanRecord make_record(const std::filesystem::path& folder) {
   plan.certificate.checks.push_back({"torque", std::nan(""), 1.0, "-", 0.2, "", false});
   plan.certificate.interval_errors.push_back({0.0, 0.4, 1e-5, "v lf_haa_joint"});
   plan.certificate.redundant_contacts = {"lf_foot", "rh_foot"};
+  plan.certificate.contact_ranks = {{"stand", 12, 11}};
   plan.reasons = {"too far"};
   plan.hints = {"too \"heavy\"", "too weak"};
   plan.num_variables = 99;
@@ -96,6 +97,10 @@ TEST_F(PlanDirectory, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.plan.certificate.checks[0].worst, 1.0 / 7.0);
   EXPECT_TRUE(std::isnan(read.plan.certificate.checks[1].worst));
   EXPECT_EQ(read.plan.certificate.redundant_contacts, (std::vector<std::string>{"lf_foot", "rh_foot"}));
+  ASSERT_EQ(read.plan.certificate.contact_ranks.size(), 1u);
+  EXPECT_EQ(read.plan.certificate.contact_ranks[0].phase, "stand");
+  EXPECT_EQ(read.plan.certificate.contact_ranks[0].rows, 12);
+  EXPECT_EQ(read.plan.certificate.contact_ranks[0].rank, 11);
   EXPECT_EQ(read.plan.reasons, record_.plan.reasons);
   EXPECT_EQ(read.plan.hints, record_.plan.hints);
   EXPECT_EQ(read.plan.certificate.interval_errors.at(0).where, "v lf_haa_joint");

@@ -149,6 +149,9 @@ TEST(CertificateContacts, ForcesOfRedundantContactsAreAChoice) {
   EXPECT_EQ(failed_checks(certificate), Names{});
   EXPECT_LT(find(certificate, "planned contact force").worst, 1e-6);
   EXPECT_EQ(certificate.redundant_contacts.size(), 8u);
+  ASSERT_EQ(certificate.contact_ranks.size(), 1u);
+  EXPECT_EQ(certificate.contact_ranks[0].rows, 24);
+  EXPECT_EQ(certificate.contact_ranks[0].rank, 12);
 }
 
 TEST(CertificateContacts, TheChosenForcesHaveToBePossible) {
