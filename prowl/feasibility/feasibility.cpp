@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
@@ -45,6 +44,18 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
   return missed;
 }
 
+/// "goal 1, end of phase 'stand'"; "" for nodes at which there is nothing to look at.
+std::string name_of_node(const MotionProblem& problem, NodeRef at) {
+  const Phase& phase = problem.phases[static_cast<std::size_t>(at.phase)];
+  std::string goals;
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    if (&condition != &problem.start() && condition.at == at) goals += condition.name + ", ";
+  }
+  if (at.node == 0) return fmt::format("{}start of phase '{}'", goals, phase.name);
+  if (at.node == phase.intervals) return fmt::format("{}end of phase '{}'", goals, phase.name);
+  return goals.empty() ? "" : fmt::format("{}phase '{}'", goals, phase.name);
+}
+
 /// "" if the robot can stand still in this posture, or if the solver does not know.
 std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase, const VectorXd& q, const NlpSolver& solver) {
   if (phase.contacts.empty()) return "";
@@ -77,13 +88,13 @@ std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem) {
 std::vector<std::string> doubts(const MotionProblem& problem, const Trajectory& guess, const NlpSolver& solver) {
   const ContactSchedule schedule(problem);
   std::vector<std::string> lines;
+  int p = -1, node = 0;
   for (std::size_t k = 0; k < guess.nodes.size(); ++k) {
-    const int p = guess.nodes[k].phase;
-    const bool starts = k == 0 || guess.nodes[k - 1].phase != p;
-    const bool ends = k + 1 == guess.nodes.size() || guess.nodes[k + 1].phase != p;
-    if (!starts && !ends) continue;
+    node = guess.nodes[k].phase == p ? node + 1 : 0;
+    p = guess.nodes[k].phase;
     const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
-    const std::string when = fmt::format("{} of phase '{}'", starts ? "start" : "end", phase.name);
+    const std::string when = name_of_node(problem, {p, node});
+    if (when.empty()) continue;
     const std::vector<std::string> missed = missed_places(problem, schedule, p, guess.nodes[k].q, when);
     lines.insert(lines.end(), missed.begin(), missed.end());
     if (!missed.empty()) continue;  // it stands nowhere

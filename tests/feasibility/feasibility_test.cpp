@@ -137,7 +137,13 @@ TEST_F(Feasibility, OfWeakJointsIsDoubted) {
   EXPECT_NE(plan.result.status, SolveStatus::converged);
   ASSERT_THAT(plan.hints, SizeIs(2)) << "both ends of the phase";
   EXPECT_THAT(plan.hints[0], AllOf(HasSubstr("start of phase 'stand'"), HasSubstr("_kfe_joint needs"), HasSubstr("N m of 10")));
-  EXPECT_THAT(plan.hints[1], HasSubstr("end of phase 'stand'"));
+  EXPECT_THAT(plan.hints[1], HasSubstr("goal 1, end of phase 'stand'"));
+}
+
+TEST_F(Feasibility, OfAGoalInTheMiddleOfAPhaseIsDoubtedToo) {
+  const std::string wide = test::replaced(kStand, "time_s = 1.0", "time_s = 0.5");
+  const auto hints = doubts_of(problem(test::replaced(wide, "[0, 0, -0.05]", "[0.35, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]")));
+  EXPECT_THAT(hints, testing::Contains(AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("no posture found"))));
 }
 
 TEST_F(Feasibility, OfAPostureThatIsNotFoundIsDoubted) {
