@@ -9,7 +9,7 @@ namespace prowl {
 namespace {
 
 constexpr int kCoarser = 4;
-constexpr int kLeastIntervals = 8;  // with fewer, the trapezoid bends a step into another motion
+constexpr int kLeastIntervals = 4;  // what it takes for a swing to leave, pass and land
 
 MotionProblem coarsened(const MotionProblem& problem) {
   const std::vector<int> divisors = interval_divisors(problem);

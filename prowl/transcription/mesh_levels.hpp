@@ -10,8 +10,8 @@ int count_intervals(const MotionProblem& problem);
 
 /// The problem on meshes of growing fineness, its own as the last: what is found on one is the guess of the next. Most
 /// iterations go to finding the motion and few to refining it, and on a quarter of the intervals they cost a quarter.
-/// Each level has a quarter of the intervals of the next, but no phase less than kLeastIntervals (if it has them at all),
-/// and a node for every goal; a level that would save less than half is left out.
+/// Each level has a quarter of the intervals of the next, but no phase less than four
+/// (if it has them at all), and a node for every goal; a level that would save less than half is left out.
 std::vector<MotionProblem> mesh_levels(const MotionProblem& problem);
 
 }  // namespace prowl

@@ -26,16 +26,17 @@ std::vector<std::vector<int>> intervals_of_levels(const MotionProblem& problem) 
 using testing::ElementsAre;
 
 TEST(MeshLevels, GoFromCoarseToFineByFour) {
-  EXPECT_THAT(intervals_of_levels(with_intervals({400})), ElementsAre(ElementsAre(25), ElementsAre(100), ElementsAre(400)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({400})), ElementsAre(ElementsAre(7), ElementsAre(25), ElementsAre(100), ElementsAre(400)));
 }
 
-TEST(MeshLevels, KeepEightIntervalsAPhase) {
-  EXPECT_THAT(intervals_of_levels(with_intervals({4, 100})), ElementsAre(ElementsAre(4, 8), ElementsAre(4, 25), ElementsAre(4, 100)));
+TEST(MeshLevels, KeepFourIntervalsAPhase) {
+  EXPECT_THAT(intervals_of_levels(with_intervals({3, 100})),
+              ElementsAre(ElementsAre(3, 7), ElementsAre(3, 25), ElementsAre(3, 100)));
 }
 
 TEST(MeshLevels, LeaveOutWhatSavesLittle) {
-  EXPECT_THAT(intervals_of_levels(with_intervals({15})), ElementsAre(ElementsAre(15)));
-  EXPECT_THAT(intervals_of_levels(with_intervals({16})), ElementsAre(ElementsAre(8), ElementsAre(16)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({7})), ElementsAre(ElementsAre(7)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({8})), ElementsAre(ElementsAre(4), ElementsAre(8)));
 }
 
 TEST(MeshLevels, KeepEveryGoalAtItsTime) {
@@ -45,8 +46,8 @@ TEST(MeshLevels, KeepEveryGoalAtItsTime) {
         BoundaryCondition::unbounded(problem.robot, "goal", at, problem.robot.nominal_configuration()));
   }
   const std::vector<MotionProblem> levels = mesh_levels(problem);
-  ASSERT_EQ(levels.size(), 2u);
-  EXPECT_EQ(levels[0].phases[1].intervals, 24);  // 23 are a quarter, and it takes a multiple of six
+  ASSERT_EQ(levels.size(), 3u);
+  EXPECT_EQ(levels[1].phases[1].intervals, 24);  // 23 are a quarter, and it takes a multiple of six
   for (const MotionProblem& level : levels) {
     const Mesh mesh = make_mesh(level);
     for (std::size_t i = 0; i < level.boundary_conditions.size(); ++i) {
