@@ -54,6 +54,8 @@ FileKeys make_task_file_keys() {
       {"", "goal", "[[goal]]", "what has to hold exactly at some times"},
       {"", "cost", "[cost]", "running cost: half the sum of weight x difference², integrated over time"},
       {"", "terminal_cost", "[terminal_cost]", "the same at the last node, not integrated"},
+      {"", "friction_model", "\"cone\" or \"pyramid\"; default \"cone\"",
+       "the second-order cone, or four planes inside it: linear in the forces, with up to 29 % less friction"},
       {"", "swing_clearance_m", "number >= 0 [m]; default 5 % of the standing height",
        "of contacts in the air above the surfaces that they pass, in the middle of the swing"},
       {"", "solver", "[solver]", "when the solver stops"},

@@ -218,12 +218,16 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
                         .boundary_conditions = std::move(conditions),
                         .running_cost = {},
                         .terminal_cost = {},
+                        .friction_model = {},
                         .swing_clearance = 0.0,
                         .goal_tolerance = {}};
   constexpr double kSwingClearance = 0.05;  // of the standing height: what a legged robot lifts its feet by on flat ground
   const auto clearance = root.find("swing_clearance_m");
   problem.swing_clearance = clearance ? clearance->as_number(NumberRange::nonnegative())
                                       : kSwingClearance * problem.robot.nominal_configuration()(2);
+  if (const auto model = root.find("friction_model")) {
+    problem.friction_model = model->as_one_of("friction model", {"cone", "pyramid"}) == 0 ? FrictionModel::cone : FrictionModel::pyramid;
+  }
   read_costs(root, problem);
   return problem;
 }

@@ -7,6 +7,7 @@
 #include "prowl/model/robot_model.hpp"
 #include "prowl/model/surface.hpp"
 #include "prowl/motion/cost.hpp"
+#include "prowl/motion/friction_limit.hpp"
 #include "prowl/motion/phase.hpp"
 
 namespace prowl {
@@ -49,6 +50,7 @@ struct MotionProblem {
   std::vector<BoundaryCondition> boundary_conditions;  ///< the first is the start and fixes all of q and v
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
+  FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts in the air above the surfaces they pass, in the middle of the swing [m]
   GoalTolerance goal_tolerance;
 

@@ -46,7 +46,7 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[static_cast<std::size_t>(i)];
     const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
-    cones_.push_back({surface.normal, surface.friction, kConeSmoothing * problem.robot.weight()});
+    friction_.emplace_back(problem.friction_model, surface, kConeSmoothing * problem.robot.weight());
     contact_names_.push_back(problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
     opens_.push_back(schedule.opens(phase, i));
     if (schedule.stances()[static_cast<std::size_t>(schedule.stance(phase, i))].lands()) landed_.push_back(i);
@@ -71,7 +71,7 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
 
 int NodeFunctions::contact_row(int k, int contact) const {
   int row = nv_;
-  for (int i = 0; i < contact; ++i) row += unloads(k, i) ? 3 : 1;
+  for (int i = 0; i < contact; ++i) row += unloads(k, i) ? 3 : friction_[static_cast<std::size_t>(i)].count();
   return row;
 }
 
@@ -83,7 +83,9 @@ double NodeFunctions::upper(int k, int row) const {
   if (row >= placement_row(k)) return placement_.upper(k, row - placement_row(k));
   if (row >= torque_row(k)) return std::numeric_limits<double>::infinity();
   for (int i = 0; i < num_contacts(); ++i) {
-    if (row == contact_row(k, i) && !unloads(k, i)) return std::numeric_limits<double>::infinity();
+    if (row >= contact_row(k, i) && row < contact_row(k, i + 1) && !unloads(k, i)) {
+      return std::numeric_limits<double>::infinity();
+    }
   }
   return 0.0;
 }
@@ -123,7 +125,8 @@ void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
     if (unloads(k, i)) {
       values.rows.segment<3>(row) = force_scale_ * force;
     } else {
-      values.rows(row) = force_scale_ * cones_[static_cast<std::size_t>(i)].value(force);
+      const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
+      values.rows.segment(row, friction.count()) = force_scale_ * friction.rows(force);
     }
   }
   torques_.evaluate(point.q.tail(nu_), point.v.tail(nu_), point.tau, values.rows.segment(torque_row(k), torques_.count()));
@@ -160,8 +163,8 @@ void NodeFunctions::evaluate_with_derivatives(const NodePoint& point, NodeValues
     if (unloads(k, i)) {
       jacobian.middleRows<3>(row) = force_scale_ * force;
     } else {
-      const Eigen::Vector3d slope = cones_[static_cast<std::size_t>(i)].gradient(values.forces.segment<3>(3 * i));
-      jacobian.row(row) = force_scale_ * slope.transpose() * force;
+      const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
+      jacobian.middleRows(row, friction.count()) = force_scale_ * friction.slopes(values.forces.segment<3>(3 * i)) * force;
     }
   }
   auto torque_rows = jacobian.middleRows(torque_row(k), torques_.count());
@@ -216,9 +219,10 @@ void NodeFunctions::hessian(const NodePoint& point, double cost_factor, const Ve
     if (unloads(k, i)) {
       force_pull.segment<3>(3 * i) += force_scale_ * multipliers.segment<3>(row);
     } else {
-      const FrictionCone& cone = cones_[static_cast<std::size_t>(i)];
-      force_pull.segment<3>(3 * i) += force_scale_ * multipliers(row) * cone.gradient(force);
-      curvature += force_scale_ * multipliers(row) * cone.hessian(force);
+      const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
+      const VectorXd on_rows = force_scale_ * multipliers.segment(row, friction.count());
+      force_pull.segment<3>(3 * i) += friction.slopes(force).transpose() * on_rows;
+      curvature += friction.curvature(force, on_rows);
     }
     bent.middleRows<3>(3 * i) = curvature * forces_jacobian_.middleRows<3>(3 * i);
   }

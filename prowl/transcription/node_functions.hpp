@@ -6,7 +6,7 @@
 
 #include "prowl/dynamics/projected_residual.hpp"
 #include "prowl/motion/contact_schedule.hpp"
-#include "prowl/motion/friction_cone.hpp"
+#include "prowl/motion/friction_limit.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/transcription/node_cost.hpp"
 #include "prowl/transcription/node_point.hpp"
@@ -33,7 +33,7 @@ struct NodeValues {
 
 /// Everything that holds at a node of one phase, with exact first and second derivatives. Rows:
 ///
-///   dynamics, nv | contacts: friction cone, or at the last node of a contact that opens its force (three rows, = 0) |
+///   dynamics, nv | contacts: friction (FrictionLimit), or at the last node of a contact that opens its force (three rows, = 0) |
 ///   torque limits over position and velocity | places of contacts (PlacementRows)
 ///
 /// Rows are scaled by the size of the robot, so that one tolerance means the same for 2.5 kg and for 80 kg: forces by its
@@ -65,7 +65,7 @@ class NodeFunctions {
  private:
   int num_places() const { return 2 * static_cast<int>(landed_.size()); }
   int first_place() const { return num_variables() + (free_duration_ ? 1 : 0); }
-  int num_contacts() const { return static_cast<int>(cones_.size()); }
+  int num_contacts() const { return static_cast<int>(friction_.size()); }
   bool unloads(int k, int contact) const { return k == intervals_ && opens_[static_cast<std::size_t>(contact)]; }
   int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of them all
   int torque_row(int k) const { return contact_row(k, num_contacts()); }
@@ -84,7 +84,7 @@ class NodeFunctions {
   std::vector<bool> opens_;
   std::vector<int> landed_;
   Eigen::MatrixXd anchor_axes_;  ///< derivative of the anchors in the places
-  std::vector<FrictionCone> cones_;
+  std::vector<FrictionLimit> friction_;
   TorqueRows torques_;
   PlacementRows placement_;
   NodeCost cost_;

@@ -115,6 +115,12 @@ TEST(Transcription, DerivativesHoldForTorqueCurves) {
   expect_derivatives(everything(RobotModel(description), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)}));
 }
 
+TEST(Transcription, DerivativesHoldForThePyramid) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)});
+  problem.friction_model = FrictionModel::pyramid;
+  expect_derivatives(problem);
+}
+
 TEST(Transcription, DerivativesHoldForFlatFeetThatStandAndLand) {
   MotionProblem problem = everything(test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1),
                                                      free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});

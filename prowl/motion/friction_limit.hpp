@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "prowl/motion/friction_cone.hpp"
+#include "prowl/model/surface.hpp"
+
+namespace prowl {
+
+enum class FrictionModel {
+  cone,     ///< the second-order cone, smoothed at its tip (FrictionCone): one row
+  pyramid,  ///< four planes inside it: linear in the force, and up to 29 % less friction
+};
+
+/// What friction asks of the force f of one point contact (world frame [N]), as rows that have to be >= 0 [N].
+///
+/// The pyramid has its corners on the cone, along the axes (t1, t2) of the surface turned by 45 degrees:
+///   mu / sqrt(2) fn - t1 . f,   mu / sqrt(2) fn + t1 . f,   the same for t2.
+/// Two that face each other add up to fn >= 0.
+class FrictionLimit {
+ public:
+  static constexpr int kMostRows = 4;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
+  using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostRows, 3>;
+
+  /// `smoothing` of the cone's tip [N]; the pyramid has none.
+  FrictionLimit(FrictionModel model, const Surface& surface, double smoothing);
+
+  int count() const { return cone_ ? 1 : kMostRows; }
+  Rows rows(const Eigen::Vector3d& force) const;
+  Slopes slopes(const Eigen::Vector3d& force) const;  ///< derivative of the rows in the force
+  /// Second derivative of multipliers . rows in the force.
+  Eigen::Matrix3d curvature(const Eigen::Vector3d& force, const Eigen::Ref<const Eigen::VectorXd>& multipliers) const;
+
+ private:
+  std::optional<FrictionCone> cone_;
+  Eigen::Matrix<double, kMostRows, 3> planes_;
+};
+
+}  // namespace prowl
