@@ -56,9 +56,11 @@ std::string name_of_node(const MotionProblem& problem, NodeRef at) {
   return goals.empty() ? "" : fmt::format("{}phase '{}'", goals, phase.name);
 }
 
-/// "" if the robot can stand still in this posture, or if the solver does not know.
+constexpr std::size_t kStands = 3;  // contacts; on fewer a robot moves, and a phase of a trot is no reason for doubt
+
+/// "" if the robot can stand still in this posture, need not, or if the solver does not know.
 std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase, const VectorXd& q, const NlpSolver& solver) {
-  if (phase.contacts.empty()) return "";
+  if (phase.contacts.size() < kStands) return "";
   const StandingLoad load = standing_load(problem, q, phase.contacts, solver);
   if (!load.solved || load.share >= kFull) return "";
   if (load.share < 1.0 - kFull) {

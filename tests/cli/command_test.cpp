@@ -243,7 +243,7 @@ TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
   EXPECT_THAT(result.error, HasSubstr("mesh of 4 intervals\n"));
   EXPECT_THAT(result.error, HasSubstr("mesh of 16 intervals\n"));
   EXPECT_THAT(result.error, HasSubstr("mesh of 64 intervals\n"));
-  const auto& solver = plan().at("solver");
+  const nlohmann::json solver = plan().at("solver");
   ASSERT_EQ(solver.at("levels").size(), 3u);
   int iterations = 0;
   for (const auto& level : solver.at("levels")) iterations += level.at("iterations").get<int>();

@@ -133,7 +133,7 @@ TEST_F(Feasibility, OfWeakJointsIsDoubted) {
                            "[limits.rf_kfe_joint]\ntorque_Nm = 10\n";
   const MotionProblem stand = problem(kStand, weak);
   EXPECT_THAT(proofs_of_infeasibility(stand), IsEmpty());
-  const Plan plan = make_plan(stand, IpoptSolver(), {.max_iterations = 3});
+  const Plan plan = make_plan(stand, IpoptSolver(), {.solver = {.max_iterations = 3}});
   EXPECT_NE(plan.result.status, SolveStatus::converged);
   ASSERT_THAT(plan.hints, SizeIs(2)) << "both ends of the phase";
   EXPECT_THAT(plan.hints[0], AllOf(HasSubstr("start of phase 'stand'"), HasSubstr("_kfe_joint needs"), HasSubstr("N m of 10")));
