@@ -7,6 +7,7 @@
 
 #include "prowl/io/json_text.hpp"
 #include "prowl/motion/contact_schedule.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 namespace {
@@ -43,14 +44,12 @@ Row row_of(const MotionProblem& problem, const ContactSchedule& schedule, int p)
 /// "HyQ trot: 3 phases, 40 intervals, 2 s\n"
 std::string heading(const MotionProblem& problem) {
   Duration total;
-  int intervals = 0;
   for (const Phase& phase : problem.phases) {
     total.min += phase.duration.min;
     total.max += phase.duration.max;
-    intervals += phase.intervals;
   }
   return fmt::format("{} {}: {} phase{}, {} intervals, {}\n", problem.robot.name(), problem.name, problem.phases.size(),
-                     problem.phases.size() == 1 ? "" : "s", intervals, in_words(total));
+                     problem.phases.size() == 1 ? "" : "s", count_intervals(problem), in_words(total));
 }
 
 }  // namespace

@@ -211,10 +211,9 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetStringValue("honor_original_bounds", "yes");
   // Prowl's rows and costs are of order one and its guesses nearly feasible. Ipopt's own start, 0.1, bends the first
   // iterates so far that the dynamics' curvature makes the Hessian indefinite (Solo12: 300 iterations, with this 15).
-  list.SetNumericValue("mu_init", 1e-3);
+  // Near a solution each step of mu before costs iterations, and what is on a bound there may begin close to it here.
+  list.SetNumericValue("mu_init", options.start_is_near ? 1e-5 : 1e-3);
   if (options.start_is_near) {
-    // What is on a bound of the neighbouring problem may begin close to it here; each step of mu before costs iterations.
-    list.SetNumericValue("mu_init", 1e-5);
     for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
       list.SetNumericValue(push, 1e-4);
     }

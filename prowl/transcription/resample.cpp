@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 
 #include "prowl/error.hpp"
 
@@ -11,23 +10,22 @@ namespace prowl {
 
 namespace {
 
-using Nodes = std::span<const TrajectoryPoint>;
-
-/// The nodes of each phase. Throws InputError unless they fit the problem.
-std::vector<Nodes> nodes_of_phases(const Trajectory& motion, const MotionProblem& problem) {
+/// The motion of each phase by itself. Throws InputError unless they fit the problem.
+std::vector<Trajectory> motions_of_phases(const Trajectory& motion, const MotionProblem& problem) {
   const std::size_t num_phases = problem.phases.size();
-  std::vector<Nodes> phases;
-  for (auto first = motion.nodes.begin(); first != motion.nodes.end();) {
-    const auto last = std::find_if(first, motion.nodes.end(), [&](const auto& node) { return node.phase != first->phase; });
-    phases.emplace_back(first, last);
-    first = last;
+  std::vector<Trajectory> phases;
+  for (const TrajectoryPoint& node : motion.nodes) {
+    if (phases.empty() || phases.back().nodes.back().phase != node.phase) phases.emplace_back();
+    phases.back().nodes.push_back(node);
   }
   if (phases.size() != num_phases) {
     throw InputError(fmt::format("the motion to start from has {} phases, the task {}", phases.size(), num_phases));
   }
   for (std::size_t p = 0; p < num_phases; ++p) {
-    if (phases[p].size() < 2) throw InputError(fmt::format("the motion to start from has no interval in phase {}", p + 1));
-    for (const TrajectoryPoint& node : phases[p]) {
+    if (phases[p].nodes.size() < 2) {
+      throw InputError(fmt::format("the motion to start from has no interval in phase {}", p + 1));
+    }
+    for (const TrajectoryPoint& node : phases[p].nodes) {
       if (node.q.size() == problem.robot.nq() && node.v.size() == problem.robot.nv() && node.a.size() == problem.robot.nv() &&
           node.tau.size() == problem.robot.nu() &&
           node.force.size() == 3 * static_cast<Eigen::Index>(problem.robot.contacts().size())) {
@@ -39,28 +37,19 @@ std::vector<Nodes> nodes_of_phases(const Trajectory& motion, const MotionProblem
   return phases;
 }
 
-/// The point at `fraction` of a phase.
-TrajectoryPoint at_fraction(Nodes phase, double fraction) {
-  const double t = phase.front().time + fraction * (phase.back().time - phase.front().time);
-  const auto after = std::upper_bound(phase.begin() + 1, phase.end() - 1, t,
-                                      [](double time, const TrajectoryPoint& node) { return time < node.time; });
-  const TrajectoryPoint& left = *(after - 1);
-  return interpolate(left, *after, std::clamp(t - left.time, 0.0, after->time - left.time));
-}
-
 }  // namespace
 
 Trajectory resample(const Trajectory& motion, const MotionProblem& problem, const Mesh& mesh) {
-  const std::vector<Nodes> phases = nodes_of_phases(motion, problem);
+  const std::vector<Trajectory> phases = motions_of_phases(motion, problem);
   Trajectory result;
   double phase_start = 0.0;
   for (const MeshNode& node : mesh.nodes) {
     const Phase& phase = problem.phases[static_cast<std::size_t>(node.phase)];
-    const Nodes nodes = phases[static_cast<std::size_t>(node.phase)];
+    const Trajectory& old = phases[static_cast<std::size_t>(node.phase)];
     const double fraction = static_cast<double>(node.node) / phase.intervals;
-    const double old_duration = nodes.back().time - nodes.front().time;
+    const double old_start = old.nodes.front().time, old_duration = old.duration() - old_start;
     const double duration = std::clamp(old_duration, phase.duration.min, phase.duration.max);
-    TrajectoryPoint point = at_fraction(nodes, fraction);
+    TrajectoryPoint point = sample(old, old_start + fraction * old_duration);
     point.v *= old_duration / duration;
     point.a *= old_duration / duration * (old_duration / duration);
     point.time = phase_start + fraction * duration;

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/model/configuration.hpp"
+#include "prowl/dynamics/body_bounds.hpp"
 
 namespace prowl {
 
@@ -29,15 +28,6 @@ Vector2d nearest_in_hull(const std::vector<Vector2d>& corners, const Vector2d& p
     x += std::clamp(-away.dot(step) / step.squaredNorm(), 0.0, 1.0) * step;
   }
   return x;
-}
-
-/// Centre of mass of a configuration, horizontally from its base, world axes [m]: from the moment of the weight.
-Vector2d centre_of_mass(const RobotModel& robot, const VectorXd& q) {
-  RigidBodyTerms terms(robot);
-  const VectorXd rest = VectorXd::Zero(robot.nv());
-  terms.update(q, rest, rest);
-  const Vector3d moment = base_rotation(q) * terms.inverse_dynamics().segment<3>(3);
-  return Vector2d(-moment.y(), moment.x()) / robot.weight();
 }
 
 bool binds_base(const BoundaryCondition& condition) {
@@ -123,13 +113,14 @@ SupportPath::SupportPath(const MotionProblem& problem, const Mesh& mesh, const P
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) polygons.push_back(inner_corners(contacts.held_places(p)));
   ShiftProblem shifts(last + 1, step, pendulum);
   Eigen::MatrixX2d com(last + 1, 2);
+  const VectorXd rest = VectorXd::Zero(problem.robot.nv());
   std::vector<int> phase_at;
   std::size_t node = 0;
   for (int i = 0; i <= last; ++i) {
     while (node + 1 < mesh.nodes.size() && mesh.nodes[node + 1].time <= i * step) ++node;
     phase_at.push_back(mesh.nodes[node].phase);
     const VectorXd q = posture(i * step);
-    com.row(i) = (q.head<2>() + centre_of_mass(problem.robot, q)).transpose();
+    com.row(i) = centre_of_mass(problem.robot, q, rest).position.head<2>().transpose();
     if (i == 0 || i == last) continue;
     if (!polygons[static_cast<std::size_t>(phase_at.back())].empty()) shifts.add_zero_moment_point(i);
     shifts.add_effort(i);
