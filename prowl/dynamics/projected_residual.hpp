@@ -45,9 +45,9 @@ struct PointHessian {
 ///   f = (J J')⁺ (J r - s e)                     contact forces, minimum norm, world frame           [N]
 ///   c = r - J' f  =  P r + s J⁺ e               n + 6 rows
 ///
-/// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold; s, the
-/// mass of the robot [kg], is only a weight that makes both of one size (the projection mixes forces and moments as SI
-/// units have them). Any set of contacts: none, or redundant ones, where J loses rank and f is the choice of least norm (first derivatives hold at constant rank).
+/// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold; s, a hundredth
+/// of the robot's mass [kg], only weighs the one against the other (the projection mixes forces and moments as SI units have
+/// them). Away from c = 0 the forces f do depend on s: the less, the smaller it is. Any set of contacts: none, or redundant ones, where J loses rank and f is the choice of least norm (first derivatives hold at constant rank).
 ///
 /// Redundant contacts may also be given `chosen_rows`: rows of J that depend on the others. Their forces w are then inputs,
 /// their rows of e are left out, and the forces of the other rows follow: (f_S, w) are all forces that do the same, f = Z w
@@ -60,6 +60,8 @@ class ProjectedResidual {
   const std::vector<int>& contacts() const { return kinematics_.contacts(); }
 
   const std::vector<int>& chosen_rows() const { return chosen_rows_; }
+
+  double contact_weight() const { return contact_weight_; }  ///< s [kg]
 
   /// c and f. Throws NumericalError if they are not finite.
   void evaluate(const DynamicsPoint& point);
@@ -86,7 +88,7 @@ class ProjectedResidual {
   void compute_forces(const DynamicsPoint& point);
   void compute_gram_inverse();
 
-  double mass_;
+  double contact_weight_;
   RigidBodyTerms terms_;
   ContactKinematics kinematics_;
   std::vector<int> chosen_rows_, kept_rows_;
