@@ -74,6 +74,7 @@ TEST(ShippedTasks, AreThoseOfFiveRobots) {
   const std::vector<std::string> tasks = shipped_tasks();
   for (const char* task :
        {"hyq/hold", "hyq/stand", "hyq/crouch", "hyq/balance", "hyq/step", "hyq/rear", "hyq/slope", "hyq/wall", "hyq/kneel",
+        "hyq/walk", "hyq/trot", "hyq/jump", "go2/trot", "solo12/trot",
         "anymal_c/stand", "anymal_c/crouch", "anymal_c/step", "anymal_c/trot", "go2/stand", "go2/crouch", "go2/step",
         "solo12/stand", "solo12/crouch", "solo12/step", "talos/squat", "talos/weight_shift", "talos/step"}) {
     EXPECT_THAT(tasks, testing::Contains(task));
