@@ -41,7 +41,9 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   if (const auto reason = solver.why_unsupported(nlp)) throw InputError(*reason);
 
   SolverOptions level_options = options.solver;
-  level_options.start_is_near = !plan.trajectory.empty();
+  const bool from_elsewhere = plan.levels.empty();  // --warm-start
+  level_options.start_is_near =
+      !plan.trajectory.empty() && (from_elsewhere || plan.result.status == SolveStatus::converged);
   constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
   level_options.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
   if (options.on_level) options.on_level(count_intervals(problem));

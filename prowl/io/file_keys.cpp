@@ -111,7 +111,7 @@ FileKeys make_task_file_keys() {
   add_running_weights(keys);
   add_state_weights(keys, "terminal_cost");
   keys.push_back({"solver", "tolerance", "number, 1e-12 to 1e-2; default 1e-6", "on optimality and on the constraints"});
-  keys.push_back({"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations"});
+  keys.push_back({"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations, on each mesh"});
   keys.push_back({"solver", "max_time_s", "number > 0 [s]; default 300", "stop after this much wall-clock time"});
   return keys;
 }

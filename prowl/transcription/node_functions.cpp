@@ -1,5 +1,6 @@
 #include "prowl/transcription/node_functions.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "prowl/model/configuration.hpp"
@@ -13,9 +14,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Smoothing of the friction cone's tip, as a part of the robot's weight: 8.5 N for HyQ. A foot in contact then carries at least
-/// 2 % of the weight at friction 0.5; a sharper tip costs iterations where a foot is about to lift.
-constexpr double kConeSmoothing = 1e-2;
+/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. A sharper tip costs iterations where a foot is
+/// about to lift. Each contact has to carry eps / friction, so less where friction is low or contacts are many: all
+/// together no more than a fifth of the weight.
+double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts) {
+  return problem.robot.weight() * std::min(0.01, 0.2 * friction / static_cast<double>(contacts));
+}
 
 constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
 
@@ -46,7 +50,7 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[static_cast<std::size_t>(i)];
     const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
-    friction_.emplace_back(problem.friction_model, surface, kConeSmoothing * problem.robot.weight());
+    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
     contact_names_.push_back(problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
     opens_.push_back(schedule.opens(phase, i));
     if (schedule.stances()[static_cast<std::size_t>(schedule.stance(phase, i))].lands()) landed_.push_back(i);

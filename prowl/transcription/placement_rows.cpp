@@ -16,13 +16,12 @@ int nodes_of(const MotionProblem& problem, int first_phase, int last_phase) {
   return intervals;
 }
 
-/// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at an end that is not on a
-/// surface. A contact leaves and lands at rest, so that its height can only begin and end with the square of the time.
+/// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at the end of one that does not
+/// land. A contact leaves and lands at rest, so that its height can only begin and end with the square of the time; one that is in the air
+/// from the start may begin as low as the start has it.
 double clearance_profile(const Swing& swing, double s) {
-  if (swing.before < 0 && swing.after < 0) return 0.0;
-  const double from = swing.before >= 0 ? s : 1.0, to = swing.after >= 0 ? 1.0 - s : 1.0;
-  const double both = swing.before >= 0 && swing.after >= 0 ? 4.0 : 1.0;
-  return both * from * from * both * to * to;
+  if (swing.after < 0) return swing.before < 0 ? 0.0 : s * s;
+  return 16.0 * s * s * (1.0 - s) * (1.0 - s);
 }
 
 }  // namespace

@@ -326,9 +326,13 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
   std::vector<Eigen::Matrix<double, 6, 6>> links(static_cast<std::size_t>(layout_.num_links()));
   MatrixXd shared = MatrixXd::Zero(num_shared, num_shared);
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    functions(k).hessian(node_point(z, k), cost_factor,
-                         multipliers.segment(layout_.node_row(k), functions(k).num_rows(mesh_node(k).node)),
-                         nodes[static_cast<std::size_t>(k)]);
+    try {
+      functions(k).hessian(node_point(z, k), cost_factor,
+                           multipliers.segment(layout_.node_row(k), functions(k).num_rows(mesh_node(k).node)),
+                           nodes[static_cast<std::size_t>(k)]);
+    } catch (const NumericalError& error) {
+      throw NumericalError(fmt::format("{}, t = {:.3f} s: {}", describe_node(k), mesh_node(k).time, error.what()));
+    }
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (!is_interval(k)) continue;

@@ -141,6 +141,7 @@ TEST(ProjectedResidual, VanishesExactlyOnTheProjectedEquationsAndTheContactCondi
   const RobotModel robot = test::hyq();
   const std::vector<int> contacts{0, 1, 2, 3};
   ProjectedResidual dynamics(robot, contacts);
+  EXPECT_GT(dynamics.contact_weight(), 1e-3 * robot.mass()) << "contacts would hold to no more than 1e-2 m/s^2 at tolerance 1e-6";
   std::mt19937 rng(11);
   for (int i = 0; i < 20; ++i) {
     const DynamicsPoint point = test::random_point(robot, contacts, rng);
@@ -150,6 +151,14 @@ TEST(ProjectedResidual, VanishesExactlyOnTheProjectedEquationsAndTheContactCondi
     const Eigen::VectorXd e = kinematics.acceleration() +
                               point.stabilisation.kp * (kinematics.positions() - point.anchors);
     EXPECT_LT(test::relative_error(kinematics.jacobian() * dynamics.residual(), dynamics.contact_weight() * e), 1e-10);
+    // P c = P r, with P made from the null space and r from the definition.
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(kinematics.jacobian());
+    const Eigen::MatrixXd kernel = lu.kernel();
+    Eigen::VectorXd r = dynamics.residual() + kinematics.jacobian().transpose() * dynamics.forces();
+    Eigen::VectorXd expected = dynamics.terms().inverse_dynamics();
+    expected.tail(point.tau.size()) -= point.tau;
+    EXPECT_LT(test::relative_error(r, expected), 1e-10);
+    EXPECT_LT(test::relative_error(kernel.transpose() * dynamics.residual(), kernel.transpose() * expected), 1e-10);
   }
 }
 
