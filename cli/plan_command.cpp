@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -46,11 +47,22 @@ const CLI::Validator kPositive(
 
 /// The motion of --warm-start, once it is known to fit.
 Trajectory read_start(const PlanArguments& arguments, const MotionProblem& problem) {
-  Trajectory motion = read_plan(arguments.warm_start, package_search(arguments.package_dirs)).plan.trajectory;
+  const PlanRecord record = read_plan(arguments.warm_start, package_search(arguments.package_dirs));
+  const Trajectory& motion = record.plan.trajectory;
+  const MotionProblem& other = record.task.problem;
+  const auto refuse = [&](const std::string& why) {
+    throw InputError(fmt::format("--warm-start {}: the motion to start from {}", arguments.warm_start, why));
+  };
+  if (other.robot.joint_names() != problem.robot.joint_names()) refuse("is of another robot");
   try {
     resample(motion, problem, make_mesh(problem));
   } catch (const InputError& error) {
     throw InputError(fmt::format("--warm-start {}: {}", arguments.warm_start, error.what()));
+  }
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const auto contact = &PhaseContact::contact;
+    if (std::ranges::equal(problem.phases[p].contacts, other.phases[p].contacts, {}, contact, contact)) continue;
+    refuse(fmt::format("has other contacts in phase {}", p + 1));
   }
   return motion;
 }

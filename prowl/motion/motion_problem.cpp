@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/nearest_in_patch.hpp"
 
 namespace prowl {
 
@@ -152,7 +154,38 @@ void check_condition(const MotionProblem& problem, const std::string& field, con
                      robot.torque_limit());
 }
 
-/// The contacts of the first phase must be on their surfaces and, at the start velocity, stay there.
+/// A place is for a contact that lands: one that holds already is where it is.
+void check_places(const MotionProblem& problem) {
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const auto& contacts = problem.phases[p].contacts;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (!contacts[i].place) continue;
+      const bool lands = p > 0 && std::ranges::find(problem.phases[p - 1].contacts, contacts[i].contact,
+                                                    &PhaseContact::contact) == problem.phases[p - 1].contacts.end();
+      if (lands) continue;
+      refuse("phases[{}].contacts[{}].place: contact '{}' does not land in this phase, it {}; need no place, or the phase in which "
+             "it lands", p, i, problem.robot.contacts()[static_cast<std::size_t>(contacts[i].contact)].name,
+             p == 0 ? "starts where the start posture has it" : "holds from the phase before");
+    }
+  }
+}
+
+/// No contact point, held or not, starts inside a surface without an edge.
+void check_start_outside(const MotionProblem& problem) {
+  RigidBodyTerms terms(problem.robot);
+  terms.update_kinematics(problem.start_configuration());
+  for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
+    const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(c)];
+    for (const Surface& surface : problem.surfaces) {
+      const double gap = surface.distance(terms.contact_position(c)) - contact.radius;
+      if (!surface.patch.empty() || gap >= -kOnSurface) continue;
+      refuse("boundary_conditions[0].q_ref: contact '{}' starts {:.1f} mm inside surface '{}'; need it outside: another start, or "
+             "a normal that points to the robot's side", contact.name, -1e3 * gap, surface.name);
+    }
+  }
+}
+
+/// The contacts of the first phase must be on their surfaces, inside their patches and, at the start velocity, stay there.
 void check_start_contacts(const MotionProblem& problem) {
   const Phase& phase = problem.phases.front();
   std::vector<int> contacts;
@@ -173,6 +206,12 @@ void check_start_contacts(const MotionProblem& problem) {
           "boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm {} surface '{}'; need at most "
           "{} mm",
           contact.name, 1e3 * std::abs(gap), gap > 0.0 ? "above" : "inside", surface.name, 1e3 * kOnSurface);
+    }
+    const Eigen::Vector2d on_surface = surface.coordinates(kinematics.positions().segment<3>(row));
+    const double outside = (on_surface - nearest_in_patch(surface, on_surface)).norm();
+    if (outside > kOnSurface) {
+      refuse("boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm outside the patch of surface '{}'; need "
+             "at most {} mm", contact.name, 1e3 * outside, surface.name, 1e3 * kOnSurface);
     }
     const double speed = velocities.segment<3>(row).norm();
     if (!(speed <= kAtRest)) {
@@ -219,6 +258,7 @@ void check_start(const MotionProblem& problem) {
     refuse("boundary_conditions[0].velocity: the start must be fixed; need equal bounds");
   }
   check_start_contacts(problem);
+  check_start_outside(problem);
 }
 
 void check_weights(const std::string& field, const VectorXd& weights, int size) {
@@ -276,6 +316,7 @@ void validate(const MotionProblem& problem) {
     check_phase(problem, fmt::format("phases[{}]", i), problem.phases[i]);
   }
   check_surfaces_of_contacts(problem);
+  check_places(problem);
   if (!(problem.swing_clearance >= 0.0) || !std::isfinite(problem.swing_clearance)) {
     refuse("swing_clearance: {} is not allowed; need a length >= 0 [m]", problem.swing_clearance);
   }

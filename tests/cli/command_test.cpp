@@ -272,6 +272,9 @@ TEST_F(Command, StartsFromAPlan) {
   EXPECT_EQ(other.status, 2);
   EXPECT_EQ(other.error, "prowl: --warm-start first: the motion to start from has 1 phases, the task 2\n");
   EXPECT_EQ(run("$prowl plan shift.toml $dirs --warm-start nowhere").status, 2);
+  folder_.write("three.toml", test::replaced(kHold + shift, "\"all\"", "[\"lf_foot\", \"lh_foot\", \"rf_foot\"]"));
+  EXPECT_EQ(run("$prowl plan three.toml $dirs --warm-start first").error,
+            "prowl: --warm-start first: the motion to start from has other contacts in phase 1\n");
 }
 
 TEST_F(Command, KeepsTheBestIterateOnInterrupt) {

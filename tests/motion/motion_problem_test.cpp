@@ -144,6 +144,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"above", [](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0015; },
                 "contact 'lf_foot' of the first phase is 1.5 mm above surface 'floor'; need at most 1 mm"},
         Mistake{"inside", [](P& p) { p.boundary_conditions[0].q_ref(2) -= 0.0015; }, "1.5 mm inside surface 'floor'"},
+        Mistake{"off_the_patch", [](P& p) { p.surfaces[0].patch = {{-1.0, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {-1.0, 1.0}}; },
+                "contact 'lf_foot' of the first phase is 70.8 mm outside the patch of surface 'floor'; need at most 1 mm"},
+        Mistake{"under_ground", [](P& p) { p.surfaces.push_back(Surface{.name = "table", .point = {0.0, 0.0, 1.0}}); },
+                "contact 'lf_foot' starts 1000.0 mm inside surface 'table'"},
         Mistake{
             "moving",
             [](P& p) { p.boundary_conditions[0].velocity_lower(2) = p.boundary_conditions[0].velocity_upper(2) = 0.5; },
@@ -162,6 +166,12 @@ INSTANTIATE_TEST_SUITE_P(
                 "surfaces[0].patch: a patch of 2 corners is not allowed; need 3 or more"},
         Mistake{"place", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.02); },
                 "phases[0].contacts[1].place: 20.0 mm above surface 'floor' is not allowed"},
+        Mistake{"place_at_the_start", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.0); },
+                "phases[0].contacts[1].place: contact 'lh_foot' does not land in this phase, it starts where the start posture has it"},
+        Mistake{"place_held", [](P& p) {
+                  p.phases.push_back(p.phases[0]);
+                  p.phases[1].contacts[2].place = Eigen::Vector3d(0.3, 0.3, 0.0);
+                }, "phases[1].contacts[2].place: contact 'rf_foot' does not land in this phase, it holds from the phase before"},
         Mistake{"slides", [](P& p) {
                   p.surfaces.push_back(Surface{.name = "step", .point = {0.0, 0.0, 0.1}});
                   p.phases.push_back(p.phases[0]);

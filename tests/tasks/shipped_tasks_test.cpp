@@ -3,10 +3,17 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "../io/test_files.hpp"
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/io/plan_directory.hpp"
+#include "prowl/model/configuration.hpp"
 
 namespace prowl {
 namespace {
@@ -36,6 +43,39 @@ struct Planned {
   }
 };
 
+/// Where contact `name` is at a node, world frame [m].
+Eigen::Vector3d contact_position(const PlanRecord& record, const TrajectoryPoint& node, const std::string& name) {
+  const RobotModel& robot = record.task.problem.robot;
+  const auto contact = std::ranges::find(robot.contacts(), name, &ContactPoint::name);
+  if (contact == robot.contacts().end()) throw std::logic_error("no contact " + name);
+  RigidBodyTerms terms(robot);
+  terms.update_kinematics(node.q);
+  return terms.contact_position(static_cast<int>(contact - robot.contacts().begin()));
+}
+
+std::vector<TrajectoryPoint> nodes_of_phase(const PlanRecord& record, const std::string& name) {
+  const auto& phases = record.task.problem.phases;
+  const auto phase = std::ranges::find(phases, name, &Phase::name);
+  if (phase == phases.end()) throw std::logic_error("no phase " + name);
+  std::vector<TrajectoryPoint> nodes;
+  for (const TrajectoryPoint& node : record.plan.trajectory.nodes) {
+    if (node.phase == phase - phases.begin()) nodes.push_back(node);
+  }
+  return nodes;
+}
+
+double duration(const std::vector<TrajectoryPoint>& nodes) { return nodes.back().time - nodes.front().time; }
+
+/// How far the base, or a contact, gets from start to end.
+Eigen::Vector3d way_of_base(const PlanRecord& record) {
+  const auto& nodes = record.plan.trajectory.nodes;
+  return base_position(nodes.back().q) - base_position(nodes.front().q);
+}
+Eigen::Vector3d way_of(const PlanRecord& record, const std::string& contact) {
+  const auto& nodes = record.plan.trajectory.nodes;
+  return contact_position(record, nodes.back(), contact) - contact_position(record, nodes.front(), contact);
+}
+
 Planned plan(const std::string& task, const std::string& options, const test::TempFolder& folder) {
   const std::filesystem::path out = folder.path() / "out";
   const std::string command = std::string("'" PROWL_COMMAND "' plan '") + (kTasks / (task + ".toml")).string() + "' " +
@@ -46,6 +86,60 @@ Planned plan(const std::string& task, const std::string& options, const test::Te
   planned.plan = nlohmann::json::parse(test::read_file(out / "plan.json"));
   return planned;
 }
+
+/// What a task is for, read off the plan, where its goals do not say it all.
+const std::map<std::string, std::function<void(const PlanRecord&)>> kPurposes{
+    {"hyq/crouch", [](const PlanRecord& record) {
+       double lowest = 0.0;
+       for (const auto& node : record.plan.trajectory.nodes) {
+         lowest = std::min(lowest, node.q(2) - record.plan.trajectory.nodes.front().q(2));
+       }
+       EXPECT_LT(lowest, -0.17 + 1e-3);
+     }},
+    {"hyq/balance", [](const PlanRecord& record) {
+       double in_the_air = 0.0;
+       for (const Phase& phase : record.task.problem.phases) {
+         if (phase.contacts.size() == 2) in_the_air += duration(nodes_of_phase(record, phase.name));
+       }
+       EXPECT_GE(in_the_air, 0.5 - 1e-6);
+     }},
+    {"hyq/rear", [](const PlanRecord& record) {
+       double pitch = 0.0;  // of the base, nose up
+       for (const auto& node : nodes_of_phase(record, "rear")) {
+         pitch = std::max(pitch, std::asin(base_rotation(node.q)(2, 0)));
+       }
+       EXPECT_GE(pitch, 15.0 * std::numbers::pi / 180.0);
+     }},
+    {"hyq/step", [](const PlanRecord& record) { EXPECT_NEAR(way_of(record, "lf_foot").x(), 0.2, 1e-3); }},
+    {"hyq/walk", [](const PlanRecord& record) { EXPECT_NEAR(way_of_base(record).x(), 1.0, 1e-3); }},
+    {"hyq/trot", [](const PlanRecord& record) { EXPECT_NEAR(way_of_base(record).x(), 1.0, 1e-3); }},
+    {"hyq/jump", [](const PlanRecord& record) {
+       const auto flight = nodes_of_phase(record, "flight");
+       EXPECT_GE(duration(flight), 0.2 - 1e-6);
+       for (const char* foot : {"lf_foot", "lh_foot", "rf_foot", "rh_foot"}) {
+         const double ground = contact_position(record, record.plan.trajectory.nodes.front(), foot).z();
+         EXPECT_GE(contact_position(record, flight[flight.size() / 2], foot).z() - ground, 0.15 - 1e-3) << foot;
+       }
+     }},
+    {"hyq/slope", [](const PlanRecord& record) {
+       const Eigen::Vector3d way = way_of_base(record);
+       EXPECT_NEAR(std::atan2(way.z(), way.x()), 15.0 * std::numbers::pi / 180.0, 1e-2);
+     }},
+    {"hyq/wall", [](const PlanRecord& record) {
+       for (const auto& node : nodes_of_phase(record, "lean")) {
+         EXPECT_LT(node.force(0), -50.0) << "of the wall on lf_foot [N], the first contact, at " << node.time;
+       }
+       EXPECT_NEAR(way_of_base(record).x(), 0.08, 1e-3);
+     }},
+    {"hyq/kneel", [](const PlanRecord& record) { EXPECT_GE(way_of_base(record).x(), 0.05); }},
+    {"talos/squat", [](const PlanRecord& record) {
+       double lowest = 0.0;
+       for (const auto& node : record.plan.trajectory.nodes) {
+         lowest = std::min(lowest, node.q(2) - record.plan.trajectory.nodes.front().q(2));
+       }
+       EXPECT_LT(lowest, -0.05);
+     }},
+};
 
 class ShippedTask : public testing::TestWithParam<std::string> {
  protected:
@@ -58,6 +152,8 @@ TEST_P(ShippedTask, ConvergesAndIsWhatTheCertificateSays) {
   EXPECT_EQ(planned.status, 0);
   EXPECT_EQ(planned.plan.at("certificate").at("passed"), true);
   EXPECT_LT(planned.check("contact drift").at("worst"), 1e-3);
+  const auto purpose = kPurposes.find(GetParam());
+  if (purpose != kPurposes.end()) purpose->second(read_plan(folder_.path() / "out", test::test_search()));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ShippedTask, testing::ValuesIn(shipped_tasks()), [](const auto& info) {
