@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <fatrop/fatrop.hpp>
+#include <fatrop/ip_algorithm/ip_eq_mult_initializer.hpp>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -25,9 +27,12 @@ using Info = fatrop::ProblemInfo<Type>;
 using Dims = fatrop::ProblemDims<Type>;
 using Clock = std::chrono::steady_clock;
 
+constexpr double kNearlyFeasible = 1e-2;  // as recalc_y_feas_tol in IpoptSolver
+constexpr double kLargestMultiplier = 1e6;
+
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Fatrop has no way to be stopped: thrown through it.
+/// Thrown through Fatrop, which has no other way to be stopped.
 struct Stopped {
   SolveStatus status;
   std::string message;
@@ -98,57 +103,63 @@ class FatropProblem : public fatrop::Nlp<Type> {
   Index eval_objective(const Info& info, const Scalar scale, const VecRealView& x, const VecRealView&,
                        Scalar& result) override {
     result = 0.0;
-    try_stages([&](int k) { result += scale * nlp_.values(k, stage(info, x, k)).cost; },
-               [&] { result = std::numeric_limits<double>::quiet_NaN(); });
+    const bool good = try_stages("cost", [&](int k) {
+      result += scale * nlp_.values(k, stage(info, x, k)).cost;
+      return std::isfinite(result);
+    });
+    need(good || has_begun());
+    if (!good) result = std::numeric_limits<double>::quiet_NaN();  // which makes Fatrop shorten its step
     return 0;
   }
 
   Index eval_constraint_violation(const Info& info, const VecRealView& x, const VecRealView& slacks,
                                   VecRealView& result) override {
     check_limits();
-    try_stages(
-        [&](int k) {
-          const auto i = static_cast<std::size_t>(k);
-          const StageValues& values = nlp_.values(k, stage(info, x, k));
-          const StageSize& size = nlp_.size(k);
-          segment(result, info.offsets_g_eq_path[i], size.equalities) = values.equalities;
-          segment(result, info.offsets_g_eq_slack[i], size.inequalities) =
-              values.inequalities - segment(slacks, info.offsets_slack[i], size.inequalities);
-          if (k + 1 == dims_.K) return;
-          segment(result, info.offsets_g_eq_dyn[i], values.next.size()) =
-              values.next - segment(x, info.offsets_primal_x[i + 1], values.next.size());
-        },
-        [&] { result = std::numeric_limits<double>::quiet_NaN(); });
+    const bool good = try_stages("constraint", [&](int k) {
+      const auto i = static_cast<std::size_t>(k);
+      const StageValues& values = nlp_.values(k, stage(info, x, k));
+      const StageSize& size = nlp_.size(k);
+      segment(result, info.offsets_g_eq_path[i], size.equalities) = values.equalities;
+      segment(result, info.offsets_g_eq_slack[i], size.inequalities) =
+          values.inequalities - segment(slacks, info.offsets_slack[i], size.inequalities);
+      if (k + 1 < dims_.K) {
+        segment(result, info.offsets_g_eq_dyn[i], values.next.size()) =
+            values.next - segment(x, info.offsets_primal_x[i + 1], values.next.size());
+      }
+      return values.equalities.allFinite() && values.inequalities.allFinite() && values.next.allFinite();
+    });
+    need(good || has_begun());
+    if (!good) result = std::numeric_limits<double>::quiet_NaN();
     return 0;
   }
 
   Index eval_objective_gradient(const Info& info, const Scalar scale, const VecRealView& x, const VecRealView&,
                                 VecRealView& gradient_x, VecRealView& gradient_s) override {
     gradient_s = 0.0;
-    for_stages("cost gradient", [&](int k) {
+    need(try_stages("cost gradient", [&](int k) {
       const VectorXd& gradient = nlp_.derivatives(k, stage(info, x, k)).cost_gradient;
       segment(gradient_x, info.offsets_primal_u[static_cast<std::size_t>(k)], gradient.size()) = scale * gradient;
       return gradient.allFinite();
-    });
+    }));
     return 0;
   }
 
   Index eval_constr_jac(const Info& info, const VecRealView& x, const VecRealView&,
                         fatrop::Jacobian<Type>& jacobian) override {
-    for_stages("constraint Jacobian", [&](int k) {
+    need(try_stages("constraint Jacobian", [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       const StageDerivatives& slopes = nlp_.derivatives(k, stage(info, x, k));
       copy_transposed(slopes.equalities, jacobian.Gg_eqt[i].mat());
       copy_transposed(slopes.inequalities, jacobian.Gg_ineqt[i].mat());
       if (k + 1 < dims_.K) copy_transposed(slopes.next, jacobian.BAbt[i].mat());
       return slopes.equalities.allFinite() && slopes.inequalities.allFinite() && slopes.next.allFinite();
-    });
+    }));
     return 0;
   }
 
   Index eval_lag_hess(const Info& info, const Scalar scale, const VecRealView& x, const VecRealView&,
                       const VecRealView& multipliers, fatrop::Hessian<Type>& hessian) override {
-    for_stages("Hessian", [&](int k) {
+    need(try_stages("Hessian", [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       const StageSize& size = nlp_.size(k);
       const int next = k + 1 < dims_.K ? nlp_.size(k + 1).states : 0;
@@ -158,7 +169,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
       const MatrixXd& values = nlp_.hessian(k, stage(info, x, k), scale, on_);
       copy_transposed(values, hessian.RSQrqt[i].mat());
       return values.allFinite();
-    });
+    }));
     return 0;
   }
 
@@ -189,6 +200,9 @@ class FatropProblem : public fatrop::Nlp<Type> {
         multipliers.block(info.number_of_slack_variables, info.offset_g_eq_slack);
   }
 
+  /// Fresh multipliers of the equalities at the current iterate: those of least squares.
+  void set_multiplier_estimate(std::function<void()> estimate) { estimate_multipliers_ = std::move(estimate); }
+
   /// Once an iteration, but not while Fatrop restores feasibility.
   void callback(const fatrop::IpData<Type>& data) override {
     // Its iterate evaluates when asked; all of this is evaluated by now.
@@ -200,7 +214,23 @@ class FatropProblem : public fatrop::Nlp<Type> {
       options_.on_iteration({iterations_, last_.cost, last_.violation, last_.dual_violation, seconds_since(began_)});
     }
     check_limits();
-    if (options_.interrupt && options_.interrupt->load()) throw Stopped{SolveStatus::interrupted, "stopped on request"};
+    if (iterations_ >= options_.max_iterations) throw Stopped{SolveStatus::iteration_limit, "iteration limit reached"};
+    if (!std::isfinite(last_.cost) || !std::isfinite(last_.violation) || !std::isfinite(last_.dual_violation)) {
+      throw Stopped{SolveStatus::evaluation_failed, "the iterate is not finite"};  // its linear solver would never end
+    }
+    refresh_multipliers(iterate);
+  }
+
+  /// Fatrop starts with bound multipliers of one, which near a solution are far too large for its barrier. And as in
+  /// IpoptSolver: a regularised step that removes a violation leaves multipliers in proportion to the regularisation.
+  void refresh_multipliers(fatrop::IpIterate<Type>& iterate) {
+    const bool begins_near = iterations_ == 0 && options_.start_is_near;
+    if (begins_near) {
+      iterate.set_dual_bounds_l(iterate.mu() / iterate.delta_lower());
+      iterate.set_dual_bounds_u(iterate.mu() / iterate.delta_upper());
+    }
+    const bool was_regularised = iterate.step_info().inertia_correction_primal > 0.0;
+    if (begins_near || (was_regularised && last_.violation < kNearlyFeasible)) estimate_multipliers_();
   }
 
   const Iterate& note(fatrop::IpIterate<Type>& iterate) {
@@ -225,40 +255,36 @@ class FatropProblem : public fatrop::Nlp<Type> {
   }
 
   void check_limits() const {
+    if (options_.interrupt && options_.interrupt->load()) throw Stopped{SolveStatus::interrupted, "stopped on request"};
     if (seconds_since(began_) > options_.max_seconds) throw Stopped{SolveStatus::time_limit, "time limit reached"};
   }
 
-  /// Values at a point that Fatrop can step away from: it takes NaN as a reason to.
-  template <typename Evaluate, typename Fail>
-  void try_stages(Evaluate evaluate, Fail fail) {
-    const Clock::time_point start = Clock::now();
+  /// Whether a stage's evaluation is of use; else failure_ says why not.
+  template <typename Evaluate>
+  bool try_stage(const char* what, int k, Evaluate& evaluate) {
     try {
-      for (int k = 0; k < dims_.K; ++k) evaluate(k);
+      if (evaluate(k)) return true;
+      failure_ = fmt::format("{} is not finite at {}", what, nlp_.describe_stage(k));
     } catch (const NumericalError& error) {
-      failure_ = error.what();
-      fail();
+      failure_ = fmt::format("{}: {}", what, error.what());
     }
-    evaluation_seconds_ += seconds_since(start);
+    return false;
   }
 
-  /// Derivatives at a point that is accepted. Fatrop does not look whether they are finite.
   template <typename Evaluate>
-  void for_stages(const char* what, Evaluate evaluate) {
+  bool try_stages(const char* what, Evaluate evaluate) {
     const Clock::time_point start = Clock::now();
-    for (int k = 0; k < dims_.K; ++k) {
-      bool finite = false;
-      try {
-        finite = evaluate(k);
-      } catch (const NumericalError& error) {
-        throw Stopped{SolveStatus::evaluation_failed, fmt::format("{}: {}", what, error.what())};
-      }
-      if (!finite) {
-        throw Stopped{SolveStatus::evaluation_failed,
-                      fmt::format("{} is not finite at {}", what, nlp_.describe_stage(k))};
-      }
-    }
+    bool good = true;
+    for (int k = 0; good && k < dims_.K; ++k) good = try_stage(what, k, evaluate);
     evaluation_seconds_ += seconds_since(start);
+    return good;
   }
+
+  /// For what Fatrop cannot step away from: derivatives, which it does not look at, and all that is at the start.
+  void need(bool good) const {
+    if (!good) throw Stopped{SolveStatus::evaluation_failed, failure_};
+  }
+  bool has_begun() const { return !best_.stages.empty(); }
 
   StagewiseNlp& nlp_;
   const SolverOptions& options_;
@@ -268,6 +294,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   std::vector<VectorXd> start_;
   StageMultipliers on_;
   Iterate best_, last_;
+  std::function<void()> estimate_multipliers_;
   std::string failure_;
   int iterations_ = 0;
   double evaluation_seconds_ = 0.0;
@@ -292,8 +319,12 @@ void set_options(fatrop::OptionRegistry& registry, const SolverOptions& options)
   registry.set_option("print_level", 0);
   registry.set_option("tolerance", options.tolerance);
   registry.set_option("constr_viol_tol", options.tolerance);
-  registry.set_option("max_iter", options.max_iterations);
+  registry.set_option("max_iter", options.max_iterations + 1);  // one more than it is let, see callback()
   registry.set_option("acceptable_iter", std::numeric_limits<int>::max());
+  // Fatrop takes a reduced Hessian for indefinite if a diagonal entry of its Cholesky factor is below this part of the
+  // largest. Near the end the barrier's curvature is 1e12 times the cost's, and its own 1e-6 finds every step indefinite
+  // (HyQ step, 41 intervals: 301 iterations and no end where the least eigenvalue was 4e-3; with this 13).
+  registry.set_option("linsol_pivot_tol", 1e-12);
   // As for Ipopt, see there.
   registry.set_option("mu_init", options.start_is_near ? 1e-5 : 1e-3);
   if (options.start_is_near) {
@@ -345,6 +376,9 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     fatrop::IpAlgBuilder<Type> builder(problem);
     const auto algorithm = builder.with_options_registry(&registry).build();
     set_options(registry, options);
+    fatrop::IpEqMultInitializer<Type> initializer(builder.get_ipdata(), builder.get_pd_solver());
+    initializer.set_lam_max(kLargestMultiplier);
+    problem->set_multiplier_estimate([&] { initializer.initialize_eq_mult(); });
     stopped = outcome(algorithm->optimize());
     chosen = problem->note(builder.get_ipdata()->current_iterate());
     result.iterations = builder.get_ipdata()->iteration_number();
@@ -357,6 +391,10 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
   }
   result.status = stopped.status;
   result.message = stopped.message;
+  if (stopped.status == SolveStatus::solver_failed && !problem->failure().empty()) {
+    result.status = SolveStatus::evaluation_failed;
+    result.message = fmt::format("{}; {}", stopped.message, problem->failure());
+  }
   if (result.status != SolveStatus::converged && !problem->best().stages.empty()) chosen = problem->best();
   if (!chosen.stages.empty()) result.z = stages.flat(chosen.stages);
   result.dual_violation = chosen.dual_violation;
