@@ -36,24 +36,6 @@ std::pair<double, double> StagewiseTranscription::bounds(int k, int variable) co
   return {lower, upper};
 }
 
-VectorXd StagewiseTranscription::units(int k) const {
-  const RobotModel& robot = flat_.problem_.robot;
-  const int nv = flat_.layout_.nv(), nu = flat_.layout_.nu(), own = flat_.layout_.node_size(k);
-  const double length = robot.size(), time = std::sqrt(length / RobotModel::kGravity), force = robot.weight();
-  VectorXd q = VectorXd::Ones(nv);
-  VectorXd tau = VectorXd::Constant(nu, force * length);
-  q.head<3>().setConstant(length);
-  for (int i = 0; i < nu; ++i) {
-    if (!robot.joint_is_prismatic()[static_cast<std::size_t>(i)]) continue;
-    q(6 + i) = length;
-    tau(i) = force;
-  }
-  VectorXd units = VectorXd::Constant(flat_.functions(k).num_columns(), length);
-  units.head(own) << q, q / time, q / (time * time), tau, VectorXd::Constant(flat_.layout_.num_w(k), force);
-  if (flat_.functions(k).has_free_duration()) units(own) = time;
-  return units;
-}
-
 void StagewiseTranscription::set_variables(int k) {
   Stage& stage = this->stage(k);
   const int states = 2 * flat_.layout_.nv(), own = flat_.layout_.node_size(k), all = flat_.functions(k).num_columns();
@@ -81,12 +63,11 @@ void StagewiseTranscription::set_variables(int k) {
   for (int i = 0; i < states && k > 0; ++i) stage.variables.push_back(i);
   stage.variables.insert(stage.variables.end(), carried_here.begin(), carried_here.end());
   stage.size.states = static_cast<int>(stage.variables.size()) - stage.size.inputs;
-  stage.unit = units(k)(stage.variables);
 }
 
 void StagewiseTranscription::set_functions(int k) {
   Stage& stage = this->stage(k);
-  std::vector<double> level, lower, upper, per_unit;
+  std::vector<double> level, lower, upper;
   const auto add = [&](double low, double up) {
     if (low == up) {
       stage.equalities.push_back(stage.num_functions);
@@ -111,10 +92,8 @@ void StagewiseTranscription::set_functions(int k) {
     const bool is_twin = variable < states && node.h_in == 0.0;
     const auto [low, up] = bounds(k, variable);
     if (is_carried || is_twin || (!std::isfinite(low) && !std::isfinite(up))) continue;
-    const double unit = stage.unit(static_cast<Index>(i));
     stage.bounded.push_back(variable);
-    per_unit.push_back(1.0 / unit);
-    add(low / unit, up / unit);
+    add(low, up);
   }
 
   stage.size.equalities = static_cast<int>(stage.equalities.size());
@@ -122,12 +101,7 @@ void StagewiseTranscription::set_functions(int k) {
   stage.level = Eigen::Map<VectorXd>(level.data(), stage.size.equalities);
   stage.lower = Eigen::Map<VectorXd>(lower.data(), stage.size.inequalities);
   stage.upper = Eigen::Map<VectorXd>(upper.data(), stage.size.inequalities);
-  stage.per_unit = Eigen::Map<VectorXd>(per_unit.data(), static_cast<Index>(per_unit.size()));
-  if (k + 1 < num_stages()) {
-    const Stage& next = this->stage(k + 1);
-    stage.next_per_unit = next.unit.tail(next.size.states).cwiseInverse();
-    stage.values.next.resize(next.size.states);
-  }
+  stage.values.next.resize(k + 1 < num_stages() ? this->stage(k + 1).size.states : 0);
   stage.num_functions += static_cast<int>(stage.values.next.size());
 }
 
@@ -142,7 +116,7 @@ HalfTime StagewiseTranscription::half_time(int k, double h, const VectorXd& node
 
 Arrival StagewiseTranscription::arrival(int k, const VectorXd& ux) const {
   VectorXd state = stage(k).fixed;
-  state(stage(k).variables) = ux.cwiseProduct(stage(k).unit);
+  state(stage(k).variables) = ux;
   return {flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(),
           half_time(k, flat_.mesh_node(k).h_in, state), state};
 }
@@ -182,13 +156,10 @@ const StageValues& StagewiseTranscription::values(int k, const VectorXd& ux) {
   evaluate(k, false);
   stage.values.cost = stage.node_values.cost;
   VectorXd functions(stage.first_next());
-  functions << stage.node_values.rows, stage.node(stage.bounded).cwiseProduct(stage.per_unit);
+  functions << stage.node_values.rows, stage.node(stage.bounded);
   stage.values.equalities = functions(stage.equalities) - stage.level;
   stage.values.inequalities = functions(stage.inequalities);
-  if (stage.values.next.size() > 0) {
-    stage.values.next << departure(k).value(), stage.node(stage.carried);
-    stage.values.next.array() *= stage.next_per_unit.array();
-  }
+  if (stage.values.next.size() > 0) stage.values.next << departure(k).value(), stage.node(stage.carried);
   stage.have_values = true;
   return stage.values;
 }
@@ -202,15 +173,12 @@ const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorX
   slopes.setZero(stage.num_functions, stage.node.size());
   Index row = stage.node_values.rows_jacobian.rows();
   slopes.topRows(row) = stage.node_values.rows_jacobian;
-  for (std::size_t i = 0; i < stage.bounded.size(); ++i) {
-    slopes(row++, stage.bounded[i]) = stage.per_unit(static_cast<Index>(i));
-  }
+  for (const int variable : stage.bounded) slopes(row++, variable) = 1.0;
   if (stage.values.next.size() > 0) {
     const Index states = 2 * flat_.layout_.nv();
     departure(k).derivatives(slopes.middleRows(row, states));
     row += states;
     for (const int variable : stage.carried) slopes(row++, variable) = 1.0;
-    slopes.bottomRows(stage.values.next.size()).array().colwise() *= stage.next_per_unit.array();
   }
 
   const Arrival arrival = this->arrival(k, ux);
@@ -218,11 +186,10 @@ const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorX
   pulled << slopes, stage.node_values.cost_gradient.transpose();
   arrival.pull_back(pulled);
   StageDerivatives& derivatives = stage.derivatives;
-  pulled = stage.of_stage(pulled);
-  derivatives.equalities = pulled(stage.equalities, Eigen::all);
-  derivatives.inequalities = pulled(stage.inequalities, Eigen::all);
-  derivatives.next = pulled.middleRows(stage.first_next(), stage.values.next.size());
-  derivatives.cost_gradient = pulled.bottomRows<1>().transpose();
+  derivatives.equalities = pulled(stage.equalities, stage.variables);
+  derivatives.inequalities = pulled(stage.inequalities, stage.variables);
+  derivatives.next = pulled.middleRows(stage.first_next(), stage.values.next.size())(Eigen::all, stage.variables);
+  derivatives.cost_gradient = pulled.bottomRows<1>()(Eigen::all, stage.variables).transpose();
   stage.have_derivatives = true;
   return derivatives;
 }
@@ -238,13 +205,10 @@ const MatrixXd& StagewiseTranscription::hessian(int k, const VectorXd& ux, doubl
 
   MatrixXd hessian;
   flat_.functions(k).hessian(stage.point, cost_factor, on_functions.head(stage.node_values.rows.size()), hessian);
-  if (stage.values.next.size() > 0) {
-    const VectorXd on_next = multipliers.next.cwiseProduct(stage.next_per_unit);
-    departure(k).add_hessian(on_next, hessian);
-  }
+  if (stage.values.next.size() > 0) departure(k).add_hessian(multipliers.next, hessian);
   const VectorXd gradient = cost_factor * stage.node_values.cost_gradient + stage.slopes.transpose() * on_functions;
   arrival(k, ux).pull_back(hessian, gradient);
-  stage.hessian = stage.unit.asDiagonal() * stage.of_stage(hessian(stage.variables, Eigen::all));
+  stage.hessian = hessian(stage.variables, stage.variables);
   return stage.hessian;
 }
 
@@ -255,7 +219,7 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
     for (Index i = 0; i < node.size(); ++i) node(i) = z(flat_.column(k, static_cast<int>(i)));
     const double s = half_time(k, flat_.mesh_node(k).h_in, node).s;
     const VectorXd state = Arrival::state(flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(), s, node);
-    result.push_back(state(stage(k).variables).cwiseQuotient(stage(k).unit));
+    result.push_back(state(stage(k).variables));
   }
   return result;
 }
