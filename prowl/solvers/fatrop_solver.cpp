@@ -323,8 +323,12 @@ void set_options(fatrop::OptionRegistry& registry, const SolverOptions& options)
   registry.set_option("acceptable_iter", std::numeric_limits<int>::max());
   // Fatrop takes a reduced Hessian for indefinite if a diagonal entry of its Cholesky factor is below this part of the
   // largest. Near the end the barrier's curvature is 1e12 times the cost's, and its own 1e-6 finds every step indefinite
-  // (HyQ step, 12 intervals: no end in 301 iterations; with this 20).
+  // (HyQ step, 41 intervals: 301 iterations and no end where the least eigenvalue was 4e-3; with this 13).
   registry.set_option("linsol_pivot_tol", 1e-12);
+  // The first regularisation that is tried, and by how much it grows until one has done. Fatrop's 1e-4 and 100 overshoot
+  // (Talos weight shift, 4 and 12 intervals: no end in 292 and 123 iterations, with these 66 and 27).
+  registry.set_option("delta_w0", 1.0);
+  registry.set_option("kappa_wplusem", 8.0);
   // As for Ipopt, see there.
   registry.set_option("mu_init", options.start_is_near ? 1e-5 : 1e-3);
   if (options.start_is_near) {

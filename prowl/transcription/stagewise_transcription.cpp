@@ -36,6 +36,25 @@ std::pair<double, double> StagewiseTranscription::bounds(int k, int variable) co
   return {lower, upper};
 }
 
+VectorXd StagewiseTranscription::units(int k) const {
+  const RobotModel& robot = flat_.problem_.robot;
+  const int nv = flat_.layout_.nv(), nu = flat_.layout_.nu(), own = flat_.layout_.node_size(k);
+  const double length = robot.size(), time = std::sqrt(length / RobotModel::kGravity), force = robot.weight();
+  VectorXd q = VectorXd::Ones(nv);
+  VectorXd tau = VectorXd::Constant(nu, force * length);
+  q.head<3>().setConstant(length);
+  for (int i = 0; i < nu; ++i) {
+    if (!robot.joint_is_prismatic()[static_cast<std::size_t>(i)]) continue;
+    q(6 + i) = length;
+    tau(i) = force;
+  }
+  VectorXd units = VectorXd::Constant(flat_.functions(k).num_columns(), length);
+  // Dependent forces stay in newtons: they cost nothing, and what regularises them is all that holds them at first.
+  units.head(own) << q, q / time, q / (time * time), tau, VectorXd::Ones(flat_.layout_.num_w(k));
+  if (flat_.functions(k).has_free_duration()) units(own) = time;
+  return units;
+}
+
 void StagewiseTranscription::set_variables(int k) {
   Stage& stage = this->stage(k);
   const int states = 2 * flat_.layout_.nv(), own = flat_.layout_.node_size(k), all = flat_.functions(k).num_columns();
@@ -63,11 +82,12 @@ void StagewiseTranscription::set_variables(int k) {
   for (int i = 0; i < states && k > 0; ++i) stage.variables.push_back(i);
   stage.variables.insert(stage.variables.end(), carried_here.begin(), carried_here.end());
   stage.size.states = static_cast<int>(stage.variables.size()) - stage.size.inputs;
+  stage.unit = units(k)(stage.variables);
 }
 
 void StagewiseTranscription::set_functions(int k) {
   Stage& stage = this->stage(k);
-  std::vector<double> level, lower, upper;
+  std::vector<double> level, lower, upper, per_unit;
   const auto add = [&](double low, double up) {
     if (low == up) {
       stage.equalities.push_back(stage.num_functions);
@@ -92,8 +112,10 @@ void StagewiseTranscription::set_functions(int k) {
     const bool is_twin = variable < states && node.h_in == 0.0;
     const auto [low, up] = bounds(k, variable);
     if (is_carried || is_twin || (!std::isfinite(low) && !std::isfinite(up))) continue;
+    const double unit = stage.unit(static_cast<Index>(i));
     stage.bounded.push_back(variable);
-    add(low, up);
+    per_unit.push_back(1.0 / unit);
+    add(low / unit, up / unit);
   }
 
   stage.size.equalities = static_cast<int>(stage.equalities.size());
@@ -101,7 +123,12 @@ void StagewiseTranscription::set_functions(int k) {
   stage.level = Eigen::Map<VectorXd>(level.data(), stage.size.equalities);
   stage.lower = Eigen::Map<VectorXd>(lower.data(), stage.size.inequalities);
   stage.upper = Eigen::Map<VectorXd>(upper.data(), stage.size.inequalities);
-  stage.values.next.resize(k + 1 < num_stages() ? this->stage(k + 1).size.states : 0);
+  stage.per_unit = Eigen::Map<VectorXd>(per_unit.data(), static_cast<Index>(per_unit.size()));
+  if (k + 1 < num_stages()) {
+    const Stage& next = this->stage(k + 1);
+    stage.next_per_unit = next.unit.tail(next.size.states).cwiseInverse();
+    stage.values.next.resize(next.size.states);
+  }
   stage.num_functions += static_cast<int>(stage.values.next.size());
 }
 
@@ -116,7 +143,7 @@ HalfTime StagewiseTranscription::half_time(int k, double h, const VectorXd& node
 
 Arrival StagewiseTranscription::arrival(int k, const VectorXd& ux) const {
   VectorXd state = stage(k).fixed;
-  state(stage(k).variables) = ux;
+  state(stage(k).variables) = ux.cwiseProduct(stage(k).unit);
   return {flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(),
           half_time(k, flat_.mesh_node(k).h_in, state), state};
 }
@@ -156,10 +183,13 @@ const StageValues& StagewiseTranscription::values(int k, const VectorXd& ux) {
   evaluate(k, false);
   stage.values.cost = stage.node_values.cost;
   VectorXd functions(stage.first_next());
-  functions << stage.node_values.rows, stage.node(stage.bounded);
+  functions << stage.node_values.rows, stage.node(stage.bounded).cwiseProduct(stage.per_unit);
   stage.values.equalities = functions(stage.equalities) - stage.level;
   stage.values.inequalities = functions(stage.inequalities);
-  if (stage.values.next.size() > 0) stage.values.next << departure(k).value(), stage.node(stage.carried);
+  if (stage.values.next.size() > 0) {
+    stage.values.next << departure(k).value(), stage.node(stage.carried);
+    stage.values.next.array() *= stage.next_per_unit.array();
+  }
   stage.have_values = true;
   return stage.values;
 }
@@ -173,12 +203,15 @@ const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorX
   slopes.setZero(stage.num_functions, stage.node.size());
   Index row = stage.node_values.rows_jacobian.rows();
   slopes.topRows(row) = stage.node_values.rows_jacobian;
-  for (const int variable : stage.bounded) slopes(row++, variable) = 1.0;
+  for (std::size_t i = 0; i < stage.bounded.size(); ++i) {
+    slopes(row++, stage.bounded[i]) = stage.per_unit(static_cast<Index>(i));
+  }
   if (stage.values.next.size() > 0) {
     const Index states = 2 * flat_.layout_.nv();
     departure(k).derivatives(slopes.middleRows(row, states));
     row += states;
     for (const int variable : stage.carried) slopes(row++, variable) = 1.0;
+    slopes.bottomRows(stage.values.next.size()).array().colwise() *= stage.next_per_unit.array();
   }
 
   const Arrival arrival = this->arrival(k, ux);
@@ -186,10 +219,11 @@ const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorX
   pulled << slopes, stage.node_values.cost_gradient.transpose();
   arrival.pull_back(pulled);
   StageDerivatives& derivatives = stage.derivatives;
-  derivatives.equalities = pulled(stage.equalities, stage.variables);
-  derivatives.inequalities = pulled(stage.inequalities, stage.variables);
-  derivatives.next = pulled.middleRows(stage.first_next(), stage.values.next.size())(Eigen::all, stage.variables);
-  derivatives.cost_gradient = pulled.bottomRows<1>()(Eigen::all, stage.variables).transpose();
+  pulled = stage.of_stage(pulled);
+  derivatives.equalities = pulled(stage.equalities, Eigen::all);
+  derivatives.inequalities = pulled(stage.inequalities, Eigen::all);
+  derivatives.next = pulled.middleRows(stage.first_next(), stage.values.next.size());
+  derivatives.cost_gradient = pulled.bottomRows<1>().transpose();
   stage.have_derivatives = true;
   return derivatives;
 }
@@ -205,10 +239,13 @@ const MatrixXd& StagewiseTranscription::hessian(int k, const VectorXd& ux, doubl
 
   MatrixXd hessian;
   flat_.functions(k).hessian(stage.point, cost_factor, on_functions.head(stage.node_values.rows.size()), hessian);
-  if (stage.values.next.size() > 0) departure(k).add_hessian(multipliers.next, hessian);
+  if (stage.values.next.size() > 0) {
+    const VectorXd on_next = multipliers.next.cwiseProduct(stage.next_per_unit);
+    departure(k).add_hessian(on_next, hessian);
+  }
   const VectorXd gradient = cost_factor * stage.node_values.cost_gradient + stage.slopes.transpose() * on_functions;
   arrival(k, ux).pull_back(hessian, gradient);
-  stage.hessian = hessian(stage.variables, stage.variables);
+  stage.hessian = stage.unit.asDiagonal() * stage.of_stage(hessian(stage.variables, Eigen::all));
   return stage.hessian;
 }
 
@@ -219,7 +256,7 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
     for (Index i = 0; i < node.size(); ++i) node(i) = z(flat_.column(k, static_cast<int>(i)));
     const double s = half_time(k, flat_.mesh_node(k).h_in, node).s;
     const VectorXd state = Arrival::state(flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(), s, node);
-    result.push_back(state(stage(k).variables));
+    result.push_back(state(stage(k).variables).cwiseQuotient(stage(k).unit));
   }
   return result;
 }

@@ -19,6 +19,9 @@ class Transcription;
 ///
 /// Left out is what is fixed: the state of the first node, and inputs with equal bounds. Bounds on q and v are rows at the
 /// node; both nodes of a phase switch have the same q and v, so that the first has the rows of both.
+///
+/// Stage variables are without a unit: lengths are divided by the size l of the robot, forces by its weight m g, times by
+/// sqrt(l/g). A solver that regularises adds the same number to the curvature in each. (But w is in newtons.)
 class StagewiseTranscription : public StagewiseNlp {
  public:
   /// A view of `flat`, which must outlive it and not move.
@@ -42,11 +45,14 @@ class StagewiseTranscription : public StagewiseNlp {
   struct Stage {
     StageSize size;
     std::vector<int> variables;  ///< of (u, x): places among the variables of the node, z and w in those of q and v
+    Eigen::VectorXd unit;        ///< of each of those: variable of the node = unit * variable of the stage
     Eigen::VectorXd fixed;       ///< all variables of the node, with the values of those that are fixed
     std::vector<int> carried;    ///< shared variables that are states of the next stage: places among the node's
-    // Functions: (rows of the node, as in NodeFunctions | variables of the node with bounds | states of the next stage).
+    // Functions: (rows of the node, as in NodeFunctions | variables of the node with bounds | states of the next stage),
+    // the last two in their units.
     int num_functions = 0;
     std::vector<int> bounded;                   ///< variables
+    Eigen::VectorXd per_unit, next_per_unit;    ///< 1 / unit of the variables with bounds and of the states of the next stage
     std::vector<int> equalities, inequalities;  ///< places among the functions
     Eigen::VectorXd level;                      ///< equalities: function = level
     Eigen::VectorXd lower, upper;
@@ -61,12 +67,19 @@ class StagewiseTranscription : public StagewiseNlp {
     Eigen::MatrixXd slopes;  ///< of the functions in the variables of the node
     Eigen::MatrixXd hessian;
 
+    /// Derivatives in the variables of the node, in those of the stage.
+    template <class Matrix>
+    Eigen::MatrixXd of_stage(const Matrix& slopes) const {
+      return slopes(Eigen::all, variables) * unit.asDiagonal();
+    }
     int first_next() const { return num_functions - static_cast<int>(values.next.size()); }
   };
   const Stage& stage(int k) const { return stages_[static_cast<std::size_t>(k)]; }
 
   Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
 
+  /// Units of all variables of node k.
+  Eigen::VectorXd units(int k) const;
   void set_variables(int k);
   void set_functions(int k);
   /// Bounds on a variable of node k. Both nodes of a phase switch have one q and v: the first has the bounds of both.

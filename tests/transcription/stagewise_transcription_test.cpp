@@ -74,7 +74,7 @@ MatrixXd slopes(StagewiseNlp& nlp, int k, const VectorXd& ux) {
 /// By differences of fourth order, one column a variable.
 template <class Function>
 MatrixXd differences(const VectorXd& at, Function function) {
-  constexpr double h = 3e-4;
+  constexpr double h = 1e-4;  // of a unit: the tips of the friction cones are as small as 1e-2 of the weight
   MatrixXd result(function(at).size(), at.size());
   for (Eigen::Index j = 0; j < at.size(); ++j) {
     const auto moved = [&](double by) {
