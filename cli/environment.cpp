@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 
 namespace prowl::cli {
@@ -39,6 +40,7 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs) {
 std::map<std::string, std::string> versions() {
   return {{"prowl", PROWL_VERSION},
           {"Ipopt", IpoptSolver().version()},
+          {"Fatrop", FatropSolver().version()},
           {"Pinocchio", PROWL_PINOCCHIO_VERSION},
           {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }

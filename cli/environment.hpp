@@ -12,7 +12,7 @@ namespace prowl::cli {
 /// the clone that this program was built in.
 PackageSearch package_search(const std::vector<std::string>& package_dirs);
 
-/// "prowl", "Ipopt", "Pinocchio", "Eigen" -> version.
+/// "prowl", "Ipopt", "Fatrop", "Pinocchio", "Eigen" -> version.
 std::map<std::string, std::string> versions();
 
 }  // namespace prowl::cli

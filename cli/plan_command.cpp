@@ -17,6 +17,7 @@
 #include "prowl/io/phase_table.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
+#include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/transcription/resample.hpp"
 
@@ -27,6 +28,7 @@ struct PlanArguments {
   std::string task;
   std::string out;
   std::string warm_start;
+  std::string solver = "ipopt";
   std::vector<std::string> package_dirs;
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
@@ -67,6 +69,11 @@ Trajectory read_start(const PlanArguments& arguments, const MotionProblem& probl
   return motion;
 }
 
+std::unique_ptr<NlpSolver> make_solver(const std::string& name) {
+  if (name == "fatrop") return std::make_unique<FatropSolver>();
+  return std::make_unique<IpoptSolver>();
+}
+
 int run_plan(const PlanArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), arguments.overrides);
@@ -91,7 +98,7 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
-  Plan plan = make_plan(task.problem, IpoptSolver(), options);
+  Plan plan = make_plan(task.problem, *make_solver(arguments.solver), options);
 
   const PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
                           .warm_start = arguments.warm_start};
@@ -117,6 +124,8 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_flag("--json", arguments->json, "Print the result as JSON");
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
       ->check(kPositive)->type_name("S");
+  verb->add_option("--solver", arguments->solver, "Who solves it; default ipopt")
+      ->check(CLI::IsMember({"ipopt", "fatrop"}))->type_name("NAME");
   verb->add_option("--max-time", arguments->overrides.max_seconds,
                    key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
       ->check(kPositive)->type_name("S");
@@ -133,7 +142,7 @@ void add_plan_command(CLI::App& app, int& status) {
       ->type_name("DIR")->expected(1)->take_all();
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
-  for (const char* unused : {"--out", "--dt", "--max-time", "--max-iterations"}) phases->excludes(unused);
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations"}) phases->excludes(unused);
   verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"
                "  prowl plan tasks/hyq/balance.toml --print-phases\n"
                "  prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out stand\n\n"

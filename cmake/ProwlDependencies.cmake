@@ -29,6 +29,20 @@ if(EXISTS ${PROWL_CASADI}/include/coin-or/IpTNLP.hpp)
     INTERFACE_INCLUDE_DIRECTORIES ${PROWL_CASADI}/include/coin-or)
 endif()
 
+# Nor do Fatrop and BLASFEO; the CMake package of Fatrop in that wheel has the paths of its build machine.
+if(NOT EXISTS ${PROWL_CASADI}/include/fatrop/fatrop.hpp OR NOT EXISTS ${PROWL_CASADI}/libfatrop.so)
+  message(FATAL_ERROR "No Fatrop in ${PROWL_CASADI}: run scripts/setup.")
+endif()
+file(GLOB fatrop_library ${PROWL_CASADI}/libfatrop.so.*)  # its headers do not say the version
+string(REGEX REPLACE ".*libfatrop[.]so[.]" "" PROWL_FATROP_VERSION "${fatrop_library}")
+foreach(name fatrop blasfeo)
+  add_library(prowl_dep_${name} SHARED IMPORTED)
+  set_target_properties(prowl_dep_${name} PROPERTIES
+    IMPORTED_LOCATION ${PROWL_CASADI}/lib${name}.so
+    INTERFACE_INCLUDE_DIRECTORIES ${PROWL_CASADI}/include)
+endforeach()
+target_link_libraries(prowl_dep_fatrop INTERFACE prowl_dep_blasfeo)
+
 find_package(tinyxml2 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)

@@ -65,6 +65,7 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
 Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options) {
   validate(problem);
   Plan plan;
+  plan.solver = solver.name();
   plan.reasons = proofs_of_infeasibility(problem);
   plan.trajectory = options.start_from;
   const bool one_level = !plan.trajectory.empty() || !plan.reasons.empty();

@@ -22,6 +22,7 @@ struct LevelResult {
 /// What comes out: a motion, how it was found, and whether it is any good.
 struct Plan {
   Trajectory trajectory;
+  std::string solver;  ///< its name
   SolveResult result;  ///< of the last level; iterations and seconds of all levels together
   std::vector<LevelResult> levels;
   Certificate certificate;

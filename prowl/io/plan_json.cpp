@@ -61,7 +61,8 @@ Json solver_to_json(const PlanRecord& record) {
                       {"iterations", level.iterations},
                       {"seconds", level.seconds}});
   }
-  return {{"message", result.message},
+  return {{"name", record.plan.solver},
+          {"message", result.message},
           {"cost", result.cost},
           {"constraint_violation", result.constraint_violation},
           {"dual_violation", result.dual_violation},
@@ -305,6 +306,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                     source.path.string(), robot.urdf.string()));
   }
   record.plan.result = read_result(plan);
+  record.plan.solver = plan.object("solver").text("name");
   record.plan.levels = read_levels(plan.object("solver"));
   record.warm_start = plan.object("solver").text("warm_start");
   record.plan.certificate = read_certificate(plan.object("certificate"));

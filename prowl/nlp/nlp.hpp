@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "prowl/nlp/stagewise_nlp.hpp"
+
 namespace prowl {
 
 /// Places of the non-zeros of a sparse matrix; values come in the same order. No place twice.
@@ -40,6 +42,9 @@ class Nlp {
   /// In the words of the task, e.g. "phase 2, lh_foot, friction cone, t = 0.41 s".
   virtual std::string describe_constraint(int row) const = 0;
   virtual std::string describe_variable(int index) const = 0;
+
+  /// The same program as a chain of stages, if it is one; valid as long as the Nlp is.
+  virtual StagewiseNlp* stagewise() { return nullptr; }
 };
 
 }  // namespace prowl

@@ -61,7 +61,7 @@ class NlpSolver {
   virtual std::string name() const = 0;
   virtual std::string version() const = 0;
   /// The reason, for the user to read, why this solver cannot take the problem.
-  virtual std::optional<std::string> why_unsupported(const Nlp& nlp) const = 0;
+  virtual std::optional<std::string> why_unsupported(Nlp& nlp) const = 0;
   /// Never throws because a problem is hard: that is a status.
   virtual SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const = 0;
 };

@@ -285,7 +285,7 @@ std::string IpoptSolver::name() const { return "Ipopt"; }
 
 std::string IpoptSolver::version() const { return IPOPT_VERSION; }
 
-std::optional<std::string> IpoptSolver::why_unsupported(const Nlp& nlp) const {
+std::optional<std::string> IpoptSolver::why_unsupported(Nlp& nlp) const {
   const auto why = [](const VectorXd& lower, const VectorXd& upper, auto describe) -> std::optional<std::string> {
     for (int i = 0; i < lower.size(); ++i) {
       if (lower[i] <= upper[i]) continue;  // false for NaN too

@@ -17,7 +17,7 @@ class IpoptSolver : public NlpSolver {
  public:
   std::string name() const override;
   std::string version() const override;
-  std::optional<std::string> why_unsupported(const Nlp& nlp) const override;
+  std::optional<std::string> why_unsupported(Nlp& nlp) const override;
   /// Throws InputError only if an option or the size of z_start makes no sense.
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
 };

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "prowl/transcription/rotation_product.hpp"
+
 namespace prowl {
 
 /// The base at one end of a mesh interval: R = chart exp(theta), world position p, velocity in the base frame.
@@ -26,7 +28,7 @@ class BaseDefects {
   BaseDefects(const BaseState& start, const BaseState& end, double h);
 
   const Eigen::Vector3d& position() const { return position_; }
-  const Eigen::Vector3d& rotation() const { return rotation_; }
+  const Eigen::Vector3d& rotation() const { return product_.value(); }
 
   /// d(d_R)/d(theta0, w0, theta1, w1).
   Matrix3x12 rotation_derivative() const;
@@ -34,17 +36,12 @@ class BaseDefects {
   Matrix12 rotation_hessian(const Eigen::Vector3d& lambda) const;
 
  private:
-  /// d_R = log of a product of exponentials exp(s_i x_i), i = -h/2 w0, -theta0, (charts), theta1, -h/2 w1.
-  struct Factor {
-    Eigen::Vector3d x;      ///< argument with its sign
-    double slope;           ///< dx / d(variable): the sign, times h/2 for a velocity
-    Eigen::Matrix3d after;  ///< product of all factors after this one
-    int column;             ///< of its variable among the twelve
-  };
+  using Product = RotationProduct<4>;
+  static Product product(const BaseState& start, const BaseState& end, double half);
 
-  Eigen::Vector3d position_, rotation_;
-  Factor factors_[4];
-  Eigen::Matrix3d log_derivative_;  ///< Jr^-1(d_R)
+  double half_;
+  Eigen::Vector3d position_;
+  Product product_;  ///< of exp(-h/2 w0) exp(-theta0) (charts) exp(theta1) exp(-h/2 w1)
 };
 
 /// World velocity R v of the base with R = chart exp(theta), its derivatives in (theta, v) and the second derivatives of

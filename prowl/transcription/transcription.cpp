@@ -8,6 +8,7 @@
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/transcription/independent_contacts.hpp"
+#include "prowl/transcription/stagewise_transcription.hpp"
 #include "prowl/transcription/transcription_bounds.hpp"
 
 namespace prowl {
@@ -102,6 +103,13 @@ Transcription::Transcription(const MotionProblem& problem, const Mesh& mesh, con
   }
   values_.resize(static_cast<std::size_t>(layout_.num_nodes()));
   set_patterns();
+}
+
+Transcription::~Transcription() = default;
+
+StagewiseNlp* Transcription::stagewise() {
+  if (!stagewise_) stagewise_ = std::make_unique<StagewiseTranscription>(*this);
+  return stagewise_.get();
 }
 
 double Transcription::duration(const VectorXd& z, int phase) const {

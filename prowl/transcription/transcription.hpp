@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 
 namespace prowl {
 
+class StagewiseTranscription;
+
 /// Direct transcription by the trapezoid: a motion problem as a nonlinear program.
 ///
 /// At every node the projected dynamics c(q, v, a, tau) = 0, the friction cones of the recovered forces and what else
@@ -27,6 +30,9 @@ class Transcription : public Nlp {
   /// `guess` (one point a node) fixes the chart of the base's rotation at each node. Throws InputError if bounds
   /// contradict each other.
   Transcription(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess);
+  Transcription(const Transcription&) = delete;  // stagewise() refers to it
+  Transcription& operator=(const Transcription&) = delete;
+  ~Transcription() override;
 
   Eigen::VectorXd pack(const Trajectory& trajectory) const;
   /// Includes the contact forces. Throws NumericalError if z is not finite.
@@ -51,7 +57,10 @@ class Transcription : public Nlp {
   std::string describe_constraint(int row) const override;
   std::string describe_variable(int index) const override;
 
+  StagewiseNlp* stagewise() override;
+
  private:
+  friend class StagewiseTranscription;  // another form of the same nodes
   const MeshNode& mesh_node(int k) const { return mesh_.nodes[static_cast<std::size_t>(k)]; }
   int phase_of(int k) const { return mesh_node(k).phase; }
   const NodeFunctions& functions(int k) const { return phases_[static_cast<std::size_t>(phase_of(k))]; }
@@ -92,6 +101,8 @@ class Transcription : public Nlp {
   Eigen::VectorXd evaluated_at_;
   bool have_derivatives_ = false;
   std::vector<NodeValues> values_;
+
+  std::unique_ptr<StagewiseTranscription> stagewise_;  ///< made when first asked for
 };
 
 }  // namespace prowl

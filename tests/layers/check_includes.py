@@ -30,6 +30,7 @@ ALLOWED = {
 LIBRARIES = {
     "Pinocchio": (r"pinocchio/", {"model", "dynamics", "trajectory"}),
     "Ipopt": (r"Ip[A-Z]\w*\.(hpp|h)|IpoptConfig\.h|coin-or/", {"solvers"}),
+    "Fatrop": (r"fatrop/|blasfeo", {"solvers"}),
     "toml++": (r"toml\+\+/|toml\.hpp", {"io"}),
     "nlohmann": (r"nlohmann/", {"io"}),
     "tinyxml2": (r"tinyxml2\.h", {"model", "io"}),
@@ -95,8 +96,12 @@ def headers_that_show_libraries(files, internal_headers):
 
 
 def solvers_in_two_files(files):
-    users = [name for name, includes in files.items() if any(library_of(i) == "Ipopt" for i in includes)]
-    return [f"{', '.join(users)}: Ipopt is to be included in one file only"] if len(users) > 1 else []
+    found = []
+    for solver in ("Ipopt", "Fatrop"):
+        users = [name for name, includes in files.items() if any(library_of(i) == solver for i in includes)]
+        if len(users) > 1:
+            found.append(f"{', '.join(users)}: {solver} is to be included in one file only")
+    return found
 
 
 if __name__ == "__main__":

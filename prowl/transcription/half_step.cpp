@@ -1,0 +1,187 @@
+#include "prowl/transcription/half_step.hpp"
+
+#include "prowl/model/so3.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+using Turn = RotationProduct<2>;
+
+/// theta' = log(charts exp(theta) exp(s omega)).
+Turn turn(const Matrix3d& charts, const Vector3d& theta, double s, const Vector3d& omega) {
+  return Turn({{{charts, theta}, {Matrix3d::Identity(), s * omega}}});
+}
+
+void add_symmetric(MatrixXd& hessian, Index row, Index column, const Eigen::Ref<const MatrixXd>& block) {
+  hessian.block(row, column, block.rows(), block.cols()) += block;
+  hessian.block(column, row, block.cols(), block.rows()) += block.transpose();
+}
+
+/// Adds the Hessian of lambda . s R v_linear, which is in theta, v and the duration.
+void add_moving(const WorldVelocity& world, const WorldVelocityHessian& bent, const Vector3d& lambda,
+                const HalfTime& time, Index nv, MatrixXd& hessian) {
+  hessian.block<3, 3>(3, 3) += time.s * bent.theta_theta;
+  add_symmetric(hessian, 3, nv, time.s * bent.theta_v);
+  if (time.column < 0) return;
+  add_symmetric(hessian, 3, time.column, time.slope * world.d_theta.transpose() * lambda);
+  add_symmetric(hessian, nv, time.column, time.slope * world.d_v.transpose() * lambda);
+}
+
+/// Adds the Hessian of lambda . theta', which is in theta, omega and the duration.
+void add_turning(const Turn& turn, const Vector3d& lambda, const Vector3d& omega, const HalfTime& time, Index nv,
+                 MatrixXd& hessian) {
+  const Turn::Hessian bent = turn.hessian(lambda);
+  const Matrix3d theta_x = bent.topRightCorner<3, 3>(), xx = bent.bottomRightCorner<3, 3>();
+  hessian.block<3, 3>(3, 3) += bent.topLeftCorner<3, 3>();
+  add_symmetric(hessian, 3, nv + 3, time.s * theta_x);
+  hessian.block<3, 3>(nv + 3, nv + 3) += time.s * time.s * xx;
+  if (time.column < 0) return;
+  const Vector3d pull = turn.derivative().rightCols<3>().transpose() * lambda;
+  add_symmetric(hessian, 3, time.column, time.slope * theta_x * omega);
+  add_symmetric(hessian, nv + 3, time.column, time.slope * (time.s * xx * omega + pull));
+  hessian(time.column, time.column) += time.slope * time.slope * omega.dot(xx * omega);
+}
+
+/// Adds the Hessian of lambda . s x, where x are the variables from `first` on.
+void add_by_duration(Index first, const Eigen::Ref<const VectorXd>& lambda, const HalfTime& time, MatrixXd& hessian) {
+  if (time.column >= 0) add_symmetric(hessian, first, time.column, time.slope * lambda);
+}
+
+}  // namespace
+
+Arrival::Arrival(const Matrix3d& chart, int nv, const HalfTime& time, const VectorXd& state)
+    : chart_(chart),
+      nv_(nv),
+      time_(time),
+      node_(state),
+      turn_((node_.segment(nv_, nv_) += time.s * state.segment(2 * nv_, nv_),
+             turn(Matrix3d::Identity(), state.segment<3>(3), time.s, node_.segment<3>(nv_ + 3)))),
+      world_(chart, turn_.value(), node_.segment<3>(nv_)) {
+  node_.segment<3>(3) = turn_.value();
+  node_.head<3>() += time.s * world_.value;
+  node_.segment(6, nv_ - 6) += time.s * node_.segment(nv_ + 6, nv_ - 6);
+}
+
+VectorXd Arrival::state(const Matrix3d& chart, int nv, double s, const VectorXd& node) {
+  VectorXd state = node;
+  const WorldVelocity world(chart, node.segment<3>(3), node.segment<3>(nv));
+  state.head<3>() -= s * world.value;
+  state.segment<3>(3) = so3::log(so3::exp(node.segment<3>(3)) * so3::exp(-s * node.segment<3>(nv + 3)));
+  state.segment(6, nv - 6) -= s * node.segment(nv + 6, nv - 6);
+  state.segment(nv, nv) -= s * node.segment(2 * nv, nv);
+  return state;
+}
+
+// The constructor's substitutions, the last first. Each takes derivatives, as columns of `m`, from what it gives to what it
+// takes; s changes with the duration.
+
+template <class Matrix>
+void Arrival::substitute_position(Matrix&& m) const {
+  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.leftCols(3) * world_.value);
+  m.middleCols(3, 3) += time_.s * m.leftCols(3) * world_.d_theta;
+  m.middleCols(nv_, 3) += time_.s * m.leftCols(3) * world_.d_v;
+}
+
+template <class Matrix>
+void Arrival::substitute_joints(Matrix&& m) const {
+  const Index nu = nv_ - 6;
+  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.middleCols(6, nu) * node_.segment(nv_ + 6, nu));
+  m.middleCols(nv_ + 6, nu) += time_.s * m.middleCols(6, nu);
+}
+
+template <class Matrix>
+void Arrival::substitute_rotation(Matrix&& m) const {
+  const Turn::Jacobian slope = turn_.derivative();
+  const Vector3d omega = node_.segment<3>(nv_ + 3);
+  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.middleCols(3, 3) * (slope.rightCols<3>() * omega));
+  m.middleCols(nv_ + 3, 3) += time_.s * m.middleCols(3, 3) * slope.rightCols<3>();
+  m.middleCols(3, 3) = (m.middleCols(3, 3) * slope.leftCols<3>()).eval();
+}
+
+template <class Matrix>
+void Arrival::substitute_velocity(Matrix&& m) const {
+  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.middleCols(nv_, nv_) * node_.segment(2 * nv_, nv_));
+  m.middleCols(2 * nv_, nv_) += time_.s * m.middleCols(nv_, nv_);
+}
+
+void Arrival::pull_back(MatrixXd& rows) const {
+  substitute_position(rows);
+  substitute_joints(rows);
+  substitute_rotation(rows);
+  substitute_velocity(rows);
+}
+
+void Arrival::pull_back(MatrixXd& hessian, VectorXd gradient) const {
+  auto g = gradient.transpose();
+  const auto both = [&](auto substitute) {
+    substitute(hessian);
+    substitute(hessian.transpose());
+  };
+  both([this](auto&& m) { substitute_position(m); });
+  const Vector3d on_position = gradient.head<3>();
+  add_moving(world_, {chart_, turn_.value(), node_.segment<3>(nv_), on_position}, on_position, time_, nv_, hessian);
+  substitute_position(g);
+
+  both([this](auto&& m) { substitute_joints(m); });
+  add_by_duration(nv_ + 6, gradient.segment(6, nv_ - 6), time_, hessian);
+  substitute_joints(g);
+
+  both([this](auto&& m) { substitute_rotation(m); });
+  add_turning(turn_, gradient.segment<3>(3), node_.segment<3>(nv_ + 3), time_, nv_, hessian);
+  substitute_rotation(g);
+
+  both([this](auto&& m) { substitute_velocity(m); });
+  add_by_duration(2 * nv_, gradient.segment(nv_, nv_), time_, hessian);
+}
+
+Departure::Departure(const Matrix3d& chart, const Matrix3d& next_chart, int nv, const HalfTime& time,
+                     const VectorXd& node)
+    : chart_(chart),
+      nv_(nv),
+      time_(time),
+      node_(node),
+      turn_(turn(next_chart.transpose() * chart, node.segment<3>(3), time.s, node.segment<3>(nv + 3))),
+      world_(chart, node.segment<3>(3), node.segment<3>(nv)) {}
+
+VectorXd Departure::value() const {
+  VectorXd state = node_.head(2 * nv_);
+  state.head<3>() += time_.s * world_.value;
+  state.segment<3>(3) = turn_.value();
+  state.segment(6, nv_ - 6) += time_.s * node_.segment(nv_ + 6, nv_ - 6);
+  state.tail(nv_) += time_.s * node_.segment(2 * nv_, nv_);
+  return state;
+}
+
+void Departure::derivatives(Eigen::Ref<MatrixXd> rows) const {
+  const Index nu = nv_ - 6;
+  const Turn::Jacobian slope = turn_.derivative();
+  rows.setZero();
+  rows.leftCols(2 * nv_).diagonal().setOnes();
+  rows.block<3, 3>(0, 3) = time_.s * world_.d_theta;
+  rows.block<3, 3>(0, nv_) = time_.s * world_.d_v;
+  rows.block<3, 3>(3, 3) = slope.leftCols<3>();
+  rows.block<3, 3>(3, nv_ + 3) = time_.s * slope.rightCols<3>();
+  rows.block(6, nv_ + 6, nu, nu).diagonal().setConstant(time_.s);
+  rows.block(nv_, 2 * nv_, nv_, nv_).diagonal().setConstant(time_.s);
+  if (time_.column < 0) return;
+  rows.col(time_.column) << world_.value, slope.rightCols<3>() * node_.segment<3>(nv_ + 3),
+      node_.segment(nv_ + 6, nu), node_.segment(2 * nv_, nv_);
+  rows.col(time_.column) *= time_.slope;
+}
+
+void Departure::add_hessian(const VectorXd& multipliers, MatrixXd& hessian) const {
+  const Vector3d on_position = multipliers.head<3>();
+  add_moving(world_, {chart_, node_.segment<3>(3), node_.segment<3>(nv_), on_position}, on_position, time_, nv_, hessian);
+  add_turning(turn_, multipliers.segment<3>(3), node_.segment<3>(nv_ + 3), time_, nv_, hessian);
+  add_by_duration(nv_ + 6, multipliers.segment(6, nv_ - 6), time_, hessian);
+  add_by_duration(2 * nv_, multipliers.segment(nv_, nv_), time_, hessian);
+}
+
+}  // namespace prowl

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "prowl/transcription/defects.hpp"
+#include "prowl/transcription/rotation_product.hpp"
+
+namespace prowl {
+
+/// s = h/2 of the step on one side of a node, 0 where there is none, and how it depends on the duration of the phase.
+struct HalfTime {
+  double s = 0.0;
+  double slope = 0.0;  ///< ds/dT
+  int column = -1;     ///< of T among the variables of the node; -1 if T is fixed
+};
+
+/// The trapezoid is explicit in a state in the middle between two nodes. From the state (z, w) before a node to the node:
+///
+///   v = w + s a,   R = R_z exp(s omega),   p = p_z + s R v_linear,   joints = joints_z + s rates
+///
+/// Variables are (base position, theta, joints | v | a | ... | shared), where R = chart exp(theta), with z in the place of
+/// q and w in that of v for the state; everything else is the same on both sides. docs/transcription.md, "Stage by stage".
+class Arrival {
+ public:
+  Arrival(const Eigen::Matrix3d& chart, int nv, const HalfTime& time, const Eigen::VectorXd& state);
+
+  /// Variables of the node.
+  const Eigen::VectorXd& node() const { return node_; }
+  /// The way back: the state from which these variables of a node come.
+  static Eigen::VectorXd state(const Eigen::Matrix3d& chart, int nv, double s, const Eigen::VectorXd& node);
+
+  /// Derivatives in the node's variables, one row a function, become those in the state's.
+  void pull_back(Eigen::MatrixXd& rows) const;
+  /// The same for a Hessian, with the function's gradient in the node's variables.
+  void pull_back(Eigen::MatrixXd& hessian, Eigen::VectorXd gradient) const;
+
+ private:
+  template <class Matrix>
+  void substitute_position(Matrix&& m) const;
+  template <class Matrix>
+  void substitute_joints(Matrix&& m) const;
+  template <class Matrix>
+  void substitute_rotation(Matrix&& m) const;
+  template <class Matrix>
+  void substitute_velocity(Matrix&& m) const;
+
+  Eigen::Matrix3d chart_;
+  Eigen::Index nv_;
+  HalfTime time_;
+  Eigen::VectorXd node_;
+  RotationProduct<2> turn_;
+  WorldVelocity world_;
+};
+
+/// From a node to the state after it:
+///
+///   w' = v + s a,   R_z' = R exp(s omega),   p_z' = p + s R v_linear,   joints_z' = joints + s rates
+class Departure {
+ public:
+  Departure(const Eigen::Matrix3d& chart, const Eigen::Matrix3d& next_chart, int nv, const HalfTime& time,
+            const Eigen::VectorXd& node);
+
+  Eigen::VectorXd value() const;  ///< (z', w')
+  /// Derivatives in the node's variables, 2 nv rows.
+  void derivatives(Eigen::Ref<Eigen::MatrixXd> rows) const;
+  /// Adds the Hessian of multipliers . value().
+  void add_hessian(const Eigen::VectorXd& multipliers, Eigen::MatrixXd& hessian) const;
+
+ private:
+  Eigen::Matrix3d chart_;
+  Eigen::Index nv_;
+  HalfTime time_;
+  Eigen::VectorXd node_;
+  RotationProduct<2> turn_;
+  WorldVelocity world_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,174 @@
+#include "prowl/transcription/stagewise_transcription.hpp"
+
+#include <gtest/gtest.h>
+
+#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/transcription/transcription.hpp"
+#include "tests/support/everything_problem.hpp"
+#include "tests/support/random_point.hpp"
+#include "tests/support/robots.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using test::everything;
+using test::free_phase;
+using test::phase_on;
+
+constexpr const char* kFirstRow = "base force x, equations of motion";  ///< of each node
+
+/// A transcription near its guess, with both forms.
+struct Forms {
+  explicit Forms(const MotionProblem& problem)
+      : mesh(make_mesh(problem)), guess(initial_guess(problem, mesh)), nlp(problem, mesh, guess), stages(*nlp.stagewise()) {
+    start = nlp.pack(guess);
+    for (int i = 0; i < nlp.num_variables(); ++i) {  // as a solver would put what is fixed
+      if (nlp.variable_lower()(i) == nlp.variable_upper()(i)) start(i) = nlp.variable_lower()(i);
+    }
+  }
+  std::vector<VectorXd> random_stages(std::mt19937& rng, double size) {
+    std::vector<VectorXd> result = stages.stages(start);
+    for (VectorXd& ux : result) ux += test::random_vector(rng, ux.size(), size);
+    return result;
+  }
+
+  Mesh mesh;
+  Trajectory guess;
+  Transcription nlp;
+  StagewiseNlp& stages;
+  VectorXd start;
+};
+
+/// Every problem that has a kind of stage of its own.
+std::vector<MotionProblem> problems() {
+  const RobotModel hyq = test::hyq();
+  std::vector<MotionProblem> all = {
+      everything(hyq, {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("flight", {}, 0.2, 1)}),
+      everything(hyq, {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
+                       free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)}),
+      everything(test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1),
+                                 free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)})};
+  all[1].running_cost.time_weight = 2.3;
+  all[1].swing_clearance = 0.05;
+  all[2].running_cost.force_weight *= 0.1;
+  return all;
+}
+
+/// All functions of a stage, one above the other.
+VectorXd functions(StagewiseNlp& nlp, int k, const VectorXd& ux) {
+  const StageValues& values = nlp.values(k, ux);
+  VectorXd all(1 + values.next.size() + values.equalities.size() + values.inequalities.size());
+  all << values.cost, values.next, values.equalities, values.inequalities;
+  return all;
+}
+
+MatrixXd slopes(StagewiseNlp& nlp, int k, const VectorXd& ux) {
+  const StageDerivatives& d = nlp.derivatives(k, ux);
+  MatrixXd all(1 + d.next.rows() + d.equalities.rows() + d.inequalities.rows(), ux.size());
+  all << d.cost_gradient.transpose(), d.next, d.equalities, d.inequalities;
+  return all;
+}
+
+/// By differences of fourth order, one column a variable.
+template <class Function>
+MatrixXd differences(const VectorXd& at, Function function) {
+  constexpr double h = 1e-4;  // of a unit: the tips of the friction cones are as small as 1e-2 of the weight
+  MatrixXd result(function(at).size(), at.size());
+  for (Eigen::Index j = 0; j < at.size(); ++j) {
+    const auto moved = [&](double by) {
+      VectorXd point = at;
+      point(j) += by;
+      return function(point);
+    };
+    result.col(j) = (8.0 * (moved(h) - moved(-h)) - (moved(2.0 * h) - moved(-2.0 * h))) / (12.0 * h);
+  }
+  return result;
+}
+
+TEST(StagewiseTranscription, DerivativesAreThoseOfDifferences) {
+  std::mt19937 rng(7);
+  for (const MotionProblem& problem : problems()) {
+    Forms forms(problem);
+    const std::vector<VectorXd> point = forms.random_stages(rng, 0.05);
+    for (int k = 0; k < forms.stages.num_stages(); ++k) {
+      const VectorXd& ux = point[static_cast<std::size_t>(k)];
+      const StageSize& size = forms.stages.size(k);
+      const MatrixXd exact = slopes(forms.stages, k, ux);
+      const MatrixXd by_differences = differences(ux, [&](const VectorXd& x) { return functions(forms.stages, k, x); });
+      EXPECT_LT(test::relative_error(exact, by_differences), 1e-6) << forms.stages.describe_stage(k);
+
+      const StageMultipliers on{test::random_vector(rng, exact.rows() - 1 - size.equalities - size.inequalities, 1.0),
+                                test::random_vector(rng, size.equalities, 1.0),
+                                test::random_vector(rng, size.inequalities, 1.0)};
+      VectorXd weights(exact.rows());
+      weights << 1.7, on.next, on.equalities, on.inequalities;
+      const MatrixXd hessian = forms.stages.hessian(k, ux, 1.7, on);
+      const MatrixXd bent = differences(
+          ux, [&](const VectorXd& x) -> VectorXd { return slopes(forms.stages, k, x).transpose() * weights; });
+      // Forces near the tips of their cones bend so much that differences know six digits.
+      EXPECT_LT(test::relative_error(hessian, bent), 1e-5) << forms.stages.describe_stage(k);
+    }
+  }
+}
+
+TEST(StagewiseTranscription, ChangesOfFormAreInverse) {
+  std::mt19937 rng(7);
+  for (const MotionProblem& problem : problems()) {
+    Forms forms(problem);
+    VectorXd z = forms.start + test::random_vector(rng, forms.start.size(), 0.1);
+    for (Eigen::Index i = 0; i < z.size(); ++i) {
+      if (forms.nlp.variable_lower()(i) == forms.nlp.variable_upper()(i)) z(i) = forms.start(i);
+    }
+    EXPECT_LT(test::relative_error(forms.stages.flat(forms.stages.stages(z)), z), 1e-12);
+  }
+}
+
+/// The states that follow from random inputs, stage after stage, make no defect: both are the same trapezoid.
+TEST(StagewiseTranscription, MotionsOfStagesHaveNoDefects) {
+  std::mt19937 rng(7);
+  for (const MotionProblem& problem : problems()) {
+    Forms forms(problem);
+    std::vector<VectorXd> motion = forms.random_stages(rng, 0.05);
+    for (std::size_t k = 0; k + 1 < motion.size(); ++k) {
+      const VectorXd& next = forms.stages.values(static_cast<int>(k), motion[k]).next;
+      motion[k + 1].tail(next.size()) = next;
+    }
+    const VectorXd z = forms.stages.flat(motion);
+    VectorXd rows(forms.nlp.num_constraints());
+    forms.nlp.constraints(z, rows);
+    const int links = 2 * problem.robot.nv() * (forms.mesh.size() - 1);
+    EXPECT_LT(rows.tail(links).cwiseAbs().maxCoeff(), 1e-12);
+
+    double cost = 0.0, worst = 0.0;
+    for (int k = 0; k < forms.stages.num_stages(); ++k) {
+      const StageValues& values = forms.stages.values(k, motion[static_cast<std::size_t>(k)]);
+      cost += values.cost;
+      if (values.equalities.size() > 0) worst = std::max(worst, values.equalities.cwiseAbs().maxCoeff());
+    }
+    EXPECT_NEAR(cost, forms.nlp.cost(z), 1e-9 * cost);
+    EXPECT_GT(worst, 1e-3) << "a random motion that keeps the dynamics: nothing was tested";
+
+    int k = 0;
+    for (int row = 0; row < rows.size(); ++row) {
+      if (forms.nlp.describe_constraint(row).find(kFirstRow) == std::string::npos) continue;
+      const VectorXd& here = forms.stages.values(k, motion[static_cast<std::size_t>(k)]).equalities;
+      for (int i = 0; i < problem.robot.nv(); ++i) EXPECT_NEAR(here(i), rows(row + i), 1e-9);
+      ++k;
+    }
+    EXPECT_EQ(k, forms.stages.num_stages());
+  }
+}
+
+TEST(StagewiseTranscription, LeavesOutWhatIsFixed) {
+  Forms forms(everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)}));
+  EXPECT_EQ(forms.stages.size(0).states, 0);
+  EXPECT_EQ(forms.stages.size(1).states, 36);
+  EXPECT_EQ(forms.stages.size(1).inputs, 30);
+  EXPECT_EQ(forms.stages.size(1).equalities, 18);
+  EXPECT_EQ(forms.stages.size(2).equalities, 24) << "the goal binds the base";
+}
+
+}  // namespace
+}  // namespace prowl
