@@ -156,21 +156,46 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
   return contacts;
 }
 
+/// Phases of one interval each, so that each step is a duration of its own between the phase's bounds / intervals. The last
+/// keeps the name, for goals at the end of the phase.
+std::vector<Phase> with_free_steps(const Phase& phase) {
+  const int n = phase.intervals;
+  std::vector<Phase> steps(static_cast<std::size_t>(n), phase);
+  for (int i = 0; i < n; ++i) {
+    Phase& step = steps[static_cast<std::size_t>(i)];
+    step.intervals = 1;
+    step.duration = {phase.duration.min / n, phase.duration.max / n};
+    if (i + 1 < n) step.name = fmt::format("{} step {}", phase.name, i + 1);
+    if (i == 0) continue;
+    for (PhaseContact& contact : step.contacts) contact.place.reset();  // it landed with the first step
+  }
+  return steps;
+}
+
 std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names) {
   root.need("phase");
   std::vector<Phase> phases;
+  int number = 0;
   for (const TomlTable& table : root.find_tables("phase")) {
+    ++number;
     Phase phase;
     const auto name = table.find("name");
-    phase.name = name ? name->as_name() : fmt::format("phase {}", phases.size() + 1);
-    for (const Phase& other : phases) {
-      if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
-    }
+    phase.name = name ? name->as_name() : fmt::format("phase {}", number);
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
     const Bounds duration = table.need("duration_s").as_range(NumberRange::positive());
     phase.duration = {duration.lower, duration.upper};
     phase.intervals = table.need("intervals").as_integer(1, kMostIntervals);
-    phases.push_back(phase);
+    std::vector<Phase> pieces{phase};
+    if (const auto steps = table.find("steps"); steps && steps->as_one_of("kind of steps", {"equal", "free"}) == 1) {
+      if (phase.duration.is_fixed()) steps->fail("the steps of a fixed duration are not free; need duration_s = [min, max]");
+      pieces = with_free_steps(phase);
+    }
+    for (Phase& piece : pieces) {
+      if (std::ranges::find(phases, piece.name, &Phase::name) != phases.end()) {
+        table.value().fail("\"" + piece.name + "\" is already another phase");
+      }
+      phases.push_back(std::move(piece));
+    }
   }
   if (phases.empty()) root.need("phase").fail("an empty list is not allowed; need one phase or more");
   return phases;
