@@ -56,6 +56,9 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
   const std::string with_steps =
       test::replaced(test::replaced(kTaskFile, "duration_s = 2.0", "duration_s = [1.0, 2.0]\nsteps = \"free\""), "time_s = 2.0",
                      "phase = \"stand\"");
+  const auto goal_at = [&](const std::string& fraction) {
+    return read(test::replaced(with_steps, "[start]", fraction + "\n[start]")).problem.boundary_conditions[1].at;
+  };
   const MotionProblem problem = read(with_steps).problem;
   ASSERT_EQ(problem.phases.size(), 5u);
   for (const Phase& phase : problem.phases) {
@@ -65,6 +68,11 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
   }
   EXPECT_EQ(problem.phases[3].name, "stand step 4");
   EXPECT_EQ(problem.boundary_conditions[1].at, (NodeRef{4, 1})) << "the goal is at the end of the whole phase";
+  EXPECT_EQ(goal_at("fraction = 0.4"), (NodeRef{1, 1}));
+  EXPECT_EQ(goal_at("fraction = 0"), (NodeRef{0, 0}));
+  EXPECT_EQ(read(with_steps, kHyqFile, {.intervals = 8}).problem.phases.size(), 8u);
+  EXPECT_THAT(message_of(test::replaced(with_steps, "intervals = 5", "intervals = 201")),
+              HasSubstr("phase[0].steps: 201 free steps are not allowed; need at most 200"));
   EXPECT_THAT(message("duration_s = 2.0", "duration_s = 2.0\nsteps = \"free\""),
               HasSubstr("steps: the steps of a fixed duration are not free; need duration_s = [min, max]"));
 }
