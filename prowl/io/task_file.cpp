@@ -20,6 +20,7 @@
 namespace prowl {
 namespace {
 
+constexpr int kMostFreeSteps = 200;
 constexpr int kMostIntervals = 10000;  // of one phase; a typing mistake above that, and gigabytes of memory
 constexpr double kShortestNormal = 1e-6;
 
@@ -156,24 +157,71 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
   return contacts;
 }
 
-std::vector<Phase> read_phases(const TomlTable& root, const ContactNames& names) {
-  root.need("phase");
+/// Phases of the file; where their steps are free, the key that says so.
+struct FilePhases {
   std::vector<Phase> phases;
+  std::vector<std::optional<TomlValue>> free_steps;
+};
+
+FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
+  root.need("phase");
+  FilePhases read;
   for (const TomlTable& table : root.find_tables("phase")) {
     Phase phase;
     const auto name = table.find("name");
-    phase.name = name ? name->as_name() : fmt::format("phase {}", phases.size() + 1);
-    for (const Phase& other : phases) {
+    phase.name = name ? name->as_name() : fmt::format("phase {}", read.phases.size() + 1);
+    for (const Phase& other : read.phases) {
       if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
     }
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
     const Bounds duration = table.need("duration_s").as_range(NumberRange::positive());
     phase.duration = {duration.lower, duration.upper};
     phase.intervals = table.need("intervals").as_integer(1, kMostIntervals);
-    phases.push_back(phase);
+    auto steps = table.find("steps");
+    if (steps && steps->as_one_of("kind of steps", {"equal", "free"}) == 0) steps.reset();
+    if (steps && phase.duration.is_fixed()) {
+      steps->fail("the steps of a fixed duration are not free; need duration_s = [min, max]");
+    }
+    read.phases.push_back(phase);
+    read.free_steps.push_back(steps);
   }
-  if (phases.empty()) root.need("phase").fail("an empty list is not allowed; need one phase or more");
-  return phases;
+  if (read.phases.empty()) root.need("phase").fail("an empty list is not allowed; need one phase or more");
+  return read;
+}
+
+/// A phase whose steps are free becomes phases of one interval each, so that each step is a duration of its own between the
+/// phase's bounds / intervals. Conditions go with their nodes.
+void split_free_steps(const std::vector<std::optional<TomlValue>>& free_steps, std::vector<Phase>& phases,
+                      std::vector<BoundaryCondition>& conditions) {
+  std::vector<Phase> pieces;
+  std::vector<int> first;
+  for (std::size_t p = 0; p < phases.size(); ++p) {
+    first.push_back(static_cast<int>(pieces.size()));
+    const int n = phases[p].intervals;
+    if (!free_steps[p]) {
+      pieces.push_back(phases[p]);
+      continue;
+    }
+    if (n > kMostFreeSteps) {
+      free_steps[p]->fail(fmt::format("{} free steps are not allowed; need at most {}: each takes the space of a phase", n,
+                                      kMostFreeSteps));
+    }
+    for (int i = 0; i < n; ++i) {
+      Phase& step = pieces.emplace_back(phases[p]);
+      step.name = fmt::format("{} step {}", phases[p].name, i + 1);
+      step.intervals = 1;
+      step.duration = {phases[p].duration.min / n, phases[p].duration.max / n};
+      if (i == 0) continue;
+      for (PhaseContact& contact : step.contacts) contact.place.reset();  // it landed with the first step
+    }
+  }
+  for (BoundaryCondition& condition : conditions) {
+    const auto p = static_cast<std::size_t>(condition.at.phase);
+    condition.at.phase = first[p];
+    if (!free_steps[p] || condition.at.node == 0) continue;
+    condition.at = {first[p] + condition.at.node - 1, 1};
+  }
+  phases = std::move(pieces);
 }
 
 void override_intervals(std::vector<Phase>& phases, const std::vector<int>& file_intervals, int total) {
@@ -203,13 +251,16 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
   for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
   const TaskStart start = read_start(root, robot, robot_file, surfaces);
   const std::optional<TaskGait> gait = read_gait(root, robot, surfaces, start);
-  std::vector<Phase> phases = gait ? gait->phases : read_phases(root, names);
+  FilePhases read = gait ? FilePhases{gait->phases, {}} : read_phases(root, names);
+  read.free_steps.resize(read.phases.size());
+  std::vector<Phase>& phases = read.phases;
   for (const Phase& phase : phases) file_intervals.push_back(phase.intervals);
   if (overrides.intervals) override_intervals(phases, file_intervals, *overrides.intervals);
 
   std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
   for (BoundaryCondition& goal : read_goals(root, robot, start, phases)) conditions.push_back(std::move(goal));
   if (gait && gait->displacement) conditions.push_back(arrival(robot, start, *gait->displacement, phases));
+  split_free_steps(read.free_steps, phases, conditions);
 
   MotionProblem problem{.name = "",
                         .robot = std::move(robot),

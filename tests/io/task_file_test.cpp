@@ -52,6 +52,31 @@ TEST_F(TaskFile, GivesTheProblemThatItDescribes) {
   EXPECT_EQ(task.task_file.text, kTaskFile);
 }
 
+TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
+  const std::string with_steps =
+      test::replaced(test::replaced(kTaskFile, "duration_s = 2.0", "duration_s = [1.0, 2.0]\nsteps = \"free\""), "time_s = 2.0",
+                     "phase = \"stand\"");
+  const auto goal_at = [&](const std::string& fraction) {
+    return read(test::replaced(with_steps, "[start]", fraction + "\n[start]")).problem.boundary_conditions[1].at;
+  };
+  const MotionProblem problem = read(with_steps).problem;
+  ASSERT_EQ(problem.phases.size(), 5u);
+  for (const Phase& phase : problem.phases) {
+    EXPECT_EQ(phase.intervals, 1);
+    EXPECT_EQ(phase.duration.min, 0.2);
+    EXPECT_EQ(phase.duration.max, 0.4);
+  }
+  EXPECT_EQ(problem.phases[3].name, "stand step 4");
+  EXPECT_EQ(problem.boundary_conditions[1].at, (NodeRef{4, 1})) << "the goal is at the end of the whole phase";
+  EXPECT_EQ(goal_at("fraction = 0.4"), (NodeRef{1, 1}));
+  EXPECT_EQ(goal_at("fraction = 0"), (NodeRef{0, 0}));
+  EXPECT_EQ(read(with_steps, kHyqFile, {.intervals = 8}).problem.phases.size(), 8u);
+  EXPECT_THAT(message_of(test::replaced(with_steps, "intervals = 5", "intervals = 201")),
+              HasSubstr("phase[0].steps: 201 free steps are not allowed; need at most 200"));
+  EXPECT_THAT(message("duration_s = 2.0", "duration_s = 2.0\nsteps = \"free\""),
+              HasSubstr("steps: the steps of a fixed duration are not free; need duration_s = [min, max]"));
+}
+
 TEST_F(TaskFile, StartIsFixedAndGoalBindsWhatIsNamed) {
   const MotionProblem problem = read(kTaskFile).problem;
   ASSERT_EQ(problem.boundary_conditions.size(), 2u);
@@ -176,7 +201,7 @@ TEST_F(TaskFile, SlugTellsTasksOfDifferentRobotsApart) {
 TEST_F(TaskFile, RefusesUnknownKey) {
   EXPECT_EQ(message("duration_s", "duration"),
             "task.toml:6:1: phase[0].duration: unknown key; did you mean 'duration_s'? "
-            "Known: name, contacts, duration_s, intervals");
+            "Known: name, contacts, duration_s, intervals, steps");
 }
 
 TEST_F(TaskFile, RefusesWrongUnit) {

@@ -11,11 +11,14 @@
 namespace prowl {
 namespace {
 
+constexpr double kLongest = 1e9;  // [s]
+
 /// Of a motion of two phases, each with the duration that the text says.
-Plan stand_up(const std::string& duration) {
+Plan stand_up(const std::string& duration, const std::string& steps = "equal") {
   const test::TempFolder folder;
   folder.write("hyq.toml", test::kHyqFile);
-  const std::string phase = fmt::format("[[phase]]\ncontacts = \"all\"\nduration_s = {}\nintervals = 6\n", duration);
+  const std::string phase = fmt::format(
+      "[[phase]]\ncontacts = \"all\"\nduration_s = {}\nintervals = 6\nsteps = \"{}\"\n", duration, steps);
   folder.write("up.toml", "robot = \"hyq.toml\"\n" + phase + phase + R"([[goal]]
 phase = "phase 2"
 base_displacement_m = [0, 0, 0.06]
@@ -67,6 +70,24 @@ TEST(FreeDuration, StopsAtItsBounds) {
     EXPECT_NEAR(duration_of_phase(at_most, phase), shorter, 1e-5);
     EXPECT_NEAR(duration_of_phase(at_least, phase), longer, 1e-5);
   }
+}
+
+/// Equal steps are one choice among the free ones.
+TEST(FreeDuration, OfEachStepCostsNoMoreThanEqualSteps) {
+  const Plan equal = stand_up("[0.3, 0.9]"), free = stand_up("[0.3, 0.9]", "free");
+  EXPECT_LT(free.result.cost, equal.result.cost);
+  EXPECT_GT(free.result.cost, 0.5 * equal.result.cost) << "another motion, so that this test compares nothing";
+  double shortest = kLongest, longest = 0.0, total = 0.0;
+  for (int phase = 0; phase < 12; ++phase) {
+    const double step = duration_of_phase(free, phase);
+    EXPECT_GE(step, 0.05 - 1e-6);
+    EXPECT_LE(step, 0.15 + 1e-6);
+    shortest = std::min(shortest, step);
+    longest = std::max(longest, step);
+    total += step;
+  }
+  EXPECT_NEAR(total, free.trajectory.duration(), 1e-12);
+  EXPECT_GT(longest, shortest + 1e-3) << "all equal: nothing was chosen";
 }
 
 }  // namespace
