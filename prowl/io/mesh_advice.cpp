@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -27,6 +28,14 @@ std::optional<int> intervals_option(const Task& task, double needed) {
   return std::nullopt;
 }
 
+/// Whether a finer mesh would do: no check failed but those of the integration error.
+bool fails_by_mesh_only(const Certificate& certificate) {
+  constexpr std::array kOfTheMesh{"local integration error", "integration error in a second", "re-integration"};
+  return std::ranges::all_of(certificate.checks, [&](const CertificateCheck& check) {
+    return check.passed || std::ranges::find(kOfTheMesh, check.name) != kOfTheMesh.end();
+  });
+}
+
 }  // namespace
 
 std::string mesh_advice(const PlanRecord& record) {
@@ -35,6 +44,7 @@ std::string mesh_advice(const PlanRecord& record) {
       std::max_element(errors.begin(), errors.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
   if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error))
     return "";
+  if (!fails_by_mesh_only(record.plan.certificate)) return "";
   std::string text;
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;

@@ -29,6 +29,13 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g}{}", value, unit.empty() || unit == "-" ? "" : " " + unit);
 }
 
+/// Whether nothing costs anything: then all motions that keep the constraints are as good.
+bool is_zero(const QuadraticCost& cost) {
+  return cost.configuration_weight.isZero(0.0) && cost.velocity_weight.isZero(0.0) && cost.acceleration_weight.isZero(0.0) &&
+         cost.torque_weight.isZero(0.0) && cost.force_weight.isZero(0.0) && cost.time_weight == 0.0 &&
+         cost.contact_positions.empty();
+}
+
 /// "failed: local integration error (0.000184 > 0.0001), ...", or "" if none has.
 std::string failed_checks(const Certificate& certificate) {
   std::string text;
@@ -72,6 +79,9 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   if (!record.warm_start.empty()) text += fmt::format("  started from {}\n", record.warm_start);
   text += fmt::format("  solution     cost {:.6g}, constraint violation {:.1e}, dual violation {:.1e}\n", result.cost,
                       result.constraint_violation, result.dual_violation);
+  if (is_zero(problem.running_cost) && is_zero(problem.terminal_cost)) {
+    text += "  note         without [cost] all motions are as good, and what comes out need not be smooth (docs/task-file.md)\n";
+  }
   if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);
   for (const std::string& hint : record.plan.hints) text += fmt::format("  hint         {}\n", hint);
   return text;

@@ -251,6 +251,12 @@ TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
   EXPECT_THAT(result.out, HasSubstr(" iterations on 4, 16, 64 intervals"));
 }
 
+TEST_F(Command, SaysThatATaskWithoutCostIsLeftToChance) {
+  folder_.write("free.toml", kPhase);
+  EXPECT_THAT(run("$prowl plan free.toml $dirs --out out").out, HasSubstr("  note         without [cost] all motions are as good"));
+  EXPECT_THAT(run("$prowl plan hold.toml $dirs --out out").out, Not(HasSubstr("without [cost]")));
+}
+
 TEST_F(Command, StartsFromAPlan) {
   const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.02, 0, -0.05]\n";
   folder_.write("shift.toml", kHold + shift);

@@ -80,6 +80,15 @@ TEST_F(MeshAdvice, SaysNothingOfAPlanThatDidNotConverge) {
   EXPECT_EQ(mesh_advice(plan), "");
 }
 
+TEST_F(MeshAdvice, SaysNothingWhereAFinerMeshWouldNotDo) {
+  PlanRecord plan = record(5e-4);
+  plan.plan.certificate.checks = {{"local integration error", 5e-4, 1e-4, "", 0.2, "v", false},
+                                  {"joint torque", 1.0, 1.0, "of limit", 0.2, "", true}};
+  EXPECT_NE(mesh_advice(plan), "");
+  plan.plan.certificate.checks[1].passed = false;
+  EXPECT_EQ(mesh_advice(plan), "");
+}
+
 TEST(CertificateSummary, RepeatsTheFailedChecksAtTheEnd) {
   Certificate certificate;
   certificate.checks = {{"contact drift", 1e-5, 1e-3, "m", 0.1, "lf_foot", true},

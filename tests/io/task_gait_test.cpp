@@ -110,6 +110,7 @@ TEST_F(TaskGait, TakesAllItsKeys) {
   const MotionProblem problem = read(R"(robot = "hyq.toml"
 [[surface]]
 name = "wall"
+point_m = [-2, 0, 0]
 normal = [1, 0, 0]
 [[surface]]
 name = "ground"
