@@ -257,6 +257,13 @@ TEST_F(Command, SaysThatATaskWithoutCostIsLeftToChance) {
   EXPECT_THAT(run("$prowl plan hold.toml $dirs --out out").out, Not(HasSubstr("without [cost]")));
 }
 
+/// The smoothed tips of four cones must not ask for more than the weight.
+TEST_F(Command, StandsOnIce) {
+  folder_.write("ice.toml", kHold + "[[surface]]\nname = \"ice\"\nfriction = 0.03\n");
+  const Outcome result = run("$prowl plan ice.toml $dirs --out out");
+  EXPECT_EQ(result.status, 0) << result.out;
+}
+
 TEST_F(Command, StartsFromAPlan) {
   const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.02, 0, -0.05]\n";
   folder_.write("shift.toml", kHold + shift);
