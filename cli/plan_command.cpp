@@ -52,19 +52,18 @@ Trajectory read_start(const PlanArguments& arguments, const MotionProblem& probl
   const PlanRecord record = read_plan(arguments.warm_start, package_search(arguments.package_dirs));
   const Trajectory& motion = record.plan.trajectory;
   const MotionProblem& other = record.task.problem;
-  const auto refuse = [&](const std::string& why) {
-    throw InputError(fmt::format("--warm-start {}: the motion to start from {}", arguments.warm_start, why));
-  };
-  if (other.robot.joint_names() != problem.robot.joint_names()) refuse("is of another robot");
   try {
+    if (other.robot.joint_names() != problem.robot.joint_names()) {
+      throw InputError("the motion to start from is of another robot");
+    }
     resample(motion, problem, make_mesh(problem));
+    for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+      const auto contact = &PhaseContact::contact;
+      if (std::ranges::equal(problem.phases[p].contacts, other.phases[p].contacts, {}, contact, contact)) continue;
+      throw InputError(fmt::format("the motion to start from has other contacts in phase {}", p + 1));
+    }
   } catch (const InputError& error) {
     throw InputError(fmt::format("--warm-start {}: {}", arguments.warm_start, error.what()));
-  }
-  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
-    const auto contact = &PhaseContact::contact;
-    if (std::ranges::equal(problem.phases[p].contacts, other.phases[p].contacts, {}, contact, contact)) continue;
-    refuse(fmt::format("has other contacts in phase {}", p + 1));
   }
   return motion;
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -12,6 +11,7 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/nearest_in_patch.hpp"
+#include "prowl/motion/contact_schedule.hpp"
 
 namespace prowl {
 
@@ -156,13 +156,11 @@ void check_condition(const MotionProblem& problem, const std::string& field, con
 
 /// A place is for a contact that lands: one that holds already is where it is.
 void check_places(const MotionProblem& problem) {
+  const ContactSchedule schedule(problem);
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const auto& contacts = problem.phases[p].contacts;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (!contacts[i].place) continue;
-      const bool lands = p > 0 && std::ranges::find(problem.phases[p - 1].contacts, contacts[i].contact,
-                                                    &PhaseContact::contact) == problem.phases[p - 1].contacts.end();
-      if (lands) continue;
+      if (!contacts[i].place || schedule.lands(static_cast<int>(p), static_cast<int>(i))) continue;
       refuse("phases[{}].contacts[{}].place: contact '{}' does not land in this phase, it {}; need no place, or the phase in which "
              "it lands", p, i, problem.robot.contacts()[static_cast<std::size_t>(contacts[i].contact)].name,
              p == 0 ? "starts where the start posture has it" : "holds from the phase before");
@@ -171,9 +169,7 @@ void check_places(const MotionProblem& problem) {
 }
 
 /// No contact point, held or not, starts inside a surface without an edge.
-void check_start_outside(const MotionProblem& problem) {
-  RigidBodyTerms terms(problem.robot);
-  terms.update_kinematics(problem.start_configuration());
+void check_start_outside(const MotionProblem& problem, const RigidBodyTerms& terms) {
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
     const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(c)];
     for (const Surface& surface : problem.surfaces) {
@@ -186,12 +182,10 @@ void check_start_outside(const MotionProblem& problem) {
 }
 
 /// The contacts of the first phase must be on their surfaces, inside their patches and, at the start velocity, stay there.
-void check_start_contacts(const MotionProblem& problem) {
+void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& terms) {
   const Phase& phase = problem.phases.front();
   std::vector<int> contacts;
   for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-  RigidBodyTerms terms(problem.robot);
-  terms.update_kinematics(problem.start_configuration());
   ContactKinematics kinematics(contacts);
   kinematics.set_configuration(terms);
   const VectorXd velocities = kinematics.jacobian() * problem.start().velocity_lower;
@@ -257,8 +251,10 @@ void check_start(const MotionProblem& problem) {
   if (start.velocity_lower != start.velocity_upper) {
     refuse("boundary_conditions[0].velocity: the start must be fixed; need equal bounds");
   }
-  check_start_contacts(problem);
-  check_start_outside(problem);
+  RigidBodyTerms terms(problem.robot);
+  terms.update_kinematics(problem.start_configuration());
+  check_start_contacts(problem, terms);
+  check_start_outside(problem, terms);
 }
 
 void check_weights(const std::string& field, const VectorXd& weights, int size) {

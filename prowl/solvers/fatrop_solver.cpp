@@ -13,6 +13,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/solvers/iterate.hpp"
 
 namespace prowl {
 namespace {
@@ -38,11 +39,8 @@ struct Stopped {
   std::string message;
 };
 
-struct Iterate {
+struct Iterate : IterateFigures {
   std::vector<VectorXd> stages;
-  double cost = std::numeric_limits<double>::infinity();
-  double violation = std::numeric_limits<double>::infinity();
-  double dual_violation = std::numeric_limits<double>::infinity();
 };
 
 Dims dims_of(const StagewiseNlp& nlp) {
@@ -239,19 +237,13 @@ class FatropProblem : public fatrop::Nlp<Type> {
     last_.cost = iterate.obj_value() / iterate.objective_scale;
     last_.violation = iterate.constr_viol_inf();
     last_.dual_violation = iterate.dual_infeasibility_x_inf();
-    if (better(last_, best_)) best_ = last_;
+    if (is_better(last_, best_, options_.tolerance)) best_ = last_;
     return last_;
   }
 
  private:
   VectorXd stage(const Info& info, const VecRealView& x, int k) const {
     return segment(x, info.offsets_primal_u[static_cast<std::size_t>(k)], nlp_.size(k).variables());
-  }
-
-  bool better(const Iterate& a, const Iterate& b) const {
-    const double violation_a = std::max(a.violation, options_.tolerance);
-    const double violation_b = std::max(b.violation, options_.tolerance);
-    return violation_a < violation_b || (violation_a == violation_b && a.cost < b.cost);
   }
 
   void check_limits() const {

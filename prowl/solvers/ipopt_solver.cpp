@@ -13,6 +13,7 @@
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
+#include "prowl/solvers/iterate.hpp"
 
 // MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: another BLAS may not have it.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
@@ -29,11 +30,8 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-struct Iterate {
+struct Iterate : IterateFigures {
   VectorXd z, multipliers;
-  double cost = std::numeric_limits<double>::infinity();
-  double violation = std::numeric_limits<double>::infinity();
-  double dual_violation = std::numeric_limits<double>::infinity();
 };
 
 /// What Ipopt asks, passed on to the Nlp.
@@ -126,7 +124,7 @@ class IpoptProblem : public Ipopt::TNLP {
                     Ipopt::IpoptCalculatedQuantities* quantities) {
     const int n = nlp_.num_variables();
     const int m = nlp_.num_constraints();
-    Iterate now{VectorXd(n), VectorXd(m)};
+    Iterate now{{}, VectorXd(n), VectorXd(m)};
     VectorXd g(m);
     if (!get_curr_iterate(data, quantities, false, n, now.z.data(), nullptr, nullptr, m, g.data(),
                           now.multipliers.data())) {
@@ -144,14 +142,8 @@ class IpoptProblem : public Ipopt::TNLP {
         now.dual_violation = gradient.lpNorm<Eigen::Infinity>();
       }
     }
-    if (better(now, best_)) best_ = now;
+    if (is_better(now, best_, options_.tolerance)) best_ = now;
     last_ = std::move(now);
-  }
-
-  bool better(const Iterate& a, const Iterate& b) const {
-    const double violation_a = std::max(a.violation, options_.tolerance);
-    const double violation_b = std::max(b.violation, options_.tolerance);
-    return violation_a < violation_b || (violation_a == violation_b && a.cost < b.cost);
   }
 
   GuardedNlp& guarded_;
@@ -272,7 +264,7 @@ void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions
   const bool finished = status == SolveStatus::converged || status == SolveStatus::infeasible;
   const Iterate& chosen = finished ? problem->last() : problem->best();
   if (chosen.z.size() == 0) {
-    evaluate_result(guarded, {z_start, {}}, result);  // failed before the first iterate
+    evaluate_result(guarded, {{}, z_start, {}}, result);  // failed before the first iterate
   } else if (!evaluate_result(guarded, chosen, result) && finished) {
     result.status = SolveStatus::evaluation_failed;
     result.message = fmt::format("result cannot be evaluated: {}", guarded.failure());

@@ -20,6 +20,10 @@ std::string Transcription::describe_node(int k) const {
                      node.node);
 }
 
+std::string Transcription::describe_place(int k) const {
+  return fmt::format("{}, t = {:.3f} s", describe_node(k), mesh_node(k).time);
+}
+
 std::string Transcription::describe_constraint(int row) const {
   const int nv = layout_.nv();
   std::string what;

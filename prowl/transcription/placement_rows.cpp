@@ -8,8 +8,6 @@ namespace prowl {
 
 namespace {
 
-constexpr double kGravity = 9.81;  // [m/s^2]; only a scale here
-
 int nodes_of(const MotionProblem& problem, int first_phase, int last_phase) {
   int intervals = 0;
   for (int p = first_phase; p <= last_phase; ++p) intervals += problem.phases[static_cast<std::size_t>(p)].intervals;
@@ -28,7 +26,7 @@ double clearance_profile(const Swing& swing, double s) {
 
 PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                              const std::vector<LandingAxes>& landing)
-    : length_(problem.robot.size()), speed_(std::sqrt(kGravity * length_)), kinematics_({}) {
+    : length_(problem.robot.size()), speed_(std::sqrt(RobotModel::kGravity * length_)), kinematics_({}) {
   rows_.resize(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(phase)].intervals) + 1);
   add_landing(problem, schedule, phase, landing);
   for (const Swing& swing : schedule.swings()) {

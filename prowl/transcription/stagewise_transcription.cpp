@@ -167,13 +167,10 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
 void StagewiseTranscription::evaluate(int k, bool with_derivatives) {
   Stage& stage = this->stage(k);
   NodeFunctions& functions = flat_.functions(k);
-  try {
+  flat_.at_node(k, [&] {
     with_derivatives ? functions.evaluate_with_derivatives(stage.point, stage.node_values)
                      : functions.evaluate(stage.point, stage.node_values);
-  } catch (const NumericalError& error) {
-    stage.at.resize(0);
-    throw NumericalError(fmt::format("{}: {}", describe_stage(k), error.what()));
-  }
+  });
 }
 
 const StageValues& StagewiseTranscription::values(int k, const VectorXd& ux) {
@@ -238,7 +235,9 @@ const MatrixXd& StagewiseTranscription::hessian(int k, const VectorXd& ux, doubl
   if (stage.values.next.size() > 0) on_functions.tail(stage.values.next.size()) = multipliers.next;
 
   MatrixXd hessian;
-  flat_.functions(k).hessian(stage.point, cost_factor, on_functions.head(stage.node_values.rows.size()), hessian);
+  flat_.at_node(k, [&] {
+    flat_.functions(k).hessian(stage.point, cost_factor, on_functions.head(stage.node_values.rows.size()), hessian);
+  });
   if (stage.values.next.size() > 0) {
     const VectorXd on_next = multipliers.next.cwiseProduct(stage.next_per_unit);
     departure(k).add_hessian(on_next, hessian);
@@ -271,7 +270,7 @@ VectorXd StagewiseTranscription::flat(const std::vector<VectorXd>& stages) const
 }
 
 std::string StagewiseTranscription::describe_stage(int k) const {
-  return fmt::format("{}, t = {:.3f} s", flat_.describe_node(k), flat_.mesh_node(k).time);
+  return flat_.describe_place(k);
 }
 
 }  // namespace prowl

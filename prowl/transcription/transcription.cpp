@@ -165,12 +165,10 @@ void Transcription::evaluate_nodes(const VectorXd& z, bool with_derivatives) {
   evaluated_at_.resize(0);  // in case that an evaluation throws half-way
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     NodeValues& values = values_[static_cast<std::size_t>(k)];
-    try {
+    at_node(k, [&] {
       const NodePoint point = node_point(z, k);
       with_derivatives ? functions(k).evaluate_with_derivatives(point, values) : functions(k).evaluate(point, values);
-    } catch (const NumericalError& error) {
-      throw NumericalError(fmt::format("{}, t = {:.3f} s: {}", describe_node(k), mesh_node(k).time, error.what()));
-    }
+    });
   }
   evaluated_at_ = z;
   have_derivatives_ = with_derivatives;
@@ -334,13 +332,11 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
   std::vector<Eigen::Matrix<double, 6, 6>> links(static_cast<std::size_t>(layout_.num_links()));
   MatrixXd shared = MatrixXd::Zero(num_shared, num_shared);
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    try {
+    at_node(k, [&] {
       functions(k).hessian(node_point(z, k), cost_factor,
                            multipliers.segment(layout_.node_row(k), functions(k).num_rows(mesh_node(k).node)),
                            nodes[static_cast<std::size_t>(k)]);
-    } catch (const NumericalError& error) {
-      throw NumericalError(fmt::format("{}, t = {:.3f} s: {}", describe_node(k), mesh_node(k).time, error.what()));
-    }
+    });
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (!is_interval(k)) continue;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "prowl/error.hpp"
 #include "prowl/motion/contact_schedule.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp.hpp"
@@ -83,6 +84,16 @@ class Transcription : public Nlp {
   void visit_hessian(const std::vector<Eigen::MatrixXd>& nodes, const std::vector<Eigen::Matrix<double, 6, 6>>& links,
                      const Eigen::MatrixXd& shared, Emit emit) const;
   std::string describe_node(int k) const;
+  std::string describe_place(int k) const;  ///< the node with its time
+  /// Evaluates something at node k; a NumericalError then says where.
+  template <class Evaluate>
+  void at_node(int k, const Evaluate& evaluate) const {
+    try {
+      evaluate();
+    } catch (const NumericalError& error) {
+      throw NumericalError(describe_place(k) + ": " + error.what());
+    }
+  }
   std::string describe_shared(int index) const;
 
   MotionProblem problem_;

@@ -87,15 +87,17 @@ Planned plan(const std::string& task, const std::string& options, const test::Te
   return planned;
 }
 
+/// The lowest that the base gets, against where it starts [m].
+double lowest_base(const PlanRecord& record) {
+  const auto& nodes = record.plan.trajectory.nodes;
+  double lowest = 0.0;
+  for (const auto& node : nodes) lowest = std::min(lowest, node.q(2) - nodes.front().q(2));
+  return lowest;
+}
+
 /// What a task is for, read off the plan, where its goals do not say it all.
 const std::map<std::string, std::function<void(const PlanRecord&)>> kPurposes{
-    {"hyq/crouch", [](const PlanRecord& record) {
-       double lowest = 0.0;
-       for (const auto& node : record.plan.trajectory.nodes) {
-         lowest = std::min(lowest, node.q(2) - record.plan.trajectory.nodes.front().q(2));
-       }
-       EXPECT_LT(lowest, -0.17 + 1e-3);
-     }},
+    {"hyq/crouch", [](const PlanRecord& record) { EXPECT_LT(lowest_base(record), -0.17 + 1e-3); }},
     {"hyq/balance", [](const PlanRecord& record) {
        double in_the_air = 0.0;
        for (const Phase& phase : record.task.problem.phases) {
@@ -132,13 +134,7 @@ const std::map<std::string, std::function<void(const PlanRecord&)>> kPurposes{
        EXPECT_NEAR(way_of_base(record).x(), 0.08, 1e-3);
      }},
     {"hyq/kneel", [](const PlanRecord& record) { EXPECT_GE(way_of_base(record).x(), 0.05); }},
-    {"talos/squat", [](const PlanRecord& record) {
-       double lowest = 0.0;
-       for (const auto& node : record.plan.trajectory.nodes) {
-         lowest = std::min(lowest, node.q(2) - record.plan.trajectory.nodes.front().q(2));
-       }
-       EXPECT_LT(lowest, -0.05);
-     }},
+    {"talos/squat", [](const PlanRecord& record) { EXPECT_LT(lowest_base(record), -0.05); }},
 };
 
 class ShippedTask : public testing::TestWithParam<std::string> {
