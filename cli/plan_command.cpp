@@ -19,6 +19,7 @@
 #include "prowl/io/summary.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/riccati_solver.hpp"
 #include "prowl/transcription/resample.hpp"
 
 namespace prowl::cli {
@@ -69,6 +70,7 @@ Trajectory read_start(const PlanArguments& arguments, const MotionProblem& probl
 }
 
 std::unique_ptr<NlpSolver> make_solver(const std::string& name) {
+  if (name == "riccati") return std::make_unique<RiccatiSolver>();
   if (name == "fatrop") return std::make_unique<FatropSolver>();
   return std::make_unique<IpoptSolver>();
 }
@@ -124,7 +126,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
       ->check(kPositive)->type_name("S");
   verb->add_option("--solver", arguments->solver, "Who solves it; default ipopt")
-      ->check(CLI::IsMember({"ipopt", "fatrop"}))->type_name("NAME");
+      ->check(CLI::IsMember({"riccati", "fatrop", "ipopt"}))->type_name("NAME");
   verb->add_option("--max-time", arguments->overrides.max_seconds,
                    key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
       ->check(kPositive)->type_name("S");

@@ -8,6 +8,9 @@ namespace prowl {
 
 struct StageSize {
   int inputs = 0, states = 0, equalities = 0, inequalities = 0;
+  /// The first so many inputs follow from the first so many equalities, whose derivatives in them are a regular matrix (an
+  /// acceleration from the equations of motion).
+  int determined = 0;
   int variables() const { return inputs + states; }
 };
 
@@ -50,12 +53,50 @@ class StagewiseNlp {
   virtual const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd& ux, double cost_factor,
                                          const StageMultipliers& multipliers) = 0;
 
+  /// Values and all derivatives of a stage at once, for the functions below. Those know how a stage is made, and so need
+  /// less than the dense matrices above; what they return holds until the stage is linearised again.
+  virtual void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) = 0;
+  virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
+  virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;
+  virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;  ///< as hessian()
+  /// result = next' next_hessian next + inequalities' diag(weights) inequalities, with the derivatives of both.
+  virtual void condense(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
+                        Eigen::MatrixXd& result) = 0;
+  /// Derivatives of next and of the inequalities along a step in (u, x).
+  virtual void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next,
+                            Eigen::VectorXd& inequalities) = 0;
+  /// gradient += next' on_next + inequalities' on_inequalities.
+  virtual void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
+                             Eigen::VectorXd& gradient) = 0;
+
   /// From the variables of the Nlp to those of each stage, and back.
   virtual std::vector<Eigen::VectorXd> stages(const Eigen::VectorXd& z) const = 0;
   virtual Eigen::VectorXd flat(const std::vector<Eigen::VectorXd>& stages) const = 0;
 
   /// In the words of the task, e.g. "phase 2, node 3, t = 0.41 s".
   virtual std::string describe_stage(int k) const = 0;
+};
+
+/// The functions for linearised stages by dense matrices, for chains without a structure of their own.
+class DenseStagewiseNlp : public StagewiseNlp {
+ public:
+  void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) override;
+  const Eigen::VectorXd& cost_gradient(int k) const override { return model(k).slopes.cost_gradient; }
+  const Eigen::MatrixXd& equality_slopes(int k) const override { return model(k).slopes.equalities; }
+  const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return model(k).hessian; }
+  void condense(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
+                Eigen::MatrixXd& result) override;
+  void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next, Eigen::VectorXd& inequalities) override;
+  void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
+                     Eigen::VectorXd& gradient) override;
+
+ private:
+  struct Model {
+    StageDerivatives slopes;
+    Eigen::MatrixXd hessian;
+  };
+  const Model& model(int k) const { return models_[static_cast<std::size_t>(k)]; }
+  std::vector<Model> models_;
 };
 
 }  // namespace prowl

@@ -22,7 +22,7 @@ class Transcription;
 ///
 /// Stage variables are without a unit: lengths are divided by the size l of the robot, forces by its weight m g, times by
 /// sqrt(l/g). A solver that regularises adds the same number to the curvature in each. (But w is in newtons.)
-class StagewiseTranscription : public StagewiseNlp {
+class StagewiseTranscription : public DenseStagewiseNlp {
  public:
   /// A view of `flat`, which must outlive it and not move.
   explicit StagewiseTranscription(Transcription& flat);

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 /// A point mass with drag goes from rest at 0 to rest at 1 in N steps of h, its force at most kForce:
 ///   p' = p + h v,  v' = v + h (f - v^3),   minimise sum of h f^2 / 2.
 /// z = (f0, p1, v1, f1, p2, v2, ... pN, vN): stage k has u = f_k and x = (p_k, v_k), the first no state, the last no input.
-class Cart : public test::TestNlp, public StagewiseNlp {
+class Cart : public test::TestNlp, public DenseStagewiseNlp {
  public:
   static constexpr int kSteps = 20;
   static constexpr double h = 0.1, kForce = 1.4;

@@ -1,0 +1,33 @@
+#include "prowl/nlp/stagewise_nlp.hpp"
+
+namespace prowl {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+void DenseStagewiseNlp::linearise(int k, const VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) {
+  models_.resize(static_cast<std::size_t>(num_stages()));
+  Model& model = models_[static_cast<std::size_t>(k)];
+  values(k, ux);
+  model.slopes = derivatives(k, ux);
+  model.hessian = hessian(k, ux, cost_factor, multipliers);
+}
+
+void DenseStagewiseNlp::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
+  const StageDerivatives& slopes = model(k).slopes;
+  result.noalias() = slopes.inequalities.transpose() * weights.asDiagonal() * slopes.inequalities;
+  if (slopes.next.rows() > 0) result += slopes.next.transpose() * next_hessian * slopes.next;
+}
+
+void DenseStagewiseNlp::push_forward(int k, const VectorXd& step, VectorXd& next, VectorXd& inequalities) {
+  next.noalias() = model(k).slopes.next * step;
+  inequalities.noalias() = model(k).slopes.inequalities * step;
+}
+
+void DenseStagewiseNlp::add_pull_back(int k, const VectorXd& on_next, const VectorXd& on_inequalities,
+                                      VectorXd& gradient) {
+  gradient.noalias() += model(k).slopes.next.transpose() * on_next;
+  gradient.noalias() += model(k).slopes.inequalities.transpose() * on_inequalities;
+}
+
+}  // namespace prowl

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/solvers/filter.hpp"
+#include "prowl/solvers/iterate.hpp"
+#include "prowl/solvers/slacks.hpp"
+#include "prowl/solvers/stage_kkt.hpp"
+
+namespace prowl {
+
+/// Interior point method with filter line search (Wächter and Biegler 2006) on a chain of stages:
+///
+///   minimise  cost - mu log(distances of s from its bounds)   subject to  x_{k+1} = next, equalities = 0, inequalities = s
+///
+/// for a sequence of mu that goes to zero, each step by StageKkt with the exact Hessian. Docs: docs/solvers.md.
+class InteriorPoint {
+ public:
+  InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options);
+
+  struct Ending {
+    SolveStatus status;
+    std::string message;
+  };
+  /// Called once an iteration; what it returns stops the solve.
+  using Watch = std::function<std::optional<Ending>(int iteration, const IterateFigures& figures)>;
+  Ending run(const StageVectors& start, const Watch& watch);
+
+  int iterations() const { return iterations_; }
+  const IterateFigures& figures() const { return figures_; }
+  const StageVectors& stages() const { return ux_; }
+
+ private:
+  /// Values of all functions at a point.
+  struct Values {
+    double cost = 0.0;
+    StageVectors links, equalities;  ///< next - x_{k+1}, equalities
+    Eigen::VectorXd inequalities;
+  };
+
+  bool evaluate(const StageVectors& ux, Values& values);
+  void linearise();
+  double violation(const Values& values, const Eigen::VectorXd& s) const;          ///< sum of absolute values
+  double largest_violation(const Values& values, const Eigen::VectorXd& s) const;  ///< in the program's own scale
+  double barrier_function(const Values& values, const Slacks& slacks) const;
+  void update_dual_violation();
+  double error(double mu) const;
+  void update_figures();
+  bool update_barrier();
+
+  void estimate_multipliers();
+  void scale_cost();
+  bool compute_direction(std::string& failure);
+  void set_right_sides(const Values& values, const Eigen::VectorXd& s);
+  void solve_direction(const Eigen::VectorXd& residual);
+  bool search_line();
+  bool try_step(double alpha, const StageVectors& steps, const Eigen::VectorXd& ds);
+  bool is_acceptable(double alpha, double theta, double phi, bool& is_phi_step) const;
+  bool correct_second_order(double alpha, double theta);
+  void accept(double alpha_primal, double alpha_dual);
+  bool restore_feasibility(const Watch& watch, std::optional<Ending>& ending);
+
+  Eigen::Index row(int k) const { return rows_[static_cast<std::size_t>(k)]; }
+  auto segment(Eigen::VectorXd& all, int k) const { return all.segment(row(k), row(k + 1) - row(k)); }
+  auto segment(const Eigen::VectorXd& all, int k) const { return all.segment(row(k), row(k + 1) - row(k)); }
+
+  StagewiseNlp& nlp_;
+  const SolverOptions& options_;
+  int num_stages_;
+  std::vector<Eigen::Index> rows_;  ///< first inequality of each stage, and their number
+  StageKkt kkt_;
+
+  StageVectors ux_, trial_ux_;
+  Slacks slacks_;
+  Eigen::VectorXd s_, ds_, lambda_, beta_, sigma_, residual_, corrected_;
+  std::vector<StageMultipliers> on_;
+  Values values_, trial_;
+  StageVectors dual_violation_, gradient_, weights_, right_equalities_, right_links_;
+  StageVectors step_, step_on_equalities_, step_on_next_;
+  Eigen::VectorXd step_lambda_;
+
+  double cost_scale_ = 1.0, mu_ = 0.0;
+  double regularisation_ = 0.0, last_regularisation_ = 0.0;
+  double theta_ = 0.0, phi_ = 0.0, slope_ = 0.0, largest_dual_violation_ = 0.0;
+  double least_theta_ = 0.0;  ///< below it steps are judged by the barrier function alone
+  Filter filter_;
+  IterateFigures figures_;
+  int iterations_ = 0;
+  std::string failure_;
+};
+
+}  // namespace prowl
