@@ -8,9 +8,6 @@ namespace prowl {
 
 struct StageSize {
   int inputs = 0, states = 0, equalities = 0, inequalities = 0;
-  /// The first so many inputs follow from the first so many equalities, whose derivatives in them are a regular matrix (an
-  /// acceleration from the equations of motion).
-  int determined = 0;
   int variables() const { return inputs + states; }
 };
 

@@ -1,5 +1,8 @@
 #include "prowl/solvers/stage_kkt.hpp"
 
+#include <Eigen/QR>
+#include <cmath>
+
 namespace prowl {
 
 namespace {
@@ -8,15 +11,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Rows count as dependent when what is left of them is below this part of what they were: rounding leaves 1e-13 or less
-/// of a contact's goal that follows from the contact itself, and rows that solvers can use leave more than 1e-6.
+/// Equalities depend on others when what is left of them is below this part of the largest entry: rounding leaves 1e-12 or
+/// less of a goal that follows from contacts, and goals that count leave more than 1e-6.
 constexpr double kDependent = 1e-9;
 
-int rank_of(const Eigen::ColPivHouseholderQR<MatrixXd>& qr, double scale) {
-  const auto pivots = qr.matrixQR().diagonal();
-  int rank = 0;
-  while (rank < pivots.size() && std::abs(pivots(rank)) > kDependent * scale) ++rank;
-  return rank;
+template <class Pivots>
+int count_above(const Pivots& pivots, double threshold) {
+  int count = 0;
+  while (count < pivots.size() && std::abs(pivots(count)) > threshold) ++count;
+  return count;
 }
 
 }  // namespace
@@ -26,12 +29,12 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
   for (int k = 0; k < num_stages_; ++k) {
     Stage& s = stage(k);
     s.size = nlp.size(k);
-    const int inputs = s.size.inputs, states = s.size.states, next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
-    s.M.setZero(inputs + states, inputs + states);
-    s.m.setZero(inputs + states);
-    s.P.setZero(states, states);
-    s.p.setZero(states);
-    steps_.push_back(VectorXd::Zero(inputs + states));
+    const int variables = s.size.variables(), next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
+    s.M.setZero(variables, variables);
+    for (int i = 0; i < variables; ++i) s.order.push_back(i);
+    s.P.setZero(s.size.states, s.size.states);
+    s.p.setZero(s.size.states);
+    steps_.push_back(VectorXd::Zero(variables));
     on_equalities_.push_back(VectorXd::Zero(s.size.equalities));
     on_next_.push_back(VectorXd::Zero(next));
     along_inequalities_.push_back(VectorXd::Zero(s.size.inequalities));
@@ -49,168 +52,141 @@ StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const Stage
 
 bool StageKkt::factorise_stage(int k, Hessian hessian, double delta, const VectorXd& weights) {
   Stage& s = stage(k);
-  const bool is_last = k + 1 == num_stages_;
-  nlp_.condense(k, is_last ? no_hessian_ : stage(k + 1).P, weights, s.M);
-  if (hessian == Hessian::lagrangian) s.M += nlp_.lagrangian_hessian(k);
-  s.M.diagonal().array() += delta;
-
-  s.carried = is_last ? 0 : stage(k + 1).passed;
-  const int own = s.size.equalities - s.determined();
-  s.others.resize(s.num_others(), s.size.variables());
-  s.others.topRows(own) = nlp_.equality_slopes(k).bottomRows(own);
-  for (int i = 0; i < s.carried; ++i) {
-    s.m.setZero();
-    on_next_[static_cast<std::size_t>(k)] = stage(k + 1).E.row(i).transpose();
-    unused_.setZero(s.size.inequalities);
-    nlp_.add_pull_back(k, on_next_[static_cast<std::size_t>(k)], unused_, s.m);
-    s.others.row(own + i) = s.m.transpose();
+  gather_equalities(k);
+  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights, in_order_);
+  if (hessian == Hessian::lagrangian) in_order_ += nlp_.lagrangian_hessian(k);
+  in_order_.diagonal().array() += delta;
+  for (Index j = 0; j < in_order_.cols(); ++j) {
+    for (Index i = 0; i < in_order_.rows(); ++i) {
+      s.M(i, j) = in_order_(s.order[static_cast<std::size_t>(i)], s.order[static_cast<std::size_t>(j)]);
+    }
   }
+  eliminate(s);
+  pass_conditions(s);
 
-  if (s.determined() > 0) {
-    const auto slopes = nlp_.equality_slopes(k).topRows(s.determined());
-    s.determining.compute(slopes.leftCols(s.determined()));
-    s.K = slopes.rightCols(s.size.variables() - s.determined());
-    work_ = s.determining.solve(s.K);
-    s.K = -work_;
+  const int free = s.free(), states = s.size.states;
+  s.P = s.N.bottomRightCorner(states, states);
+  if (free > 0) {
+    s.cholesky.compute(s.N.topLeftCorner(free, free));
+    if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite()) return false;
+    s.G = s.N.topRightCorner(free, states);
+    s.cholesky.matrixL().solveInPlace(s.G);
+    s.P.noalias() -= s.G.transpose() * s.G;
   }
-  eliminate_determined(s);
-  eliminate_others(s);
-
-  const int first_state = s.rest(), rank = s.rank, states = s.size.states;
-  // What is left: free inputs and states.
-  auto free_free = s.N.block(rank, rank, s.free(), s.free());
-  auto free_state = s.N.block(rank, first_state, s.free(), states);
-  auto state_state = s.N.block(first_state, first_state, states, states);
-  if (rank > 0) {
-    const auto one_one = s.N.topLeftCorner(rank, rank);
-    const auto state_one = s.N.block(first_state, 0, states, rank);
-    s.S.resize(states, rank);
-    s.S = state_one;
-    state_state.noalias() += state_one * s.Y;
-    s.S.noalias() += s.Y.transpose() * one_one;
-    state_state.noalias() += s.Y.transpose() * s.S.transpose();
-    free_state.noalias() += s.N.block(rank, 0, s.free(), rank) * s.Y;
-  }
-  s.P = 0.5 * (state_state + state_state.transpose());
-  if (s.free() == 0) return s.P.allFinite();
-  s.cholesky.compute(free_free);
-  if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite()) return false;
-  s.G = free_state;
-  s.cholesky.matrixL().solveInPlace(s.G);
-  s.P.noalias() -= s.G.transpose() * s.G;
-  return true;
+  return s.P.allFinite();
 }
 
-void StageKkt::eliminate_determined(Stage& s) {
-  const int d = s.determined(), r = s.size.variables() - d;
-  s.N = s.M.bottomRightCorner(r, r);
-  s.reduced = s.others.rightCols(r);
-  if (d == 0) return;
-  // N = M_rr + M_rd K + K' M_dr + K' M_dd K, with T = M_dd K + M_dr.
-  s.T = s.M.topRightCorner(d, r);
-  s.T.noalias() += 0.5 * s.M.topLeftCorner(d, d) * s.K;
-  work_.resize(r, r);
+/// The equalities with those of the next stage's state, and what they determine.
+void StageKkt::gather_equalities(int k) {
+  Stage& s = stage(k);
+  s.carried = k + 1 < num_stages_ ? stage(k + 1).passed : 0;
+  s.rank = 0;
+  s.equalities.resize(s.num_equalities(), s.size.variables());
+  s.equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k);
+  no_inequalities_.setZero(s.size.inequalities);
+  for (int i = 0; i < s.carried; ++i) {
+    VectorXd& on_next = on_next_[static_cast<std::size_t>(k)];
+    on_next = stage(k + 1).E.row(i).transpose();
+    row_.setZero(s.size.variables());
+    nlp_.add_pull_back(k, on_next, no_inequalities_, row_);
+    s.equalities.row(s.size.equalities + i) = row_.transpose();
+  }
+  if (s.num_equalities() == 0 || s.size.inputs == 0) return;
+  s.lu.compute(s.equalities.leftCols(s.size.inputs));
+  s.rank = count_above(s.lu.matrixLU().diagonal(), kDependent * s.equalities.cwiseAbs().maxCoeff());
+  for (int i = 0; i < s.size.inputs; ++i) s.order[static_cast<std::size_t>(i)] = s.lu.permutationQ().indices()(i);
+}
+
+/// M in the variables that are left: N = M_rr + M_rd K + K' M_dr + K' M_dd K.
+void StageKkt::eliminate(Stage& s) {
+  const int rank = s.rank, rest = s.rest(), states = s.size.states;
+  s.in_states = s.equalities.rightCols(states);
+  s.N = s.M.bottomRightCorner(rest, rest);
+  if (rank == 0) return;
+  const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
+  s.in_states = (s.lu.permutationP() * s.in_states).eval();
+  auto determining = s.in_states.topRows(rank);
+  lu.triangularView<Eigen::UnitLower>().solveInPlace(determining);
+  const Index left = s.in_states.rows() - rank;
+  s.in_states.bottomRows(left).noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank) * determining;
+  s.K.resize(rank, rest);
+  s.K.leftCols(s.free()) = -s.lu.matrixLU().topRightCorner(rank, s.free());
+  s.K.rightCols(states) = -determining;
+  lu.triangularView<Eigen::Upper>().solveInPlace(s.K);
+
+  const auto dd = s.M.topLeftCorner(rank, rank);
+  s.T = s.M.topRightCorner(rank, rest);
+  s.T.noalias() += 0.5 * dd * s.K;
+  work_.resize(rest, rest);
   work_.noalias() = s.T.transpose() * s.K;
   s.N += work_;
   s.N += work_.transpose();
-  s.T.noalias() += 0.5 * s.M.topLeftCorner(d, d) * s.K;
-  s.reduced.noalias() += s.others.leftCols(d) * s.K;
+  s.T.noalias() += 0.5 * dd * s.K;
 }
 
-void StageKkt::eliminate_others(Stage& s) {
-  const int rows = s.num_others(), inputs = s.rest(), states = s.size.states;
-  s.rank = s.passed = 0;
-  if (rows == 0) return;
-  if (inputs > 0) {
-    const double scale = s.others.cwiseAbs().maxCoeff();
-    s.range.compute(s.reduced.leftCols(inputs).transpose());
-    s.rank = rank_of(s.range, scale);
-    s.Q = s.range.householderQ() * MatrixXd::Identity(inputs, inputs);
-    work_ = s.Q.transpose() * s.N.topRows(inputs);
-    s.N.topRows(inputs) = work_;
-    work_ = s.N.leftCols(inputs) * s.Q;
-    s.N.leftCols(inputs) = work_;
-  }
-  const int rank = s.rank, left = rows - rank;
-  // Rows in the order of the pivots: [R1' 0; R2' 0] y + X dx + c = 0.
-  MatrixXd in_states = s.reduced.rightCols(states);
-  if (inputs > 0) in_states = s.range.colsPermutation().transpose() * in_states;
-  if (rank > 0) {
-    s.Y = -in_states.topRows(rank);
-    s.range.matrixQR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().transpose().solveInPlace(s.Y);
-    in_states.bottomRows(left).noalias() +=
-        s.range.matrixQR().block(0, rank, rank, left).transpose() * s.Y;
-  }
+/// Equalities that determine no input are conditions on the state: those that do not depend on each other.
+void StageKkt::pass_conditions(Stage& s) {
   s.passed_rows.clear();
-  if (left > 0 && states > 0) {  // those that depend on each other once
-    const double scale = s.others.cwiseAbs().maxCoeff();
-    const Eigen::ColPivHouseholderQR<MatrixXd> qr(in_states.bottomRows(left).transpose());
-    s.passed = rank_of(qr, scale);
-    s.E.resize(s.passed, states);
-    for (int i = 0; i < s.passed; ++i) {
-      const int row = static_cast<int>(qr.colsPermutation().indices()(i));
-      s.passed_rows.push_back(rank + row);
-      s.E.row(i) = in_states.row(rank + row);
-    }
+  s.passed = 0;
+  const int left = s.num_equalities() - s.rank;
+  if (left == 0 || s.size.states == 0) return;
+  const Eigen::ColPivHouseholderQR<MatrixXd> qr(s.in_states.bottomRows(left).transpose());
+  s.passed = count_above(qr.matrixQR().diagonal(), kDependent * s.equalities.cwiseAbs().maxCoeff());
+  s.E.resize(s.passed, s.size.states);
+  for (int i = 0; i < s.passed; ++i) {
+    s.passed_rows.push_back(s.rank + static_cast<int>(qr.colsPermutation().indices()(i)));
+    s.E.row(i) = s.in_states.row(s.passed_rows.back());
   }
 }
 
 void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
+  const auto link = [&](int k) { return k + 1 < num_stages_ ? &links[static_cast<std::size_t>(k)] : nullptr; };
   for (int k = num_stages_ - 1; k >= 0; --k) {
     const auto i = static_cast<std::size_t>(k);
-    backward(k, gradient[i], equalities[i], k + 1 < num_stages_ ? &links[i] : nullptr);
+    backward(k, gradient[i], equalities[i], link(k));
   }
-  for (int k = 0; k < num_stages_; ++k) {
-    forward(k, k + 1 < num_stages_ ? &links[static_cast<std::size_t>(k)] : nullptr);
-  }
+  for (int k = 0; k < num_stages_; ++k) forward(k, link(k));
 }
 
 void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalities, const VectorXd* link) {
   Stage& s = stage(k);
-  const int d = s.determined(), r = s.size.variables() - d, inputs = s.rest(), states = s.size.states;
-  const int own = s.size.equalities - d, rank = s.rank;
-  s.m = gradient;
-  s.c.resize(s.num_others());
-  s.c.head(own) = equalities.tail(own);
+  const int rank = s.rank, states = s.size.states;
+  row_ = gradient;
+  s.c.resize(s.num_equalities());
+  s.c.head(s.size.equalities) = equalities;
   if (link) {
     const Stage& next = stage(k + 1);
     VectorXd& on_next = on_next_[static_cast<std::size_t>(k)];
     on_next = next.p;
     on_next.noalias() += next.P * *link;
-    unused_.setZero(s.size.inequalities);
-    nlp_.add_pull_back(k, on_next, unused_, s.m);
+    no_inequalities_.setZero(s.size.inequalities);
+    nlp_.add_pull_back(k, on_next, no_inequalities_, row_);
     if (s.carried > 0) {
       s.c.tail(s.carried) = next.e;
       s.c.tail(s.carried).noalias() += next.E * *link;
     }
   }
+  s.m.resize(row_.size());
+  for (Index i = 0; i < s.m.size(); ++i) s.m(i) = row_(s.order[static_cast<std::size_t>(i)]);
 
-  s.y = s.m.tail(r);  // gradient in (inputs that are not determined, states)
-  if (d > 0) {
-    s.k = s.determining.solve(equalities.head(d));
-    s.k = -s.k;
-    s.y.noalias() += s.K.transpose() * s.m.head(d);
-    s.y.noalias() += s.T.transpose() * s.k;
-    s.c.noalias() += s.others.leftCols(d) * s.k;
-  }
-  if (s.num_others() > 0 && inputs > 0) {
-    s.y.head(inputs) = (s.Q.transpose() * s.y.head(inputs)).eval();
-    s.c = (s.range.colsPermutation().transpose() * s.c).eval();
-  }
-  s.p = s.y.tail(states);
+  s.r = s.m.tail(s.rest());
   if (rank > 0) {
-    s.c_y = -s.c.head(rank);
-    const auto R = s.range.matrixQR().topRows(rank);
-    R.leftCols(rank).triangularView<Eigen::Upper>().transpose().solveInPlace(s.c_y);
-    s.c.tail(s.c.size() - rank).noalias() += R.middleCols(rank, s.c.size() - rank).transpose() * s.c_y;
-    s.p.noalias() += s.Y.transpose() * s.y.head(rank);
-    s.p.noalias() += s.S * s.c_y;
-    s.y.segment(rank, s.free()).noalias() += s.N.block(rank, 0, s.free(), rank) * s.c_y;
+    s.c = (s.lu.permutationP() * s.c).eval();
+    const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
+    auto determining = s.c.head(rank);
+    lu.triangularView<Eigen::UnitLower>().solveInPlace(determining);
+    const Index left = s.c.size() - rank;
+    s.c.tail(left).noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank) * determining;
+    s.k = -determining;
+    lu.triangularView<Eigen::Upper>().solveInPlace(s.k);
+    s.r.noalias() += s.K.transpose() * s.m.head(rank);
+    s.r.noalias() += s.T.transpose() * s.k;
   }
   s.e.resize(s.passed);
   for (int i = 0; i < s.passed; ++i) s.e(i) = s.c(s.passed_rows[static_cast<std::size_t>(i)]);
+  s.p = s.r.tail(states);
   if (s.free() > 0) {
-    auto free = s.y.segment(rank, s.free());
+    auto free = s.r.head(s.free());
     s.cholesky.matrixL().solveInPlace(free);
     s.p.noalias() -= s.G.transpose() * free;
   }
@@ -218,61 +194,53 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
 
 void StageKkt::forward(int k, const VectorXd* link) {
   Stage& s = stage(k);
-  const int d = s.determined(), inputs = s.rest(), states = s.size.states, rank = s.rank;
-  VectorXd& step = steps_[static_cast<std::size_t>(k)];
-  const auto dx = step.tail(states);
-  auto rest = step.segment(d, inputs);
+  const auto at = static_cast<std::size_t>(k);
+  VectorXd& step = steps_[at];
+  s.step.resize(step.size());
+  s.step.tail(s.size.states) = step.tail(s.size.states);
   if (s.free() > 0) {
-    auto free = rest.tail(s.free());
-    free = -s.y.segment(rank, s.free());
-    free.noalias() -= s.G * dx;
+    auto free = s.step.segment(s.rank, s.free());
+    free = -s.r.head(s.free());
+    free.noalias() -= s.G * s.step.tail(s.size.states);
     s.cholesky.matrixU().solveInPlace(free);
   }
-  if (rank > 0) {
-    rest.head(rank) = s.c_y;
-    rest.head(rank).noalias() += s.Y * dx;
+  if (s.rank > 0) {
+    s.step.head(s.rank) = s.k;
+    s.step.head(s.rank).noalias() += s.K * s.step.tail(s.rest());
   }
-  if (s.num_others() > 0 && inputs > 0) rest = (s.Q * rest).eval();
-  if (d > 0) {
-    step.head(d) = s.k;
-    step.head(d).noalias() += s.K * step.tail(step.size() - d);
-  }
+  for (Index i = 0; i < step.size(); ++i) step(s.order[static_cast<std::size_t>(i)]) = s.step(i);
 
-  // Multipliers, from the gradient in the inputs: M step + m + equalities' on_equalities + carried' on_carried = 0.
-  VectorXd& on_equalities = on_equalities_[static_cast<std::size_t>(k)];
-  s.m.noalias() += s.M * step;
-  const int rows = s.num_others(), own = s.size.equalities - d;
-  s.on_others.setZero(rows);
-  for (int i = 0; i < s.passed; ++i) s.on_others(s.passed_rows[static_cast<std::size_t>(i)]) = s.on_carried(i);
-  if (rank > 0) {
-    VectorXd& pull = s.y;
-    pull = s.m.segment(d, inputs);
-    if (d > 0) pull.noalias() += s.K.leftCols(inputs).transpose() * s.m.head(d);
-    pull = (s.Q.transpose() * pull).eval();
-    const auto R = s.range.matrixQR().topRows(rank);
-    auto on_range = s.on_others.head(rank);
-    on_range = -pull.head(rank);
-    on_range.noalias() -= R.middleCols(rank, rows - rank) * s.on_others.tail(rows - rank);
-    R.leftCols(rank).triangularView<Eigen::Upper>().solveInPlace(on_range);
-  }
-  if (rows > 0 && inputs > 0) s.on_others = (s.range.colsPermutation() * s.on_others).eval();
-  on_equalities.tail(own) = s.on_others.head(own);
-  if (d > 0) {
-    s.k = -s.m.head(d);
-    s.k.noalias() -= s.others.leftCols(d).transpose() * s.on_others;
-    on_equalities.head(d) = s.determining.transpose().solve(s.k);
-  }
-  VectorXd& moved = on_next_[static_cast<std::size_t>(k)];
-  nlp_.push_forward(k, step, moved, along_inequalities_[static_cast<std::size_t>(k)]);
+  find_multipliers(k);
+  nlp_.push_forward(k, step, on_next_[at], along_inequalities_[at]);
   if (!link) return;
-
   Stage& next = stage(k + 1);
-  next.on_carried = s.on_others.tail(s.carried);
-  auto dx_next = steps_[static_cast<std::size_t>(k) + 1].tail(next.size.states);
-  dx_next = moved + *link;
-  moved = next.p;
-  moved.noalias() += next.P * dx_next;
-  if (s.carried > 0) moved.noalias() += next.E.transpose() * next.on_carried;
+  auto dx = steps_[at + 1].tail(next.size.states);
+  dx = on_next_[at] + *link;
+  on_next_[at] = next.p;
+  on_next_[at].noalias() += next.P * dx;
+  if (s.carried > 0) on_next_[at].noalias() += next.E.transpose() * next.on_carried;
+}
+
+/// From the gradient in the determined inputs: M step + m + equalities' multipliers = 0. Those of the conditions on the
+/// state are known from the stage before.
+void StageKkt::find_multipliers(int k) {
+  Stage& s = stage(k);
+  const int rank = s.rank;
+  s.on_rows.setZero(s.num_equalities());
+  for (int i = 0; i < s.passed; ++i) s.on_rows(s.passed_rows[static_cast<std::size_t>(i)]) = s.on_carried(i);
+  if (rank > 0) {
+    const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
+    const Index left = s.on_rows.size() - rank;
+    auto on_determining = s.on_rows.head(rank);
+    on_determining = -s.m.head(rank);
+    on_determining.noalias() -= s.M.topRows(rank) * s.step;
+    lu.triangularView<Eigen::Upper>().transpose().solveInPlace(on_determining);
+    on_determining.noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank).transpose() * s.on_rows.tail(left);
+    lu.triangularView<Eigen::UnitLower>().transpose().solveInPlace(on_determining);
+    s.on_rows = (s.lu.permutationP().transpose() * s.on_rows).eval();
+  }
+  on_equalities_[static_cast<std::size_t>(k)] = s.on_rows.head(s.size.equalities);
+  if (s.carried > 0) stage(k + 1).on_carried = s.on_rows.tail(s.carried);
 }
 
 }  // namespace prowl

@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <vector>
 
 #include "prowl/nlp/stagewise_nlp.hpp"
@@ -13,20 +12,20 @@ namespace prowl {
 /// One vector a stage.
 using StageVectors = std::vector<Eigen::VectorXd>;
 
-/// Newton's equations of a chain of stages, by a Riccati recursion: the step (du_k, dx_k) that minimises
+/// Newton's equations of a chain of stages, by a Riccati recursion: the step d_k = (du_k, dx_k) that minimises
 ///
 ///   sum of  1/2 d' M d + g' d,   M = Hessian of the Lagrangian + delta I + inequalities' diag(weights) inequalities
 ///   subject to  dx_{k+1} = next' d + b_k,   equalities' d + c_k = 0
 ///
 /// at the stages as they were linearised last, with the multipliers of both. From the last stage to the first:
 ///
-///   determined inputs    follow from the equalities that determine them (LU), and are substituted
-///   other equalities     take away as many inputs as their rank (QR with pivoting); what is left of them is a condition on
-///                        the state, which goes to the stage before as an equality of its own, E dx + e = 0
-///   free inputs          minimise (Cholesky): the cost-to-go  1/2 dx' P dx + p' dx
+///   equalities     determine as many inputs as their rank, chosen by an LU factorisation with full pivoting: those are
+///                  substituted. What is left of the equalities is a condition on the state and goes to the stage before,
+///                  as equalities of that stage: E dx + e = 0
+///   free inputs    minimise (Cholesky): what remains is the cost-to-go  1/2 dx' P dx + p' dx
 ///
-/// The Cholesky factors exist if and only if M is positive definite on the steps that keep the equalities. Equalities
-/// that depend on others are left out, with multipliers of zero. All memory is taken at construction.
+/// The Cholesky factors exist if and only if M is positive definite on the steps that keep the equalities. Equalities that
+/// depend on others are left out, with multipliers of zero. No memory is taken once the ranks have settled.
 class StageKkt {
  public:
   /// A view of `nlp`, which must outlive it.
@@ -47,49 +46,46 @@ class StageKkt {
   const StageVectors& along_inequalities() const { return along_inequalities_; }  ///< their derivatives times the step
 
  private:
-  /// r = (inputs that are not determined, states); y = Q' of those inputs, y1 the first `rank` of them.
+  /// Variables in the order (determined inputs, free inputs, states). r: all but the determined ones.
   struct Stage {
     StageSize size;
-    int carried = 0;      ///< conditions E of the next stage
-    int rank = 0;         ///< of the other equalities, in the inputs that are not determined
-    int passed = 0;       ///< conditions E of this stage
-    Eigen::MatrixXd M;    ///< (u, x)
-    Eigen::PartialPivLU<Eigen::MatrixXd> determining;
-    Eigen::MatrixXd K;    ///< determined inputs = K r + k
-    Eigen::MatrixXd T;    ///< M_dd K + M_dr
-    Eigen::MatrixXd others;  ///< other equalities, then those carried, in (u, x)
-    Eigen::MatrixXd reduced; ///< the same in r, determined inputs substituted
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> range;  ///< of the transposed reduced others, in the inputs
-    Eigen::MatrixXd Q;
-    Eigen::MatrixXd Y;    ///< y1 = Y dx + ...
-    Eigen::MatrixXd N;    ///< M in (y, x), determined inputs substituted
-    Eigen::MatrixXd S;    ///< N_x1 + Y' N_11
+    int carried = 0;                   ///< conditions E of the next stage, which are equalities here
+    int rank = 0;                      ///< number of determined inputs
+    int passed = 0;                    ///< conditions E of this stage
+    Eigen::MatrixXd equalities;        ///< own and carried ones, in (u, x)
+    Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of those in u
+    Eigen::MatrixXd in_states;         ///< L^-1 of those in x, rows in the order of the pivots
+    std::vector<Eigen::Index> order;   ///< place of each variable in (u, x)
+    Eigen::MatrixXd M;
+    Eigen::MatrixXd K;                 ///< determined inputs = K r + k
+    Eigen::MatrixXd T;                 ///< M_dd K + M_dr
+    Eigen::MatrixXd N;                 ///< M in r
     Eigen::LLT<Eigen::MatrixXd> cholesky;
-    Eigen::MatrixXd G;    ///< L^-1 N_fx of the free inputs
-    Eigen::MatrixXd P;    ///< cost-to-go
-    Eigen::MatrixXd E;    ///< conditions on the state, the first `passed` rows
-    std::vector<int> passed_rows;  ///< which of the other equalities they are
+    Eigen::MatrixXd G;                 ///< L^-1 N_fx of the free inputs
+    Eigen::MatrixXd P, E;
+    std::vector<int> passed_rows;      ///< which rows of in_states E is
 
-    Eigen::VectorXd m, k, p, e, c, c_y, y, on_others, on_carried;
-    int determined() const { return size.determined; }
-    int rest() const { return size.inputs - size.determined; }
-    int free() const { return rest() - rank; }
-    int num_others() const { return size.equalities - size.determined + carried; }
+    Eigen::VectorXd m, c, k, r, p, e, step, on_rows, on_carried;
+    int num_equalities() const { return size.equalities + carried; }
+    int free() const { return size.inputs - rank; }
+    int rest() const { return size.variables() - rank; }
   };
 
   Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
+  void gather_equalities(int k);
+  void eliminate(Stage& stage);
+  void pass_conditions(Stage& stage);
   bool factorise_stage(int k, Hessian hessian, double delta, const Eigen::VectorXd& weights);
-  void eliminate_determined(Stage& stage);
-  void eliminate_others(Stage& stage);
   void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
   void forward(int k, const Eigen::VectorXd* link);
+  void find_multipliers(int k);
 
   StagewiseNlp& nlp_;
   int num_stages_;
   std::vector<Stage> stages_;
   StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
-  Eigen::MatrixXd no_hessian_, work_;
-  Eigen::VectorXd unused_;
+  Eigen::MatrixXd no_hessian_, in_order_, work_;
+  Eigen::VectorXd no_inequalities_, row_;
 };
 
 }  // namespace prowl

@@ -129,9 +129,6 @@ void StagewiseTranscription::set_functions(int k) {
     stage.next_per_unit = next.unit.tail(next.size.states).cwiseInverse();
     stage.values.next.resize(next.size.states);
   }
-  const int nv = flat_.layout_.nv();
-  const bool has_accelerations = stage.size.inputs >= nv && stage.variables[0] == 2 * nv && stage.variables[static_cast<std::size_t>(nv) - 1] == 3 * nv - 1;
-  if (has_accelerations) stage.size.determined = nv;
   stage.num_functions += static_cast<int>(stage.values.next.size());
 }
 
