@@ -49,6 +49,7 @@ class BaseDefects {
 struct WorldVelocity {
   Eigen::Vector3d value;
   Eigen::Matrix3d d_theta, d_v;
+  WorldVelocity() = default;
   WorldVelocity(const Eigen::Matrix3d& chart, const Eigen::Vector3d& theta, const Eigen::Vector3d& v);
 };
 struct WorldVelocityHessian {

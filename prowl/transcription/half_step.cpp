@@ -54,16 +54,26 @@ void add_by_duration(Index first, const Eigen::Ref<const VectorXd>& lambda, cons
   if (time.column >= 0) add_symmetric(hessian, first, time.column, time.slope * lambda);
 }
 
+/// Three columns times a matrix, in place, without a temporary on the heap.
+template <class Columns>
+void substitute_three(Columns&& columns, const Matrix3d& by) {
+  for (Index i = 0; i < columns.rows(); ++i) {
+    const Eigen::RowVector3d row = columns.row(i);
+    columns.row(i) = row * by;
+  }
+}
+
 }  // namespace
 
-Arrival::Arrival(const Matrix3d& chart, int nv, const HalfTime& time, const VectorXd& state)
-    : chart_(chart),
-      nv_(nv),
-      time_(time),
-      node_(state),
-      turn_((node_.segment(nv_, nv_) += time.s * state.segment(2 * nv_, nv_),
-             turn(Matrix3d::Identity(), state.segment<3>(3), time.s, node_.segment<3>(nv_ + 3)))),
-      world_(chart, turn_.value(), node_.segment<3>(nv_)) {
+void Arrival::set(const Matrix3d& chart, int nv, const HalfTime& time, const VectorXd& state) {
+  chart_ = chart;
+  nv_ = nv;
+  time_ = time;
+  node_ = state;
+  node_.segment(nv_, nv_) += time.s * state.segment(2 * nv_, nv_);
+  turn_ = turn(Matrix3d::Identity(), state.segment<3>(3), time.s, node_.segment<3>(nv_ + 3));
+  slope_ = turn_.derivative();
+  world_ = WorldVelocity(chart, turn_.value(), node_.segment<3>(nv_));
   node_.segment<3>(3) = turn_.value();
   node_.head<3>() += time.s * world_.value;
   node_.segment(6, nv_ - 6) += time.s * node_.segment(nv_ + 6, nv_ - 6);
@@ -79,36 +89,52 @@ VectorXd Arrival::state(const Matrix3d& chart, int nv, double s, const VectorXd&
   return state;
 }
 
-// The constructor's substitutions, the last first. Each takes derivatives, as columns of `m`, from what it gives to what it
+// The substitutions of set(), the last first. Each takes derivatives, as columns of `m`, from what it gives to what it
 // takes; s changes with the duration.
 
 template <class Matrix>
 void Arrival::substitute_position(Matrix&& m) const {
-  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.leftCols(3) * world_.value);
-  m.middleCols(3, 3) += time_.s * m.leftCols(3) * world_.d_theta;
-  m.middleCols(nv_, 3) += time_.s * m.leftCols(3) * world_.d_v;
+  const auto position = m.template leftCols<3>();
+  if (time_.column >= 0) m.col(time_.column) += time_.slope * position.lazyProduct(world_.value);
+  m.template middleCols<3>(3) += position.lazyProduct(time_.s * world_.d_theta);
+  m.template middleCols<3>(nv_) += position.lazyProduct(time_.s * world_.d_v);
 }
 
 template <class Matrix>
 void Arrival::substitute_joints(Matrix&& m) const {
   const Index nu = nv_ - 6;
-  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.middleCols(6, nu) * node_.segment(nv_ + 6, nu));
+  if (time_.column >= 0) {
+    m.col(time_.column).noalias() += time_.slope * m.middleCols(6, nu) * node_.segment(nv_ + 6, nu);
+  }
   m.middleCols(nv_ + 6, nu) += time_.s * m.middleCols(6, nu);
 }
 
 template <class Matrix>
 void Arrival::substitute_rotation(Matrix&& m) const {
-  const Turn::Jacobian slope = turn_.derivative();
-  const Vector3d omega = node_.segment<3>(nv_ + 3);
-  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.middleCols(3, 3) * (slope.rightCols<3>() * omega));
-  m.middleCols(nv_ + 3, 3) += time_.s * m.middleCols(3, 3) * slope.rightCols<3>();
-  m.middleCols(3, 3) = (m.middleCols(3, 3) * slope.leftCols<3>()).eval();
+  auto rotation = m.template middleCols<3>(3);
+  if (time_.column >= 0) {
+    m.col(time_.column) += rotation.lazyProduct(time_.slope * slope_.rightCols<3>() * node_.segment<3>(nv_ + 3));
+  }
+  m.template middleCols<3>(nv_ + 3) += rotation.lazyProduct(time_.s * slope_.rightCols<3>());
+  substitute_three(rotation, slope_.leftCols<3>());
 }
 
 template <class Matrix>
 void Arrival::substitute_velocity(Matrix&& m) const {
-  if (time_.column >= 0) m.col(time_.column) += time_.slope * (m.middleCols(nv_, nv_) * node_.segment(2 * nv_, nv_));
+  if (time_.column >= 0) {
+    m.col(time_.column).noalias() += time_.slope * m.middleCols(nv_, nv_) * node_.segment(2 * nv_, nv_);
+  }
   m.middleCols(2 * nv_, nv_) += time_.s * m.middleCols(nv_, nv_);
+}
+
+void Arrival::push_forward(VectorXd& step) const {
+  const Index nu = nv_ - 6;
+  const double dT = time_.column >= 0 ? time_.slope * step(time_.column) : 0.0;
+  step.segment(nv_, nv_) += time_.s * step.segment(2 * nv_, nv_) + dT * node_.segment(2 * nv_, nv_);
+  step.segment<3>(3) = slope_.leftCols<3>() * Vector3d(step.segment<3>(3)) +
+                       slope_.rightCols<3>() * Vector3d(time_.s * step.segment<3>(nv_ + 3) + dT * node_.segment<3>(nv_ + 3));
+  step.segment(6, nu) += time_.s * step.segment(nv_ + 6, nu) + dT * node_.segment(nv_ + 6, nu);
+  step.head<3>() += time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
 }
 
 void Arrival::pull_back(MatrixXd& rows) const {
@@ -118,7 +144,24 @@ void Arrival::pull_back(MatrixXd& rows) const {
   substitute_velocity(rows);
 }
 
-void Arrival::pull_back(MatrixXd& hessian, VectorXd gradient) const {
+void Arrival::pull_back(VectorXd& gradient) const {
+  auto row = gradient.transpose();
+  substitute_position(row);
+  substitute_joints(row);
+  substitute_rotation(row);
+  substitute_velocity(row);
+}
+
+void Arrival::pull_back_form(MatrixXd& m) const {
+  pull_back(m);
+  auto transposed = m.transpose();
+  substitute_position(transposed);
+  substitute_joints(transposed);
+  substitute_rotation(transposed);
+  substitute_velocity(transposed);
+}
+
+void Arrival::pull_back_hessian(MatrixXd& hessian, VectorXd& gradient) const {
   auto g = gradient.transpose();
   const auto both = [&](auto substitute) {
     substitute(hessian);
@@ -141,27 +184,27 @@ void Arrival::pull_back(MatrixXd& hessian, VectorXd gradient) const {
   add_by_duration(2 * nv_, gradient.segment(nv_, nv_), time_, hessian);
 }
 
-Departure::Departure(const Matrix3d& chart, const Matrix3d& next_chart, int nv, const HalfTime& time,
-                     const VectorXd& node)
-    : chart_(chart),
-      nv_(nv),
-      time_(time),
-      node_(node),
-      turn_(turn(next_chart.transpose() * chart, node.segment<3>(3), time.s, node.segment<3>(nv + 3))),
-      world_(chart, node.segment<3>(3), node.segment<3>(nv)) {}
+void Departure::set(const Matrix3d& chart, const Matrix3d& next_chart, int nv, const HalfTime& time, const VectorXd& node) {
+  chart_ = chart;
+  nv_ = nv;
+  time_ = time;
+  node_ = node;
+  turn_ = turn(next_chart.transpose() * chart, node.segment<3>(3), time.s, node.segment<3>(nv + 3));
+  slope_ = turn_.derivative();
+  world_ = WorldVelocity(chart, node.segment<3>(3), node.segment<3>(nv));
+}
 
-VectorXd Departure::value() const {
-  VectorXd state = node_.head(2 * nv_);
+void Departure::value(Eigen::Ref<VectorXd> state) const {
+  state = node_.head(2 * nv_);
   state.head<3>() += time_.s * world_.value;
   state.segment<3>(3) = turn_.value();
   state.segment(6, nv_ - 6) += time_.s * node_.segment(nv_ + 6, nv_ - 6);
   state.tail(nv_) += time_.s * node_.segment(2 * nv_, nv_);
-  return state;
 }
 
 void Departure::derivatives(Eigen::Ref<MatrixXd> rows) const {
   const Index nu = nv_ - 6;
-  const Turn::Jacobian slope = turn_.derivative();
+  const Turn::Jacobian& slope = slope_;
   rows.setZero();
   rows.leftCols(2 * nv_).diagonal().setOnes();
   rows.block<3, 3>(0, 3) = time_.s * world_.d_theta;
@@ -182,6 +225,45 @@ void Departure::add_hessian(const VectorXd& multipliers, MatrixXd& hessian) cons
   add_turning(turn_, multipliers.segment<3>(3), node_.segment<3>(nv_ + 3), time_, nv_, hessian);
   add_by_duration(nv_ + 6, multipliers.segment(6, nv_ - 6), time_, hessian);
   add_by_duration(2 * nv_, multipliers.segment(nv_, nv_), time_, hessian);
+}
+
+void Departure::push_forward(const VectorXd& step, Eigen::Ref<VectorXd> state) const {
+  const Index nu = nv_ - 6;
+  const double dT = time_.column >= 0 ? time_.slope * step(time_.column) : 0.0;
+  state = step.head(2 * nv_);
+  state.segment<3>(3) = slope_.leftCols<3>() * step.segment<3>(3) +
+                        slope_.rightCols<3>() * (time_.s * step.segment<3>(nv_ + 3) + dT * node_.segment<3>(nv_ + 3));
+  state.segment(6, nu) += time_.s * step.segment(nv_ + 6, nu) + dT * node_.segment(nv_ + 6, nu);
+  state.head<3>() += time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
+  state.tail(nv_) += time_.s * step.segment(2 * nv_, nv_) + dT * node_.segment(2 * nv_, nv_);
+}
+
+/// Columns of (z', w') in the places of (q, v) become those of the node.
+template <class Matrix>
+void Departure::substitute(Matrix&& m) const {
+  const Index nu = nv_ - 6;
+  const auto position = m.template leftCols<3>();
+  auto rotation = m.template middleCols<3>(3);
+  if (time_.column >= 0) {
+    auto by_duration = m.col(time_.column);
+    by_duration += time_.slope * position.lazyProduct(world_.value);
+    by_duration += rotation.lazyProduct(time_.slope * slope_.rightCols<3>() * node_.segment<3>(nv_ + 3));
+    by_duration.noalias() += time_.slope * m.middleCols(6, nu) * node_.segment(nv_ + 6, nu);
+    by_duration.noalias() += time_.slope * m.middleCols(nv_, nv_) * node_.segment(2 * nv_, nv_);
+  }
+  m.middleCols(2 * nv_, nv_) += time_.s * m.middleCols(nv_, nv_);
+  m.middleCols(nv_ + 6, nu) += time_.s * m.middleCols(6, nu);
+  m.template middleCols<3>(nv_ + 3) += rotation.lazyProduct(time_.s * slope_.rightCols<3>());
+  m.template middleCols<3>(nv_) += position.lazyProduct(time_.s * world_.d_v);
+  substitute_three(rotation, slope_.leftCols<3>());
+  rotation += position.lazyProduct(time_.s * world_.d_theta);
+}
+
+void Departure::pull_back(VectorXd& gradient) const { substitute(gradient.transpose()); }
+
+void Departure::pull_back_form(MatrixXd& m) const {
+  substitute(m);
+  substitute(m.transpose());
 }
 
 }  // namespace prowl

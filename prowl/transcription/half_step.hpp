@@ -20,19 +20,27 @@ struct HalfTime {
 ///
 /// Variables are (base position, theta, joints | v | a | ... | shared), where R = chart exp(theta), with z in the place of
 /// q and w in that of v for the state; everything else is the same on both sides. docs/transcription.md, "Stage by stage".
+///
+/// A linearised map takes derivatives in both directions: steps forward, gradients and Hessians back.
 class Arrival {
  public:
-  Arrival(const Eigen::Matrix3d& chart, int nv, const HalfTime& time, const Eigen::VectorXd& state);
+  /// Takes the state at which the rest is evaluated.
+  void set(const Eigen::Matrix3d& chart, int nv, const HalfTime& time, const Eigen::VectorXd& state);
 
   /// Variables of the node.
   const Eigen::VectorXd& node() const { return node_; }
   /// The way back: the state from which these variables of a node come.
   static Eigen::VectorXd state(const Eigen::Matrix3d& chart, int nv, double s, const Eigen::VectorXd& node);
 
+  /// A step of the state becomes that of the node.
+  void push_forward(Eigen::VectorXd& step) const;
   /// Derivatives in the node's variables, one row a function, become those in the state's.
   void pull_back(Eigen::MatrixXd& rows) const;
-  /// The same for a Hessian, with the function's gradient in the node's variables.
-  void pull_back(Eigen::MatrixXd& hessian, Eigen::VectorXd gradient) const;
+  void pull_back(Eigen::VectorXd& gradient) const;
+  /// The same for a quadratic form, m -> A' m A with A the derivative of the node in the state.
+  void pull_back_form(Eigen::MatrixXd& m) const;
+  /// The same for the Hessian of a function, with its gradient in the node's variables (which is used up).
+  void pull_back_hessian(Eigen::MatrixXd& hessian, Eigen::VectorXd& gradient) const;
 
  private:
   template <class Matrix>
@@ -45,33 +53,47 @@ class Arrival {
   void substitute_velocity(Matrix&& m) const;
 
   Eigen::Matrix3d chart_;
-  Eigen::Index nv_;
+  Eigen::Index nv_ = 0;
   HalfTime time_;
   Eigen::VectorXd node_;
   RotationProduct<2> turn_;
+  RotationProduct<2>::Jacobian slope_;
   WorldVelocity world_;
 };
 
 /// From a node to the state after it:
 ///
 ///   w' = v + s a,   R_z' = R exp(s omega),   p_z' = p + s R v_linear,   joints_z' = joints + s rates
+///
+/// What is carried over unchanged is not its business.
 class Departure {
  public:
-  Departure(const Eigen::Matrix3d& chart, const Eigen::Matrix3d& next_chart, int nv, const HalfTime& time,
-            const Eigen::VectorXd& node);
+  void set(const Eigen::Matrix3d& chart, const Eigen::Matrix3d& next_chart, int nv, const HalfTime& time,
+           const Eigen::VectorXd& node);
 
-  Eigen::VectorXd value() const;  ///< (z', w')
+  void value(Eigen::Ref<Eigen::VectorXd> state) const;  ///< (z', w')
   /// Derivatives in the node's variables, 2 nv rows.
   void derivatives(Eigen::Ref<Eigen::MatrixXd> rows) const;
   /// Adds the Hessian of multipliers . value().
   void add_hessian(const Eigen::VectorXd& multipliers, Eigen::MatrixXd& hessian) const;
 
+  /// A step of the node becomes that of (z', w').
+  void push_forward(const Eigen::VectorXd& step, Eigen::Ref<Eigen::VectorXd> state) const;
+  /// A gradient in (z', w'), in the places of q and v of all the node's variables, becomes one in these; and a quadratic
+  /// form. What the variables that are carried over have in their places stays.
+  void pull_back(Eigen::VectorXd& gradient) const;
+  void pull_back_form(Eigen::MatrixXd& m) const;
+
  private:
+  template <class Matrix>
+  void substitute(Matrix&& m) const;
+
   Eigen::Matrix3d chart_;
-  Eigen::Index nv_;
+  Eigen::Index nv_ = 0;
   HalfTime time_;
   Eigen::VectorXd node_;
   RotationProduct<2> turn_;
+  RotationProduct<2>::Jacobian slope_;
   WorldVelocity world_;
 };
 

@@ -61,6 +61,9 @@ class NodeFunctions {
   void evaluate_with_derivatives(const NodePoint& point, NodeValues& values);
   /// Hessian of cost_factor * cost + multipliers . rows, in all columns, symmetric.
   void hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
+  void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values, Eigen::MatrixXd& result) {
+    evaluate_with_derivatives(point, values); hessian(point, cost_factor, multipliers, result);
+  }
 
  private:
   int num_places() const { return 2 * static_cast<int>(landed_.size()); }

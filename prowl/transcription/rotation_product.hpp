@@ -19,6 +19,7 @@ class RotationProduct {
   using Jacobian = Eigen::Matrix<double, 3, 3 * N>;
   using Hessian = Eigen::Matrix<double, 3 * N, 3 * N>;
 
+  RotationProduct() = default;
   explicit RotationProduct(const std::array<Factor, N>& factors) : factors_(factors) {
     Eigen::Matrix3d product = Eigen::Matrix3d::Identity();
     for (int i = N - 1; i >= 0; --i) {

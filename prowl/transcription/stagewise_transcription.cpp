@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 }  // namespace
 
 StagewiseTranscription::StagewiseTranscription(Transcription& flat)
-    : flat_(flat), stages_(static_cast<std::size_t>(flat.layout_.num_nodes())), scratch_(flat.variable_lower_) {
+    : flat_(flat), stages_(static_cast<std::size_t>(flat.layout_.num_nodes())) {
   for (int k = 0; k < num_stages(); ++k) set_variables(k);
   for (int k = 0; k < num_stages(); ++k) set_functions(k);
 }
@@ -88,22 +88,24 @@ void StagewiseTranscription::set_variables(int k) {
 void StagewiseTranscription::set_functions(int k) {
   Stage& stage = this->stage(k);
   std::vector<double> level, lower, upper, per_unit;
+  int count = 0;
   const auto add = [&](double low, double up) {
     if (low == up) {
-      stage.equalities.push_back(stage.num_functions);
+      stage.equalities.push_back(count);
       level.push_back(low);
     } else if (std::isfinite(low) || std::isfinite(up)) {
-      stage.inequalities.push_back(stage.num_functions);
+      stage.inequalities.push_back(count);
       lower.push_back(low);
       upper.push_back(up);
     }
-    ++stage.num_functions;
+    ++count;
   };
   const NodeFunctions& functions = flat_.functions(k);
   const MeshNode& node = flat_.mesh_node(k);
   for (int row = 0; row < functions.num_rows(node.node); ++row) {
     add(functions.lower(node.node, row), functions.upper(node.node, row));
   }
+  stage.num_rows = count;
 
   const int states = 2 * flat_.layout_.nv();
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
@@ -129,7 +131,6 @@ void StagewiseTranscription::set_functions(int k) {
     stage.next_per_unit = next.unit.tail(next.size.states).cwiseInverse();
     stage.values.next.resize(next.size.states);
   }
-  stage.num_functions += static_cast<int>(stage.values.next.size());
 }
 
 HalfTime StagewiseTranscription::half_time(int k, double h, const VectorXd& node) const {
@@ -141,17 +142,14 @@ HalfTime StagewiseTranscription::half_time(int k, double h, const VectorXd& node
   return {slope * node(column), slope, column};
 }
 
-Arrival StagewiseTranscription::arrival(int k, const VectorXd& ux) const {
-  VectorXd state = stage(k).fixed;
-  state(stage(k).variables) = ux.cwiseProduct(stage(k).unit);
-  return {flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(),
-          half_time(k, flat_.mesh_node(k).h_in, state), state};
-}
-
-Departure StagewiseTranscription::departure(int k) const {
-  const VectorXd& node = stage(k).node;
-  return {flat_.charts_[static_cast<std::size_t>(k)], flat_.charts_[static_cast<std::size_t>(k) + 1],
-          flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).h_out, node), node};
+void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, Arrival& arrival) const {
+  const Stage& stage = this->stage(k);
+  VectorXd state = stage.fixed;
+  for (std::size_t i = 0; i < stage.variables.size(); ++i) {
+    state(stage.variables[i]) = ux(static_cast<Index>(i)) * stage.unit(static_cast<Index>(i));
+  }
+  arrival.set(flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(),
+              half_time(k, flat_.mesh_node(k).h_in, state), state);
 }
 
 void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
@@ -159,93 +157,263 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
   if (stage.at.size() == ux.size() && stage.at == ux) return;
   stage.have_values = stage.have_derivatives = false;
   stage.at = ux;
-  stage.node = arrival(k, ux).node();
-  for (Index i = 0; i < stage.node.size(); ++i) scratch_(flat_.column(k, static_cast<int>(i))) = stage.node(i);
-  stage.point = flat_.node_point(scratch_, k);
+  set_arrival(k, ux, stage.arrival);
+  const VectorXd& node = stage.node();
+  if (stage.num_next() > 0) {
+    stage.departure.set(flat_.charts_[static_cast<std::size_t>(k)], flat_.charts_[static_cast<std::size_t>(k) + 1],
+                        flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).h_out, node), node);
+  }
+  flat_.set_point(k, node, stage.point);
 }
 
-void StagewiseTranscription::evaluate(int k, bool with_derivatives) {
+void StagewiseTranscription::fill_values(int k) {
   Stage& stage = this->stage(k);
-  NodeFunctions& functions = flat_.functions(k);
-  flat_.at_node(k, [&] {
-    with_derivatives ? functions.evaluate_with_derivatives(stage.point, stage.node_values)
-                     : functions.evaluate(stage.point, stage.node_values);
-  });
+  stage.values.cost = stage.node_values.cost;
+  const auto function = [&](int place) {
+    if (place < stage.num_rows) return stage.node_values.rows(place);
+    const int i = place - stage.num_rows;
+    return stage.node()(stage.bounded[static_cast<std::size_t>(i)]) * stage.per_unit(i);
+  };
+  stage.values.equalities.resize(stage.size.equalities);
+  for (int i = 0; i < stage.size.equalities; ++i) {
+    stage.values.equalities(i) = function(stage.equalities[static_cast<std::size_t>(i)]) - stage.level(i);
+  }
+  stage.values.inequalities.resize(stage.size.inequalities);
+  for (int i = 0; i < stage.size.inequalities; ++i) {
+    stage.values.inequalities(i) = function(stage.inequalities[static_cast<std::size_t>(i)]);
+  }
+  if (stage.num_next() > 0) {
+    const Index states = 2 * flat_.layout_.nv();
+    stage.departure.value(stage.values.next.head(states));
+    for (std::size_t i = 0; i < stage.carried.size(); ++i) {
+      stage.values.next(states + static_cast<Index>(i)) = stage.node()(stage.carried[i]);
+    }
+    stage.values.next.array() *= stage.next_per_unit.array();
+  }
+  stage.have_values = true;
 }
 
 const StageValues& StagewiseTranscription::values(int k, const VectorXd& ux) {
   move_to(k, ux);
   Stage& stage = this->stage(k);
   if (stage.have_values) return stage.values;
-  evaluate(k, false);
-  stage.values.cost = stage.node_values.cost;
-  VectorXd functions(stage.first_next());
-  functions << stage.node_values.rows, stage.node(stage.bounded).cwiseProduct(stage.per_unit);
-  stage.values.equalities = functions(stage.equalities) - stage.level;
-  stage.values.inequalities = functions(stage.inequalities);
-  if (stage.values.next.size() > 0) {
-    stage.values.next << departure(k).value(), stage.node(stage.carried);
-    stage.values.next.array() *= stage.next_per_unit.array();
-  }
-  stage.have_values = true;
+  flat_.at_node(k, [&] { flat_.functions(k).evaluate(stage.point, stage.node_values); });
+  fill_values(k);
   return stage.values;
 }
 
+void StagewiseTranscription::fill_slopes(int k) {
+  Stage& stage = this->stage(k);
+  const MatrixXd& jacobian = stage.node_values.rows_jacobian;
+  const Index size = stage.node().size();
+
+  on_node_ = stage.node_values.cost_gradient;
+  stage.arrival.pull_back(on_node_);
+  stage.cost_gradient.resize(stage.size.variables());
+  for (Index i = 0; i < stage.cost_gradient.size(); ++i) {
+    stage.cost_gradient(i) = stage.unit(i) * on_node_(stage.variables[static_cast<std::size_t>(i)]);
+  }
+
+  slopes_.setZero(stage.size.equalities, size);
+  for (int i = 0; i < stage.size.equalities; ++i) {
+    const int place = stage.equalities[static_cast<std::size_t>(i)], bound = place - stage.num_rows;
+    if (bound < 0) {
+      slopes_.row(i) = jacobian.row(place);
+    } else {
+      slopes_(i, stage.bounded[static_cast<std::size_t>(bound)]) = stage.per_unit(bound);
+    }
+  }
+  stage.arrival.pull_back(slopes_);
+  stage.equality_slopes.resize(stage.size.equalities, stage.size.variables());
+  for (Index i = 0; i < stage.equality_slopes.cols(); ++i) {
+    stage.equality_slopes.col(i) = stage.unit(i) * slopes_.col(stage.variables[static_cast<std::size_t>(i)]);
+  }
+
+  const auto is_row = [&](int place) { return place < stage.num_rows; };
+  const Index count = std::ranges::count_if(stage.inequalities, is_row);
+  InequalityRows& rows = stage.rows;
+  rows.gradients.resize(size, count);
+  rows.places.resize(size, count);
+  rows.counts.setZero(count);
+  for (Index i = 0; i < count; ++i) {  // they come before the bounds
+    rows.gradients.col(i) = jacobian.row(stage.inequalities[static_cast<std::size_t>(i)]).transpose();
+    for (Index j = 0; j < size; ++j) {
+      if (rows.gradients(j, i) != 0.0) rows.places(rows.counts(i)++, i) = static_cast<int>(j);
+    }
+  }
+}
+
+void StagewiseTranscription::add_on_next(const Stage& stage, const VectorXd& on_next, VectorXd& on_node) const {
+  const Index states = 2 * flat_.layout_.nv();
+  on_node.head(states) += on_next.head(states).cwiseProduct(stage.next_per_unit.head(states));
+  for (std::size_t i = 0; i < stage.carried.size(); ++i) {
+    const Index state = states + static_cast<Index>(i);
+    on_node(stage.carried[i]) += on_next(state) * stage.next_per_unit(state);
+  }
+}
+
+void StagewiseTranscription::gather(const Stage& stage, const MatrixXd& form, MatrixXd& result) {
+  const Index size = stage.size.variables();
+  result.resize(size, size);
+  for (Index j = 0; j < size; ++j) {
+    const double* const column = form.col(stage.variables[static_cast<std::size_t>(j)]).data();
+    for (Index i = 0; i < size; ++i) {
+      result(i, j) = stage.unit(j) * stage.unit(i) * column[stage.variables[static_cast<std::size_t>(i)]];
+    }
+  }
+}
+
+void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) {
+  move_to(k, ux);
+  Stage& stage = this->stage(k);
+  on_rows_.setZero(stage.num_rows);
+  on_node_.setZero(stage.node().size());
+  const auto distribute = [&](const std::vector<int>& places, const VectorXd& on) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const int bound = places[i] - stage.num_rows;
+      if (bound < 0) {
+        on_rows_(places[i]) = on(static_cast<Index>(i));
+      } else {
+        on_node_(stage.bounded[static_cast<std::size_t>(bound)]) += on(static_cast<Index>(i)) * stage.per_unit(bound);
+      }
+    }
+  };
+  flat_.at_node(k, [&] {
+    distribute(stage.equalities, multipliers.equalities);
+    distribute(stage.inequalities, multipliers.inequalities);
+    flat_.functions(k).linearise(stage.point, cost_factor, on_rows_, stage.node_values, form_);
+  });
+  if (stage.num_next() > 0) {
+    on_next_.setZero(stage.node().size());
+    add_on_next(stage, multipliers.next, on_next_);
+    step_ = on_next_.head(2 * flat_.layout_.nv());
+    stage.departure.add_hessian(step_, form_);
+    stage.departure.pull_back(on_next_);
+    on_node_ += on_next_;
+  }
+  on_node_ += cost_factor * stage.node_values.cost_gradient;
+  on_node_.noalias() += stage.node_values.rows_jacobian.transpose() * on_rows_;
+  stage.arrival.pull_back_hessian(form_, on_node_);
+  gather(stage, form_, stage.hessian);
+  if (!stage.have_values) fill_values(k);
+  if (!stage.have_derivatives) fill_slopes(k);
+  stage.have_derivatives = true;
+}
+
+void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
+  Stage& stage = this->stage(k);
+  const Index size = stage.node().size(), states = 2 * flat_.layout_.nv();
+  form_.setZero(size, size);
+  if (stage.num_next() > 0) {
+    const VectorXd& unit = stage.next_per_unit;
+    const auto place = [&](Index i) {
+      return i < states ? i : Index{stage.carried[static_cast<std::size_t>(i - states)]};
+    };
+    for (Index j = 0; j < unit.size(); ++j) {
+      for (Index i = 0; i < unit.size(); ++i) form_(place(i), place(j)) = unit(i) * unit(j) * next_hessian(i, j);
+    }
+    stage.departure.pull_back_form(form_);
+  }
+  const Index rows = stage.rows.gradients.cols();
+  for (Index i = 0; i < rows; ++i) {
+    const auto gradient = stage.rows.gradients.col(i);
+    const auto places = stage.rows.places.col(i).head(stage.rows.counts(i));
+    for (const int column : places) {
+      const double factor = weights(i) * gradient(column);
+      if (2 * places.size() > size) {
+        form_.col(column) += factor * gradient;
+      } else {
+        for (const int row : places) form_(row, column) += factor * gradient(row);
+      }
+    }
+  }
+  for (Index i = rows; i < weights.size(); ++i) {
+    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
+    const int variable = stage.bounded[static_cast<std::size_t>(bound)];
+    form_(variable, variable) += weights(i) * stage.per_unit(bound) * stage.per_unit(bound);
+  }
+  stage.arrival.pull_back_form(form_);
+  gather(stage, form_, result);
+}
+
+void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd& next, VectorXd& inequalities) {
+  Stage& stage = this->stage(k);
+  step_.setZero(stage.node().size());
+  for (Index i = 0; i < step.size(); ++i) step_(stage.variables[static_cast<std::size_t>(i)]) = stage.unit(i) * step(i);
+  stage.arrival.push_forward(step_);
+  const Index rows = stage.rows.gradients.cols();
+  inequalities.resize(stage.size.inequalities);
+  inequalities.head(rows).noalias() = stage.rows.gradients.transpose() * step_;
+  for (Index i = rows; i < inequalities.size(); ++i) {
+    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
+    inequalities(i) = step_(stage.bounded[static_cast<std::size_t>(bound)]) * stage.per_unit(bound);
+  }
+  next.resize(stage.num_next());
+  if (stage.num_next() == 0) return;
+  const Index states = 2 * flat_.layout_.nv();
+  stage.departure.push_forward(step_, next.head(states));
+  for (std::size_t i = 0; i < stage.carried.size(); ++i) next(states + static_cast<Index>(i)) = step_(stage.carried[i]);
+  next.array() *= stage.next_per_unit.array();
+}
+
+void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const VectorXd& on_inequalities,
+                                           VectorXd& gradient) {
+  Stage& stage = this->stage(k);
+  on_node_.setZero(stage.node().size());
+  if (stage.num_next() > 0) {
+    add_on_next(stage, on_next, on_node_);
+    stage.departure.pull_back(on_node_);
+  }
+  const Index rows = stage.rows.gradients.cols();
+  on_node_.noalias() += stage.rows.gradients * on_inequalities.head(rows);
+  for (Index i = rows; i < on_inequalities.size(); ++i) {
+    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
+    on_node_(stage.bounded[static_cast<std::size_t>(bound)]) += on_inequalities(i) * stage.per_unit(bound);
+  }
+  stage.arrival.pull_back(on_node_);
+  for (Index i = 0; i < gradient.size(); ++i) {
+    gradient(i) += stage.unit(i) * on_node_(stage.variables[static_cast<std::size_t>(i)]);
+  }
+}
+
+// Dense matrices are the products of the functions above with unit vectors.
 const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorXd& ux) {
   move_to(k, ux);
   Stage& stage = this->stage(k);
-  if (stage.have_derivatives) return stage.derivatives;
-  evaluate(k, true);
-  MatrixXd& slopes = stage.slopes;
-  slopes.setZero(stage.num_functions, stage.node.size());
-  Index row = stage.node_values.rows_jacobian.rows();
-  slopes.topRows(row) = stage.node_values.rows_jacobian;
-  for (std::size_t i = 0; i < stage.bounded.size(); ++i) {
-    slopes(row++, stage.bounded[i]) = stage.per_unit(static_cast<Index>(i));
+  if (!stage.have_derivatives) {
+    flat_.at_node(k, [&] { flat_.functions(k).evaluate_with_derivatives(stage.point, stage.node_values); });
+    fill_values(k);
+    fill_slopes(k);
+    stage.have_derivatives = true;
   }
-  if (stage.values.next.size() > 0) {
-    const Index states = 2 * flat_.layout_.nv();
-    departure(k).derivatives(slopes.middleRows(row, states));
-    row += states;
-    for (const int variable : stage.carried) slopes(row++, variable) = 1.0;
-    slopes.bottomRows(stage.values.next.size()).array().colwise() *= stage.next_per_unit.array();
-  }
-
-  const Arrival arrival = this->arrival(k, ux);
-  MatrixXd pulled(stage.num_functions + 1, stage.node.size());
-  pulled << slopes, stage.node_values.cost_gradient.transpose();
-  arrival.pull_back(pulled);
   StageDerivatives& derivatives = stage.derivatives;
-  pulled = stage.of_stage(pulled);
-  derivatives.equalities = pulled(stage.equalities, Eigen::all);
-  derivatives.inequalities = pulled(stage.inequalities, Eigen::all);
-  derivatives.next = pulled.middleRows(stage.first_next(), stage.values.next.size());
-  derivatives.cost_gradient = pulled.bottomRows<1>().transpose();
-  stage.have_derivatives = true;
+  const Index size = stage.node().size(), rows = stage.rows.gradients.cols();
+  MatrixXd slopes = MatrixXd::Zero(stage.size.inequalities + stage.num_next(), size);
+  slopes.topRows(rows) = stage.rows.gradients.transpose();
+  for (Index i = rows; i < stage.size.inequalities; ++i) {
+    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
+    slopes(i, stage.bounded[static_cast<std::size_t>(bound)]) = stage.per_unit(bound);
+  }
+  if (stage.num_next() > 0) {
+    const Index states = 2 * flat_.layout_.nv();
+    auto next = slopes.bottomRows(stage.num_next());
+    stage.departure.derivatives(next.topRows(states));
+    for (std::size_t i = 0; i < stage.carried.size(); ++i) next(states + static_cast<Index>(i), stage.carried[i]) = 1.0;
+    next.array().colwise() *= stage.next_per_unit.array();
+  }
+  stage.arrival.pull_back(slopes);
+  slopes = (slopes(Eigen::all, stage.variables) * stage.unit.asDiagonal()).eval();
+  derivatives.cost_gradient = stage.cost_gradient;
+  derivatives.equalities = stage.equality_slopes;
+  derivatives.inequalities = slopes.topRows(stage.size.inequalities);
+  derivatives.next = slopes.bottomRows(stage.num_next());
   return derivatives;
 }
 
 const MatrixXd& StagewiseTranscription::hessian(int k, const VectorXd& ux, double cost_factor,
                                                 const StageMultipliers& multipliers) {
-  derivatives(k, ux);
-  Stage& stage = this->stage(k);
-  VectorXd on_functions = VectorXd::Zero(stage.num_functions);
-  on_functions(stage.equalities) = multipliers.equalities;
-  on_functions(stage.inequalities) = multipliers.inequalities;
-  if (stage.values.next.size() > 0) on_functions.tail(stage.values.next.size()) = multipliers.next;
-
-  MatrixXd hessian;
-  flat_.at_node(k, [&] {
-    flat_.functions(k).hessian(stage.point, cost_factor, on_functions.head(stage.node_values.rows.size()), hessian);
-  });
-  if (stage.values.next.size() > 0) {
-    const VectorXd on_next = multipliers.next.cwiseProduct(stage.next_per_unit);
-    departure(k).add_hessian(on_next, hessian);
-  }
-  const VectorXd gradient = cost_factor * stage.node_values.cost_gradient + stage.slopes.transpose() * on_functions;
-  arrival(k, ux).pull_back(hessian, gradient);
-  stage.hessian = stage.unit.asDiagonal() * stage.of_stage(hessian(stage.variables, Eigen::all));
-  return stage.hessian;
+  linearise(k, ux, cost_factor, multipliers);
+  return stage(k).hessian;
 }
 
 std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
@@ -263,7 +431,9 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
 VectorXd StagewiseTranscription::flat(const std::vector<VectorXd>& stages) const {
   VectorXd z(flat_.num_variables());
   for (int k = num_stages() - 1; k >= 0; --k) {  // what is shared: as it began
-    const VectorXd node = arrival(k, stages[static_cast<std::size_t>(k)]).node();
+    Arrival arrival;
+    set_arrival(k, stages[static_cast<std::size_t>(k)], arrival);
+    const VectorXd& node = arrival.node();
     for (Index i = 0; i < node.size(); ++i) z(flat_.column(k, static_cast<int>(i))) = node(i);
   }
   return z;

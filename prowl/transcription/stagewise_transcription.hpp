@@ -22,7 +22,7 @@ class Transcription;
 ///
 /// Stage variables are without a unit: lengths are divided by the size l of the robot, forces by its weight m g, times by
 /// sqrt(l/g). A solver that regularises adds the same number to the curvature in each. (But w is in newtons.)
-class StagewiseTranscription : public DenseStagewiseNlp {
+class StagewiseTranscription : public StagewiseNlp {
  public:
   /// A view of `flat`, which must outlive it and not move.
   explicit StagewiseTranscription(Transcription& flat);
@@ -37,20 +37,35 @@ class StagewiseTranscription : public DenseStagewiseNlp {
   const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd& ux, double cost_factor,
                                  const StageMultipliers& multipliers) override;
 
+  void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) override;
+  const Eigen::VectorXd& cost_gradient(int k) const override { return stage(k).cost_gradient; }
+  const Eigen::MatrixXd& equality_slopes(int k) const override { return stage(k).equality_slopes; }
+  const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return stage(k).hessian; }
+  void condense(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
+                Eigen::MatrixXd& result) override;
+  void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next, Eigen::VectorXd& inequalities) override;
+  void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
+                     Eigen::VectorXd& gradient) override;
+
   std::vector<Eigen::VectorXd> stages(const Eigen::VectorXd& z) const override;
   Eigen::VectorXd flat(const std::vector<Eigen::VectorXd>& stages) const override;
   std::string describe_stage(int k) const override;
 
  private:
+  /// Gradients of the inequalities among the rows of a node, one a column, and where they are not zero.
+  struct InequalityRows {
+    Eigen::MatrixXd gradients;
+    Eigen::MatrixXi places;
+    Eigen::VectorXi counts;
+  };
   struct Stage {
     StageSize size;
     std::vector<int> variables;  ///< of (u, x): places among the variables of the node, z and w in those of q and v
     Eigen::VectorXd unit;        ///< of each of those: variable of the node = unit * variable of the stage
     Eigen::VectorXd fixed;       ///< all variables of the node, with the values of those that are fixed
     std::vector<int> carried;    ///< shared variables that are states of the next stage: places among the node's
-    // Functions: (rows of the node, as in NodeFunctions | variables of the node with bounds | states of the next stage),
-    // the last two in their units.
-    int num_functions = 0;
+    // Functions: (rows of the node, as in NodeFunctions | variables of the node with bounds), the last in their units.
+    int num_rows = 0;
     std::vector<int> bounded;                   ///< variables
     Eigen::VectorXd per_unit, next_per_unit;    ///< 1 / unit of the variables with bounds and of the states of the next stage
     std::vector<int> equalities, inequalities;  ///< places among the functions
@@ -58,21 +73,20 @@ class StagewiseTranscription : public DenseStagewiseNlp {
     Eigen::VectorXd lower, upper;
 
     // What was evaluated last, and where.
-    Eigen::VectorXd at, node;
+    Eigen::VectorXd at;
     bool have_values = false, have_derivatives = false;
+    Arrival arrival;
+    Departure departure;
     NodePoint point;
     NodeValues node_values;
     StageValues values;
-    StageDerivatives derivatives;
-    Eigen::MatrixXd slopes;  ///< of the functions in the variables of the node
-    Eigen::MatrixXd hessian;
+    Eigen::VectorXd cost_gradient;
+    Eigen::MatrixXd equality_slopes, hessian;
+    InequalityRows rows;
 
-    /// Derivatives in the variables of the node, in those of the stage.
-    template <class Matrix>
-    Eigen::MatrixXd of_stage(const Matrix& slopes) const {
-      return slopes(Eigen::all, variables) * unit.asDiagonal();
-    }
-    int first_next() const { return num_functions - static_cast<int>(values.next.size()); }
+    StageDerivatives derivatives;  ///< dense, if asked for
+    const Eigen::VectorXd& node() const { return arrival.node(); }
+    int num_next() const { return static_cast<int>(next_per_unit.size()); }
   };
   const Stage& stage(int k) const { return stages_[static_cast<std::size_t>(k)]; }
 
@@ -87,15 +101,20 @@ class StagewiseTranscription : public DenseStagewiseNlp {
 
   /// Half the step `h` of the mesh on one side of node k.
   HalfTime half_time(int k, double h, const Eigen::VectorXd& node) const;
-  Arrival arrival(int k, const Eigen::VectorXd& ux) const;
-  Departure departure(int k) const;
+  void set_arrival(int k, const Eigen::VectorXd& ux, Arrival& arrival) const;
   /// Sets the point; what was evaluated elsewhere is forgotten.
   void move_to(int k, const Eigen::VectorXd& ux);
-  void evaluate(int k, bool with_derivatives);
+  void fill_values(int k);
+  void fill_slopes(int k);
+  /// Multipliers, or a gradient, of the next states in the places that these have among the node's variables.
+  void add_on_next(const Stage& stage, const Eigen::VectorXd& on_next, Eigen::VectorXd& on_node) const;
+  static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
   Transcription& flat_;
   std::vector<Stage> stages_;
-  Eigen::VectorXd scratch_;  ///< decision variables of the flat form, as far as the stage in hand needs them
+  // Work space, in the variables of a node.
+  Eigen::VectorXd on_rows_, on_node_, step_, on_next_;
+  Eigen::MatrixXd form_, slopes_;
 };
 
 }  // namespace prowl

@@ -123,31 +123,39 @@ double Transcription::step(const VectorXd& z, int k) const {
 }
 
 NodePoint Transcription::node_point(const VectorXd& z, int k) const {
-  const int nv = layout_.nv(), nu = layout_.nu();
-  const MeshNode& node = mesh_node(k);
-  const auto phase = static_cast<std::size_t>(node.phase);
+  VectorXd node(functions(k).num_columns());
+  for (Index j = 0; j < node.size(); ++j) node(j) = z(column(k, static_cast<int>(j)));
   NodePoint point;
-  point.node = node.node;
-  point.theta = z.segment<3>(layout_.q(k) + 3);
-  point.q.resize(nv + 1);
-  point.q.head<3>() = z.segment<3>(layout_.q(k));
-  set_base_rotation(point.q, charts_[static_cast<std::size_t>(k)] * so3::exp(point.theta));
-  point.q.tail(nu) = z.segment(layout_.q(k) + 6, nu);
-  point.v = z.segment(layout_.v(k), nv);
-  point.a = z.segment(layout_.a(k), nv);
-  point.tau = z.segment(layout_.tau(k), nu);
-  point.w = z.segment(layout_.w(k), layout_.num_w(k));
-  point.duration = duration(z, node.phase);
-  point.anchors = anchor_origins_[phase];
-  for (const int i : phases_[phase].landed()) {
-    const Surface& surface =
-        problem_.surfaces[static_cast<std::size_t>(problem_.phases[phase].contacts[static_cast<std::size_t>(i)].surface)];
-    point.anchors.segment<3>(3 * i) += surface.axes() * z.segment<2>(layout_.place(schedule_.stance(node.phase, i)));
-  }
-  const double share = 0.5 * ((node.h_in > 0.0) + (node.h_out > 0.0));
-  point.cost_weight = share * step(z, k);
-  point.terminal_weight = k + 1 == layout_.num_nodes() ? 1.0 : 0.0;
+  set_point(k, node, point);
   return point;
+}
+
+void Transcription::set_point(int k, const VectorXd& node, NodePoint& point) const {
+  const int nv = layout_.nv(), nu = layout_.nu();
+  const MeshNode& mesh_node = this->mesh_node(k);
+  const auto phase = static_cast<std::size_t>(mesh_node.phase);
+  const Phase& asked = problem_.phases[phase];
+  point.node = mesh_node.node;
+  point.theta = node.segment<3>(3);
+  point.q.resize(nv + 1);
+  point.q.head<3>() = node.head<3>();
+  set_base_rotation(point.q, charts_[static_cast<std::size_t>(k)] * so3::exp(point.theta));
+  point.q.tail(nu) = node.segment(6, nu);
+  point.v = node.segment(nv, nv);
+  point.a = node.segment(2 * nv, nv);
+  point.tau = node.segment(3 * nv, nu);
+  point.w = node.segment(3 * nv + nu, layout_.num_w(k));
+  Index shared = layout_.node_size(k);
+  point.duration = functions(k).has_free_duration() ? node(shared++) : asked.duration.min;
+  point.anchors = anchor_origins_[phase];
+  for (const int i : functions(k).landed()) {
+    const int surface = asked.contacts[static_cast<std::size_t>(i)].surface;
+    point.anchors.segment<3>(3 * i) += problem_.surfaces[static_cast<std::size_t>(surface)].axes() * node.segment<2>(shared);
+    shared += 2;
+  }
+  const double share = 0.5 * ((mesh_node.h_in > 0.0) + (mesh_node.h_out > 0.0));
+  point.cost_weight = share * point.duration / asked.intervals;
+  point.terminal_weight = k + 1 == layout_.num_nodes() ? 1.0 : 0.0;
 }
 
 IntervalEnd Transcription::interval_end(const VectorXd& z, int k) const {

@@ -71,6 +71,8 @@ class Transcription : public Nlp {
   double duration(const Eigen::VectorXd& z, int phase) const;
   double step(const Eigen::VectorXd& z, int k) const;
   NodePoint node_point(const Eigen::VectorXd& z, int k) const;
+  /// The same from the variables of the node and those that its phase shares, in the order of column().
+  void set_point(int k, const Eigen::VectorXd& node, NodePoint& point) const;
   IntervalDefects interval(const Eigen::VectorXd& z, int k) const;
   IntervalEnd interval_end(const Eigen::VectorXd& z, int k) const;
   void evaluate_nodes(const Eigen::VectorXd& z, bool with_derivatives);
