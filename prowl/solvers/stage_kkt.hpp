@@ -25,7 +25,9 @@ using StageVectors = std::vector<Eigen::VectorXd>;
 ///   free inputs    minimise (Cholesky): what remains is the cost-to-go  1/2 dx' P dx + p' dx
 ///
 /// The Cholesky factors exist if and only if M is positive definite on the steps that keep the equalities. Equalities that
-/// depend on others are left out, with multipliers of zero. No memory is taken once the ranks have settled.
+/// depend on others are left out, with multipliers of zero. An input that could meet an equality only by a huge step does
+/// not count: that equality goes to earlier stages, and iterative refinement makes up for what was left out. No memory is
+/// taken once the ranks have settled.
 class StageKkt {
  public:
   /// A view of `nlp`, which must outlive it.
@@ -79,11 +81,21 @@ class StageKkt {
   void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
   void forward(int k, const Eigen::VectorXd* link);
   void find_multipliers(int k);
+  void solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
+  double find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
 
   StagewiseNlp& nlp_;
   int num_stages_;
   std::vector<Stage> stages_;
   StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
+  bool is_exact_ = true;  ///< no pivot but rounding was left out
+  Hessian hessian_ = Hessian::lagrangian;
+  double delta_ = 0.0;
+  StageVectors weights_;
+  struct Solution {
+    StageVectors steps, on_equalities, on_next, along_inequalities;
+  } sum_;
+  StageVectors residual_gradient_, residual_equalities_, residual_links_;
   Eigen::MatrixXd no_hessian_, in_order_, work_;
   Eigen::VectorXd no_inequalities_, row_;
 };
