@@ -35,6 +35,7 @@ struct PlanArguments {
   std::optional<double> step;  ///< [s]
   bool json = false;
   bool print_phases = false;
+  bool one_mesh = false;
 };
 
 constexpr double kMostSamples = 1e7;  // of the uniform grid: some gigabytes of text
@@ -95,6 +96,7 @@ int run_plan(const PlanArguments& arguments) {
   PlanOptions options{.solver = task.solver};
   options.solver.on_iteration = [&](const SolveProgress& iteration) { progress.print(iteration); };
   options.solver.interrupt = &interrupted;
+  options.coarse_first = !arguments.one_mesh;
   options.on_level = [&](int intervals) { progress.begin_level(intervals); };
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
@@ -136,6 +138,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--intervals", arguments->overrides.intervals,
                    "Mesh intervals in all, shared out over the phases as in the task file")
       ->check(CLI::Range(1, 10000))->type_name("N");
+  verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
   verb->add_option("--warm-start", arguments->warm_start,
                    "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ")
       ->type_name("DIR");

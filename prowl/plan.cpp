@@ -68,7 +68,7 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
   plan.solver = solver.name();
   plan.reasons = proofs_of_infeasibility(problem);
   plan.trajectory = options.start_from;
-  const bool one_level = !plan.trajectory.empty() || !plan.reasons.empty();
+  const bool one_level = !options.coarse_first || !plan.trajectory.empty() || !plan.reasons.empty();
   for (const MotionProblem& level : one_level ? std::vector{problem} : mesh_levels(problem)) {
     if (!plan.levels.empty() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(level, solver, options, plan);

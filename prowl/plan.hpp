@@ -39,6 +39,7 @@ struct PlanOptions {
   SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together
   /// Empty: start from the task alone, on a coarse mesh first. Else start from this motion (see resample()).
   Trajectory start_from = {};
+  bool coarse_first = true;  ///< false: on the mesh of the problem at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
 };
 
