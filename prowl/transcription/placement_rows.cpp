@@ -179,7 +179,7 @@ void PlacementRows::add_hessian(int k, const Eigen::VectorXd& multipliers, Eigen
   SecondDerivatives second(static_cast<int>(v_.size()));
   second.set_zero();
   kinematics_.set_motion(Eigen::VectorXd::Zero(v_.size()), v_);
-  kinematics_.add_acceleration_hessian(on_velocity, second);
+  kinematics_.add_acceleration_hessian(on_velocity, 0.0, second);
   qq += bend + second.qq;
   qv += second.qa;  // J u is the acceleration of a = u at rest
 }
