@@ -37,6 +37,30 @@ void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
   }
 }
 
+// The base moves all contacts: a dense product. A joint moves those behind it.
+void ContactKinematics::multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const {
+  out.noalias() = jacobian_.leftCols<6>() * x.topRows<6>();
+  for (Eigen::Index column = 0; column < x.cols(); ++column) {
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      Vector3d sum = Vector3d::Zero();
+      for (std::size_t i = kBaseDofs; i < chains_[c].size(); ++i) sum += chains_[c][i].d * x(chains_[c][i].dof, column);
+      out.col(column).segment<3>(static_cast<Eigen::Index>(3 * c)) += sum;
+    }
+  }
+}
+
+void ContactKinematics::subtract_transposed(const Eigen::MatrixXd& y, Eigen::MatrixXd& out) const {
+  out.topRows<6>().noalias() -= jacobian_.leftCols<6>().transpose() * y;
+  for (Eigen::Index column = 0; column < y.cols(); ++column) {
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      const Vector3d force = y.col(column).segment<3>(static_cast<Eigen::Index>(3 * c));
+      for (std::size_t i = kBaseDofs; i < chains_[c].size(); ++i) {
+        out(chains_[c][i].dof, column) -= chains_[c][i].d.dot(force);
+      }
+    }
+  }
+}
+
 void ContactKinematics::set_motion(const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     propagate_motion(chains_[c], v, a, acceleration_.segment(static_cast<Eigen::Index>(3 * c), 3));
@@ -115,7 +139,8 @@ void ContactKinematics::acceleration_dv(Eigen::MatrixXd& dg_dv) const {
 
 // With k at or before l in the chain, V and A of Link (docs/theory.md, after (9)):
 //   ∂²g/∂q_k ∂q_l = w_k × ∂g/∂q_l + A_k × d_l + V_k × ∂g/∂v_l
-//   ∂²g/∂q_k ∂v_l = w_k × ∂g/∂v_l + 2 V_k × d_l,   ∂²g/∂v_k ∂q_l = w_k × ∂g/∂v_l + W_k × d_l,   W_k = V_k + Ω_after × w_k
+//   ∂²g/∂q_k ∂v_l = w_k × ∂g/∂v_l + 2 V_k × d_l
+//   ∂²g/∂v_k ∂q_l = w_k × ∂g/∂v_l + (V_k + Ω_after × w_k) × d_l
 //   ∂²g/∂q_k ∂a_l = ∂²g/∂a_k ∂q_l = w_k × d_l,     ∂²g/∂v_k ∂v_l = 2 w_k × d_l
 // so that times a force all is three vectors of l, times those of k. Within the base, where V = 0, the two orders of
 // ∂²g/∂v ∂v are added, and the Hessian along q (+) d has the mean of the two orders of ∂²g/∂q ∂q.

@@ -30,6 +30,9 @@ class ContactKinematics {
 
   const Eigen::VectorXd& positions() const { return positions_; }    ///< rows() [m]
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }      ///< rows() x nv, for v
+  /// out = J x, and out -= Jᵀ y, with what is zero in J left out.
+  void multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const;
+  void subtract_transposed(const Eigen::MatrixXd& y, Eigen::MatrixXd& out) const;
   const Eigen::MatrixXd& positions_dq() const { return positions_dq_; }  ///< rows() x nv, for the tangent of q
 
   /// Sets the motion (v, a) at which the rest is evaluated. v = 0, a = u makes g = J u: the derivatives of J u.

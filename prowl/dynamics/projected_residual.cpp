@@ -98,12 +98,12 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   work_v_ = point.a + kd * point.v - c_ / contact_weight_;
   kinematics_.set_motion(point.v, work_v_);
   kinematics_.acceleration_dq(work_m_);
-  rhs_ = -contact_weight_ * (work_m_ + kp * kinematics_.positions_dq());
-  rhs_.noalias() += J * A_q_;
+  kinematics_.multiply(A_q_, rhs_);
+  rhs_ -= contact_weight_ * (work_m_ + kp * kinematics_.positions_dq());
   df_.q.noalias() = W * rhs_;
   kinematics_.acceleration_dv(work_m_);
-  rhs_ = -contact_weight_ * (work_m_ + kd * J);
-  rhs_.noalias() += J * terms_.dv();
+  kinematics_.multiply(terms_.dv(), rhs_);
+  rhs_ -= contact_weight_ * (work_m_ + kd * J);
   df_.v.noalias() = W * rhs_;
   df_.a = -contact_weight_ * K_;
   df_.a.noalias() += K_ * terms_.mass_matrix();
@@ -112,20 +112,21 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
 
   // dc = A - J' df
   dc_.q = A_q_;
-  dc_.q.noalias() -= J.transpose() * df_.q;
+  kinematics_.subtract_transposed(df_.q, dc_.q);
   dc_.v = terms_.dv();
-  dc_.v.noalias() -= J.transpose() * df_.v;
+  kinematics_.subtract_transposed(df_.v, dc_.v);
   dc_.a = terms_.mass_matrix();
-  dc_.a.noalias() -= J.transpose() * df_.a;
-  dc_.tau.noalias() = J.transpose() * K_.rightCols(nu);
-  dc_.tau.bottomRows(nu).diagonal().array() -= 1.0;
+  kinematics_.subtract_transposed(df_.a, dc_.a);
+  dc_.tau.setZero(terms_.nv(), nu);
+  dc_.tau.bottomRows(nu).diagonal().setConstant(-1.0);
+  kinematics_.subtract_transposed(df_.tau, dc_.tau);
   dc_.e = contact_weight_ * K_.transpose();
 
   const auto chosen = static_cast<Eigen::Index>(chosen_rows_.size());
   dc_.w.resize(terms_.nv(), chosen);
   for (Eigen::Index i = 0; i < chosen; ++i) dc_.w.col(i) = -J.row(chosen_rows_[static_cast<std::size_t>(i)]);
   df_.w.noalias() = K_ * dc_.w;
-  dc_.w.noalias() -= J.transpose() * df_.w;
+  kinematics_.subtract_transposed(df_.w, dc_.w);
   for (Eigen::Index i = 0; i < chosen; ++i) df_.w(chosen_rows_[static_cast<std::size_t>(i)], i) = 1.0;
 
   e_gains_.resize(J.rows(), 2);
@@ -185,7 +186,8 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   kinematics_.acceleration_dq(work_m_);  // d(J l1)/dq
   work_n_.setZero(terms_.nv(), terms_.nv());
   kinematics_.add_force_derivative(l2_, work_n_);
-  work_m_.noalias() -= J * work_n_;
+  kinematics_.multiply(work_n_, rhs_);
+  work_m_ -= rhs_;
   const Eigen::Index turning = terms_.nv() - 3, joints = point.tau.size();
   const auto G = work_m_.rightCols(turning).transpose(), N = work_n_.rightCols(turning).transpose();
   cross_.noalias() = G * df_.q;

@@ -24,23 +24,36 @@ std::vector<int> parents_of(const pinocchio::Model& model) {
 
 WorldInertia in_world(const pinocchio::Inertia& inertia) {
   const Eigen::Vector3d moment = inertia.mass() * inertia.lever();
-  return {inertia.mass(), moment, inertia.inertia().matrix() + moment.dot(inertia.lever()) * Eigen::Matrix3d::Identity() -
-                                      moment * inertia.lever().transpose()};
+  const Eigen::Matrix3d of_mass =
+      moment.dot(inertia.lever()) * Eigen::Matrix3d::Identity() - moment * inertia.lever().transpose();
+  return {inertia.mass(), moment, inertia.inertia().matrix() + of_mass};
 }
 
 }  // namespace
 
 struct RigidBodyTerms::Workspace {
   explicit Workspace(const RobotModel& robot)
-      : model(robot.pinocchio().model), contact_frames(robot.pinocchio().contact_frames), data(model), hessian(parents_of(model)) {
+      : model(robot.pinocchio().model),
+        contact_frames(robot.pinocchio().contact_frames),
+        data(model),
+        hessian(parents_of(model)) {
     tree.bodies.resize(model.joints.size() - 1);
+    pinocchio::computeJointJacobians(model, data, robot.nominal_configuration());
+    joint_axes.resize(6, model.nv);
+    for (pinocchio::JointIndex joint = 1; joint < model.joints.size(); ++joint) {
+      for (int k = model.idx_vs[joint]; k < model.idx_vs[joint] + model.nvs[joint]; ++k) {
+        joint_axes.col(k) = data.oMi[joint].actInv(pinocchio::Motion(data.J.col(k))).toVector();
+      }
+    }
   }
 
+  void place_bodies();
   void fetch_tree();
 
   pinocchio::Model model;
   std::vector<pinocchio::FrameIndex> contact_frames;
   pinocchio::Data data;
+  SpatialColumns joint_axes;  ///< columns of data.J in the frame behind their joint, where they do not move
   TreeMotion tree;
   InverseDynamicsHessian hessian;
 };
@@ -74,7 +87,22 @@ void RigidBodyTerms::update_kinematics(const Eigen::VectorXd& q) {
 
 void RigidBodyTerms::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
   inverse_dynamics_ = pinocchio::rnea(workspace_->model, workspace_->data, q, v, a);
-  update_kinematics(q);
+  workspace_->place_bodies();
+  fetch_kinematics();
+}
+
+// As computeJointJacobians, from the placements that rnea leaves, without their sines and cosines once more.
+void RigidBodyTerms::Workspace::place_bodies() {
+  for (pinocchio::JointIndex joint = 1; joint < model.joints.size(); ++joint) {
+    const pinocchio::JointIndex parent = model.parents[joint];
+    data.oMi[joint] = parent > 0 ? data.oMi[parent] * data.liMi[joint] : data.liMi[joint];
+    const Eigen::Matrix3d& R = data.oMi[joint].rotation();
+    const Eigen::Vector3d& p = data.oMi[joint].translation();
+    for (int k = model.idx_vs[joint]; k < model.idx_vs[joint] + model.nvs[joint]; ++k) {
+      const Eigen::Vector3d linear = R * joint_axes.col(k).head<3>(), angular = R * joint_axes.col(k).tail<3>();
+      data.J.col(k) << linear + p.cross(angular), angular;
+    }
+  }
 }
 
 void RigidBodyTerms::update_with_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
