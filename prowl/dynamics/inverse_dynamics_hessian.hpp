@@ -13,8 +13,8 @@ struct SecondDerivatives {
   void set_zero();
 };
 
-/// Spatial vectors have the velocity (force) at the world's origin in rows 0-2 and the angular velocity (moment) in rows
-/// 3-5, world axes.
+/// Spatial vectors have the velocity (force) at the world's origin in rows 0-2 and the angular velocity (moment) in
+/// rows 3-5, world axes.
 using SpatialVector = Eigen::Matrix<double, 6, 1>;
 using SpatialColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< one a degree of freedom
 
@@ -34,7 +34,7 @@ struct TreeMotion {
   struct Body {
     SpatialVector velocity;
     WorldInertia inertia, composite_inertia;
-    Eigen::Matrix<double, 6, 3> composite_variation;  ///< B of the composite in angular velocities (in others it is zero)
+    Eigen::Matrix<double, 6, 3> composite_variation;  ///< B of the composite, its columns of angular velocities
   };
   std::vector<Body> bodies;
   SpatialColumns S;              ///< motion at v_k = 1
@@ -50,7 +50,8 @@ struct TreeMotion {
 /// A tree on a base that floats; all other joints have one degree of freedom.
 class InverseDynamicsHessian {
  public:
-  /// parents[i]: body before body i, -1 for the base, body 0, whose degrees of freedom are 0 ... 5; that of body i is 5 + i.
+  /// parents[i]: body before body i, -1 for the base, body 0, whose degrees of freedom are 0 ... 5; that of body i is
+  /// 5 + i.
   explicit InverseDynamicsHessian(std::vector<int> parents);
 
   /// Adds to the result.

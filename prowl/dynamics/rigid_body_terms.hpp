@@ -43,8 +43,8 @@ class RigidBodyTerms {
   /// Degrees of freedom that move a contact: 0 ... 5 (the base), then joints from the base to the tip.
   const std::vector<int>& contact_chain(int contact) const { return chains_[static_cast<size_t>(contact)]; }
 
-  /// Adds the second derivatives of lambda . r0 at fixed lambda (nv) [any unit]. After update_with_derivatives(), in which
-  /// most of the work is done.
+  /// Adds the second derivatives of lambda . r0 at fixed lambda (nv) [any unit]. After update_with_derivatives(), with
+  /// whose by-products the work begins.
   void add_second_derivatives(const Eigen::VectorXd& lambda, SecondDerivatives& result);
 
  private:

@@ -30,7 +30,9 @@ class NodeCost {
   /// block diagonal, to the first rows and columns of the result.
   void add_hessian(const NodePoint& point, double factor, Eigen::MatrixXd& result);
   /// Second derivative of the cost in every force vector.
-  Eigen::Vector3d force_curvature(const NodePoint& point) const { return point.cost_weight * running_.cost.force_weight; }
+  Eigen::Vector3d force_curvature(const NodePoint& point) const {
+    return point.cost_weight * running_.cost.force_weight;
+  }
 
  private:
   /// The cost of a state, running or terminal, and what it needs.

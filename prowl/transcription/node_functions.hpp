@@ -99,7 +99,7 @@ class NodeFunctions {
   std::vector<std::string> contact_names_, force_names_;
   std::vector<bool> opens_;
   std::vector<int> landed_;
-  std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< derivative of the anchor in the places, one a landed contact
+  std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< of the anchor in the place, for each in landed_
   std::vector<FrictionLimit> friction_;
   TorqueRows torques_;
   PlacementRows placement_;

@@ -12,8 +12,8 @@
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
 
-// Every allocation of the process comes by here, those of operator new and of Eigen in Prowl's and Pinocchio's libraries
-// too: what a program defines goes before what libraries do. glibc keeps the real ones under these names.
+// Every allocation of the process comes by here, those of operator new and of Eigen in Prowl's and Pinocchio's
+// libraries too: what a program defines goes before what libraries do. glibc keeps the real ones under these names.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define PROWL_COUNTS_ALLOCATIONS
 namespace {
@@ -74,7 +74,8 @@ std::vector<Case> cases() {
   steps.friction_model = FrictionModel::pyramid;
   steps.running_cost.force_weight.setZero();
   result.push_back({"pyramid", steps, 2});
-  MotionProblem talos = test::everything(test::talos(), {test::phase_on("both feet", {0, 1, 2, 3, 4, 5, 6, 7}, 0.3, 2)});
+  const std::vector<int> corners = {0, 1, 2, 3, 4, 5, 6, 7};
+  MotionProblem talos = test::everything(test::talos(), {test::phase_on("both feet", corners, 0.3, 2)});
   result.push_back({"talos", talos, 0});
   return result;
 }
@@ -122,7 +123,7 @@ TEST(NodeFunctions, LineariseIsAllTheOthersAtOnce) {
   }
 }
 
-// In velocities and all that comes after them variables are a vector space, and the Hessian the Jacobian of the gradient.
+// In velocities and all that comes after them variables are a vector space: the Hessian is the gradient's Jacobian.
 TEST(NodeFunctions, HessianIsThatOfDifferencesOfTheGradient) {
   for (const Case& test : cases()) {
     Node node = node_of(test, 0);
