@@ -1,7 +1,5 @@
 #include "prowl/dynamics/contact_kinematics.hpp"
 
-#include <Eigen/Geometry>
-
 namespace prowl {
 
 namespace {
@@ -17,8 +15,10 @@ void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
   chains_.resize(contacts_.size());
   positions_.resize(rows());
   acceleration_.resize(rows());
-  jacobian_.setZero(rows(), terms.nv());
-  positions_dq_.setZero(rows(), terms.nv());
+  if (jacobian_.rows() != rows() || jacobian_.cols() != terms.nv()) {  // else what is not set below is zero already
+    jacobian_.setZero(rows(), terms.nv());
+    positions_dq_.setZero(rows(), terms.nv());
+  }
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     const auto row = static_cast<Eigen::Index>(3 * c);
     const Vector3d p = terms.contact_position(contacts_[c]);
@@ -28,13 +28,36 @@ void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
     for (std::size_t i = 0; i < dofs.size(); ++i) {
       Link& link = chains_[c][i];
       link.dof = dofs[i];
-      link.in_base = i < kBaseDofs;
       link.w = columns.col(dofs[i]).tail<3>();
       link.d = columns.col(dofs[i]).head<3>() + link.w.cross(p);
       jacobian_.block<3, 1>(row, dofs[i]) = link.d;
       positions_dq_.block<3, 1>(row, dofs[i]) = link.d;
     }
     positions_dq_.block<3, 3>(row, 0).setIdentity();
+  }
+}
+
+// The base moves all contacts: a dense product. A joint moves those behind it.
+void ContactKinematics::multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const {
+  out.noalias() = jacobian_.leftCols<6>() * x.topRows<6>();
+  for (Eigen::Index column = 0; column < x.cols(); ++column) {
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      Vector3d sum = Vector3d::Zero();
+      for (std::size_t i = kBaseDofs; i < chains_[c].size(); ++i) sum += chains_[c][i].d * x(chains_[c][i].dof, column);
+      out.col(column).segment<3>(static_cast<Eigen::Index>(3 * c)) += sum;
+    }
+  }
+}
+
+void ContactKinematics::subtract_transposed(const Eigen::MatrixXd& y, Eigen::MatrixXd& out) const {
+  out.topRows<6>().noalias() -= jacobian_.leftCols<6>().transpose() * y;
+  for (Eigen::Index column = 0; column < y.cols(); ++column) {
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      const Vector3d force = y.col(column).segment<3>(static_cast<Eigen::Index>(3 * c));
+      for (std::size_t i = kBaseDofs; i < chains_[c].size(); ++i) {
+        out(chains_[c][i].dof, column) -= chains_[c][i].d.dot(force);
+      }
+    }
   }
 }
 
@@ -77,8 +100,6 @@ void ContactKinematics::propagate_motion(Chain& chain, const Eigen::VectorXd& v,
     const Vector3d joint_velocity = link.d * v(link.dof);
     a_rel += link.d * a(link.dof) + joint_omega.cross(joint_velocity + 2.0 * v_rel);
     v_rel += joint_velocity;
-    link.v_rel = v_rel;
-    link.a_rel = a_rel;
     link.dg_dv = 2.0 * (link.omega.cross(link.d) + link.w.cross(v_rel));
     link.dg_dq = link.alpha.cross(link.d) + link.omega.cross(link.omega.cross(link.d) + 2.0 * link.w.cross(v_rel)) +
                  link.w.cross(a_rel);
@@ -91,8 +112,6 @@ void ContactKinematics::propagate_motion(Chain& chain, const Eigen::VectorXd& v,
     link.omega.setZero();  // the body before the base is the world
     link.alpha.setZero();
     link.omega_after = base_omega;
-    link.v_rel = v_rel;
-    link.a_rel = a_rel;
     link.dg_dv = base_omega.cross(link.d) + link.w.cross(base_velocity + 2.0 * leg_velocity);
     link.dg_dq = link.w.cross(a_rel);
   }
@@ -118,64 +137,67 @@ void ContactKinematics::acceleration_dv(Eigen::MatrixXd& dg_dv) const {
   }
 }
 
-/// ∂²g/∂q_k ∂q_l, joint k (`first`) at or before joint l (`second`): the derivative of dg/dq_l when all that is behind
-/// joint k turns with it, while the body before k keeps its motion.
-Eigen::Vector3d ContactKinematics::second_dq(const Link& first, const Link& second) {
-  const Vector3d& w = first.w;
-  const Vector3d omega_rel = second.omega - first.omega;
-  const Vector3d alpha_rel = second.alpha - first.alpha - first.omega.cross(omega_rel);
-  const Vector3d omega_change = w.cross(omega_rel);
-  const Vector3d alpha_change = w.cross(alpha_rel) + first.omega.cross(omega_change);
-  const Vector3d d_change = w.cross(second.d);
-  const Vector3d turn = second.w.cross(second.v_rel);
-  return alpha_change.cross(second.d) + second.alpha.cross(d_change) +
-         omega_change.cross(second.omega.cross(second.d) + 2.0 * turn) +
-         second.omega.cross(omega_change.cross(second.d) + second.omega.cross(d_change) + 2.0 * w.cross(turn)) +
-         w.cross(second.w.cross(second.a_rel));
-}
-
-/// ∂²g/∂q_l ∂v_j.
-Eigen::Vector3d ContactKinematics::second_dqdv(const Chain& chain, std::size_t l, std::size_t j) {
-  const Link& lq = chain[l];
-  const Link& lv = chain[j];
-  if (before_or_same(chain, l, j)) {  // v_j moves p relative to the body before joint l
-    Vector3d a_rel_change = lv.dg_dv;
-    if (!lv.in_base) a_rel_change -= 2.0 * lq.omega.cross(lv.d);
-    return 2.0 * lq.omega.cross(lq.w.cross(lv.d)) + lq.w.cross(a_rel_change);
-  }
-  const Vector3d alpha_change = lv.omega.cross(lv.w) + lv.w.cross(lq.omega - lv.omega_after);
-  return alpha_change.cross(lq.d) + lv.w.cross(lq.omega.cross(lq.d) + 2.0 * lq.w.cross(lq.v_rel)) +
-         lq.omega.cross(lv.w.cross(lq.d));
-}
-
-void ContactKinematics::add_acceleration_hessian(const Eigen::VectorXd& lambda, SecondDerivatives& result) const {
+// With k at or before l in the chain, V and A of Link (docs/theory.md, after (9)):
+//   ∂²g/∂q_k ∂q_l = w_k × ∂g/∂q_l + A_k × d_l + V_k × ∂g/∂v_l
+//   ∂²g/∂q_k ∂v_l = w_k × ∂g/∂v_l + 2 V_k × d_l
+//   ∂²g/∂v_k ∂q_l = w_k × ∂g/∂v_l + (V_k + Ω_after × w_k) × d_l
+//   ∂²g/∂q_k ∂a_l = ∂²g/∂a_k ∂q_l = w_k × d_l,     ∂²g/∂v_k ∂v_l = 2 w_k × d_l
+// so that times a force all is three vectors of l, times those of k. Within the base, where V = 0, the two orders of
+// ∂²g/∂v ∂v are added, and the Hessian along q (+) d has the mean of the two orders of ∂²g/∂q ∂q.
+void ContactKinematics::add_acceleration_hessian_qq(const Eigen::VectorXd& lambda,
+                                                    Eigen::Ref<Eigen::MatrixXd> qq) const {
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     const Vector3d force = lambda.segment<3>(static_cast<Eigen::Index>(3 * c));
     const Chain& chain = chains_[c];
     for (std::size_t l = kFirstRotation; l < chain.size(); ++l) {
-      for (std::size_t k = kFirstRotation; k <= l; ++k) {
-        double value = force.dot(second_dq(chain[k], chain[l]));
-        if (k == l) {
-          result.qq(chain[k].dof, chain[k].dof) += value;
-          continue;
-        }
-        // Rotations of the base do not commute; the Hessian along q (+) d is their mean.
-        if (chain[l].in_base) value = 0.5 * (value + force.dot(second_dq(chain[l], chain[k])));
-        result.qq(chain[k].dof, chain[l].dof) += value;
-        result.qq(chain[l].dof, chain[k].dof) += value;
+      const Link& link = chain[l];
+      const Vector3d on_w = link.dg_dq.cross(force), on_A = link.d.cross(force), on_V = link.dg_dv.cross(force);
+      const bool in_base = l < kBaseDofs;
+      for (std::size_t k = kFirstRotation; k < (in_base ? kBaseDofs : l); ++k) {
+        const Link& before = chain[k];
+        double value = before.w.dot(on_w);
+        if (in_base) value *= 0.5;
+        if (k >= kBaseDofs) value += before.A().dot(on_A) + before.V().dot(on_V);
+        qq(before.dof, link.dof) += value;
+        qq(link.dof, before.dof) += value;
+      }
+      if (!in_base) qq(link.dof, link.dof) += link.w.dot(on_w) + link.A().dot(on_A) + link.V().dot(on_V);
+    }
+  }
+}
+
+void ContactKinematics::add_acceleration_hessian(const Eigen::VectorXd& lambda, double velocity_gain,
+                                                 SecondDerivatives& result) const {
+  add_acceleration_hessian_qq(lambda, result.qq);
+  for (std::size_t c = 0; c < chains_.size(); ++c) {
+    const Vector3d force = lambda.segment<3>(static_cast<Eigen::Index>(3 * c));
+    const Chain& chain = chains_[c];
+    for (std::size_t l = 0; l < kBaseDofs; ++l) {
+      const Link& link = chain[l];
+      const Vector3d on_w = link.dg_dv.cross(force), on_d = link.d.cross(force);
+      for (std::size_t k = kFirstRotation; k < kBaseDofs; ++k) {
+        const Link& other = chain[k];
+        const double value = other.w.dot(on_d);
+        result.vv(other.dof, link.dof) += value;
+        result.vv(link.dof, other.dof) += value;
+        result.qa(other.dof, link.dof) += value;
+        result.qv(other.dof, link.dof) += other.w.dot(on_w) + velocity_gain * value;
       }
     }
-    for (std::size_t j = 0; j < chain.size(); ++j) {
-      for (std::size_t i = 0; i < chain.size(); ++i) {
-        // ∂d_j/∂(velocity direction i), which for i >= 3 is also the derivative in q_i.
-        const Vector3d change = before_or_same(chain, i, j) ? chain[i].w.cross(chain[j].d)
-                                                            : chain[j].w.cross(chain[i].d);
-        const double value = force.dot(change);
-        result.vv(chain[i].dof, chain[j].dof) += value;
-        result.vv(chain[j].dof, chain[i].dof) += value;
-        if (i < kFirstRotation) continue;
-        result.qa(chain[i].dof, chain[j].dof) += value;
-        result.qv(chain[i].dof, chain[j].dof) += force.dot(second_dqdv(chain, i, j));
+    for (std::size_t l = kBaseDofs; l < chain.size(); ++l) {
+      const Link& link = chain[l];
+      const Vector3d on_w = link.dg_dv.cross(force), on_d = link.d.cross(force);
+      for (std::size_t k = kFirstRotation; k <= l; ++k) {
+        const Link& before = chain[k];
+        const double value = before.w.dot(on_d), both = before.w.dot(on_w) + velocity_gain * value;
+        const double on_V = k < kBaseDofs ? 0.0 : before.V().dot(on_d);
+        result.vv(before.dof, link.dof) += 2.0 * value;
+        result.qa(before.dof, link.dof) += value;
+        result.qv(before.dof, link.dof) += both + 2.0 * on_V;
+        if (k == l) continue;
+        result.vv(link.dof, before.dof) += 2.0 * value;
+        result.qa(link.dof, before.dof) += value;
+        result.qv(link.dof, before.dof) += both + on_V + before.omega_after.cross(before.w).dot(on_d);
       }
     }
   }
@@ -185,30 +207,32 @@ void ContactKinematics::add_force_derivative(const Eigen::VectorXd& f, Eigen::Ma
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     const Vector3d force = f.segment<3>(static_cast<Eigen::Index>(3 * c));
     const Chain& chain = chains_[c];
-    for (std::size_t i = kFirstRotation; i < chain.size(); ++i) {
-      for (std::size_t j = 0; j < chain.size(); ++j) {
-        const Vector3d change = before_or_same(chain, i, j) ? chain[i].w.cross(chain[j].d)
-                                                            : chain[j].w.cross(chain[i].d);
-        out(chain[j].dof, chain[i].dof) += force.dot(change);
+    for (std::size_t j = 0; j < chain.size(); ++j) {
+      const Link& link = chain[j];
+      const Vector3d on_w = link.d.cross(force);
+      const bool in_base = j < kBaseDofs;
+      for (std::size_t i = kFirstRotation; i < (in_base ? kBaseDofs : j + 1); ++i) {
+        const double value = chain[i].w.dot(on_w);
+        out(link.dof, chain[i].dof) += value;
+        if (!in_base && i < j) out(chain[i].dof, link.dof) += value;
       }
     }
   }
 }
 
-void ContactKinematics::add_position_hessian(const Eigen::VectorXd& lambda, double scale, Eigen::MatrixXd& out) const {
+void ContactKinematics::add_position_hessian(const Eigen::VectorXd& lambda, double scale,
+                                             Eigen::Ref<Eigen::MatrixXd> out) const {
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     const Vector3d force = scale * lambda.segment<3>(static_cast<Eigen::Index>(3 * c));
     const Chain& chain = chains_[c];
     for (std::size_t l = kFirstRotation; l < chain.size(); ++l) {
-      for (std::size_t k = kFirstRotation; k <= l; ++k) {
-        double value = force.dot(chain[k].w.cross(chain[l].d));
-        if (k == l) {
-          out(chain[k].dof, chain[k].dof) += value;
-          continue;
-        }
-        if (chain[l].in_base) value = 0.5 * (value + force.dot(chain[l].w.cross(chain[k].d)));
-        out(chain[k].dof, chain[l].dof) += value;
-        out(chain[l].dof, chain[k].dof) += value;
+      const Link& link = chain[l];
+      const Vector3d on_w = link.d.cross(force);
+      const bool in_base = l < kBaseDofs;
+      for (std::size_t k = kFirstRotation; k < (in_base ? kBaseDofs : l + 1); ++k) {
+        const double value = (in_base ? 0.5 : 1.0) * chain[k].w.dot(on_w);  // rotations of the base: the mean
+        out(chain[k].dof, link.dof) += value;
+        if (in_base || k < l) out(link.dof, chain[k].dof) += value;
       }
     }
   }

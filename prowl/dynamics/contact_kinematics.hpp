@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
@@ -31,37 +32,41 @@ class ContactKinematics {
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }      ///< rows() x nv, for v
   const Eigen::MatrixXd& positions_dq() const { return positions_dq_; }  ///< rows() x nv, for the tangent of q
 
+  /// out = J x, and out -= Jᵀ y, with what is zero in J left out.
+  void multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const;
+  void subtract_transposed(const Eigen::MatrixXd& y, Eigen::MatrixXd& out) const;
+
   /// Sets the motion (v, a) at which the rest is evaluated. v = 0, a = u makes g = J u: the derivatives of J u.
   void set_motion(const Eigen::VectorXd& v, const Eigen::VectorXd& a);
   const Eigen::VectorXd& acceleration() const { return acceleration_; }  ///< g, rows()
   void acceleration_dq(Eigen::MatrixXd& dg_dq) const;                    ///< rows() x nv
   void acceleration_dv(Eigen::MatrixXd& dg_dv) const;                    ///< rows() x nv; dg/da is jacobian()
-  /// Adds the second derivatives of lambda . g (lambda: rows()).
-  void add_acceleration_hessian(const Eigen::VectorXd& lambda, SecondDerivatives& result) const;
+  /// Adds the second derivatives of lambda . (J (a + velocity_gain v) + J̇ v) (lambda: rows()), with what was given to
+  /// set_motion as the acceleration in the brackets.
+  void add_acceleration_hessian(const Eigen::VectorXd& lambda, double velocity_gain, SecondDerivatives& result) const;
+  /// The block qq of it alone.
+  void add_acceleration_hessian_qq(const Eigen::VectorXd& lambda, Eigen::Ref<Eigen::MatrixXd> qq) const;
 
   /// out(j, i) += ∂(Jᵀ f)_j / ∂q_i at fixed forces f (rows(), world frame). nv x nv.
   void add_force_derivative(const Eigen::VectorXd& f, Eigen::MatrixXd& out) const;
   /// out += scale * second derivative in q of lambda . positions. nv x nv, symmetric.
-  void add_position_hessian(const Eigen::VectorXd& lambda, double scale, Eigen::MatrixXd& out) const;
+  void add_position_hessian(const Eigen::VectorXd& lambda, double scale, Eigen::Ref<Eigen::MatrixXd> out) const;
 
  private:
   /// One degree of freedom in the chain of one contact; world axes.
   struct Link {
     int dof = 0;
-    bool in_base = false;
     Eigen::Vector3d w, d;            ///< angular velocity behind the joint and velocity of p at v_j = 1
     Eigen::Vector3d omega, alpha;    ///< angular velocity and acceleration of the body before the joint
     Eigen::Vector3d omega_after;     ///< angular velocity of the body behind the joint
-    Eigen::Vector3d v_rel, a_rel;    ///< of p relative to the body before the joint
     Eigen::Vector3d dg_dq, dg_dv;    ///< derivatives of the acceleration of p
+
+    /// Derivatives of omega and alpha behind the joint in q, seen from what turns with it.
+    Eigen::Vector3d V() const { return omega.cross(w); }
+    Eigen::Vector3d A() const { return alpha.cross(w) + omega.cross(omega.cross(w)); }
   };
   using Chain = std::vector<Link>;
 
-  static bool before_or_same(const Chain& chain, std::size_t i, std::size_t j) {
-    return i <= j || (chain[i].in_base && chain[j].in_base);
-  }
-  static Eigen::Vector3d second_dq(const Link& first, const Link& second);
-  static Eigen::Vector3d second_dqdv(const Chain& chain, std::size_t q_index, std::size_t v_index);
   static void propagate_motion(Chain& chain, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                Eigen::Ref<Eigen::VectorXd> acceleration);
 

@@ -21,8 +21,8 @@ ProjectedResidual::ProjectedResidual(const RobotModel& robot, std::vector<int> c
       terms_(robot),
       kinematics_(std::move(contacts)),
       chosen_rows_(std::move(chosen_rows)),
-      second_(robot.nv()),
-      kinematic_second_(robot.nv()) {
+      hessian_(robot.nv()),
+      zero_(Eigen::VectorXd::Zero(robot.nv())) {
   for (int row = 0; row < kinematics_.rows(); ++row) {
     if (std::ranges::find(chosen_rows_, row) == chosen_rows_.end()) kept_rows_.push_back(row);
   }
@@ -34,26 +34,36 @@ void ProjectedResidual::compute_gram_inverse() {
     gram_inverse_ = projector_.gram_inverse();
     return;
   }
-  kept_ = kinematics_.jacobian()(kept_rows_, Eigen::all);
+  const auto kept = static_cast<Eigen::Index>(kept_rows_.size());
+  kept_.resize(kept, terms_.nv());
+  const auto row = [this](Eigen::Index i) { return kept_rows_[static_cast<std::size_t>(i)]; };
+  for (Eigen::Index i = 0; i < kept; ++i) kept_.row(i) = kinematics_.jacobian().row(row(i));
   projector_.compute(kept_);
   gram_inverse_.setZero(kinematics_.rows(), kinematics_.rows());
-  gram_inverse_(kept_rows_, kept_rows_) = projector_.gram_inverse();
+  for (Eigen::Index i = 0; i < kept; ++i) {
+    for (Eigen::Index j = 0; j < kept; ++j) gram_inverse_(row(i), row(j)) = projector_.gram_inverse()(i, j);
+  }
 }
 
 void ProjectedResidual::compute_forces(const DynamicsPoint& point) {
   const auto nu = point.tau.size();
   kinematics_.set_configuration(terms_);
-  kinematics_.set_motion(point.v, point.a + point.stabilisation.kd * point.v);
+  work_v_ = point.a + point.stabilisation.kd * point.v;
+  kinematics_.set_motion(point.v, work_v_);
   compute_gram_inverse();
 
+  const Eigen::MatrixXd& J = kinematics_.jacobian();
   r_ = terms_.inverse_dynamics();
   r_.tail(nu) -= point.tau;
   for (std::size_t i = 0; i < chosen_rows_.size(); ++i) {
-    r_ -= point.chosen_forces(static_cast<Eigen::Index>(i)) * kinematics_.jacobian().row(chosen_rows_[i]).transpose();
+    r_ -= point.chosen_forces(static_cast<Eigen::Index>(i)) * J.row(chosen_rows_[i]).transpose();
   }
   e_ = kinematics_.acceleration() + point.stabilisation.kp * (kinematics_.positions() - point.anchors);
-  f_ = gram_inverse_ * (kinematics_.jacobian() * r_ - contact_weight_ * e_);
-  c_ = r_ - kinematics_.jacobian().transpose() * f_;
+  work_f_ = -contact_weight_ * e_;
+  work_f_.noalias() += J * r_;
+  f_.noalias() = gram_inverse_ * work_f_;
+  c_ = r_;
+  c_.noalias() -= J.transpose() * f_;
   for (std::size_t i = 0; i < chosen_rows_.size(); ++i) {
     f_(chosen_rows_[i]) = point.chosen_forces(static_cast<Eigen::Index>(i));
   }
@@ -76,52 +86,68 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   const double kd = point.stabilisation.kd, kp = point.stabilisation.kp;
   const auto nu = point.tau.size();
 
-  // A: derivatives of the equations of motion with the contact force held fixed in the world.
-  dc_.q = terms_.dq();
-  work_n_.setZero(terms_.nv(), terms_.nv());
-  kinematics_.add_force_derivative(f_, work_n_);
-  dc_.q -= work_n_;
-  dc_.v = terms_.dv();
-  dc_.a = terms_.mass_matrix();
-  dc_.tau.setZero(terms_.nv(), nu);
-  dc_.tau.bottomRows(nu).diagonal().setConstant(-1.0);
+  // A: derivatives of the equations of motion with the contact force held fixed in the world. A_v and A_a are dv() and
+  // the mass matrix, A_tau = -S', A_w = -(chosen rows of J)', A_e = 0.
+  work_f_ = -f_;
+  A_q_ = terms_.dq();
+  kinematics_.add_force_derivative(work_f_, A_q_);
+  K_.noalias() = W * J;
 
   // J c = s J J⁺ e: differentiate, solve for df = (J J')⁺ (J A + dJ c - s de). Both dJ c and s de come from one chain
   // pass, since the acceleration is linear in its second argument.
-  kinematics_.set_motion(point.v, point.a + kd * point.v - c_ / contact_weight_);
+  work_v_ = point.a + kd * point.v - c_ / contact_weight_;
+  kinematics_.set_motion(point.v, work_v_);
   kinematics_.acceleration_dq(work_m_);
-  df_.q = J * dc_.q - contact_weight_ * (work_m_ + kp * kinematics_.positions_dq());
+  kinematics_.multiply(A_q_, rhs_);
+  rhs_ -= contact_weight_ * (work_m_ + kp * kinematics_.positions_dq());
+  df_.q.noalias() = W * rhs_;
   kinematics_.acceleration_dv(work_m_);
-  df_.v = J * dc_.v - contact_weight_ * (work_m_ + kd * J);
-  df_.a = J * dc_.a - contact_weight_ * J;
-  df_.tau = -J.rightCols(nu);
-  dc_.w = -J(chosen_rows_, Eigen::all).transpose();
-  df_.w = J * dc_.w;
-  dc_.e.setZero(terms_.nv(), J.rows());
-  for (Eigen::MatrixXd* y : {&df_.q, &df_.v, &df_.a, &df_.tau, &df_.w}) *y = W * *y;
+  kinematics_.multiply(terms_.dv(), rhs_);
+  rhs_ -= contact_weight_ * (work_m_ + kd * J);
+  df_.v.noalias() = W * rhs_;
+  df_.a = -contact_weight_ * K_;
+  df_.a.noalias() += K_ * terms_.mass_matrix();
+  df_.tau = -K_.rightCols(nu);
   df_.e = -contact_weight_ * W;
 
-  dc_.q -= J.transpose() * df_.q;
-  dc_.v -= J.transpose() * df_.v;
-  dc_.a -= J.transpose() * df_.a;
-  dc_.tau -= J.transpose() * df_.tau;
-  dc_.w -= J.transpose() * df_.w;
-  dc_.e -= J.transpose() * df_.e;
-  Eigen::MatrixXd e_gains(J.rows(), 2);
-  e_gains << J * point.v, kinematics_.positions() - point.anchors;
-  dc_.gains = dc_.e * e_gains;
-  df_.gains = df_.e * e_gains;
-  for (std::size_t i = 0; i < chosen_rows_.size(); ++i) df_.w(chosen_rows_[i], static_cast<Eigen::Index>(i)) = 1.0;
-  if (has_full_rank()) return;
+  // dc = A - J' df
+  dc_.q = A_q_;
+  kinematics_.subtract_transposed(df_.q, dc_.q);
+  dc_.v = terms_.dv();
+  kinematics_.subtract_transposed(df_.v, dc_.v);
+  dc_.a = terms_.mass_matrix();
+  kinematics_.subtract_transposed(df_.a, dc_.a);
+  dc_.tau.setZero(terms_.nv(), nu);
+  dc_.tau.bottomRows(nu).diagonal().setConstant(-1.0);
+  kinematics_.subtract_transposed(df_.tau, dc_.tau);
+  dc_.e = contact_weight_ * K_.transpose();
 
-  // Redundant contacts: the part of e that no motion can remove turns with J, and so does the choice of f.
+  const auto chosen = static_cast<Eigen::Index>(chosen_rows_.size());
+  dc_.w.resize(terms_.nv(), chosen);
+  for (Eigen::Index i = 0; i < chosen; ++i) dc_.w.col(i) = -J.row(chosen_rows_[static_cast<std::size_t>(i)]);
+  df_.w.noalias() = K_ * dc_.w;
+  kinematics_.subtract_transposed(df_.w, dc_.w);
+  for (Eigen::Index i = 0; i < chosen; ++i) df_.w(chosen_rows_[static_cast<std::size_t>(i)], i) = 1.0;
+
+  e_gains_.resize(J.rows(), 2);
+  e_gains_.col(0).noalias() = J * point.v;
+  e_gains_.col(1) = kinematics_.positions() - point.anchors;
+  dc_.gains.noalias() = dc_.e * e_gains_;
+  df_.gains.noalias() = df_.e * e_gains_;
+  if (!has_full_rank()) add_redundancy();
+}
+
+// Redundant contacts: the part of e that no motion can remove turns with J, and so does the choice of f.
+void ProjectedResidual::add_redundancy() {
+  const Eigen::MatrixXd& J = kinematics_.jacobian();
+  const Eigen::MatrixXd& W = gram_inverse_;
   const Eigen::VectorXd e_lost = e_ - J * (J.transpose() * (W * e_));
   work_n_.setZero(terms_.nv(), terms_.nv());
   kinematics_.add_force_derivative(e_lost, work_n_);
   const Eigen::MatrixXd turned = contact_weight_ * (W * (J * work_n_));  // s J⁺' E with E = d(J' e_lost)
   dc_.q += J.transpose() * (W * turned);
   df_.q -= W * turned;
-  kinematics_.set_motion(Eigen::VectorXd::Zero(terms_.nv()), J.transpose() * (W * f_));
+  kinematics_.set_motion(zero_, J.transpose() * (W * f_));
   kinematics_.acceleration_dq(work_m_);
   df_.q += work_m_ - J * (J.transpose() * (W * work_m_));
 }
@@ -133,50 +159,60 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   }
   const Eigen::MatrixXd& J = kinematics_.jacobian();
   const double kd = point.stabilisation.kd, kp = point.stabilisation.kp;
+  PointHessian& h = hessian_;
 
   // (c, f) solve  c + J' f = r,  J c = s e.  With the adjoint (l1, l2) of that system,
   //   d2(mu.c + nu.f) = l1.d2r + s l2.d2e - f.d2J l1 - l2.d2J c - 2 df.dJ l1 - 2 l2.dJ dc.
   // A chosen row has no part in either sum but its force, w in r: l2 is zero there.
-  const Eigen::VectorXd l2 = gram_inverse_ * (J * mu - nu);
-  const Eigen::VectorXd l1 = mu - J.transpose() * l2;
+  work_f_ = -nu;
+  work_f_.noalias() += J * mu;
+  l2_.noalias() = gram_inverse_ * work_f_;
+  l1_ = mu;
+  l1_.noalias() -= J.transpose() * l2_;
+  h.de = contact_weight_ * l2_;
 
-  second_.set_zero();
-  terms_.add_second_derivatives(point.q, point.v, point.a, l1, second_);
+  h.set_zero();
+  terms_.add_second_derivatives(l1_, h);
+  work_v_ = point.a + kd * point.v - c_ / contact_weight_;
+  kinematics_.set_motion(point.v, work_v_);
+  kinematics_.add_acceleration_hessian(h.de, kd, h);
+  kinematics_.add_position_hessian(h.de, kp, h.qq);
+  kinematics_.set_motion(zero_, l1_);
+  work_f_ = -f_;
+  kinematics_.add_acceleration_hessian_qq(work_f_, h.qq);
 
-  kinematic_second_.set_zero();
-  kinematics_.set_motion(point.v, point.a + kd * point.v - c_ / contact_weight_);
-  kinematics_.add_acceleration_hessian(l2, kinematic_second_);
-  hessian_.qq = second_.qq + contact_weight_ * kinematic_second_.qq;
-  hessian_.qv = second_.qv + contact_weight_ * (kinematic_second_.qv + kd * kinematic_second_.qa);
-  hessian_.qa = second_.qa + contact_weight_ * kinematic_second_.qa;
-  hessian_.vv = second_.vv + contact_weight_ * kinematic_second_.vv;
-  kinematics_.add_position_hessian(l2, contact_weight_ * kp, hessian_.qq);
-
-  kinematic_second_.set_zero();
-  kinematics_.set_motion(Eigen::VectorXd::Zero(terms_.nv()), l1);
-  kinematics_.add_acceleration_hessian(f_, kinematic_second_);
-  hessian_.qq -= kinematic_second_.qq;
-
+  // df.dJ l1 + l2.dJ dc with dc = A - J' df and N = d(J' l2)/dq:  G' df + N' A,  G = d(J l1)/dq - J N. The first three
+  // columns of G and N, the places of the base, are zero.
   kinematics_.acceleration_dq(work_m_);  // d(J l1)/dq
   work_n_.setZero(terms_.nv(), terms_.nv());
-  kinematics_.add_force_derivative(l2, work_n_);  // d(J' l2)/dq
-  const Eigen::MatrixXd cross = work_m_.transpose() * df_.q + work_n_.transpose() * dc_.q;
-  hessian_.qq -= cross + cross.transpose();
-  hessian_.qv -= work_m_.transpose() * df_.v + work_n_.transpose() * dc_.v;
-  hessian_.qa -= work_m_.transpose() * df_.a + work_n_.transpose() * dc_.a;
-  hessian_.qtau = -(work_m_.transpose() * df_.tau + work_n_.transpose() * dc_.tau);
-  hessian_.qw = -(work_m_.transpose() * df_.w + work_n_.transpose() * dc_.w);
-  hessian_.qe = -(work_m_.transpose() * df_.e + work_n_.transpose() * dc_.e);
+  kinematics_.add_force_derivative(l2_, work_n_);
+  kinematics_.multiply(work_n_, rhs_);
+  work_m_ -= rhs_;
+  const Eigen::Index turning = terms_.nv() - 3, joints = point.tau.size();
+  const auto G = work_m_.rightCols(turning).transpose(), N = work_n_.rightCols(turning).transpose();
+  cross_.noalias() = G * df_.q;
+  cross_.noalias() += N * A_q_;
+  h.qq.bottomRows(turning) -= cross_;
+  h.qq.rightCols(turning) -= cross_.transpose();
+  h.qv.bottomRows(turning).noalias() -= G * df_.v;
+  h.qv.bottomRows(turning).noalias() -= N * terms_.dv();
+  h.qa.bottomRows(turning).noalias() -= G * df_.a;
+  h.qa.bottomRows(turning).noalias() -= N * terms_.mass_matrix();
+  h.qtau.setZero(terms_.nv(), joints);
+  h.qtau.bottomRows(turning) = N.rightCols(joints);
+  h.qtau.bottomRows(turning).noalias() -= G * df_.tau;
+  h.qe.setZero(terms_.nv(), J.rows());
+  h.qe.bottomRows(turning).noalias() -= G * df_.e;
 
-  hessian_.de = contact_weight_ * l2;
-  hessian_.qgains = -(work_m_.transpose() * df_.gains + work_n_.transpose() * dc_.gains);
-  kinematics_.set_motion(Eigen::VectorXd::Zero(terms_.nv()), point.v);
-  kinematics_.acceleration_dq(work_m_);  // d(J v)/dq
-  hessian_.qgains.col(0) += work_m_.transpose() * hessian_.de;
-  hessian_.qgains.col(1) += kinematics_.positions_dq().transpose() * hessian_.de;
-  hessian_.vgains.setZero(terms_.nv(), 2);
-  hessian_.vgains.col(0) = J.transpose() * hessian_.de;
-  return hessian_;
+  h.qw.setZero(terms_.nv(), df_.w.cols());  // A_w = -J' of the chosen rows, whose own 1 in df adds J' again
+  h.qw.bottomRows(turning).noalias() -= G * df_.w;
+
+  h.qgains.noalias() = h.qe * e_gains_;
+  h.qgains.col(0).noalias() += contact_weight_ * (work_n_.transpose() * point.v);  // l2.d(J v)
+  h.qgains.col(1).noalias() += kinematics_.positions_dq().transpose() * h.de;
+  h.vgains.setZero(terms_.nv(), 2);
+  h.vgains.col(0).noalias() = J.transpose() * h.de;
+  return h;
 }
 
 }  // namespace prowl

@@ -32,8 +32,9 @@ struct PointDerivatives {
 
 /// Second derivatives of a scalar s(q, v, a, tau, w, e, kd, kp) that is linear in all but q and v: the blocks that are not
 /// zero, but that of kp and the anchors, which is -de (below).
-struct PointHessian {
-  Eigen::MatrixXd qq, qv, qa, qtau, qw, qe, vv;
+struct PointHessian : SecondDerivatives {
+  using SecondDerivatives::SecondDerivatives;
+  Eigen::MatrixXd qtau, qw, qe;
   Eigen::MatrixXd qgains, vgains;  ///< two columns, kd and kp
   Eigen::VectorXd de;              ///< first derivative of s in e
 };
@@ -87,6 +88,7 @@ class ProjectedResidual {
  private:
   void compute_forces(const DynamicsPoint& point);
   void compute_gram_inverse();
+  void add_redundancy();
 
   double contact_weight_;
   RigidBodyTerms terms_;
@@ -98,8 +100,12 @@ class ProjectedResidual {
   Eigen::VectorXd r_, e_, c_, f_;
   PointDerivatives dc_, df_;
   PointHessian hessian_;
-  SecondDerivatives second_, kinematic_second_;
-  Eigen::MatrixXd work_m_, work_n_;
+  // Work space, so that nothing is allocated after the first evaluation.
+  Eigen::MatrixXd A_q_;              ///< derivative of the equations of motion in q with f fixed
+  Eigen::MatrixXd K_;                ///< (J J')⁺ J
+  Eigen::MatrixXd e_gains_;          ///< derivative of e in the gains
+  Eigen::MatrixXd work_m_, work_n_, rhs_, cross_;
+  Eigen::VectorXd l1_, l2_, work_v_, work_f_, zero_;
 };
 
 }  // namespace prowl

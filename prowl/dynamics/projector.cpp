@@ -14,12 +14,38 @@ void Projector::compute(const Eigen::MatrixXd& J) {
   find_rank();
   if (rank_ < rows) {
     factor_deficient();
-  } else if (rows > 0) {  // J' Π = V R, that is J = Π R' V': U = Π, T = R'
-    inverse_factor_ = qr_.colsPermutation().transpose();
-    qr_.matrixQR().topRows(rows).triangularView<Eigen::Upper>().transpose().solveInPlace(inverse_factor_);
+    gram_inverse_.noalias() = inverse_factor_.transpose() * inverse_factor_;
+  } else if (rows > 0) {
+    factor_full();
+  } else {
+    inverse_factor_.resize(0, 0);
+    gram_inverse_.resize(0, 0);
   }
-  if (rank_ == 0) inverse_factor_.setZero(0, rows);
-  gram_inverse_.noalias() = inverse_factor_.transpose() * inverse_factor_;
+}
+
+// J' Π = V R, that is J = Π R' V': U = Π, T = R', (J J')⁻¹ = Π R⁻¹ R'⁻¹ Π'. By hand: for matrices this small the work
+// is in the calls of the general solvers and products.
+void Projector::factor_full() {
+  const Eigen::Index rows = transposed_.cols();
+  inverse_factor_.resize(rows, rows);
+  permuted_gram_.setZero(rows, rows);
+  gram_inverse_.resize(rows, rows);
+  upper_inverse_.setIdentity(rows, rows);
+  for (Eigen::Index j = 0; j < rows; ++j) {
+    auto column = upper_inverse_.col(j);
+    for (Eigen::Index i = j; i >= 0; --i) {
+      column(i) /= qr_.matrixQR()(i, i);
+      column.head(i) -= column(i) * qr_.matrixQR().col(i).head(i);
+    }
+    for (Eigen::Index i = 0; i <= j; ++i) permuted_gram_.col(i).head(i + 1) += column(i) * column.head(i + 1);
+  }
+  const auto& place = qr_.colsPermutation().indices();
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    inverse_factor_.col(place(i)) = upper_inverse_.row(i).transpose();
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      gram_inverse_(place(i), place(j)) = gram_inverse_(place(j), place(i)) = permuted_gram_(j, i);
+    }
+  }
 }
 
 // Why 1e-8. Entries of J are lengths in metres and direction cosines, right to about 1e-15: rows that depend on each
@@ -44,6 +70,10 @@ void Projector::find_rank() {
 
 // Complete orthogonal decomposition: J' Π = V [R1 R2], a trapezoid; its transpose is W T, so that J = Π W T V', U = Π W.
 void Projector::factor_deficient() {
+  if (rank_ == 0) {
+    inverse_factor_.setZero(0, transposed_.cols());
+    return;
+  }
   Eigen::MatrixXd trapezoid = Eigen::MatrixXd::Zero(qr_.cols(), rank_);
   trapezoid.transpose().triangularView<Eigen::Upper>() = qr_.matrixQR().topRows(rank_);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(trapezoid);

@@ -40,11 +40,13 @@ class Projector {
 
  private:
   void find_rank();
+  void factor_full();
   void factor_deficient();
 
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;  // of J'
   Eigen::MatrixXd transposed_, gram_inverse_;
   Eigen::MatrixXd inverse_factor_;  // T⁻¹ U', rank × m
+  Eigen::MatrixXd upper_inverse_, permuted_gram_;
   int rank_ = 0;
   double pivot_ratio_ = 1.0;
   bool rank_is_ambiguous_ = false;

@@ -4,7 +4,6 @@
 #include <pinocchio/algorithm/frames.hpp>
 #include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/rnea-derivatives.hpp>
-#include <pinocchio/algorithm/rnea-second-order-derivatives.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
 #include <pinocchio/multibody/data.hpp>
 
@@ -12,22 +11,51 @@
 
 namespace prowl {
 
-SecondDerivatives::SecondDerivatives(int nv) : qq(nv, nv), qv(nv, nv), vv(nv, nv), qa(nv, nv) { set_zero(); }
+namespace {
 
-void SecondDerivatives::set_zero() {
-  qq.setZero();
-  qv.setZero();
-  vv.setZero();
-  qa.setZero();
+/// Parents of the bodies, the base first: Pinocchio's joint 0 is the world.
+std::vector<int> parents_of(const pinocchio::Model& model) {
+  std::vector<int> parents;
+  for (std::size_t joint = 1; joint < model.parents.size(); ++joint) {
+    parents.push_back(static_cast<int>(model.parents[joint]) - 1);
+  }
+  return parents;
 }
+
+WorldInertia in_world(const pinocchio::Inertia& inertia) {
+  const Eigen::Vector3d moment = inertia.mass() * inertia.lever();
+  const Eigen::Matrix3d of_mass =
+      moment.dot(inertia.lever()) * Eigen::Matrix3d::Identity() - moment * inertia.lever().transpose();
+  return {inertia.mass(), moment, inertia.inertia().matrix() + of_mass};
+}
+
+}  // namespace
 
 struct RigidBodyTerms::Workspace {
   explicit Workspace(const RobotModel& robot)
-      : model(robot.pinocchio().model), contact_frames(robot.pinocchio().contact_frames), data(model) {}
+      : model(robot.pinocchio().model),
+        contact_frames(robot.pinocchio().contact_frames),
+        data(model),
+        hessian(parents_of(model)) {
+    tree.bodies.resize(model.joints.size() - 1);
+    pinocchio::computeJointJacobians(model, data, robot.nominal_configuration());
+    joint_axes.resize(6, model.nv);
+    for (pinocchio::JointIndex joint = 1; joint < model.joints.size(); ++joint) {
+      for (int k = model.idx_vs[joint]; k < model.idx_vs[joint] + model.nvs[joint]; ++k) {
+        joint_axes.col(k) = data.oMi[joint].actInv(pinocchio::Motion(data.J.col(k))).toVector();
+      }
+    }
+  }
+
+  void place_bodies();
+  void fetch_tree();
 
   pinocchio::Model model;
   std::vector<pinocchio::FrameIndex> contact_frames;
   pinocchio::Data data;
+  SpatialColumns joint_axes;  ///< columns of data.J in the frame behind their joint, where they do not move
+  TreeMotion tree;
+  InverseDynamicsHessian hessian;
 };
 
 RigidBodyTerms::RigidBodyTerms(const RobotModel& robot)
@@ -59,12 +87,28 @@ void RigidBodyTerms::update_kinematics(const Eigen::VectorXd& q) {
 
 void RigidBodyTerms::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
   inverse_dynamics_ = pinocchio::rnea(workspace_->model, workspace_->data, q, v, a);
-  update_kinematics(q);
+  workspace_->place_bodies();
+  fetch_kinematics();
+}
+
+// As computeJointJacobians, from the placements that rnea leaves, without their sines and cosines once more.
+void RigidBodyTerms::Workspace::place_bodies() {
+  for (pinocchio::JointIndex joint = 1; joint < model.joints.size(); ++joint) {
+    const pinocchio::JointIndex parent = model.parents[joint];
+    data.oMi[joint] = parent > 0 ? data.oMi[parent] * data.liMi[joint] : data.liMi[joint];
+    const Eigen::Matrix3d& R = data.oMi[joint].rotation();
+    const Eigen::Vector3d& p = data.oMi[joint].translation();
+    for (int k = model.idx_vs[joint]; k < model.idx_vs[joint] + model.nvs[joint]; ++k) {
+      const Eigen::Vector3d linear = R * joint_axes.col(k).head<3>(), angular = R * joint_axes.col(k).tail<3>();
+      data.J.col(k) << linear + p.cross(angular), angular;
+    }
+  }
 }
 
 void RigidBodyTerms::update_with_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                              const Eigen::VectorXd& a) {
-  auto& [model, frames, data] = *workspace_;
+  auto& model = workspace_->model;
+  auto& data = workspace_->data;
   dq_.setZero();  // Pinocchio writes only the entries that the tree makes non-zero
   dv_.setZero();
   mass_matrix_.setZero();
@@ -77,9 +121,10 @@ void RigidBodyTerms::update_with_derivatives(const Eigen::VectorXd& q, const Eig
 }
 
 void RigidBodyTerms::fetch_kinematics() {
-  auto& [model, frames, data] = *workspace_;
+  const pinocchio::Model& model = workspace_->model;
+  pinocchio::Data& data = workspace_->data;
   motion_columns_ = data.J;
-  for (const pinocchio::FrameIndex frame : frames) {
+  for (const pinocchio::FrameIndex frame : workspace_->contact_frames) {
     data.oMf[frame] = data.oMi[model.frames[frame].parentJoint] * model.frames[frame].placement;
   }
 }
@@ -88,33 +133,31 @@ Eigen::Vector3d RigidBodyTerms::contact_position(int contact) const {
   return workspace_->data.oMf[workspace_->contact_frames[static_cast<size_t>(contact)]].translation();
 }
 
-void RigidBodyTerms::add_second_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                            const Eigen::VectorXd& a, const Eigen::VectorXd& lambda,
-                                            SecondDerivatives& result) {
-  auto& [model, frames, data] = *workspace_;
-  pinocchio::ComputeRNEASecondOrderDerivatives(model, data, q, v, a);
+// What computeRNEADerivatives leaves: oinertias of the bodies; oYcrb, doYcrb of the composites; one column a degree of
+// freedom, dAdq without gravity, which it takes out at its end.
+void RigidBodyTerms::Workspace::fetch_tree() {
+  for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
+    TreeMotion::Body& body = tree.bodies[i];
+    body.velocity = data.ov[i + 1].toVector();
+    body.inertia = in_world(data.oinertias[i + 1]);
+    body.composite_inertia = in_world(data.oYcrb[i + 1]);
+    body.composite_variation = data.doYcrb[i + 1].rightCols<3>();
+  }
+  tree.S = data.J;
+  tree.V = data.dVdq;
+  tree.A = data.dAdq;
+  for (Eigen::Index k = 0; k < tree.A.cols(); ++k) {
+    tree.A.col(k).head<3>() -= model.gravity.linear().cross(tree.S.col(k).tail<3>());
+  }
+  tree.W = data.dAdv;
+  tree.I_S = data.dFda;
+  tree.I_W_B_S = data.dFdv;
+  tree.I_A_B_V_S_F = data.dFdq;
+}
 
-  // Tensors are (row of r0, first index, second index), row fastest: one product contracts the rows.
-  const auto contract = [&](const auto& tensor) -> Eigen::MatrixXd {
-    const Eigen::Map<const Eigen::MatrixXd> flat(tensor.data(), nv_, nv_ * nv_);
-    const Eigen::RowVectorXd contracted = lambda.transpose() * flat;
-    return Eigen::Map<const Eigen::MatrixXd>(contracted.data(), nv_, nv_);
-  };
-  Eigen::MatrixXd qq = contract(data.d2tau_dqdq);
-  Eigen::MatrixXd qv = contract(data.d2tau_dqdv);
-  const Eigen::MatrixXd vv = contract(data.d2tau_dvdv);
-  Eigen::MatrixXd qa = contract(data.d2tau_dadq).transpose();
-
-  // No dependence on the place of the base; and rotations do not commute: the Hessian along q (+) d is the
-  // symmetric part of the second directional derivatives.
-  qq.topRows<3>().setZero();
-  qq.leftCols<3>().setZero();
-  qv.topRows<3>().setZero();
-  qa.topRows<3>().setZero();
-  result.qq += 0.5 * (qq + qq.transpose());
-  result.qv += qv;
-  result.vv += 0.5 * (vv + vv.transpose());
-  result.qa += qa;
+void RigidBodyTerms::add_second_derivatives(const Eigen::VectorXd& lambda, SecondDerivatives& result) {
+  workspace_->fetch_tree();
+  workspace_->hessian.add(workspace_->tree, lambda, result);
 }
 
 }  // namespace prowl

@@ -4,17 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "prowl/dynamics/inverse_dynamics_hessian.hpp"
 #include "prowl/model/robot_model.hpp"
 
 namespace prowl {
-
-/// Second derivatives of one scalar s(q, v, a): q in the tangent of configuration.hpp, v and a as they are.
-/// The scalars of interest are linear in a, so that s_va and s_aa vanish or are not needed.
-struct SecondDerivatives {
-  Eigen::MatrixXd qq, qv, vv, qa;  ///< nv x nv each; entry (i, j) of qv is d2 s / dq_i dv_j
-  explicit SecondDerivatives(int nv);
-  void set_zero();
-};
 
 /// The terms of the free (contact-less) rigid-body dynamics, by Pinocchio.
 ///
@@ -50,13 +43,12 @@ class RigidBodyTerms {
   /// Degrees of freedom that move a contact: 0 ... 5 (the base), then joints from the base to the tip.
   const std::vector<int>& contact_chain(int contact) const { return chains_[static_cast<size_t>(contact)]; }
 
-  /// Adds the second derivatives of lambda . r0(q, v, a) at fixed lambda (nv) [any unit].
-  /// Singh, Russell, Wensing, "On second-order derivatives of rigid-body dynamics", 2023, as in Pinocchio.
-  void add_second_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                              const Eigen::VectorXd& lambda, SecondDerivatives& result);
+  /// Adds the second derivatives of lambda . r0 at fixed lambda (nv) [any unit]. After update_with_derivatives(), with
+  /// whose by-products the work begins.
+  void add_second_derivatives(const Eigen::VectorXd& lambda, SecondDerivatives& result);
 
  private:
-  struct Workspace;  // Pinocchio's Data and tensors
+  struct Workspace;  // Pinocchio's Data
   void fetch_kinematics();
 
   int nv_;

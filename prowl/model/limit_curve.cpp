@@ -53,10 +53,29 @@ LimitCurve::LimitCurve(const Table& table)
   }
 }
 
+// De Boor's recursion; Eigen's Spline would do it on the heap. Of the three rows of its triangle the second differences
+// of the first are the second derivative, the differences of the second the first.
 LimitCurve::Values LimitCurve::at(double x) const {
   const double inside = std::clamp(x, first_, last_), length = last_ - first_;
-  const auto derivatives = spline_.derivatives<2>((inside - first_) / length);
-  Values values{derivatives(0), derivatives(1) / length, derivatives(2) / (length * length)};
+  const double u = (inside - first_) / length;
+  const auto& t = spline_.knots();
+  const Eigen::Index s = spline_.span(u);
+  Eigen::Vector4d d = spline_.ctrls().segment<4>(s - 3).transpose();
+  const auto refine = [&](Eigen::Index row) {
+    for (Eigen::Index j = 3; j >= row; --j) {
+      const double before = t(s - 3 + j), after = t(s + 1 + j - row);
+      d(j) = ((after - u) * d(j - 1) + (u - before) * d(j)) / (after - before);
+    }
+  };
+  Values values{};
+  refine(1);
+  const double piece = t(s + 1) - t(s);
+  const double bend = (d(3) - d(2)) / (t(s + 2) - t(s)) - (d(2) - d(1)) / (t(s + 1) - t(s - 1));
+  values.curvature = 6.0 * bend / (piece * length * length);
+  refine(2);
+  values.slope = 3.0 * (d(3) - d(2)) / (piece * length);
+  refine(3);
+  values.value = d(3);
   if (x != inside) {
     values.value += values.slope * (x - inside);
     values.curvature = 0.0;

@@ -40,5 +40,8 @@ struct ConfigurationCost {
 };
 ConfigurationCost configuration_cost(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& weight,
                                      const Eigen::VectorXd& q);
+/// The same into what is there, without allocation if it has the sizes already.
+void configuration_cost(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& weight, const Eigen::VectorXd& q,
+                        ConfigurationCost& cost);
 
 }  // namespace prowl

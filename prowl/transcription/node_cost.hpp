@@ -16,29 +16,42 @@ class NodeCost {
 
   /// `terms` at the configuration of the point; `forces` 3 per contact of the phase [N].
   double value(const NodePoint& point, const RigidBodyTerms& terms, const Eigen::VectorXd& forces);
-  /// The running part of it.
-  double running(const NodePoint& point, const RigidBodyTerms& terms, const Eigen::VectorXd& forces);
+  /// After value(): the running part of it.
+  double running() const { return running_value_; }
 
   struct Derivatives {
     Eigen::VectorXd gradient;          ///< in (tangent of q | v | a | tau)
     Eigen::VectorXd force_gradient;
-    Eigen::MatrixXd hessian;           ///< in (tangent of q | v | a | tau), if asked for
     Eigen::VectorXd running_gradient;  ///< that part of `gradient`; all of force_gradient is running cost
   };
-  void derivatives(const NodePoint& point, const RigidBodyTerms& terms, const Eigen::VectorXd& forces,
-                   bool with_hessian, Derivatives& result);
+  /// After value() at the same point.
+  void derivatives(const NodePoint& point, const Eigen::VectorXd& forces, Derivatives& result);
+  /// After derivatives(): adds factor times the Hessian in (tangent of q | v | a | tau) at fixed forces, which is
+  /// block diagonal, to the first rows and columns of the result.
+  void add_hessian(const NodePoint& point, double factor, Eigen::MatrixXd& result);
   /// Second derivative of the cost in every force vector.
-  Eigen::Vector3d force_curvature(const NodePoint& point) const { return point.cost_weight * running_.force_weight; }
+  Eigen::Vector3d force_curvature(const NodePoint& point) const {
+    return point.cost_weight * running_.cost.force_weight;
+  }
 
  private:
-  double state_cost(const QuadraticCost& cost, ContactKinematics& points, const NodePoint& point,
-                    const RigidBodyTerms& terms);
-  void add_state_cost(const QuadraticCost& cost, ContactKinematics& points, double weight, const NodePoint& point,
-                      const RigidBodyTerms& terms, bool with_hessian, Derivatives& result);
+  /// The cost of a state, running or terminal, and what it needs.
+  struct StateCost {
+    explicit StateCost(const QuadraticCost& quadratic);
+    double value(const NodePoint& point, const RigidBodyTerms& terms);
+    void add_gradient(double weight, const NodePoint& point, Eigen::VectorXd& gradient);
+    void add_hessian(double weight, Eigen::MatrixXd& result);
+
+    QuadraticCost cost;
+    ContactKinematics points;  ///< contacts whose place costs something
+    ConfigurationCost configuration;
+    Eigen::VectorXd stiffness, pull;  ///< of their places
+    Eigen::MatrixXd stiff_points;
+  };
 
   int nv_, nu_;
-  QuadraticCost running_, terminal_;
-  ContactKinematics running_points_, terminal_points_;  ///< contacts whose place costs something
+  StateCost running_, terminal_;
+  double running_value_ = 0.0;
 };
 
 }  // namespace prowl

@@ -55,12 +55,13 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
     opens_.push_back(schedule.opens(phase, i));
     if (schedule.stances()[static_cast<std::size_t>(schedule.stance(phase, i))].lands()) landed_.push_back(i);
   }
-  anchor_axes_.setZero(3 * num_contacts(), num_places());
-  for (std::size_t l = 0; l < landed_.size(); ++l) {
-    const int surface = held[static_cast<std::size_t>(landed_[l])].surface;
-    anchor_axes_.block<3, 2>(3 * landed_[l], static_cast<Index>(2 * l)) =
-        problem.surfaces[static_cast<std::size_t>(surface)].axes();
+  for (const int contact : landed_) {
+    const int surface = held[static_cast<std::size_t>(contact)].surface;
+    landed_axes_.push_back(problem.surfaces[static_cast<std::size_t>(surface)].axes());
   }
+
+  placement_anchors_.resize(placement_.most_rows(), 3 * num_contacts());
+  rotation_.resize(std::max(num_rows(0), num_rows(intervals_)) + placement_.most_rows(), 3);
 
   const double size = problem.robot.size();
   force_scale_ = 1.0 / problem.robot.weight();
@@ -113,9 +114,15 @@ Eigen::Vector2d NodeFunctions::gains(double duration, int derivative) const {
   return {2.0 * at(0) / (T * T), 6.0 * at(1) / (T * T)};
 }
 
-DynamicsPoint NodeFunctions::dynamics_point(const NodePoint& point) const {
+void NodeFunctions::set_point(const NodePoint& point) {
   const Eigen::Vector2d g = gains(point.duration, 0);
-  return {point.q, point.v, point.a, point.tau, point.anchors, {g(0), g(1)}, point.w};
+  at_.q = point.q;
+  at_.v = point.v;
+  at_.a = point.a;
+  at_.tau = point.tau;
+  at_.anchors = point.anchors;
+  at_.stabilisation = {g(0), g(1)};
+  at_.chosen_forces = point.w;
 }
 
 void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
@@ -140,27 +147,36 @@ void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
 }
 
 void NodeFunctions::evaluate(const NodePoint& point, NodeValues& values) {
-  dynamics_.evaluate(dynamics_point(point));
+  set_point(point);
+  dynamics_.evaluate(at_);
   fill_rows(point, values);
-}
-
-void NodeFunctions::gather(const PointDerivatives& derivatives, Eigen::Ref<MatrixXd> result, double duration) const {
-  result.leftCols(num_variables()) << derivatives.q, derivatives.v, derivatives.a, derivatives.tau, derivatives.w;
-  if (free_duration_) result.col(num_variables()) = derivatives.gains * gains(duration, 1);
-  result.rightCols(num_places()) = -gains(duration, 0)(1) * derivatives.e * anchor_axes_;
 }
 
 void NodeFunctions::evaluate_with_derivatives(const NodePoint& point, NodeValues& values) {
-  dynamics_.evaluate_with_derivatives(dynamics_point(point));
+  set_point(point);
+  dynamics_.evaluate_with_derivatives(at_);
   fill_rows(point, values);
-  const int k = point.node;
+  fill_derivatives(point, values);
+}
 
+void NodeFunctions::gather(const PointDerivatives& derivatives, double duration, Eigen::Ref<MatrixXd> result) const {
+  result.leftCols(num_variables()) << derivatives.q, derivatives.v, derivatives.a, derivatives.tau, derivatives.w;
+  if (free_duration_) result.col(num_variables()).noalias() = derivatives.gains.lazyProduct(gains(duration, 1));
+  const double kp = gains(duration, 0)(1);
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    result.middleCols<2>(first_place() + static_cast<Index>(2 * l)).noalias() =
+        derivatives.e.middleCols<3>(3 * landed_[l]).lazyProduct(-kp * landed_axes_[l]);
+  }
+}
+
+void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values) {
+  const int k = point.node;
   MatrixXd& jacobian = values.rows_jacobian;
-  jacobian.setZero(num_rows(k), num_columns());
-  gather(dynamics_.residual_derivatives(), jacobian.topRows(nv_), point.duration);
-  jacobian.topRows(nv_) = dynamics_scale_.asDiagonal() * jacobian.topRows(nv_);
+  jacobian.resize(num_rows(k), num_columns());
+  gather(dynamics_.residual_derivatives(), point.duration, jacobian.topRows(nv_));
+  jacobian.topRows(nv_).array().colwise() *= dynamics_scale_.array();
   forces_jacobian_.resize(values.forces.size(), num_columns());
-  gather(dynamics_.force_derivatives(), forces_jacobian_, point.duration);
+  gather(dynamics_.force_derivatives(), point.duration, forces_jacobian_);
   for (int i = 0; i < num_contacts(); ++i) {
     const auto force = forces_jacobian_.middleRows<3>(3 * i);
     const int row = contact_row(k, i);
@@ -168,119 +184,149 @@ void NodeFunctions::evaluate_with_derivatives(const NodePoint& point, NodeValues
       jacobian.middleRows<3>(row) = force_scale_ * force;
     } else {
       const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
-      jacobian.middleRows(row, friction.count()) = force_scale_ * friction.slopes(values.forces.segment<3>(3 * i)) * force;
+      const FrictionLimit::Slopes slopes = force_scale_ * friction.slopes(values.forces.segment<3>(3 * i));
+      jacobian.middleRows(row, friction.count()).noalias() = slopes.lazyProduct(force);
     }
   }
-  auto torque_rows = jacobian.middleRows(torque_row(k), torques_.count());
+  auto limits = jacobian.bottomRows(num_rows(k) - torque_row(k));
+  limits.setZero();
+  auto torque_rows = limits.topRows(torques_.count());
   torques_.derivatives(point.q.tail(nu_), point.v.tail(nu_), torque_rows.middleCols(6, nu_),
                        torque_rows.middleCols(nv_ + 6, nu_), torque_rows.middleCols(3 * nv_, nu_));
-  auto placement_rows = jacobian.bottomRows(placement_.count(k));
-  MatrixXd d_anchors(placement_.count(k), 3 * num_contacts());
+  auto placement_rows = limits.bottomRows(placement_.count(k));
+  auto d_anchors = placement_anchors_.topRows(placement_.count(k));
   placement_.derivatives(k, placement_rows.leftCols(nv_), placement_rows.middleCols(nv_, nv_), d_anchors);
-  placement_rows.rightCols(num_places()) = d_anchors * anchor_axes_;
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    placement_rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)).noalias() =
+        d_anchors.middleCols<3>(3 * landed_[l]).lazyProduct(landed_axes_[l]);
+  }
 
-  cost_.derivatives(point, dynamics_.terms(), values.forces, false, cost_derivatives_);
-  values.cost_gradient.setZero(num_columns());
-  values.cost_gradient.head(3 * nv_ + nu_) = cost_derivatives_.gradient;
-  values.cost_gradient += forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
+  cost_.derivatives(point, values.forces, cost_derivatives_);
+  force_slope_.noalias() = forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
+  values.cost_gradient = force_slope_;
+  values.cost_gradient.head(3 * nv_ + nu_) += cost_derivatives_.gradient;
   if (free_duration_) {  // the running cost is in proportion to the duration
-    values.cost_gradient(num_variables()) += cost_.running(point, dynamics_.terms(), values.forces) / point.duration;
+    values.cost_gradient(num_variables()) += cost_.running() / point.duration;
   }
 
   const Eigen::Matrix3d Jr = so3::right_jacobian(point.theta);
-  jacobian.middleCols<3>(3) *= Jr;
-  values.cost_gradient.segment<3>(3) = (Jr.transpose() * values.cost_gradient.segment<3>(3)).eval();
+  auto rotation = rotation_.topRows(num_rows(k));
+  rotation = jacobian.middleCols<3>(3);
+  jacobian.middleCols<3>(3).noalias() = rotation.lazyProduct(Jr);
+  rotation_gradient_ = values.cost_gradient.segment<3>(3);
+  values.cost_gradient.segment<3>(3).noalias() = Jr.transpose() * rotation_gradient_;
 }
 
 void NodeFunctions::hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers, MatrixXd& result) {
-  const DynamicsPoint at = dynamics_point(point);
-  dynamics_.evaluate_with_derivatives(at);
+  linearise(point, cost_factor, multipliers, unused_, result);
+}
+
+void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
+                              NodeValues& values, MatrixXd& hessian) {
+  evaluate_with_derivatives(point, values);
+  hessian.setZero(num_columns(), num_columns());
+  add_cost_hessian(point, cost_factor, hessian);
+  add_force_hessian(point, cost_factor, multipliers, hessian);
+  add_dynamics_hessian(point, multipliers, hessian);
+  add_limits_hessian(point, multipliers, hessian);
+  Eigen::Vector3d pull = cost_factor * rotation_gradient_;  // gradient of it all in the tangent of the rotation
+  for (Index row = 0; row < multipliers.size(); ++row) pull += multipliers(row) * rotation_.row(row).transpose();
+  turn_to_chart(point, pull, hessian);
+  hessian.triangularView<Eigen::StrictlyLower>() = hessian.transpose();
+}
+
+// With forces as variables of their own, but in the duration, in proportion to which the running cost is.
+void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor, MatrixXd& result) {
+  cost_.add_hessian(point, cost_factor, result);
+  if (!free_duration_) return;
+  const int duration = num_variables();
+  const double factor = cost_factor / point.duration;
+  result.col(duration).head(duration) += factor * force_slope_.head(duration);
+  result.col(duration).head(3 * nv_ + nu_) += factor * cost_derivatives_.running_gradient;
+  result.row(duration).tail(num_places()) += factor * force_slope_.tail(num_places()).transpose();
+  result(duration, duration) += 2.0 * factor * force_slope_(duration);
+}
+
+// What bends in the forces themselves: cones and force cost, through f(q, v, a, tau, w, shared).
+void NodeFunctions::add_force_hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
+                                      MatrixXd& result) {
   const VectorXd& forces = dynamics_.forces();
-  const int k = point.node, variables = num_variables();
-  const VectorXd mu = dynamics_scale_.cwiseProduct(multipliers.head(nv_));
-  forces_jacobian_.resize(forces.size(), num_columns());
-  gather(dynamics_.force_derivatives(), forces_jacobian_, point.duration);
-
-  // Cost, with forces for now as variables of their own. `pull` is the gradient in the tangent of the rotation, below.
-  cost_.derivatives(point, dynamics_.terms(), forces, true, cost_derivatives_);
-  result.setZero(num_columns(), num_columns());
-  result.topLeftCorner(3 * nv_ + nu_, 3 * nv_ + nu_) = cost_factor * cost_derivatives_.hessian;
-  VectorXd force_pull = cost_factor * cost_derivatives_.force_gradient;
-  Eigen::Vector3d pull = cost_factor * cost_derivatives_.gradient.segment<3>(3);
-  if (free_duration_) {
-    VectorXd slope = forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
-    slope.head(3 * nv_ + nu_) += cost_derivatives_.running_gradient;
-    result.col(variables) += cost_factor / point.duration * slope;
-    result.row(variables) += cost_factor / point.duration * slope.transpose();
-  }
-
-  // What bends in the forces themselves: cones and force cost, through f(q, v, a, tau, w, shared).
-  MatrixXd bent(forces.size(), num_columns());
+  force_pull_ = cost_factor * cost_derivatives_.force_gradient;
+  bending_.resize(forces.size(), num_columns());
+  bent_.resize(forces.size(), num_columns());
+  Index rows = 0;
   for (int i = 0; i < num_contacts(); ++i) {
     const Eigen::Vector3d force = forces.segment<3>(3 * i);
     Eigen::Matrix3d curvature = (cost_factor * cost_.force_curvature(point)).asDiagonal();
-    const int row = contact_row(k, i);
-    if (unloads(k, i)) {
-      force_pull.segment<3>(3 * i) += force_scale_ * multipliers.segment<3>(row);
+    const int row = contact_row(point.node, i);
+    if (unloads(point.node, i)) {
+      force_pull_.segment<3>(3 * i) += force_scale_ * multipliers.segment<3>(row);
     } else {
       const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
-      const VectorXd on_rows = force_scale_ * multipliers.segment(row, friction.count());
-      force_pull.segment<3>(3 * i) += friction.slopes(force).transpose() * on_rows;
+      const FrictionLimit::Rows on_rows = force_scale_ * multipliers.segment(row, friction.count());
+      force_pull_.segment<3>(3 * i).noalias() += friction.slopes(force).transpose().lazyProduct(on_rows);
       curvature += friction.curvature(force, on_rows);
     }
-    bent.middleRows<3>(3 * i) = curvature * forces_jacobian_.middleRows<3>(3 * i);
+    if (curvature.isZero(0.0)) continue;
+    bending_.middleRows<3>(rows) = forces_jacobian_.middleRows<3>(3 * i);
+    bent_.middleRows<3>(rows).noalias() = curvature.lazyProduct(forces_jacobian_.middleRows<3>(3 * i));
+    rows += 3;
   }
-  result.noalias() += forces_jacobian_.transpose() * bent;
-  pull += (dynamics_.residual_derivatives().q.transpose() * mu +
-           dynamics_.force_derivatives().q.transpose() * force_pull).segment<3>(3);
+  if (rows == 0) return;
+  result.triangularView<Eigen::Upper>() += bending_.topRows(rows).transpose() * bent_.topRows(rows);
+}
 
-  // What bends in c and f.
-  const PointHessian& inner = dynamics_.hessian(at, mu, force_pull);
+// What bends in c and f.
+void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd& multipliers, MatrixXd& result) {
+  mu_ = dynamics_scale_.cwiseProduct(multipliers.head(nv_));
+  const PointHessian& inner = dynamics_.hessian(at_, mu_, force_pull_);
   result.topLeftCorner(nv_, nv_) += inner.qq;
   result.block(nv_, nv_, nv_, nv_) += inner.vv;
-  const auto add_mixed = [&](const MatrixXd& block, Index row, Index column) {
-    result.block(row, column, block.rows(), block.cols()) += block;
-    result.block(column, row, block.cols(), block.rows()) += block.transpose();
-  };
-  add_mixed(inner.qv, 0, nv_);
-  add_mixed(inner.qa, 0, 2 * nv_);
-  add_mixed(inner.qtau, 0, 3 * nv_);
-  add_mixed(inner.qw, 0, 3 * nv_ + nu_);
-  add_mixed(-at.stabilisation.kp * inner.qe * anchor_axes_, 0, first_place());
-  if (free_duration_) {
-    const Eigen::Vector2d slope = gains(point.duration, 1);
-    add_mixed(inner.qgains * slope, 0, variables);
-    add_mixed(inner.vgains * slope, nv_, variables);
-    add_mixed(-slope(1) * inner.de.transpose() * anchor_axes_, variables, first_place());
-    const ContactKinematics& kinematics = dynamics_.kinematics();
-    const Eigen::Vector2d on_gains(inner.de.dot(kinematics.jacobian() * point.v),
-                                   inner.de.dot(kinematics.positions() - point.anchors));
-    result(variables, variables) += on_gains.dot(gains(point.duration, 2));
+  auto q_rows = result.topRows(nv_);
+  q_rows.middleCols(nv_, nv_) += inner.qv;
+  q_rows.middleCols(2 * nv_, nv_) += inner.qa;
+  q_rows.middleCols(3 * nv_, nu_) += inner.qtau;
+  q_rows.middleCols(3 * nv_ + nu_, num_chosen_) += inner.qw;
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    q_rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)) +=
+        inner.qe.middleCols<3>(3 * landed_[l]).lazyProduct(-at_.stabilisation.kp * landed_axes_[l]);
   }
-
-  // Torque limits, and places of contacts.
-  VectorXd joints = VectorXd::Zero(nu_), rates = VectorXd::Zero(nu_);
-  torques_.add_hessian(point.q.tail(nu_), point.v.tail(nu_), multipliers.segment(torque_row(k), torques_.count()), joints,
-                       rates);
-  result.diagonal().segment(6, nu_) += joints;
-  result.diagonal().segment(nv_ + 6, nu_) += rates;
-  if (const int count = placement_.count(k); count > 0) {
-    const VectorXd on_rows = multipliers.segment(placement_row(k), count);
-    VectorXd unused(count);
-    placement_.evaluate(k, dynamics_.terms(), point.v, point.anchors, unused);
-    MatrixXd dq(count, nv_), dv(count, nv_), d_anchors(count, 3 * num_contacts());
-    placement_.derivatives(k, dq, dv, d_anchors);
-    pull += (dq.transpose() * on_rows).segment<3>(3);
-    MatrixXd qv = MatrixXd::Zero(nv_, nv_);
-    placement_.add_hessian(k, on_rows, result.topLeftCorner(nv_, nv_), qv);
-    add_mixed(qv, 0, nv_);
+  if (!free_duration_) return;
+  const int duration = num_variables();
+  const Eigen::Vector2d slope = gains(point.duration, 1);
+  q_rows.col(duration).noalias() += inner.qgains.lazyProduct(slope);
+  result.col(duration).segment(nv_, nv_).noalias() += inner.vgains.lazyProduct(slope);
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    result.row(duration).segment<2>(first_place() + static_cast<Index>(2 * l)) -=
+        slope(1) * inner.de.segment<3>(3 * landed_[l]).transpose() * landed_axes_[l];
   }
+  const Eigen::Vector2d on_gains(inner.vgains.col(0).dot(point.v),
+                                 inner.de.dot(dynamics_.kinematics().positions() - point.anchors));
+  result(duration, duration) += on_gains.dot(gains(point.duration, 2));
+}
 
-  // From the tangent at R to theta, R = chart exp(theta): x = Jr dtheta + 1/2 (DJr[dtheta]) dtheta.
+// Torque limits, and places of contacts.
+void NodeFunctions::add_limits_hessian(const NodePoint& point, const VectorXd& multipliers, MatrixXd& result) {
+  const int k = point.node;
+  joints_.setZero(nu_);
+  rates_.setZero(nu_);
+  torques_.add_hessian(point.q.tail(nu_), point.v.tail(nu_), multipliers.segment(torque_row(k), torques_.count()),
+                       joints_, rates_);
+  result.diagonal().segment(6, nu_) += joints_;
+  result.diagonal().segment(nv_ + 6, nu_) += rates_;
+  placement_.add_hessian(k, multipliers.segment(placement_row(k), placement_.count(k)), result.topLeftCorner(nv_, nv_),
+                         result.block(0, nv_, nv_, nv_));
+}
+
+// From the tangent at R to theta, R = chart exp(theta): x = Jr dtheta + 1/2 (DJr[dtheta]) dtheta.
+void NodeFunctions::turn_to_chart(const NodePoint& point, const Eigen::Vector3d& pull, MatrixXd& result) const {
   const Eigen::Matrix3d Jr = so3::right_jacobian(point.theta);
-  result.middleRows<3>(3) = (Jr.transpose() * result.middleRows<3>(3)).eval();
-  result.middleCols<3>(3) = (result.middleCols<3>(3) * Jr).eval();
-  result.block<3, 3>(3, 3) += so3::right_jacobian_derivative(point.theta, pull);
+  result.block<3, 3>(0, 3) = (result.block<3, 3>(0, 3) * Jr).eval();
+  const Eigen::Matrix3d rotation = result.block<3, 3>(3, 3).selfadjointView<Eigen::Upper>();
+  result.block<3, 3>(3, 3) = Jr.transpose() * rotation * Jr + so3::right_jacobian_derivative(point.theta, pull);
+  for (Index column = 6; column < result.cols(); ++column) {
+    result.col(column).segment<3>(3) = (Jr.transpose() * result.col(column).segment<3>(3)).eval();
+  }
 }
 
 }  // namespace prowl

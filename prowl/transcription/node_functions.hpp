@@ -38,6 +38,9 @@ struct NodeValues {
 ///
 /// Rows are scaled by the size of the robot, so that one tolerance means the same for 2.5 kg and for 80 kg: forces by its
 /// weight, moments by its weight times RobotModel::size().
+///
+/// One object holds the work space of one thread. Nothing is allocated by an evaluation whose results have the sizes of
+/// the node already (the last one of their owner), unless contacts lose rank.
 class NodeFunctions {
  public:
   NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts);
@@ -61,9 +64,10 @@ class NodeFunctions {
   void evaluate_with_derivatives(const NodePoint& point, NodeValues& values);
   /// Hessian of cost_factor * cost + multipliers . rows, in all columns, symmetric.
   void hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
-  void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values, Eigen::MatrixXd& result) {
-    evaluate_with_derivatives(point, values); hessian(point, cost_factor, multipliers, result);
-  }
+  /// Everything at once: values, first derivatives and the Hessian of cost_factor * cost + multipliers . rows; one
+  /// evaluation of the dynamics.
+  void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values,
+                 Eigen::MatrixXd& hessian);
 
  private:
   int num_places() const { return 2 * static_cast<int>(landed_.size()); }
@@ -74,19 +78,28 @@ class NodeFunctions {
   int torque_row(int k) const { return contact_row(k, num_contacts()); }
   int placement_row(int k) const { return torque_row(k) + torques_.count(); }
 
-  DynamicsPoint dynamics_point(const NodePoint& point) const;
+  void set_point(const NodePoint& point);
   /// Gains (kd, kp) of a step, their first and second derivatives in the duration of the phase.
   Eigen::Vector2d gains(double duration, int derivative) const;
   void fill_rows(const NodePoint& point, NodeValues& values);
+  void fill_derivatives(const NodePoint& point, NodeValues& values);
   /// Columns of a block of derivatives of residual or forces in all columns.
-  void gather(const PointDerivatives& derivatives, Eigen::Ref<Eigen::MatrixXd> result, double duration) const;
+  void gather(const PointDerivatives& derivatives, double duration, Eigen::Ref<Eigen::MatrixXd> result) const;
+  // Parts of the Hessian, after fill_derivatives(). They fill its upper triangle; what is below is of no meaning until
+  // the end.
+  void add_cost_hessian(const NodePoint& point, double cost_factor, Eigen::MatrixXd& result);
+  void add_force_hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers,
+                         Eigen::MatrixXd& result);
+  void add_dynamics_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
+  void add_limits_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
+  void turn_to_chart(const NodePoint& point, const Eigen::Vector3d& pull, Eigen::MatrixXd& result) const;
 
   int nv_, nu_, num_chosen_, intervals_;
   bool free_duration_;
   std::vector<std::string> contact_names_, force_names_;
   std::vector<bool> opens_;
   std::vector<int> landed_;
-  Eigen::MatrixXd anchor_axes_;  ///< derivative of the anchors in the places
+  std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< of the anchor in the place, for each in landed_
   std::vector<FrictionLimit> friction_;
   TorqueRows torques_;
   PlacementRows placement_;
@@ -94,8 +107,16 @@ class NodeFunctions {
   ProjectedResidual dynamics_;
   double force_scale_;
   Eigen::VectorXd dynamics_scale_;  ///< nv
-  Eigen::MatrixXd forces_jacobian_;
+  // Work space.
+  DynamicsPoint at_;
   NodeCost::Derivatives cost_derivatives_;
+  Eigen::MatrixXd forces_jacobian_, placement_anchors_;
+  Eigen::MatrixXd bending_, bent_;                     ///< rows of forces_jacobian_ that have curvature; times that
+  Eigen::VectorXd force_slope_;                        ///< derivative of the cost through the forces
+  Eigen::Matrix<double, Eigen::Dynamic, 3> rotation_;  ///< of rows_jacobian, in the tangent of the rotation
+  Eigen::Vector3d rotation_gradient_;                  ///< of the cost, likewise
+  Eigen::VectorXd mu_, force_pull_, joints_, rates_;
+  NodeValues unused_;                                  ///< values of hessian()
 };
 
 }  // namespace prowl

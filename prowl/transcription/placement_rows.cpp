@@ -26,7 +26,8 @@ double clearance_profile(const Swing& swing, double s) {
 
 PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                              const std::vector<LandingAxes>& landing)
-    : length_(problem.robot.size()), speed_(std::sqrt(RobotModel::kGravity * length_)), kinematics_({}) {
+    : length_(problem.robot.size()), speed_(std::sqrt(RobotModel::kGravity * length_)),
+      kinematics_({}), at_rest_(Eigen::VectorXd::Zero(problem.robot.nv())), second_(problem.robot.nv()) {
   rows_.resize(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(phase)].intervals) + 1);
   add_landing(problem, schedule, phase, landing);
   for (const Swing& swing : schedule.swings()) {
@@ -103,6 +104,12 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
   }
 }
 
+int PlacementRows::most_rows() const {
+  std::size_t most = 0;
+  for (const std::vector<Row>& rows : rows_) most = std::max(most, rows.size());
+  return static_cast<int>(most);
+}
+
 double PlacementRows::upper(int k, int row) const {
   const Kind kind = at(k, row).kind;
   return kind == Kind::place || kind == Kind::velocity ? at(k, row).lower : std::numeric_limits<double>::infinity();
@@ -124,7 +131,7 @@ void PlacementRows::evaluate(int k, const RigidBodyTerms& terms, const Eigen::Ve
         value = row.axis.dot(kinematics_.positions().segment<3>(first) - anchors.segment<3>(3 * row.held));
         break;
       case Kind::velocity:
-        value = row.axis.dot(kinematics_.jacobian().middleRows<3>(first) * v);
+        value = row.axis.dot(Eigen::Vector3d(kinematics_.jacobian().middleRows<3>(first).lazyProduct(v)));
         break;
       case Kind::inside:
         value = row.axis.dot(anchors.segment<3>(3 * row.held)) - row.offset;
@@ -143,45 +150,46 @@ void PlacementRows::derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Re
   dv.setZero();
   danchors.setZero();
   if (count(k) == 0) return;
-  kinematics_.set_motion(Eigen::VectorXd::Zero(v_.size()), v_);
+  kinematics_.set_motion(at_rest_, v_);
   kinematics_.acceleration_dq(velocity_dq_);
   for (int i = 0; i < count(k); ++i) {
     const Row& row = at(k, i);
     const Eigen::Index first = 3 * row.point;
     const Eigen::RowVector3d axis = row.scale * row.axis.transpose();
     if (row.kind == Kind::velocity) {
-      dq.row(i) = axis * velocity_dq_.middleRows<3>(first);
-      dv.row(i) = axis * kinematics_.jacobian().middleRows<3>(first);
+      dq.row(i).noalias() = axis.lazyProduct(velocity_dq_.middleRows<3>(first));
+      dv.row(i).noalias() = axis.lazyProduct(kinematics_.jacobian().middleRows<3>(first));
       continue;
     }
     if (row.kind == Kind::inside) {
       danchors.row(i).segment<3>(3 * row.held) = axis;
       continue;
     }
-    dq.row(i) = axis * kinematics_.positions_dq().middleRows<3>(first);
+    dq.row(i).noalias() = axis.lazyProduct(kinematics_.positions_dq().middleRows<3>(first));
     if (row.kind == Kind::place) danchors.row(i).segment<3>(3 * row.held) = -axis;
   }
 }
 
-void PlacementRows::add_hessian(int k, const Eigen::VectorXd& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
-                                Eigen::Ref<Eigen::MatrixXd> qv) {
+void PlacementRows::add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers,
+                                Eigen::Ref<Eigen::MatrixXd> qq, Eigen::Ref<Eigen::MatrixXd> qv) {
   if (count(k) == 0) return;
-  Eigen::VectorXd on_position = Eigen::VectorXd::Zero(kinematics_.rows());
-  Eigen::VectorXd on_velocity = Eigen::VectorXd::Zero(kinematics_.rows());
+  on_position_.setZero(kinematics_.rows());
+  on_velocity_.setZero(kinematics_.rows());
+  bool any_velocity = false;
   for (int i = 0; i < count(k); ++i) {
     const Row& row = at(k, i);
     if (row.kind == Kind::inside) continue;
-    (row.kind == Kind::velocity ? on_velocity : on_position).segment<3>(3 * row.point) +=
+    any_velocity |= row.kind == Kind::velocity;
+    (row.kind == Kind::velocity ? on_velocity_ : on_position_).segment<3>(3 * row.point) +=
         multipliers(i) * row.scale * row.axis;
   }
-  Eigen::MatrixXd bend = Eigen::MatrixXd::Zero(qq.rows(), qq.cols());
-  kinematics_.add_position_hessian(on_position, 1.0, bend);
-  SecondDerivatives second(static_cast<int>(v_.size()));
-  second.set_zero();
-  kinematics_.set_motion(Eigen::VectorXd::Zero(v_.size()), v_);
-  kinematics_.add_acceleration_hessian(on_velocity, second);
-  qq += bend + second.qq;
-  qv += second.qa;  // J u is the acceleration of a = u at rest
+  kinematics_.add_position_hessian(on_position_, 1.0, qq);
+  if (!any_velocity) return;
+  second_.set_zero();
+  kinematics_.set_motion(at_rest_, v_);
+  kinematics_.add_acceleration_hessian(on_velocity_, 0.0, second_);
+  qq += second_.qq;
+  qv += second_.qa;  // J u is the acceleration of a = u at rest
 }
 
 }  // namespace prowl

@@ -27,6 +27,7 @@ class PlacementRows {
   PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                 const std::vector<LandingAxes>& landing);
 
+  int most_rows() const;  ///< over all nodes
   int count(int k) const { return static_cast<int>(rows_[static_cast<std::size_t>(k)].size()); }
   double lower(int k, int row) const { return at(k, row).lower; }
   double upper(int k, int row) const;
@@ -39,7 +40,7 @@ class PlacementRows {
   void derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv,
                    Eigen::Ref<Eigen::MatrixXd> danchors);
   /// After derivatives() or evaluate(): adds the second derivatives of multipliers . rows; qv is the mixed block.
-  void add_hessian(int k, const Eigen::VectorXd& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
+  void add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
                    Eigen::Ref<Eigen::MatrixXd> qv);
 
  private:
@@ -64,7 +65,9 @@ class PlacementRows {
   std::vector<std::vector<Row>> rows_;
   ContactKinematics kinematics_;
   Eigen::MatrixXd velocity_dq_;
-  Eigen::VectorXd v_;
+  Eigen::VectorXd v_, at_rest_;                 ///< of the last evaluate(), and zeros
+  Eigen::VectorXd on_position_, on_velocity_;   ///< multipliers, one a row of kinematics_
+  SecondDerivatives second_;
 };
 
 }  // namespace prowl

@@ -17,7 +17,7 @@ std::string TorqueRows::describe(int row) const {
   return names_[static_cast<std::size_t>(row / 2)] + (row % 2 == 0 ? ", upper limit" : ", lower limit");
 }
 
-void TorqueRows::evaluate(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates, const Eigen::VectorXd& tau,
+void TorqueRows::evaluate(const Vector& joints, const Vector& rates, const Vector& tau,
                           Eigen::Ref<Eigen::VectorXd> values) const {
   for (int row = 0; row < count(); ++row) {
     const RobotModel::TorqueCurve& limit = curves_[static_cast<std::size_t>(row / 2)];
@@ -26,7 +26,7 @@ void TorqueRows::evaluate(const Eigen::VectorXd& joints, const Eigen::VectorXd& 
   }
 }
 
-void TorqueRows::derivatives(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates,
+void TorqueRows::derivatives(const Vector& joints, const Vector& rates,
                              Eigen::Ref<Eigen::MatrixXd> d_joints, Eigen::Ref<Eigen::MatrixXd> d_rates,
                              Eigen::Ref<Eigen::MatrixXd> d_tau) const {
   d_joints.setZero();
@@ -45,8 +45,8 @@ void TorqueRows::derivatives(const Eigen::VectorXd& joints, const Eigen::VectorX
   }
 }
 
-void TorqueRows::add_hessian(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates,
-                             const Eigen::VectorXd& multipliers, Eigen::Ref<Eigen::VectorXd> joints_diagonal,
+void TorqueRows::add_hessian(const Vector& joints, const Vector& rates,
+                             const Vector& multipliers, Eigen::Ref<Eigen::VectorXd> joints_diagonal,
                              Eigen::Ref<Eigen::VectorXd> rates_diagonal) const {
   for (int row = 0; row < count(); ++row) {
     const RobotModel::TorqueCurve& limit = curves_[static_cast<std::size_t>(row / 2)];

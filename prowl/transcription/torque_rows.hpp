@@ -13,25 +13,27 @@ namespace prowl {
 /// (Pardo et al. 2016 print one side), divided by the largest torque that the curve's table has.
 class TorqueRows {
  public:
+  using Vector = Eigen::Ref<const Eigen::VectorXd>;
+
   explicit TorqueRows(const RobotModel& robot);
 
   int count() const { return 2 * static_cast<int>(curves_.size()); }
   std::string describe(int row) const;
 
   /// joints, rates, tau: nu each.
-  void evaluate(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates, const Eigen::VectorXd& tau,
+  void evaluate(const Vector& joints, const Vector& rates, const Vector& tau,
                 Eigen::Ref<Eigen::VectorXd> values) const;
   /// Derivatives in (joints, rates, tau). Set whole.
-  void derivatives(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates, Eigen::Ref<Eigen::MatrixXd> d_joints,
+  void derivatives(const Vector& joints, const Vector& rates, Eigen::Ref<Eigen::MatrixXd> d_joints,
                    Eigen::Ref<Eigen::MatrixXd> d_rates, Eigen::Ref<Eigen::MatrixXd> d_tau) const;
   /// Adds the second derivatives of multipliers . rows, which are diagonal.
-  void add_hessian(const Eigen::VectorXd& joints, const Eigen::VectorXd& rates, const Eigen::VectorXd& multipliers,
+  void add_hessian(const Vector& joints, const Vector& rates, const Vector& multipliers,
                    Eigen::Ref<Eigen::VectorXd> joints_diagonal, Eigen::Ref<Eigen::VectorXd> rates_diagonal) const;
 
  private:
   /// Where row 0 or 1 of a curve reads it.
-  static double argument(const RobotModel::TorqueCurve& limit, int side, const Eigen::VectorXd& joints,
-                         const Eigen::VectorXd& rates) {
+  static double argument(const RobotModel::TorqueCurve& limit, int side, const Vector& joints,
+                         const Vector& rates) {
     return limit.over_velocity ? (side == 0 ? rates(limit.joint) : -rates(limit.joint)) : joints(limit.joint);
   }
 
