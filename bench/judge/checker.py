@@ -71,6 +71,8 @@ def reintegrate(dynamics: ContactDynamics, motion: Motion, k: int) -> tuple[np.n
         spin = (turn * pin.Quaternion(np.append(v[3:6], 0.0))).coeffs() / 2  # d quat / dt = quat (0, ω) / 2
         return np.concatenate([turn.matrix() @ v[:3], spin, v[6:], a])
 
+    if not all(np.isfinite(row).all() for row in (motion.q[k], motion.v[k], motion.tau[k : k + 2])):
+        return np.full((SAMPLES + 1, nq), np.nan), np.full((SAMPLES + 1, dynamics.model.nv), np.nan)
     times = np.linspace(0.0, step, SAMPLES + 1)
     found = solve_ivp(rate, (0.0, step), np.concatenate([motion.q[k], motion.v[k]]), method="DOP853", t_eval=times,
                       rtol=TOLERANCE, atol=TOLERANCE, first_step=step)

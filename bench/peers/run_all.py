@@ -2,6 +2,7 @@
 import datetime
 import importlib.metadata
 import json
+import math
 import os
 import pathlib
 import platform
@@ -20,6 +21,15 @@ YARDSTICK = "boxfddp"  # whose error Prowl's mesh has to match
 QUICK_INTERVALS = 20
 
 
+def finite(value):
+    """The same with null for NaN and infinity, which JSON does not have."""
+    if isinstance(value, dict):
+        return {key: finite(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
 class Benchmark:
     def __init__(self, options):
         self.options, self.records = options, []
@@ -35,7 +45,7 @@ class Benchmark:
 
     def keep(self, record: dict) -> dict:
         self.records.append(record)
-        self.lines.write(json.dumps(record) + "\n")
+        self.lines.write(json.dumps(finite(record)) + "\n")
         self.lines.flush()
         print(describe(record), flush=True)
         return record
