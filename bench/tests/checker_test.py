@@ -200,6 +200,24 @@ def test_goals_are_measured_in_their_own_units():
     assert findings["goal velocity"].value == pytest.approx(0.04)
 
 
+def test_a_foot_has_to_open_without_force_and_to_land_on_its_place():
+    task = standing_task(DURATION)
+    every, three = task.phases[0].contacts, task.phases[0].contacts - {"lf_foot"}
+    foot = task.robot.places(task.start)["lf_foot"]
+    aside = {"lf_foot": np.array([foot[0] + 4e-3, foot[1], -3e-3])}
+    phases = [dataclasses.replace(task.phases[0], contacts=contacts, duration=0.1, places=places)
+              for contacts, places in ((every, {}), (three, {}), (every, aside))]
+    task = dataclasses.replace(task, phases=tuple(phases))
+    still = standing_still(task, 5, "held")
+    motion = dataclasses.replace(still, time=np.array([0, 0.1, 0.1, 0.2, 0.2, 0.3]), phase=np.array([0, 0, 1, 1, 2, 2]))
+    findings = judge(task, motion).findings
+    dynamics = ContactDynamics(task.robot, every)
+    force = dynamics(task.start, np.zeros(18), still.tau[0])[1][[c.name for c in dynamics.contacts].index("lf_foot")]
+    assert findings["force before opening"].value == pytest.approx(np.linalg.norm(force), rel=1e-6)
+    assert findings["force before opening"].value > 100.0
+    assert findings["landing"].value == pytest.approx(5e-3, abs=1e-9)
+
+
 def test_nan_is_the_worst_there_is():
     task = standing_task(DURATION)
     motion = standing_still(task, 2, "held")
