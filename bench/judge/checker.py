@@ -94,7 +94,7 @@ def largest_in_a_second(times: np.ndarray, errors: np.ndarray) -> float:
 def judge(task: MotionTask, motion: Motion) -> Verdict:
     robot, weight = task.robot, task.robot.weight
     findings = {
-        "torque": Finding(1e-3, "of limit"), "joint position": Finding(1e-3, "rad"), "joint velocity": Finding(1e-3, "of limit"),
+        "torque": Finding(1e-3, "of limit too much"), "joint position": Finding(1e-3, "rad"), "joint velocity": Finding(1e-3, "of limit too much"),
         "friction": Finding(0.01 * weight, "N"), "pulling": Finding(0.01 * weight, "N"),
         "slip": Finding(1e-3, "m"), "contact speed": Finding(5e-3, "m/s"), "penetration": Finding(1e-3, "m"),
         "landing": Finding(1e-3, "m"), "force before opening": Finding(0.01 * weight, "N"),

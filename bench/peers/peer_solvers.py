@@ -9,7 +9,7 @@ from judge.motion import Motion
 from judge.motion_task import MotionTask
 from peers.shooting_problem import ShootingProblem
 
-MAX_ITERATIONS = 200
+MAX_ITERATIONS = 300  # as many as Prowl has by default
 
 
 @dataclass(frozen=True)
