@@ -79,7 +79,7 @@ def measure_prowl(kind: str, command: ProwlCommand, task: MotionTask, task_file:
         return failure(kind, task.name, solver, label, str(error), intervals=intervals)
     phases = len(run.durations)
     levels = run.levels[-1:] if one_mesh else run.levels
-    seconds = [run.last_seconds] if one_mesh and len(run.levels) > 1 else run.seconds
+    seconds = run.last_seconds if one_mesh and len(run.levels) > 1 else run.seconds
     node_iterations = sum(level["iterations"] * (level["intervals"] + phases) for level in levels)
     verdict = judge(task.with_durations(run.durations), run.motion)
     return {"kind": kind, "task": task.name, "solver": solver, "label": label, "intervals": run.levels[-1]["intervals"],

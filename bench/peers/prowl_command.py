@@ -17,7 +17,7 @@ class ProwlRun:
     motion: Motion
     durations: list[float]      # of the phases [s]
     seconds: list[float]        # of the solver, on all meshes together, one a repetition
-    last_seconds: float         # of its last mesh, in the last repetition
+    last_seconds: list[float]   # of its last mesh alone
     clock: str                  # what `seconds` are: "cpu", or "wall" where the plan tells no CPU time
     split: dict[str, float]     # shares of `seconds` by what was computed, as far as the plan tells
     levels: list[dict]
@@ -31,7 +31,7 @@ class ProwlRun:
 
 
 class ProwlError(RuntimeError):
-    """The command wrote no plan."""
+    """The command wrote no plan, or knew without solving that there is none."""
 
 
 class ProwlCommand:
@@ -50,6 +50,7 @@ class ProwlCommand:
     def plan(self, task_file: pathlib.Path, solver: str, intervals: int | None = None, one_mesh: bool = False,
              repetitions: int = 1, patience: float = 0.0) -> ProwlRun:
         seconds: list[float] = []
+        last_seconds: list[float] = []
         while not seconds or (len(seconds) < repetitions and sum(seconds) < patience):
             with tempfile.TemporaryDirectory() as folder:
                 out = pathlib.Path(folder) / "plan"
@@ -57,12 +58,15 @@ class ProwlCommand:
                 record = json.loads((out / "plan.json").read_text())
                 motion = read_plan_motion(out)
             found = record["solver"]
+            if not found["levels"]:
+                raise ProwlError(f"{record['status']}: {'; '.join(record['reasons'])}")
             # The wall clock also counts what other programs took of the core, the process also what is not the solver.
             seconds.append(found.get("cpu_seconds", min(found["seconds"], process_seconds)))
-        last = found["levels"][-1]
+            last = found["levels"][-1]
+            last_seconds.append(last.get("cpu_seconds", last["seconds"] * seconds[-1] / found["seconds"]))
         checks = {check["name"]: check["worst"] for check in record["certificate"]["checks"]}
         return ProwlRun(motion, [phase["duration_s"] for phase in record["problem"]["phases"]], seconds,
-                        last.get("cpu_seconds", min(last["seconds"], seconds[-1])), "cpu" if "cpu_seconds" in found else "wall",
+                        last_seconds, "cpu" if "cpu_seconds" in found else "wall",
                         found.get("evaluation", {"evaluation": found["evaluation_seconds"]}), found["levels"],
                         record["status"] == "converged", record["certificate"]["grade"], checks.get("re-integration", float("nan")))
 
