@@ -1,0 +1,211 @@
+"""A task as Crocoddyl's shooting problem, forward or inverse dynamics, with limits as penalties or as constraints.
+
+What a peer cannot have, or has otherwise than Prowl, is listed in bench/README.md.
+"""
+from dataclasses import dataclass
+
+import crocoddyl
+import numpy as np
+import pinocchio as pin
+
+from judge.motion import Motion
+from judge.motion_task import Goal, MotionTask
+
+WORLD = pin.LOCAL_WORLD_ALIGNED
+PLACE, TURN, VELOCITY = 1e5, 1e5, 1e4   # penalties on what has to hold at one node: [1/m²], [1/rad²], [s²/m²]
+CLEARANCE = 1e5                         # ... of a foot in the air below its least height [1/m²]
+CONE = 1e1                              # ... of a force outside its cone, as in crocoddyl.utils.quadruped [1/N²]
+JOINTS = 1e4                            # ... of a joint beyond its limits of position [1/rad²]; of velocity the same number
+NO_FORCE = 1e1                          # ... of a force that has to vanish before its contact opens [1/N²]
+FREE = 1e3                              # stands for infinity in bounds
+DAMPING = 50.0                          # Baumgarte gain of the contacts [1/s], as in crocoddyl.utils.quadruped
+FORCE_WEIGHT = 1e-7                     # keeps inverse dynamics' forces determined [1/N²]
+
+
+@dataclass(frozen=True)
+class Node:
+    """Where node k of the shooting problem is: at a share of a phase, with the step that follows it."""
+    phase: int
+    share: float
+    step: float    # [s]; 0 at the end of the motion
+    first: bool    # of its phase
+    last: bool     # of its phase: one step before the switch
+
+
+def make_nodes(task: MotionTask, step: float) -> list[Node]:
+    """Every phase in steps as near to `step` as its duration lets them be, and so that its goals are at nodes."""
+    nodes = []
+    for index, phase in enumerate(task.phases):
+        count = max(1, round(phase.duration / step))
+        fractions = [goal.fraction for goal in task.goals if goal.phase == index]
+        while any(abs(count * fraction - round(count * fraction)) > 1e-9 for fraction in fractions):
+            count += 1
+        nodes += [Node(index, k / count, phase.duration / count, k == 0, k == count - 1) for k in range(count)]
+    return nodes + [Node(len(task.phases) - 1, 1.0, 0.0, False, False)]
+
+
+class ShootingProblem:
+    """`inverse`: nodes with accelerations and forces as inputs. `hard`: cones, torque limits and clearances as constraints.
+    `joint_bounds`: joints are kept within their limits of position and velocity."""
+
+    def __init__(self, task: MotionTask, step: float, inverse: bool, hard: bool, joint_bounds: bool):
+        self.task, self.inverse, self.hard, self.joint_bounds = task, inverse, hard, joint_bounds
+        self.robot, self.model = task.robot, task.robot.model
+        self.state = crocoddyl.StateMultibody(self.model)
+        self.actuation = crocoddyl.ActuationModelFloatingBase(self.state)
+        self.start = np.concatenate([task.start, np.zeros(self.model.nv)])
+        self.nodes = make_nodes(task, step)
+        self.base = self.model.getFrameId(self.model.frames[2].name)  # the root link, which the free flyer moves
+        models = [self._action(node) for node in self.nodes]
+        self.problem = crocoddyl.ShootingProblem(self.start, models[:-1], models[-1])
+
+    def guess(self) -> tuple[list, list]:
+        """The start at every node, and the torques that hold it there."""
+        running = [self.start] * self.problem.T
+        return running + [self.start], list(self.problem.quasiStatic(running))
+
+    def motion(self, states, inputs) -> Motion:
+        """Solution as nodes with held torques, two at each phase switch."""
+        if self.inverse:
+            self.problem.calc(states, inputs)
+            torques = [np.array(data.differential.multibody.joint.tau) for data in self.problem.runningDatas]
+        else:
+            torques = [np.array(torque) for torque in inputs]
+        torques.append(torques[-1])
+        nq, rows, time = self.model.nq, [], 0.0
+        for k, node in enumerate(self.nodes):
+            x = np.array(states[k])
+            if node.first and k > 0:
+                rows.append((time, node.phase - 1, x[:nq], x[nq:], torques[k - 1]))
+            rows.append((time, node.phase, x[:nq], x[nq:], torques[k]))
+            time += node.step
+        columns = [np.array(column) for column in zip(*rows)]
+        return Motion(*columns, torque="held")
+
+    # One node
+
+    def _action(self, node: Node):
+        phase = self.task.phases[node.phase]
+        held = [contact for contact in self.robot.contacts if contact.name in phase.contacts]
+        nu = self.model.nv + 3 * len(held) if self.inverse else self.actuation.nu
+        costs = crocoddyl.CostModelSum(self.state, nu)
+        constraints = crocoddyl.ConstraintModelManager(self.state, nu)
+        contacts = crocoddyl.ContactModelMultiple(self.state, nu)
+        gains = np.array([0.0, min(DAMPING, 1.0 / node.step) if node.step else DAMPING])  # explicit steps bear 1 / step
+        for contact in held:
+            contacts.addContact(contact.name, crocoddyl.ContactModel3D(
+                self.state, contact.frame, np.zeros(3), WORLD, nu, gains))
+        if node.step:
+            self._add_running_cost(costs, nu, len(held))
+            self._add_limits(node, held, costs, constraints, nu)
+        self._add_events(node, costs, nu)
+
+        if self.inverse:
+            dynamics = crocoddyl.DifferentialActionModelContactInvDynamics(
+                self.state, self.actuation, contacts, costs, constraints)
+        elif self.hard:
+            dynamics = crocoddyl.DifferentialActionModelContactFwdDynamics(
+                self.state, self.actuation, contacts, costs, constraints, 0.0, True)
+        else:
+            dynamics = crocoddyl.DifferentialActionModelContactFwdDynamics(
+                self.state, self.actuation, contacts, costs, 0.0, True)
+        action = crocoddyl.IntegratedActionModelEuler(dynamics, node.step)
+        if node.step and not self.inverse:
+            action.u_lb, action.u_ub = -self.robot.torque_limit, self.robot.torque_limit  # BoxFDDP keeps them, FDDP does not
+        return action
+
+    def _add(self, costs, name: str, residual, weights: np.ndarray, scale: float = 1.0) -> None:
+        activation = crocoddyl.ActivationModelWeightedQuad(np.array(weights, dtype=float))
+        costs.addCost(name, crocoddyl.CostModelResidual(self.state, activation, residual), scale)
+
+    def _add_running_cost(self, costs, nu: int, contacts: int) -> None:
+        cost = self.task.cost
+        self._add(costs, "state", crocoddyl.ResidualModelState(self.state, self.start, nu),
+                  np.concatenate([cost.configuration, cost.velocity]))
+        if self.inverse:
+            self._add(costs, "acceleration", crocoddyl.ResidualModelControl(self.state, nu),
+                      np.concatenate([cost.acceleration, np.full(3 * contacts, FORCE_WEIGHT)]))
+            self._add(costs, "torque", crocoddyl.ResidualModelJointEffort(
+                self.state, self.actuation, cost.torque_reference, nu), cost.torque)
+        else:
+            self._add(costs, "acceleration", crocoddyl.ResidualModelJointAcceleration(self.state, nu), cost.acceleration)
+            self._add(costs, "torque", crocoddyl.ResidualModelControl(self.state, cost.torque_reference), cost.torque)
+
+    def _bound(self, costs, constraints, name: str, residual, low, high, weight: float, at_states: bool) -> None:
+        """low <= residual <= high, as a constraint or as a penalty."""
+        if self.hard:
+            constraints.addConstraint(name, crocoddyl.ConstraintModelResidual(self.state, residual, low, high, at_states))
+        else:
+            activation = crocoddyl.ActivationModelQuadraticBarrier(crocoddyl.ActivationBounds(low, high))
+            costs.addCost(name, crocoddyl.CostModelResidual(self.state, activation, residual), weight)
+
+    def _joint_bounds(self) -> tuple[np.ndarray, np.ndarray]:
+        """Bounds on state - neutral state: joints and their velocities, the base free."""
+        free = np.full(6, FREE)
+        high = np.concatenate([free, self.model.upperPositionLimit[7:], free, self.model.velocityLimit[6:]])
+        low = np.concatenate([-free, self.model.lowerPositionLimit[7:], -free, -self.model.velocityLimit[6:]])
+        return low, high
+
+    def _add_limits(self, node: Node, held, costs, constraints, nu: int) -> None:
+        for contact in held:
+            cone = crocoddyl.FrictionCone(np.eye(3), self.task.friction, 4, True)  # four planes inside the cone
+            self._bound(costs, constraints, f"cone {contact.name}", crocoddyl.ResidualModelContactFrictionCone(
+                self.state, contact.frame, cone, nu, not self.inverse), cone.lb, cone.ub, CONE, False)
+        for contact in self.robot.contacts:
+            if contact in held:
+                continue
+            height = self.task.floor + contact.radius + self.task.swing_height(contact.name, node.phase, node.share)
+            self._bound(costs, constraints, f"clearance {contact.name}", crocoddyl.ResidualModelFrameTranslation(
+                self.state, contact.frame, np.zeros(3), nu), np.array([-FREE, -FREE, height]), np.full(3, FREE), CLEARANCE, True)
+        if self.joint_bounds and node.phase + node.share > 0:  # the start is given
+            low, high = self._joint_bounds()
+            zero = np.concatenate([pin.neutral(self.model), np.zeros(self.model.nv)])
+            self._bound(costs, constraints, "joints", crocoddyl.ResidualModelState(self.state, zero, nu), low, high, JOINTS, True)
+        if self.hard:
+            limit = self.robot.torque_limit
+            constraints.addConstraint("torque", crocoddyl.ConstraintModelResidual(
+                self.state, crocoddyl.ResidualModelControl(self.state, nu), -limit, limit, False))
+
+    def _add_events(self, node: Node, costs, nu: int) -> None:
+        """What has to hold at this node alone: landings, goals, no force before a contact opens."""
+        scale = 1.0 / node.step if node.step else 1.0  # Crocoddyl multiplies the costs of a node by its step
+        if node.first:
+            for name in self.task.lands(node.phase):
+                self._add_landing(node, name, costs, nu, scale)
+        if node.last:
+            for name in self.task.opens(node.phase):
+                self._add(costs, f"no force {name}", crocoddyl.ResidualModelContactForce(
+                    self.state, self.robot.contact(name).frame, pin.Force.Zero(), 3, nu, not self.inverse), [NO_FORCE] * 3)
+        for number, goal in enumerate(self.task.goals):
+            if self._is_at(goal, node):
+                self._add_goal(f"goal {number}", goal, costs, nu, scale)
+
+    def _is_at(self, goal: Goal, node: Node) -> bool:
+        if goal.fraction == 1.0 and goal.phase + 1 < len(self.task.phases):
+            return node.first and node.phase == goal.phase + 1
+        return node.phase == goal.phase and abs(node.share - goal.fraction) < 1e-9
+
+    def _add_landing(self, node: Node, name: str, costs, nu: int, scale: float) -> None:
+        contact = self.robot.contact(name)
+        place = self.task.phases[node.phase].places.get(name)
+        touch = np.array([0, 0, self.task.floor]) if place is None else place
+        self._add(costs, f"landing {name}", crocoddyl.ResidualModelFrameTranslation(
+            self.state, contact.frame, touch + [0, 0, contact.radius], nu),
+            PLACE * np.array([place is not None, place is not None, True]), scale)
+        self._add(costs, f"landing speed {name}", crocoddyl.ResidualModelFrameVelocity(
+            self.state, contact.frame, pin.Motion.Zero(), WORLD, nu), VELOCITY * np.array([1, 1, 1, 0, 0, 0]), scale)
+
+    def _add_goal(self, name: str, goal: Goal, costs, nu: int, scale: float) -> None:
+        place, speed = ~np.isnan(goal.position), ~np.isnan(goal.velocity)
+        if place.any():
+            self._add(costs, f"{name} position", crocoddyl.ResidualModelFrameTranslation(
+                self.state, self.base, np.nan_to_num(goal.position), nu), PLACE * place, scale)
+        if goal.rotation is not None:
+            self._add(costs, f"{name} rotation", crocoddyl.ResidualModelFrameRotation(
+                self.state, self.base, goal.rotation, nu), TURN * goal.turn, scale)
+        if speed.any():
+            target = self.start.copy()
+            target[self.model.nq : self.model.nq + 6] = np.nan_to_num(goal.velocity)
+            weights = np.zeros(2 * self.model.nv)
+            weights[self.model.nv : self.model.nv + 6] = VELOCITY * speed
+            self._add(costs, f"{name} velocity", crocoddyl.ResidualModelState(self.state, target, nu), weights, scale)

@@ -1,0 +1,82 @@
+"""Task files become what they say, and what is not understood is an error."""
+import pathlib
+
+import numpy as np
+import pytest
+from hyq import PACKAGES, ROOT, shipped
+
+from judge.motion import Motion
+from judge.motion_task import read_task
+from peers.mesh_search import coarsest_mesh
+from peers.shooting_problem import make_nodes
+
+
+def test_start_stands_on_the_floor():
+    task = shipped("stand")
+    lowest = min(task.robot.places(task.start)[c.name][2] - c.radius for c in task.robot.contacts)
+    assert abs(lowest) < 1e-12 and abs(task.start[2] - 0.59926) < 1e-5
+
+
+def test_step_has_its_landing_place_and_its_swing():
+    task = shipped("step")
+    assert task.free_durations() and not shipped("crouch").free_durations()
+    assert task.opens(0) == task.lands(2) == {"lf_foot"}
+    assert np.allclose(task.phases[2].places["lf_foot"], [0.5708, 0.3241, 0.0])
+    assert task.swing_height("lf_foot", 1, 0.5) == pytest.approx(0.05 * task.start[2])
+    assert task.swing_height("lf_foot", 1, 0.0) == task.swing_height("lf_foot", 1, 1.0) == 0.0
+    assert task.cost.time == 0.2
+
+
+def test_goal_times_become_fractions_of_phases():
+    goals = shipped("crouch").goals
+    assert [(goal.phase, goal.fraction) for goal in goals] == [(0, 0.5), (0, 1.0)]
+    assert np.isnan(goals[0].velocity).all() and (goals[1].velocity == 0).all()
+
+
+@pytest.mark.parametrize("name", ["stand", "crouch", "balance", "rear", "step"])
+def test_nodes_of_the_peers_meet_goals_and_the_duration(name):
+    task = shipped(name)
+    for step in (0.04, 0.02, 0.007):
+        nodes = make_nodes(task, step)
+        assert sum(node.step for node in nodes) == pytest.approx(task.duration)
+        assert sum(node.first for node in nodes) == sum(node.last for node in nodes) == len(task.phases)
+        for goal in task.goals:
+            if goal.fraction < 1:
+                assert any(node.phase == goal.phase and abs(node.share - goal.fraction) < 1e-9 for node in nodes)
+
+
+@pytest.mark.parametrize(("old", "new", "word"), [
+    ("duration_s = 2.0", 'duration_s = 2.0\nsteps = "free"', "steps"),
+    ("friction = 0.5", "friction = 0.5\nnormal = [0, 1, 1]", "level floor"),
+    ("torque = 1e-5", "force = 1e-5", "force"),
+    ("base_rpy_rad = [0, 0, 0]", "joints = { lf_haa_joint = 0 }", "joints"),
+])
+def test_what_is_not_translated_is_an_error(tmp_path: pathlib.Path, old: str, new: str, word: str):
+    text = (ROOT / "tasks/hyq/crouch.toml").read_text()
+    assert old in text
+    task_file = tmp_path / "task.toml"
+    task_file.write_text(text.replace(old, new, 1).replace("../../robots", str(ROOT / "robots")))
+    with pytest.raises(SystemExit, match=word):
+        read_task(task_file, PACKAGES)
+
+
+def test_motion_refuses_times_that_go_back():
+    with pytest.raises(ValueError, match="time"):
+        Motion(np.array([0.0, 0.2, 0.1]), np.zeros(3, dtype=int), np.zeros((3, 19)), np.zeros((3, 18)), np.zeros((3, 12)), "held")
+
+
+@pytest.mark.parametrize("needed", [1, 4, 7, 19, 100])
+def test_coarsest_mesh_is_good_and_one_five_percent_coarser_is_not(needed: int):
+    tried = []
+
+    def good(intervals: int) -> bool:
+        tried.append(intervals)
+        return intervals >= needed
+
+    found = coarsest_mesh(good, 4)
+    assert needed <= found <= max(needed + 1, 1.06 * needed)
+    assert len(tried) < 12
+
+
+def test_no_mesh_at_all():
+    assert coarsest_mesh(lambda intervals: False, 4) is None
