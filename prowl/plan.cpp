@@ -51,10 +51,11 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   const SolveResult before = std::move(plan.result);
   const Eigen::VectorXd start = nlp.pack(guess);
   plan.result = plan.reasons.empty() ? solver.solve(nlp, start, level_options) : not_solved(nlp, start);
-  plan.levels.push_back({count_intervals(problem), plan.result.status, plan.result.iterations, plan.result.seconds});
+  plan.levels.push_back({count_intervals(problem), plan.result.status, plan.result.iterations, plan.result.seconds,
+                         plan.result.times.cpu});
   plan.result.iterations += before.iterations;
   plan.result.seconds += before.seconds;
-  plan.result.evaluation_seconds += before.evaluation_seconds;
+  plan.result.times += before.times;
   plan.trajectory = nlp.unpack(plan.result.z);
   plan.num_variables = nlp.num_variables();
   plan.num_constraints = nlp.num_constraints();

@@ -16,7 +16,7 @@ struct LevelResult {
   int intervals = 0;
   SolveStatus status = SolveStatus::solver_failed;
   int iterations = 0;
-  double seconds = 0.0;
+  double seconds = 0.0, cpu_seconds = 0.0;
 };
 
 /// What comes out: a motion, how it was found, and whether it is any good.

@@ -59,7 +59,8 @@ Json solver_to_json(const PlanRecord& record) {
     levels.push_back({{"intervals", level.intervals},
                       {"status", to_string(level.status)},
                       {"iterations", level.iterations},
-                      {"seconds", level.seconds}});
+                      {"seconds", level.seconds},
+                      {"cpu_seconds", level.cpu_seconds}});
   }
   return {{"name", record.plan.solver},
           {"message", result.message},
@@ -68,7 +69,11 @@ Json solver_to_json(const PlanRecord& record) {
           {"dual_violation", result.dual_violation},
           {"iterations", result.iterations},
           {"seconds", result.seconds},
-          {"evaluation_seconds", result.evaluation_seconds},
+          {"cpu_seconds", result.times.cpu},
+          {"evaluation",
+           {{"values", result.times.values},
+            {"derivatives", result.times.derivatives},
+            {"linear_algebra", result.times.linear_algebra}}},
           {"levels", levels},
           {"warm_start", record.warm_start},
           {"tolerance", options.tolerance},
@@ -216,14 +221,19 @@ SolveResult read_result(const Reader& plan) {
   result.dual_violation = solver.number("dual_violation");
   result.iterations = solver.integer("iterations");
   result.seconds = solver.number("seconds");
-  result.evaluation_seconds = solver.number("evaluation_seconds");
+  result.times.cpu = solver.number("cpu_seconds");
+  const Reader evaluation = solver.object("evaluation");
+  result.times.values = evaluation.number("values");
+  result.times.derivatives = evaluation.number("derivatives");
+  result.times.linear_algebra = evaluation.number("linear_algebra");
   return result;
 }
 
 std::vector<LevelResult> read_levels(const Reader& solver) {
   std::vector<LevelResult> levels;
   for (const Reader& level : solver.list("levels")) {
-    levels.push_back({level.integer("intervals"), read_status(level), level.integer("iterations"), level.number("seconds")});
+    levels.push_back({level.integer("intervals"), read_status(level), level.integer("iterations"), level.number("seconds"),
+                      level.number("cpu_seconds")});
   }
   return levels;
 }

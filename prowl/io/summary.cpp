@@ -75,7 +75,7 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
                       problem.phases.size(), problem.phases.size() == 1 ? "" : "s", count_intervals(problem), duration,
                       record.plan.num_variables, record.plan.num_constraints);
   text += fmt::format("  solver       {}: {}, {:.2f} s ({:.2f} s evaluating the problem)\n", record.plan.solver,
-                      iterations_in_words(record.plan), result.seconds, result.evaluation_seconds);
+                      iterations_in_words(record.plan), result.seconds, result.times.evaluation());
   if (!record.warm_start.empty()) text += fmt::format("  started from {}\n", record.warm_start);
   text += fmt::format("  solution     cost {:.6g}, constraint violation {:.1e}, dual violation {:.1e}\n", result.cost,
                       result.constraint_violation, result.dual_violation);

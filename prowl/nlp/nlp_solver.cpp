@@ -31,4 +31,12 @@ void validate(const SolverOptions& options) {
   }
 }
 
+SolveTimes& SolveTimes::operator+=(const SolveTimes& other) {
+  cpu += other.cpu;
+  values += other.values;
+  derivatives += other.derivatives;
+  linear_algebra += other.linear_algebra;
+  return *this;
+}
+
 }  // namespace prowl

@@ -42,6 +42,17 @@ struct SolverOptions {
 /// Throws InputError that names the option which makes no sense.
 void validate(const SolverOptions& options);
 
+/// Where the time of a solve went [s]. What is left of `cpu` is the solver's own: line search, output, memory.
+struct SolveTimes {
+  double cpu = 0.0;             ///< of all threads
+  double values = 0.0;          ///< wall time in the problem's cost and constraints
+  double derivatives = 0.0;     ///< wall time in their derivatives, first and second
+  double linear_algebra = 0.0;  ///< wall time in Newton's equations; 0 if the solver does not tell
+
+  double evaluation() const { return values + derivatives; }
+  SolveTimes& operator+=(const SolveTimes& other);
+};
+
 struct SolveResult {
   SolveStatus status = SolveStatus::solver_failed;
   std::string message;          ///< the solver's own words, and what failed where
@@ -52,7 +63,7 @@ struct SolveResult {
   double dual_violation = 0.0;
   int iterations = 0;
   double seconds = 0.0;
-  double evaluation_seconds = 0.0;  ///< of these, in the problem's own functions
+  SolveTimes times;
 };
 
 class NlpSolver {

@@ -14,6 +14,7 @@
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/solvers/iterate.hpp"
+#include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
 namespace {
@@ -93,7 +94,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   const Iterate& best() const { return best_; }
   const std::string& failure() const { return failure_; }
   int iterations() const { return iterations_; }
-  double evaluation_seconds() const { return evaluation_seconds_; }
+  const SolveTimes& times() const { return times_; }
 
   const fatrop::NlpDims& nlp_dims() const override { return totals_; }
   const Dims& problem_dims() const override { return dims_; }
@@ -101,7 +102,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   Index eval_objective(const Info& info, const Scalar scale, const VecRealView& x, const VecRealView&,
                        Scalar& result) override {
     result = 0.0;
-    const bool good = try_stages("cost", [&](int k) {
+    const bool good = try_stages("cost", times_.values, [&](int k) {
       result += scale * nlp_.values(k, stage(info, x, k)).cost;
       return std::isfinite(result);
     });
@@ -113,7 +114,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   Index eval_constraint_violation(const Info& info, const VecRealView& x, const VecRealView& slacks,
                                   VecRealView& result) override {
     check_limits();
-    const bool good = try_stages("constraint", [&](int k) {
+    const bool good = try_stages("constraint", times_.values, [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       const StageValues& values = nlp_.values(k, stage(info, x, k));
       const StageSize& size = nlp_.size(k);
@@ -134,7 +135,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   Index eval_objective_gradient(const Info& info, const Scalar scale, const VecRealView& x, const VecRealView&,
                                 VecRealView& gradient_x, VecRealView& gradient_s) override {
     gradient_s = 0.0;
-    need(try_stages("cost gradient", [&](int k) {
+    need(try_stages("cost gradient", times_.derivatives, [&](int k) {
       const VectorXd& gradient = nlp_.derivatives(k, stage(info, x, k)).cost_gradient;
       segment(gradient_x, info.offsets_primal_u[static_cast<std::size_t>(k)], gradient.size()) = scale * gradient;
       return gradient.allFinite();
@@ -144,7 +145,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
   Index eval_constr_jac(const Info& info, const VecRealView& x, const VecRealView&,
                         fatrop::Jacobian<Type>& jacobian) override {
-    need(try_stages("constraint Jacobian", [&](int k) {
+    need(try_stages("constraint Jacobian", times_.derivatives, [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       const StageDerivatives& slopes = nlp_.derivatives(k, stage(info, x, k));
       copy_transposed(slopes.equalities, jacobian.Gg_eqt[i].mat());
@@ -157,7 +158,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
   Index eval_lag_hess(const Info& info, const Scalar scale, const VecRealView& x, const VecRealView&,
                       const VecRealView& multipliers, fatrop::Hessian<Type>& hessian) override {
-    need(try_stages("Hessian", [&](int k) {
+    need(try_stages("Hessian", times_.derivatives, [&](int k) {
       const auto i = static_cast<std::size_t>(k);
       const StageSize& size = nlp_.size(k);
       const int next = k + 1 < dims_.K ? nlp_.size(k + 1).states : 0;
@@ -264,11 +265,10 @@ class FatropProblem : public fatrop::Nlp<Type> {
   }
 
   template <typename Evaluate>
-  bool try_stages(const char* what, Evaluate evaluate) {
-    const Clock::time_point start = Clock::now();
+  bool try_stages(const char* what, double& seconds, Evaluate evaluate) {
+    const Stopwatch stopwatch(seconds);
     bool good = true;
     for (int k = 0; good && k < dims_.K; ++k) good = try_stage(what, k, evaluate);
-    evaluation_seconds_ += seconds_since(start);
     return good;
   }
 
@@ -289,7 +289,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   std::function<void()> estimate_multipliers_;
   std::string failure_;
   int iterations_ = 0;
-  double evaluation_seconds_ = 0.0;
+  SolveTimes times_;
 };
 
 Stopped outcome(fatrop::IpSolverReturnFlag flag) {
@@ -354,6 +354,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
   }
   const Clock::time_point began = Clock::now();
+  const double cpu_start = cpu_seconds();
   if (const auto reason = why_unsupported(nlp)) {
     SolveResult result;
     result.message = *reason;
@@ -410,7 +411,8 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     result.status = SolveStatus::solver_failed;
     result.message = "Fatrop says it is done, but a constraint is not within tolerance";
   }
-  result.evaluation_seconds = problem->evaluation_seconds();
+  result.times = problem->times();
+  result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = seconds_since(began);
   return result;
 }

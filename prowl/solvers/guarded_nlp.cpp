@@ -2,19 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <exception>
 
 #include "prowl/error.hpp"
+#include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
 
 template <typename Evaluate>
-bool GuardedNlp::evaluate(const char* what, Evaluate&& evaluate) {
-  using Clock = std::chrono::steady_clock;
+bool GuardedNlp::evaluate(const char* what, double& seconds, Evaluate&& evaluate) {
   if (broken_) return false;
-  const Clock::time_point start = Clock::now();
+  const Stopwatch stopwatch(seconds);
   bool good = true;
   try {
     evaluate();
@@ -30,7 +29,6 @@ bool GuardedNlp::evaluate(const char* what, Evaluate&& evaluate) {
     good = false;
     broken_ = true;
   }
-  seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
   return good;
 }
 
@@ -54,30 +52,30 @@ bool GuardedNlp::finite_point(const Eigen::VectorXd& z) {
 }
 
 bool GuardedNlp::cost(const Eigen::VectorXd& z, double& value) {
-  if (!evaluate("cost", [&] { value = nlp_.cost(z); })) return false;
+  if (!evaluate("cost", times_.values, [&] { value = nlp_.cost(z); })) return false;
   if (std::isfinite(value)) return true;
   failure_ = fmt::format("cost is {}", value);
   return false;
 }
 
 bool GuardedNlp::cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient) {
-  return evaluate("cost gradient", [&] { nlp_.cost_gradient(z, gradient); }) &&
+  return evaluate("cost gradient", times_.derivatives, [&] { nlp_.cost_gradient(z, gradient); }) &&
          finite("cost gradient", gradient, [this](int i) { return nlp_.describe_variable(i); });
 }
 
 bool GuardedNlp::constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) {
-  return evaluate("constraint", [&] { nlp_.constraints(z, g); }) &&
+  return evaluate("constraint", times_.values, [&] { nlp_.constraints(z, g); }) &&
          finite("constraint", g, [this](int i) { return nlp_.describe_constraint(i); });
 }
 
 bool GuardedNlp::jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> values) {
-  return evaluate("constraint Jacobian", [&] { nlp_.jacobian(z, values); }) &&
+  return evaluate("constraint Jacobian", times_.derivatives, [&] { nlp_.jacobian(z, values); }) &&
          finite("constraint Jacobian", values, [this](int i) { return place(nlp_.jacobian_pattern(), i, true); });
 }
 
 bool GuardedNlp::hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
                          Eigen::Ref<Eigen::VectorXd> values) {
-  return evaluate("Hessian", [&] { nlp_.hessian(z, cost_factor, multipliers, values); }) &&
+  return evaluate("Hessian", times_.derivatives, [&] { nlp_.hessian(z, cost_factor, multipliers, values); }) &&
          finite("Hessian", values, [this](int i) { return place(nlp_.hessian_pattern(), i, false); });
 }
 

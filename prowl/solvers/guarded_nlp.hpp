@@ -4,6 +4,7 @@
 #include <string>
 
 #include "prowl/nlp/nlp.hpp"
+#include "prowl/nlp/nlp_solver.hpp"
 
 namespace prowl {
 
@@ -31,11 +32,11 @@ class GuardedNlp {
   }
   /// Something else than NumericalError was thrown: a mistake in the program, no shorter step will help.
   bool broken() const { return broken_; }
-  double seconds() const { return seconds_; }  ///< spent in the problem's functions
+  const SolveTimes& times() const { return times_; }  ///< spent in the problem's functions
 
  private:
   template <typename Evaluate>
-  bool evaluate(const char* what, Evaluate&& evaluate);
+  bool evaluate(const char* what, double& seconds, Evaluate&& evaluate);
   template <typename Describe>
   bool finite(const char* what, const Eigen::Ref<const Eigen::VectorXd>& values, Describe&& place);
   std::string place(const SparsityPattern& pattern, int entry, bool rows_are_constraints) const;
@@ -43,7 +44,7 @@ class GuardedNlp {
   Nlp& nlp_;
   std::string failure_;
   bool broken_ = false;
-  double seconds_ = 0.0;
+  SolveTimes times_;
 };
 
 }  // namespace prowl

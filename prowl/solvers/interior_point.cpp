@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
 
@@ -87,6 +88,7 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options)
 }
 
 bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
+  const Stopwatch stopwatch(times_.values);
   values.cost = 0.0;
   for (int k = 0; k < num_stages_; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -110,11 +112,17 @@ bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
 }
 
 void InteriorPoint::linearise() {
+  const Stopwatch stopwatch(times_.derivatives);
   for (int k = 0; k < num_stages_; ++k) {
     const auto i = static_cast<std::size_t>(k);
     on_[i].inequalities = segment(lambda_, k);
     nlp_.linearise(k, ux_[i], cost_scale_, on_[i]);
   }
+}
+
+StageKkt::Outcome InteriorPoint::factorise(StageKkt::Hessian hessian, double delta) {
+  const Stopwatch stopwatch(times_.linear_algebra);
+  return kkt_.factorise(hessian, delta, weights_);
 }
 
 double InteriorPoint::violation(const Values& values, const VectorXd& s) const {
@@ -184,7 +192,7 @@ void InteriorPoint::scale_cost() {
 /// Least squares: those that leave the least violation of the dual equations.
 void InteriorPoint::estimate_multipliers() {
   for (VectorXd& weights : weights_) weights.setZero();
-  if (kkt_.factorise(StageKkt::Hessian::identity, 1.0, weights_) != StageKkt::Outcome::solvable) return;
+  if (factorise(StageKkt::Hessian::identity, 1.0) != StageKkt::Outcome::solvable) return;
   for (int k = 0; k < num_stages_; ++k) {
     const auto i = static_cast<std::size_t>(k);
     gradient_[i] = cost_scale_ * nlp_.cost_gradient(k);
@@ -210,6 +218,7 @@ void InteriorPoint::set_right_sides(const Values& values, const VectorXd& s) {
 
 /// Steps of all variables and new multipliers, for violations (right_links_, right_equalities_, residual).
 void InteriorPoint::solve_direction(const VectorXd& residual) {
+  const Stopwatch stopwatch(times_.linear_algebra);
   slacks_.pull(mu_, beta_);
   slacks_.weights(sigma_);
   step_lambda_ = beta_ + sigma_.cwiseProduct(residual);
@@ -231,7 +240,7 @@ bool InteriorPoint::compute_direction(std::string& failure) {
   for (int k = 0; k < num_stages_; ++k) weights_[static_cast<std::size_t>(k)] = segment(sigma_, k);
   regularisation_ = 0.0;
   while (true) {
-    const StageKkt::Outcome outcome = kkt_.factorise(StageKkt::Hessian::lagrangian, regularisation_, weights_);
+    const StageKkt::Outcome outcome = factorise(StageKkt::Hessian::lagrangian, regularisation_);
     if (outcome == StageKkt::Outcome::solvable) break;
     if (outcome == StageKkt::Outcome::not_finite) {
       failure = "derivatives are not finite";
@@ -365,7 +374,7 @@ bool InteriorPoint::restore_feasibility(const Watch& watch, std::optional<Ending
     slacks_.center(mu_);
     slacks_.weights(sigma_);
     for (int k = 0; k < num_stages_; ++k) weights_[static_cast<std::size_t>(k)] = segment(sigma_, k);
-    if (kkt_.factorise(StageKkt::Hessian::identity, std::sqrt(mu_), weights_) != StageKkt::Outcome::solvable) return false;
+    if (factorise(StageKkt::Hessian::identity, std::sqrt(mu_)) != StageKkt::Outcome::solvable) return false;
     set_right_sides(values_, slacks_.s);
     const double cost_scale = cost_scale_;
     cost_scale_ = 0.0;

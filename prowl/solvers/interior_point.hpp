@@ -33,6 +33,7 @@ class InteriorPoint {
   int iterations() const { return iterations_; }
   const IterateFigures& figures() const { return figures_; }
   const StageVectors& stages() const { return ux_; }
+  const SolveTimes& times() const { return times_; }
 
  private:
   /// Values of all functions at a point.
@@ -52,6 +53,7 @@ class InteriorPoint {
   void update_figures();
   bool update_barrier();
 
+  StageKkt::Outcome factorise(StageKkt::Hessian hessian, double delta);
   void estimate_multipliers();
   void scale_cost();
   bool compute_direction(std::string& failure);
@@ -91,6 +93,7 @@ class InteriorPoint {
   IterateFigures figures_;
   int iterations_ = 0;
   std::string failure_;
+  SolveTimes times_;
 };
 
 }  // namespace prowl

@@ -14,6 +14,7 @@
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
+#include "prowl/solvers/stopwatch.hpp"
 
 // MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: another BLAS may not have it.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
@@ -297,6 +298,7 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
     throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
   }
   const Clock::time_point start = Clock::now();
+  const double cpu_start = cpu_seconds();
   GuardedNlp guarded(nlp);
   SolveResult result;
   if (guarded.finite_point(z_start)) {
@@ -307,7 +309,8 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
     result.z = z_start;
     result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
   }
-  result.evaluation_seconds = guarded.seconds();
+  result.times = guarded.times();
+  result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = seconds_since(start);
   return result;
 }

@@ -8,6 +8,7 @@
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/solvers/interior_point.hpp"
+#include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
 
@@ -43,6 +44,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
   }
   const Clock::time_point began = Clock::now();
+  const double cpu_start = cpu_seconds();
   SolveResult result;
   result.z = z_start;
   if (const auto reason = why_unsupported(nlp)) {
@@ -92,6 +94,8 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     result.status = SolveStatus::solver_failed;
     result.message = "the method is done, but a constraint is not within tolerance";
   }
+  result.times = method.times();
+  result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = seconds_since(began);
   return result;
 }

@@ -43,8 +43,8 @@ TEST(IpoptSolver, FindsTheOptimumOfHs071AndItsMultipliers) {
   EXPECT_LT(result.constraint_violation, 1e-8);
   EXPECT_LT(result.dual_violation, 1e-7);
   EXPECT_GT(result.iterations, 0);
-  EXPECT_GT(result.evaluation_seconds, 0.0);
-  EXPECT_LT(result.evaluation_seconds, result.seconds);
+  EXPECT_GT(result.times.evaluation(), 0.0);
+  EXPECT_LT(result.times.evaluation(), result.seconds);
 
   // Where the bounds are not active, gradient f + multipliers . gradient g = 0.
   VectorXd gradient(4), jacobian(8);
