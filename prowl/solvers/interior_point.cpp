@@ -78,7 +78,7 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options)
   }
   dual_violation_ = step_ = trial_ux_ = gradient_;
   step_on_equalities_ = right_equalities_;
-  step_on_next_ = right_links_;
+  step_on_next_ = no_next_ = right_links_;
   for (Values* values : {&values_, &trial_}) {
     values->links = right_links_;
     values->equalities = right_equalities_;
@@ -199,7 +199,7 @@ void InteriorPoint::estimate_multipliers() {
     on_[i].inequalities = segment(lambda_, k);
     right_links_[i].setZero();
     right_equalities_[i].setZero();
-    nlp_.add_pull_back(k, right_links_[i], on_[i].inequalities, gradient_[i]);
+    nlp_.add_pull_back(k, no_next_[i], on_[i].inequalities, gradient_[i]);
   }
   kkt_.solve(gradient_, right_equalities_, right_links_);
   const bool is_of_use = std::max(largest(kkt_.on_next()), largest(kkt_.on_equalities())) <= kLargestMultiplier;
@@ -226,8 +226,7 @@ void InteriorPoint::solve_direction(const VectorXd& residual) {
     const auto i = static_cast<std::size_t>(k);
     gradient_[i] = cost_scale_ * nlp_.cost_gradient(k);
     on_[i].inequalities = segment(step_lambda_, k);
-    step_on_next_[i].setZero();
-    nlp_.add_pull_back(k, step_on_next_[i], on_[i].inequalities, gradient_[i]);
+    nlp_.add_pull_back(k, no_next_[i], on_[i].inequalities, gradient_[i]);
   }
   kkt_.solve(gradient_, right_equalities_, right_links_);
   for (int k = 0; k < num_stages_; ++k) segment(ds_, k) = kkt_.along_inequalities()[static_cast<std::size_t>(k)];
