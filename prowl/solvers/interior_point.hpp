@@ -56,7 +56,7 @@ class InteriorPoint {
   StageKkt::Outcome factorise(StageKkt::Hessian hessian, double delta);
   void estimate_multipliers();
   void scale_cost();
-  bool compute_direction(std::string& failure);
+  bool compute_direction(double least_regularisation, std::string& failure);
   void set_right_sides(const Values& values, const Eigen::VectorXd& s);
   void solve_direction(const Eigen::VectorXd& residual);
   bool search_line();

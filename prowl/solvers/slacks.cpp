@@ -81,6 +81,19 @@ bool Slacks::move(const VectorXd& from, double alpha, const VectorXd& ds) {
   return inside;
 }
 
+void Slacks::reset(const VectorXd& from, const VectorXd& values, double tau) {
+  outside_.assign(static_cast<std::size_t>(size()), false);
+  const auto check = [&](const Bound& b, double sign) {
+    const double least = (1.0 - tau) * sign * (from(b.row) - b.at);
+    if (!(sign * (values(b.row) - b.at) > least)) outside_[static_cast<std::size_t>(b.row)] = true;
+  };
+  for (const Bound& b : below_) check(b, 1.0);
+  for (const Bound& b : above_) check(b, -1.0);
+  for (Index i = 0; i < size(); ++i) {
+    if (!outside_[static_cast<std::size_t>(i)]) s(i) = values(i);
+  }
+}
+
 void Slacks::move_dual(double alpha, double mu, double spread) {
   for_each(*this, [&](Bound& b, double distance, double) {
     const double center = mu / distance;
