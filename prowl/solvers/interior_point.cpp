@@ -25,6 +25,7 @@ constexpr double kLargestRegularisation = 1e20, kLeastRegularisation = 1e-20;
 
 constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3.0;
 constexpr double kLargestMultiplier = 1e3;  ///< of an estimate that is of use
+constexpr double kNearlyFeasible = 1e-2;
 constexpr double kLargestCostSlope = 100.0;
 constexpr int kMostRestorations = 100;
 
@@ -216,6 +217,14 @@ void InteriorPoint::estimate_multipliers() {
     on_[i].next = is_of_use ? kkt_.on_next()[i] : VectorXd::Zero(on_[i].next.size());
     on_[i].equalities = is_of_use ? kkt_.on_equalities()[i] : VectorXd::Zero(on_[i].equalities.size());
   }
+}
+
+double InteriorPoint::largest_multiplier() const {
+  double result = 0.0;
+  for (const StageMultipliers& on : on_) {
+    result = std::max({result, on.next.lpNorm<Eigen::Infinity>(), on.equalities.lpNorm<Eigen::Infinity>()});
+  }
+  return result;
 }
 
 void InteriorPoint::set_right_sides(const Values& values, const VectorXd& s) {
@@ -462,6 +471,13 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
                    : Ending{solver_failed, "no step along the search direction is an improvement"};
       }
       linearise();
+      const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasible;
+      // A regularised step that removes a violation leaves multipliers in proportion to the regularisation, and these bend
+      // the Lagrangian, which asks for more of it.
+      if (regularisation_ > 0.0 && violation_is_small && largest_multiplier() > kLargestMultiplier) {
+        estimate_multipliers();
+        linearise();
+      }
     }
   } catch (const NumericalError& error) {
     return {evaluation_failed, error.what()};

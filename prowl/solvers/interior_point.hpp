@@ -55,6 +55,7 @@ class InteriorPoint {
 
   StageKkt::Outcome factorise(StageKkt::Hessian hessian, double delta);
   void estimate_multipliers();
+  double largest_multiplier() const;
   void scale_cost();
   bool compute_direction(double least_regularisation, std::string& failure);
   void set_right_sides(const Values& values, const Eigen::VectorXd& s);
