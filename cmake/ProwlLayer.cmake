@@ -1,7 +1,25 @@
+# Vector instructions: baseline x86-64 has SSE2. "auto" is avx2 if the machine that builds has it.
+set(PROWL_SIMD "auto" CACHE STRING "auto, avx2 or baseline")
+set_property(CACHE PROWL_SIMD PROPERTY STRINGS auto avx2 baseline)
+if(PROWL_SIMD STREQUAL "auto")
+  include(CheckCXXSourceRuns)
+  check_cxx_source_runs("int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\") ? 0 : 1; }"
+    PROWL_MACHINE_HAS_AVX2)
+  if(PROWL_MACHINE_HAS_AVX2)
+    set(PROWL_SIMD avx2)
+  else()
+    set(PROWL_SIMD baseline)
+  endif()
+elseif(NOT PROWL_SIMD MATCHES "^(avx2|baseline)$")
+  message(FATAL_ERROR "PROWL_SIMD is ${PROWL_SIMD}: need auto, avx2 or baseline")
+endif()
+message(STATUS "Prowl: vector instructions: ${PROWL_SIMD}")
+
 # prowl_layer(<name> DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
 # One library a folder of prowl/, so that the linker too refuses an include against the direction of the layers.
+# FAST: most of the time of a solve is spent there; compiled for ${PROWL_SIMD}.
 function(prowl_layer name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "FAST" "" "DEPENDS;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   add_library(prowl_${name} ${sources})
   add_library(prowl::${name} ALIAS prowl_${name})
@@ -10,6 +28,11 @@ function(prowl_layer name)
   target_include_directories(prowl_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(prowl_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})
+  if(ARG_FAST AND PROWL_SIMD STREQUAL "avx2")
+    # Pinocchio's library was built without AVX: Eigen types that are passed to it keep the alignment that they have there.
+    target_compile_options(prowl_${name} PRIVATE -mavx2 -mfma)
+    target_compile_definitions(prowl_${name} PRIVATE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  endif()
   set_target_properties(prowl_${name} PROPERTIES EXPORT_NAME ${name})
   set_property(GLOBAL APPEND PROPERTY PROWL_LAYERS prowl_${name})
 endfunction()
