@@ -25,7 +25,7 @@ constexpr double kLargestRegularisation = 1e20, kLeastRegularisation = 1e-20;
 
 constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3.0;
 constexpr double kLargestMultiplier = 1e3;  ///< of an estimate that is of use
-constexpr double kNearlyFeasible = 1e-2;
+constexpr double kNearlyFeasible = 1e-2, kHugeMultiplier = 1e5;
 constexpr double kLargestCostSlope = 100.0;
 constexpr int kMostRestorations = 100;
 
@@ -474,7 +474,7 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
       const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasible;
       // A regularised step that removes a violation leaves multipliers in proportion to the regularisation, and these bend
       // the Lagrangian, which asks for more of it.
-      if (regularisation_ > 0.0 && violation_is_small && largest_multiplier() > kLargestMultiplier) {
+      if (regularisation_ > 0.0 && violation_is_small && largest_multiplier() > kHugeMultiplier) {
         estimate_multipliers();
         linearise();
       }

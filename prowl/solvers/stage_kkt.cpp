@@ -81,11 +81,7 @@ bool StageKkt::factorise_stage(int k, Hessian hessian, double delta, const Vecto
   nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights, in_order_);
   if (hessian == Hessian::lagrangian) in_order_ += nlp_.lagrangian_hessian(k);
   in_order_.diagonal().array() += delta;
-  for (Index j = 0; j < in_order_.cols(); ++j) {
-    for (Index i = 0; i < in_order_.rows(); ++i) {
-      s.M(i, j) = in_order_(s.order[static_cast<std::size_t>(i)], s.order[static_cast<std::size_t>(j)]);
-    }
-  }
+  put_in_order(s);
   eliminate(s);
   pass_conditions(s);
 
@@ -123,6 +119,18 @@ void StageKkt::gather_equalities(int k) {
   s.rank = count_above(pivots, kDependent * scale);
   is_exact_ = is_exact_ && (s.rank == pivots.size() || std::abs(pivots(s.rank)) < kRounding * scale);
   for (int i = 0; i < s.size.inputs; ++i) s.order[static_cast<std::size_t>(i)] = s.lu.permutationQ().indices()(i);
+}
+
+/// M with the inputs in their order; states have theirs.
+void StageKkt::put_in_order(Stage& s) {
+  const int inputs = s.size.inputs, states = s.size.states;
+  for (int j = 0; j < inputs; ++j) {
+    const auto from = in_order_.col(s.order[static_cast<std::size_t>(j)]);
+    for (int i = 0; i < inputs; ++i) s.M(i, j) = from(s.order[static_cast<std::size_t>(i)]);
+    s.M.col(j).tail(states) = from.tail(states);
+  }
+  s.M.topRightCorner(inputs, states) = s.M.bottomLeftCorner(states, inputs).transpose();
+  s.M.bottomRightCorner(states, states) = in_order_.bottomRightCorner(states, states);
 }
 
 /// M in the variables that are left: N = M_rr + M_rd K + K' M_dr + K' M_dd K.

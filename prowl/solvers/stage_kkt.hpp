@@ -75,6 +75,7 @@ class StageKkt {
 
   Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
   void gather_equalities(int k);
+  void put_in_order(Stage& stage);
   void eliminate(Stage& stage);
   void pass_conditions(Stage& stage);
   bool factorise_stage(int k, Hessian hessian, double delta, const Eigen::VectorXd& weights);

@@ -83,6 +83,11 @@ void StagewiseTranscription::set_variables(int k) {
   stage.variables.insert(stage.variables.end(), carried_here.begin(), carried_here.end());
   stage.size.states = static_cast<int>(stage.variables.size()) - stage.size.inputs;
   stage.unit = units(k)(stage.variables);
+  for (int i = 0; i < stage.size.variables(); ++i) {
+    const int place = stage.variables[static_cast<std::size_t>(i)];
+    if (stage.runs.empty() || place != stage.runs.back().place + stage.runs.back().length) stage.runs.push_back({i, place, 0});
+    ++stage.runs.back().length;
+  }
 }
 
 void StagewiseTranscription::set_functions(int k) {
@@ -256,9 +261,10 @@ void StagewiseTranscription::gather(const Stage& stage, const MatrixXd& form, Ma
   const Index size = stage.size.variables();
   result.resize(size, size);
   for (Index j = 0; j < size; ++j) {
-    const double* const column = form.col(stage.variables[static_cast<std::size_t>(j)]).data();
-    for (Index i = 0; i < size; ++i) {
-      result(i, j) = stage.unit(j) * stage.unit(i) * column[stage.variables[static_cast<std::size_t>(i)]];
+    const auto column = form.col(stage.variables[static_cast<std::size_t>(j)]);
+    for (const auto& [first, place, length] : stage.runs) {
+      result.col(j).segment(first, length) =
+          stage.unit(j) * stage.unit.segment(first, length).cwiseProduct(column.segment(place, length));
     }
   }
 }

@@ -61,6 +61,10 @@ class StagewiseTranscription : public StagewiseNlp {
   struct Stage {
     StageSize size;
     std::vector<int> variables;  ///< of (u, x): places among the variables of the node, z and w in those of q and v
+    struct Run {
+      int first, place, length;
+    };
+    std::vector<Run> runs;       ///< the same, as ranges without a gap
     Eigen::VectorXd unit;        ///< of each of those: variable of the node = unit * variable of the stage
     Eigen::VectorXd fixed;       ///< all variables of the node, with the values of those that are fixed
     std::vector<int> carried;    ///< shared variables that are states of the next stage: places among the node's
