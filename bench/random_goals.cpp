@@ -19,7 +19,7 @@
 #include "prowl/io/task_file.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/riccati_solver.hpp"
 
 namespace {
 
@@ -174,7 +174,7 @@ int positive(const char* text) {
 /// Plans on the mesh asked for and, while only the integration error is too large, on the mesh that the error asks for.
 Outcome reach(const std::string& task_file, const Goal& goal, int intervals) {
   const prowl::PackageSearch search{.folders = {}, .working_directory = std::filesystem::current_path()};
-  const prowl::IpoptSolver solver;
+  const prowl::RiccatiSolver solver;
   Outcome outcome;
   while (intervals > 0 && outcome.meshes < kMostMeshes) {
     const prowl::Task task = prowl::read_task_file(task_file, search, {.intervals = intervals});

@@ -29,7 +29,7 @@ struct PlanArguments {
   std::string task;
   std::string out;
   std::string warm_start;
-  std::string solver = "ipopt";
+  std::string solver = "riccati";
   std::vector<std::string> package_dirs;
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
@@ -96,6 +96,8 @@ int run_plan(const PlanArguments& arguments) {
   PlanOptions options{.solver = task.solver};
   options.solver.on_iteration = [&](const SolveProgress& iteration) { progress.print(iteration); };
   options.solver.interrupt = &interrupted;
+  const IpoptSolver hint_solver;
+  options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
   options.on_level = [&](int intervals) { progress.begin_level(intervals); };
   if (!arguments.warm_start.empty()) {
@@ -127,7 +129,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_flag("--json", arguments->json, "Print the result as JSON");
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
       ->check(kPositive)->type_name("S");
-  verb->add_option("--solver", arguments->solver, "Who solves it; default ipopt")
+  verb->add_option("--solver", arguments->solver, "Who solves it; default riccati")
       ->check(CLI::IsMember({"riccati", "fatrop", "ipopt"}))->type_name("NAME");
   verb->add_option("--max-time", arguments->overrides.max_seconds,
                    key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")

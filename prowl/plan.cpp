@@ -75,7 +75,8 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
     solve_level(level, solver, options, plan);
   }
   if (plan.reasons.empty() && plan.result.status != SolveStatus::converged) {
-    plan.hints = doubts(problem, initial_guess(problem, make_mesh(problem)), solver);
+    plan.hints = doubts(problem, initial_guess(problem, make_mesh(problem)),
+                        options.hint_solver ? *options.hint_solver : solver);
   }
   plan.certificate = certify(problem, plan.trajectory);
   return plan;
