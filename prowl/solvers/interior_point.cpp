@@ -157,6 +157,7 @@ void InteriorPoint::update_dual_violation() {
     on_[i].inequalities = segment(lambda_, k);
     nlp_.add_pull_back(k, on_[i].next, on_[i].inequalities, violation);
     if (k > 0) violation.tail(nlp_.size(k).states) -= on_[i - 1].next;
+    if (!violation.allFinite()) throw NumericalError("derivatives are not finite at " + nlp_.describe_stage(k));
     if (violation.size() > 0) largest_dual_violation_ = std::max(largest_dual_violation_, violation.cwiseAbs().maxCoeff());
   }
 }
@@ -258,10 +259,7 @@ bool InteriorPoint::compute_direction(double least_regularisation, std::string& 
   while (true) {
     const StageKkt::Outcome outcome = factorise(StageKkt::Hessian::lagrangian, regularisation_);
     if (outcome == StageKkt::Outcome::solvable) break;
-    if (outcome == StageKkt::Outcome::not_finite) {
-      failure = "derivatives are not finite";
-      return false;
-    }
+    if (outcome == StageKkt::Outcome::not_finite) throw NumericalError("second derivatives are not finite");
     if (regularisation_ == 0.0) {
       regularisation_ = last_regularisation_ == 0.0 ? kFirstRegularisation
                                                     : std::max(kLeastRegularisation, kDecrease * last_regularisation_);

@@ -23,7 +23,7 @@ class Slacks {
   void center(double mu);
 
   double log_barrier() const;  ///< without mu
-  /// beta = derivative of mu log_barrier in s, negated: what pulls at lambda.
+  /// beta = derivative of mu log_barrier in s: lambda is to become that.
   void pull(double mu, Eigen::VectorXd& beta) const;
   void weights(Eigen::VectorXd& sigma) const;  ///< sum of z / distance
 

@@ -50,6 +50,7 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
   for (int k = 0; k < num_stages_; ++k) {
     Stage& s = stage(k);
     s.size = nlp.size(k);
+    if (k == 0) s.size = {s.size.variables(), 0, s.size.equalities, s.size.inequalities};  // states nothing leads to
     const int variables = s.size.variables(), next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
     s.M.setZero(variables, variables);
     for (int i = 0; i < variables; ++i) s.order.push_back(i);
@@ -68,20 +69,22 @@ StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const Stage
   delta_ = delta;
   weights_ = weights;
   for (int k = num_stages_ - 1; k >= 0; --k) {
-    if (!factorise_stage(k, hessian, delta, weights[static_cast<std::size_t>(k)])) {
-      return stage(k).M.allFinite() ? Outcome::indefinite : Outcome::not_finite;
-    }
+    const Outcome outcome = factorise_stage(k, hessian, delta, weights[static_cast<std::size_t>(k)]);
+    if (outcome != Outcome::solvable) return outcome;
   }
   return Outcome::solvable;
 }
 
-bool StageKkt::factorise_stage(int k, Hessian hessian, double delta, const VectorXd& weights) {
+StageKkt::Outcome StageKkt::factorise_stage(int k, Hessian hessian, double delta, const VectorXd& weights) {
   Stage& s = stage(k);
   gather_equalities(k);
+  if (!s.equalities.allFinite()) return Outcome::not_finite;
+  determine_inputs(s);
   nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights, in_order_);
   if (hessian == Hessian::lagrangian) in_order_ += nlp_.lagrangian_hessian(k);
   in_order_.diagonal().array() += delta;
   put_in_order(s);
+  if (!s.M.allFinite()) return Outcome::not_finite;
   eliminate(s);
   pass_conditions(s);
 
@@ -89,19 +92,18 @@ bool StageKkt::factorise_stage(int k, Hessian hessian, double delta, const Vecto
   s.P = s.N.bottomRightCorner(states, states);
   if (free > 0) {
     s.cholesky.compute(s.N.topLeftCorner(free, free));
-    if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite()) return false;
+    if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite()) return Outcome::indefinite;
     s.G = s.N.topRightCorner(free, states);
     s.cholesky.matrixL().solveInPlace(s.G);
     s.P.noalias() -= s.G.transpose() * s.G;
   }
-  return s.P.allFinite();
+  return s.P.allFinite() ? Outcome::solvable : Outcome::indefinite;
 }
 
-/// The equalities with those of the next stage's state, and what they determine.
+/// The equalities with those of the next stage's state.
 void StageKkt::gather_equalities(int k) {
   Stage& s = stage(k);
   s.carried = k + 1 < num_stages_ ? stage(k + 1).passed : 0;
-  s.rank = 0;
   s.equalities.resize(s.num_equalities(), s.size.variables());
   s.equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k);
   no_inequalities_.setZero(s.size.inequalities);
@@ -112,6 +114,10 @@ void StageKkt::gather_equalities(int k) {
     nlp_.add_pull_back(k, on_next, no_inequalities_, row_);
     s.equalities.row(s.size.equalities + i) = row_.transpose();
   }
+}
+
+void StageKkt::determine_inputs(Stage& s) {
+  s.rank = 0;
   if (s.num_equalities() == 0 || s.size.inputs == 0) return;
   s.lu.compute(s.equalities.leftCols(s.size.inputs));
   const double scale = s.equalities.cwiseAbs().maxCoeff();

@@ -76,9 +76,10 @@ class StageKkt {
   Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
   void gather_equalities(int k);
   void put_in_order(Stage& stage);
+  void determine_inputs(Stage& stage);
   void eliminate(Stage& stage);
   void pass_conditions(Stage& stage);
-  bool factorise_stage(int k, Hessian hessian, double delta, const Eigen::VectorXd& weights);
+  Outcome factorise_stage(int k, Hessian hessian, double delta, const Eigen::VectorXd& weights);
   void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
   void forward(int k, const Eigen::VectorXd* link);
   void find_multipliers(int k);

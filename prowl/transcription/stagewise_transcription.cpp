@@ -304,6 +304,8 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   if (!stage.have_values) fill_values(k);
   if (!stage.have_derivatives) fill_slopes(k);
   stage.have_derivatives = true;
+  stage.linear_arrival = stage.arrival;
+  stage.linear_departure = stage.departure;
 }
 
 void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
@@ -318,7 +320,7 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
     for (Index j = 0; j < unit.size(); ++j) {
       for (Index i = 0; i < unit.size(); ++i) form_(place(i), place(j)) = unit(i) * unit(j) * next_hessian(i, j);
     }
-    stage.departure.pull_back_form(form_);
+    stage.linear_departure.pull_back_form(form_);
   }
   const Index rows = stage.rows.gradients.cols();
   for (Index i = 0; i < rows; ++i) {
@@ -338,7 +340,7 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
     const int variable = stage.bounded[static_cast<std::size_t>(bound)];
     form_(variable, variable) += weights(i) * stage.per_unit(bound) * stage.per_unit(bound);
   }
-  stage.arrival.pull_back_form(form_);
+  stage.linear_arrival.pull_back_form(form_);
   gather(stage, form_, result);
 }
 
@@ -346,7 +348,7 @@ void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd&
   Stage& stage = this->stage(k);
   step_.setZero(stage.node().size());
   for (Index i = 0; i < step.size(); ++i) step_(stage.variables[static_cast<std::size_t>(i)]) = stage.unit(i) * step(i);
-  stage.arrival.push_forward(step_);
+  stage.linear_arrival.push_forward(step_);
   const Index rows = stage.rows.gradients.cols();
   inequalities.resize(stage.size.inequalities);
   inequalities.head(rows).noalias() = stage.rows.gradients.transpose() * step_;
@@ -357,7 +359,7 @@ void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd&
   next.resize(stage.num_next());
   if (stage.num_next() == 0) return;
   const Index states = 2 * flat_.layout_.nv();
-  stage.departure.push_forward(step_, next.head(states));
+  stage.linear_departure.push_forward(step_, next.head(states));
   for (std::size_t i = 0; i < stage.carried.size(); ++i) next(states + static_cast<Index>(i)) = step_(stage.carried[i]);
   next.array() *= stage.next_per_unit.array();
 }
@@ -368,7 +370,7 @@ void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const
   on_node_.setZero(stage.node().size());
   if (stage.num_next() > 0) {
     add_on_next(stage, on_next, on_node_);
-    stage.departure.pull_back(on_node_);
+    stage.linear_departure.pull_back(on_node_);
   }
   const Index rows = stage.rows.gradients.cols();
   on_node_.noalias() += stage.rows.gradients * on_inequalities.head(rows);
@@ -376,7 +378,7 @@ void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const
     const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
     on_node_(stage.bounded[static_cast<std::size_t>(bound)]) += on_inequalities(i) * stage.per_unit(bound);
   }
-  stage.arrival.pull_back(on_node_);
+  stage.linear_arrival.pull_back(on_node_);
   for (Index i = 0; i < gradient.size(); ++i) {
     gradient(i) += stage.unit(i) * on_node_(stage.variables[static_cast<std::size_t>(i)]);
   }

@@ -87,6 +87,8 @@ class StagewiseTranscription : public StagewiseNlp {
     Eigen::VectorXd cost_gradient;
     Eigen::MatrixXd equality_slopes, hessian;
     InequalityRows rows;
+    Arrival linear_arrival;  ///< where the stage was linearised, which values elsewhere must not change
+    Departure linear_departure;
 
     StageDerivatives derivatives;  ///< dense, if asked for
     const Eigen::VectorXd& node() const { return arrival.node(); }

@@ -1,3 +1,7 @@
 prowl_test(solvers/guarded_nlp prowl::solvers)
 prowl_test(solvers/ipopt_solver prowl::solvers)
-prowl_test(solvers/fatrop_solver prowl::solvers)
+prowl_test(solvers/chain_solvers prowl::solvers)
+prowl_test(solvers/riccati_solver prowl::solvers)
+prowl_test(solvers/stage_kkt prowl::solvers)
+prowl_test(solvers/slacks prowl::solvers)
+prowl_test(solvers/filter prowl::solvers)

@@ -1,21 +1,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <random>
 
 #include "prowl/dynamics/projected_residual.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/robot_model.hpp"
+#include "tests/support/random_vector.hpp"
 
 /// Random places at which derivatives are tested: the base turned any way, joints within half a radian of the nominal
 /// posture (so that no leg is straight), motions and torques of the size that the robot knows.
 namespace prowl::test {
-
-inline Eigen::VectorXd random_vector(std::mt19937& rng, Eigen::Index size, double size_of_entries) {
-  std::uniform_real_distribution<double> uniform(-size_of_entries, size_of_entries);
-  return Eigen::VectorXd::NullaryExpr(size, [&](Eigen::Index) { return uniform(rng); });
-}
 
 inline DynamicsPoint random_point(const RobotModel& robot, const std::vector<int>& contacts, std::mt19937& rng,
                                   std::size_t num_chosen_rows = 0) {
@@ -31,12 +26,6 @@ inline DynamicsPoint random_point(const RobotModel& robot, const std::vector<int
   point.stabilisation = {20.0, 100.0};
   point.chosen_forces = random_vector(rng, static_cast<Eigen::Index>(num_chosen_rows), 0.2 * robot.weight());
   return point;
-}
-
-/// |actual - expected|, relative to the size of what is expected (the largest entry, at least `floor`).
-inline double relative_error(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double floor = 1e-9) {
-  if (expected.size() == 0) return 0.0;
-  return (actual - expected).cwiseAbs().maxCoeff() / std::max(expected.cwiseAbs().maxCoeff(), floor);
 }
 
 /// Moves one argument of a point: q along its tangent, the others as vectors.

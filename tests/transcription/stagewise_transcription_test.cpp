@@ -113,6 +113,105 @@ TEST(StagewiseTranscription, DerivativesAreThoseOfDifferences) {
   }
 }
 
+/// A form that is symmetric and positive, as what costs to go is.
+MatrixXd random_form(std::mt19937& rng, Eigen::Index size) {
+  const MatrixXd root = test::random_vector(rng, size * size, 1.0).reshaped(size, size);
+  return root * root.transpose();
+}
+
+StageMultipliers random_multipliers(std::mt19937& rng, const StageDerivatives& slopes) {
+  return {test::random_vector(rng, slopes.next.rows(), 1.0), test::random_vector(rng, slopes.equalities.rows(), 1.0),
+          test::random_vector(rng, slopes.inequalities.rows(), 1.0)};
+}
+
+/// All that a linearised stage gives, at random arguments, in one vector.
+VectorXd linear_functions(StagewiseNlp& nlp, int k, const MatrixXd& next_hessian, const VectorXd& weights,
+                          const VectorXd& step, const StageMultipliers& on) {
+  MatrixXd condensed;
+  VectorXd next, inequalities, gradient = VectorXd::Zero(step.size());
+  nlp.condense(k, next_hessian, weights, condensed);
+  nlp.push_forward(k, step, next, inequalities);
+  nlp.add_pull_back(k, on.next, on.inequalities, gradient);
+  VectorXd all(condensed.size() + next.size() + inequalities.size() + gradient.size() + step.size() +
+               nlp.equality_slopes(k).size() + nlp.lagrangian_hessian(k).size());
+  all << condensed.reshaped(), next, inequalities, gradient, nlp.cost_gradient(k), nlp.equality_slopes(k).reshaped(),
+      nlp.lagrangian_hessian(k).reshaped();
+  return all;
+}
+
+TEST(StagewiseTranscription, LinearisedStagesAreTheirDenseMatrices) {
+  std::mt19937 rng(11);
+  int carried = 0;
+  for (const MotionProblem& problem : problems()) {
+    Forms forms(problem), dense(problem);
+    const std::vector<VectorXd> point = forms.random_stages(rng, 0.05);
+    for (int k = 0; k < forms.stages.num_stages(); ++k) {
+      const VectorXd& ux = point[static_cast<std::size_t>(k)];
+      const StageDerivatives& slopes = dense.stages.derivatives(k, ux);
+      const StageMultipliers at = random_multipliers(rng, slopes), on = random_multipliers(rng, slopes);
+      const std::string where = forms.stages.describe_stage(k);
+      forms.stages.linearise(k, ux, 1.7, at);
+      EXPECT_LT(test::relative_error(forms.stages.cost_gradient(k), slopes.cost_gradient), 1e-10) << where;
+      EXPECT_LT(test::relative_error(forms.stages.equality_slopes(k), slopes.equalities), 1e-10) << where;
+
+      VectorXd weights = test::random_vector(rng, slopes.inequalities.rows(), 6.0);
+      weights = weights.unaryExpr([](double e) { return std::pow(10.0, e); });
+      for (const bool is_weighted : {false, true}) {
+        const MatrixXd next_hessian = random_form(rng, slopes.next.rows());
+        const VectorXd w = is_weighted ? weights : VectorXd::Zero(weights.size());
+        MatrixXd condensed;
+        forms.stages.condense(k, next_hessian, w, condensed);
+        MatrixXd expected = slopes.inequalities.transpose() * w.asDiagonal() * slopes.inequalities;
+        if (slopes.next.rows() > 0) expected += slopes.next.transpose() * next_hessian * slopes.next;
+        EXPECT_LT(test::relative_error(condensed, expected), 1e-10) << where;
+        EXPECT_LT(test::relative_error(condensed, condensed.transpose()), 1e-13) << where;
+      }
+
+      const VectorXd step = test::random_vector(rng, ux.size(), 1.0), before = test::random_vector(rng, ux.size(), 1.0);
+      VectorXd next, inequalities, gradient = before;
+      forms.stages.push_forward(k, step, next, inequalities);
+      ASSERT_EQ(next.size(), slopes.next.rows()) << where;
+      EXPECT_LT(test::relative_error(next, slopes.next * step), 1e-10) << where;
+      EXPECT_LT(test::relative_error(inequalities, slopes.inequalities * step), 1e-10) << where;
+      forms.stages.add_pull_back(k, on.next, on.inequalities, gradient);
+      const VectorXd pulled = slopes.next.transpose() * on.next + slopes.inequalities.transpose() * on.inequalities;
+      EXPECT_LT(test::relative_error(gradient, before + pulled), 1e-10) << where;
+
+      const MatrixXd& hessian = dense.stages.hessian(k, ux, 1.7, at);
+      EXPECT_LT(test::relative_error(forms.stages.lagrangian_hessian(k), hessian), 1e-10) << where;
+      EXPECT_GT(slopes.inequalities.norm(), 0.0) << where;
+      carried += slopes.next.rows() > 2 * problem.robot.nv();
+    }
+  }
+  EXPECT_GT(carried, 0) << "no stage hands on what a phase shares";
+}
+
+/// As when a line search looks elsewhere, and then a second order correction takes the same matrices again.
+TEST(StagewiseTranscription, LinearisedStagesStayWhateverIsEvaluated) {
+  std::mt19937 rng(12);
+  for (const MotionProblem& problem : problems()) {
+    Forms forms(problem);
+    const std::vector<VectorXd> here = forms.random_stages(rng, 0.05), there = forms.random_stages(rng, 0.05);
+    for (int k = 0; k < forms.stages.num_stages(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const StageDerivatives slopes = forms.stages.derivatives(k, here[i]);
+      const StageMultipliers at = random_multipliers(rng, slopes);
+      const MatrixXd next_hessian = random_form(rng, slopes.next.rows());
+      const VectorXd weights = test::random_vector(rng, slopes.inequalities.rows(), 1.0).cwiseAbs();
+      const VectorXd step = test::random_vector(rng, here[i].size(), 1.0);
+      const auto all = [&] { return linear_functions(forms.stages, k, next_hessian, weights, step, at); };
+      forms.stages.linearise(k, here[i], 1.7, at);
+      const VectorXd before = all();
+      forms.stages.values(k, there[i]);
+      EXPECT_EQ(all(), before) << forms.stages.describe_stage(k);
+      forms.stages.linearise(k, there[i], 1.7, at);
+      EXPECT_GT((all() - before).norm(), 1e-3) << "the same elsewhere: nothing was tested";
+      forms.stages.linearise(k, here[i], 1.7, at);
+      EXPECT_EQ(all(), before) << forms.stages.describe_stage(k);
+    }
+  }
+}
+
 TEST(StagewiseTranscription, ChangesOfFormAreInverse) {
   std::mt19937 rng(7);
   for (const MotionProblem& problem : problems()) {

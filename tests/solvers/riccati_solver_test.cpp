@@ -1,0 +1,103 @@
+// What this solver does beyond the laws of tests/solvers/chain_solvers_test.cpp.
+#include "prowl/solvers/riccati_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "tests/solvers/cart.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using test::Cart;
+
+TEST(RiccatiSolver, CallsWhatCannotBeInfeasible) {
+  for (const double goal : {3.0, 10.0, -10.0}) {
+    Cart cart({.goal = goal});
+    const SolveResult result = RiccatiSolver().solve(cart, Cart::zeros(), {.max_iterations = 1000});
+    EXPECT_EQ(result.status, SolveStatus::infeasible) << result.message;
+    EXPECT_LT(result.iterations, 1000);
+    EXPECT_GT(result.constraint_violation, 0.1);
+  }
+}
+
+TEST(RiccatiSolver, NeedsNoBounds) {
+  Cart cart({.least = -INFINITY, .most = INFINITY});
+  const SolveResult result = RiccatiSolver().solve(cart, Cart::zeros(), {});
+  ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
+  EXPECT_NEAR(result.cost, IpoptSolver().solve(cart, Cart::zeros(), {}).cost, 1e-6);
+}
+
+/// One stage of two states and an equality:  minimise cost(x)  subject to  |x|^2 = 1. Also an Nlp.
+class OnACircle : public test::TestNlp, public DenseStagewiseNlp {
+ public:
+  OnACircle() {
+    z_lower.setConstant(2, -kInfinity);
+    z_upper.setConstant(2, kInfinity);
+    g_lower = g_upper = VectorXd::Ones(1);
+  }
+  StagewiseNlp* stagewise() override { return this; }
+  void cost_gradient(const VectorXd&, Eigen::Ref<VectorXd>) override {}
+  void constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) override { g << z.squaredNorm(); }
+  void jacobian(const VectorXd&, Eigen::Ref<VectorXd>) override {}
+  void hessian(const VectorXd&, double, const VectorXd&, Eigen::Ref<VectorXd>) override {}
+
+  /// Powell 1986 (the Maratos effect): full steps towards (1, 0) raise both the cost and the violation.
+  double cost(const VectorXd& z) override { return 2.0 * (z.squaredNorm() - 1.0) - z(0); }
+
+  int num_stages() const override { return 1; }
+  const StageSize& size(int) const override { return size_; }
+  const VectorXd& lower(int) const override { return none_; }
+  const VectorXd& upper(int) const override { return none_; }
+  const StageValues& values(int, const VectorXd& z) override {
+    values_.cost = cost(z);
+    values_.equalities = VectorXd::Constant(1, z.squaredNorm() - 1.0);
+    return values_;
+  }
+  const StageDerivatives& derivatives(int, const VectorXd& z) override {
+    derivatives_ = {4.0 * z - VectorXd(Vector2d(1.0, 0.0)), MatrixXd(0, 2), 2.0 * z.transpose(), MatrixXd(0, 2)};
+    return derivatives_;
+  }
+  const MatrixXd& hessian(int, const VectorXd&, double cost_factor, const StageMultipliers& on) override {
+    hessian_ = (4.0 * cost_factor + 2.0 * on.equalities(0)) * MatrixXd::Identity(2, 2);
+    return hessian_;
+  }
+  std::vector<VectorXd> stages(const VectorXd& z) const override { return {z}; }
+  VectorXd flat(const std::vector<VectorXd>& stages) const override { return stages[0]; }
+  std::string describe_stage(int) const override { return "the circle"; }
+
+ private:
+  StageSize size_{0, 2, 1, 0};
+  VectorXd none_;
+  StageValues values_;
+  StageDerivatives derivatives_;
+  MatrixXd hessian_;
+};
+
+/// Whole steps, by second order corrections, are as fast as Newton's method; half steps are not.
+TEST(RiccatiSolver, TakesWholeStepsAlongCurvedConstraints) {
+  for (const double angle : {0.1, 0.3, 0.5}) {
+    OnACircle nlp;
+    const Vector2d start(std::cos(angle), std::sin(angle));
+    const SolveResult result = RiccatiSolver().solve(nlp, start, {.tolerance = 1e-9});
+    ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
+    EXPECT_LT((result.z - VectorXd(Vector2d(1.0, 0.0))).norm(), 1e-8);
+    EXPECT_LE(result.iterations, 5) << angle;
+  }
+}
+
+/// Opposite the minimum the reduced Hessian is negative: a maximum, where Newton's method goes if nothing regularises it.
+TEST(RiccatiSolver, GoesAwayFromMaxima) {
+  OnACircle nlp;
+  const SolveResult result = RiccatiSolver().solve(nlp, Vector2d(-0.999, 0.04), {});
+  ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
+  EXPECT_LT((result.z - VectorXd(Vector2d(1.0, 0.0))).norm(), 1e-5);
+}
+
+}  // namespace
+}  // namespace prowl
