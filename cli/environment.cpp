@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <cstdlib>
 #include <sstream>
+#include <string_view>
 
+#include "prowl/error.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 
@@ -37,11 +39,18 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs) {
   return search;
 }
 
+void check_processor() {
+  if (std::string_view(PROWL_SIMD) != "avx2") return;
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return;
+  throw InputError("this build of Prowl needs a processor with AVX2 and FMA: build with cmake -DPROWL_SIMD=baseline");
+}
+
 std::map<std::string, std::string> versions() {
   return {{"prowl", PROWL_VERSION},
           {"Ipopt", IpoptSolver().version()},
           {"Fatrop", FatropSolver().version()},
           {"Pinocchio", PROWL_PINOCCHIO_VERSION},
+          {"vector instructions", PROWL_SIMD},
           {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 

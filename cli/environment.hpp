@@ -12,6 +12,9 @@ namespace prowl::cli {
 /// the clone that this program was built in.
 PackageSearch package_search(const std::vector<std::string>& package_dirs);
 
+/// Throws InputError if this processor lacks the instructions that the build uses (PROWL_SIMD).
+void check_processor();
+
 /// "prowl", "Ipopt", "Fatrop", "Pinocchio", "Eigen" -> version.
 std::map<std::string, std::string> versions();
 

@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
   };
   open_standard_streams();
   try {
+    check_processor();
     return run(argc, argv);
   } catch (const prowl::InputError& error) {
     return report(error, kBadInput);

@@ -221,6 +221,7 @@ SolveResult read_result(const Reader& plan) {
   result.dual_violation = solver.number("dual_violation");
   result.iterations = solver.integer("iterations");
   result.seconds = solver.number("seconds");
+  if (!solver.has("cpu_seconds")) return result;  // plans of before 2026-11-21
   result.times.cpu = solver.number("cpu_seconds");
   const Reader evaluation = solver.object("evaluation");
   result.times.values = evaluation.number("values");
@@ -233,7 +234,7 @@ std::vector<LevelResult> read_levels(const Reader& solver) {
   std::vector<LevelResult> levels;
   for (const Reader& level : solver.list("levels")) {
     levels.push_back({level.integer("intervals"), read_status(level), level.integer("iterations"), level.number("seconds"),
-                      level.number("cpu_seconds")});
+                      level.has("cpu_seconds") ? level.number("cpu_seconds") : 0.0});
   }
   return levels;
 }
