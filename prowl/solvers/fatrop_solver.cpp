@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "prowl/error.hpp"
-#include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/solvers/iterate.hpp"
+#include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
@@ -396,21 +396,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
   if (!chosen.stages.empty()) result.z = stages.flat(chosen.stages);
   result.dual_violation = chosen.dual_violation;
 
-  // Figures of the result from the point itself, whatever Fatrop says of it.
-  try {
-    VectorXd rows(nlp.num_constraints());
-    nlp.constraints(result.z, rows);
-    result.cost = nlp.cost(result.z);
-    result.constraint_violation = constraint_violation(nlp, result.z, rows);
-  } catch (const NumericalError& error) {
-    result.status = SolveStatus::evaluation_failed;
-    result.message = error.what();
-    result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
-  }
-  if (result.status == SolveStatus::converged && !(result.constraint_violation <= options.tolerance)) {
-    result.status = SolveStatus::solver_failed;
-    result.message = "Fatrop says it is done, but a constraint is not within tolerance";
-  }
+  judge(nlp, options.tolerance, name(), result);
   result.times = problem->times();
   result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = seconds_since(began);

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "prowl/error.hpp"
-#include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/solvers/interior_point.hpp"
+#include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
@@ -79,21 +79,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     result.dual_violation = (has_converged ? method.figures() : best).dual_violation;
   }
 
-  // Figures of the result from the point itself, whatever the method says of it.
-  try {
-    VectorXd rows(nlp.num_constraints());
-    nlp.constraints(result.z, rows);
-    result.cost = nlp.cost(result.z);
-    result.constraint_violation = constraint_violation(nlp, result.z, rows);
-  } catch (const NumericalError& error) {
-    result.status = SolveStatus::evaluation_failed;
-    result.message = error.what();
-    result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
-  }
-  if (result.status == SolveStatus::converged && !(result.constraint_violation <= options.tolerance)) {
-    result.status = SolveStatus::solver_failed;
-    result.message = "the method is done, but a constraint is not within tolerance";
-  }
+  judge(nlp, options.tolerance, name(), result);
   result.times = method.times();
   result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = seconds_since(began);
