@@ -11,6 +11,7 @@ class Filter {
   void reset(double largest_theta) {
     largest_theta_ = largest_theta;
     pairs_.clear();
+    pairs_.reserve(100);  // more than most solves have iterations
   }
   bool accepts(double theta, double phi) const {
     if (theta > largest_theta_) return false;

@@ -110,9 +110,15 @@ double Slacks::largest_complementarity(double mu) const {
 }
 
 double Slacks::largest_dual_violation(const VectorXd& lambda) const {
-  VectorXd sum = lambda;
-  for_each(*this, [&](const Bound& b, double, double sign) { sum(b.row) += sign * b.z; });
-  return sum.size() > 0 ? sum.cwiseAbs().maxCoeff() : 0.0;
+  double largest = 0.0;
+  auto below = below_.begin(), above = above_.begin();  // in the order of rows
+  for (Index i = 0; i < lambda.size(); ++i) {
+    double sum = lambda(i);
+    if (below != below_.end() && below->row == i) sum += below++->z;
+    if (above != above_.end() && above->row == i) sum -= above++->z;
+    largest = std::max(largest, std::abs(sum));
+  }
+  return largest;
 }
 
 double Slacks::sum_of_multipliers() const {

@@ -1,6 +1,5 @@
 #include "prowl/solvers/stage_kkt.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -56,11 +55,14 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
     for (int i = 0; i < variables; ++i) s.order.push_back(i);
     s.P.setZero(s.size.states, s.size.states);
     s.p.setZero(s.size.states);
+    s.no_inequalities.setZero(s.size.inequalities);
     steps_.push_back(VectorXd::Zero(variables));
     on_equalities_.push_back(VectorXd::Zero(s.size.equalities));
     on_next_.push_back(VectorXd::Zero(next));
     along_inequalities_.push_back(VectorXd::Zero(s.size.inequalities));
   }
+  residual_next_ = on_next_;
+  residual_inequalities_ = along_inequalities_;
 }
 
 StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const StageVectors& weights) {
@@ -80,9 +82,9 @@ StageKkt::Outcome StageKkt::factorise_stage(int k, Hessian hessian, double delta
   gather_equalities(k);
   if (!s.equalities.allFinite()) return Outcome::not_finite;
   determine_inputs(s);
-  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights, in_order_);
-  if (hessian == Hessian::lagrangian) in_order_ += nlp_.lagrangian_hessian(k);
-  in_order_.diagonal().array() += delta;
+  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights, s.in_order);
+  if (hessian == Hessian::lagrangian) s.in_order += nlp_.lagrangian_hessian(k);
+  s.in_order.diagonal().array() += delta;
   put_in_order(s);
   if (!s.M.allFinite()) return Outcome::not_finite;
   eliminate(s);
@@ -106,13 +108,12 @@ void StageKkt::gather_equalities(int k) {
   s.carried = k + 1 < num_stages_ ? stage(k + 1).passed : 0;
   s.equalities.resize(s.num_equalities(), s.size.variables());
   s.equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k);
-  no_inequalities_.setZero(s.size.inequalities);
   for (int i = 0; i < s.carried; ++i) {
     VectorXd& on_next = on_next_[static_cast<std::size_t>(k)];
     on_next = stage(k + 1).E.row(i).transpose();
-    row_.setZero(s.size.variables());
-    nlp_.add_pull_back(k, on_next, no_inequalities_, row_);
-    s.equalities.row(s.size.equalities + i) = row_.transpose();
+    s.gradient.setZero(s.size.variables());
+    nlp_.add_pull_back(k, on_next, s.no_inequalities, s.gradient);
+    s.equalities.row(s.size.equalities + i) = s.gradient.transpose();
   }
 }
 
@@ -131,12 +132,12 @@ void StageKkt::determine_inputs(Stage& s) {
 void StageKkt::put_in_order(Stage& s) {
   const int inputs = s.size.inputs, states = s.size.states;
   for (int j = 0; j < inputs; ++j) {
-    const auto from = in_order_.col(s.order[static_cast<std::size_t>(j)]);
+    const auto from = s.in_order.col(s.order[static_cast<std::size_t>(j)]);
     for (int i = 0; i < inputs; ++i) s.M(i, j) = from(s.order[static_cast<std::size_t>(i)]);
     s.M.col(j).tail(states) = from.tail(states);
   }
   s.M.topRightCorner(inputs, states) = s.M.bottomLeftCorner(states, inputs).transpose();
-  s.M.bottomRightCorner(states, states) = in_order_.bottomRightCorner(states, states);
+  s.M.bottomRightCorner(states, states) = s.in_order.bottomRightCorner(states, states);
 }
 
 /// M in the variables that are left: N = M_rr + M_rd K + K' M_dr + K' M_dd K.
@@ -146,7 +147,7 @@ void StageKkt::eliminate(Stage& s) {
   s.N = s.M.bottomRightCorner(rest, rest);
   if (rank == 0) return;
   const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
-  s.in_states = (s.lu.permutationP() * s.in_states).eval();
+  if (states > 0) s.in_states.noalias() = s.lu.permutationP() * s.equalities.rightCols(states);
   auto determining = s.in_states.topRows(rank);
   lu.triangularView<Eigen::UnitLower>().solveInPlace(determining);
   const Index left = s.in_states.rows() - rank;
@@ -159,10 +160,10 @@ void StageKkt::eliminate(Stage& s) {
   const auto dd = s.M.topLeftCorner(rank, rank);
   s.T = s.M.topRightCorner(rank, rest);
   s.T.noalias() += 0.5 * dd * s.K;
-  work_.resize(rest, rest);
-  work_.noalias() = s.T.transpose() * s.K;
-  s.N += work_;
-  s.N += work_.transpose();
+  auto work = s.in_order.topLeftCorner(rest, rest);
+  work.noalias() = s.T.transpose() * s.K;
+  s.N += work;
+  s.N += work.transpose();
   s.T.noalias() += 0.5 * dd * s.K;
 }
 
@@ -172,7 +173,7 @@ void StageKkt::pass_conditions(Stage& s) {
   s.passed = 0;
   const int left = s.num_equalities() - s.rank;
   if (left == 0 || s.size.states == 0) return;
-  const Eigen::ColPivHouseholderQR<MatrixXd> qr(s.in_states.bottomRows(left).transpose());
+  const auto& qr = s.conditions.compute(s.in_states.bottomRows(left).transpose());
   s.passed = count_above(qr.matrixQR().diagonal(), kDependent * s.equalities.cwiseAbs().maxCoeff());
   s.E.resize(s.passed, s.size.states);
   for (int i = 0; i < s.passed; ++i) {
@@ -184,7 +185,10 @@ void StageKkt::pass_conditions(Stage& s) {
 void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
   solve_once(gradient, equalities, links);
   if (is_exact_) return;
-  sum_ = {steps_, on_equalities_, on_next_, along_inequalities_};
+  sum_.steps = steps_;
+  sum_.on_equalities = on_equalities_;
+  sum_.on_next = on_next_;
+  sum_.along_inequalities = along_inequalities_;
   const double size = std::max({largest(gradient), largest(equalities), largest(links)});
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostRefinements; ++i) {
@@ -215,13 +219,14 @@ double StageKkt::find_residual(const StageVectors& gradient, const StageVectors&
     if (hessian_ == Hessian::lagrangian) violation.noalias() += nlp_.lagrangian_hessian(k) * step;
     violation += delta_ * step;
     violation.noalias() += nlp_.equality_slopes(k).transpose() * sum_.on_equalities[i];
-    row_ = weights_[i].cwiseProduct(sum_.along_inequalities[i]);
-    nlp_.add_pull_back(k, sum_.on_next[i], row_, violation);
+    residual_inequalities_[i] = weights_[i].cwiseProduct(sum_.along_inequalities[i]);
+    nlp_.add_pull_back(k, sum_.on_next[i], residual_inequalities_[i], violation);
     if (k > 0) violation.tail(stage(k).size.states) -= sum_.on_next[i - 1];
     residual_equalities_[i].noalias() += nlp_.equality_slopes(k) * step;
     if (k + 1 == num_stages_) continue;
-    nlp_.push_forward(k, step, row_, no_inequalities_);
-    residual_links_[i] += row_ - sum_.steps[i + 1].tail(row_.size());
+    VectorXd& next = residual_next_[i];
+    nlp_.push_forward(k, step, next, residual_inequalities_[i]);
+    residual_links_[i] += next - sum_.steps[i + 1].tail(next.size());
   }
   return std::max({largest(residual_gradient_), largest(residual_equalities_), largest(residual_links_)});
 }
@@ -238,7 +243,7 @@ void StageKkt::solve_once(const StageVectors& gradient, const StageVectors& equa
 void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalities, const VectorXd* link) {
   Stage& s = stage(k);
   const int rank = s.rank, states = s.size.states;
-  row_ = gradient;
+  s.gradient = gradient;
   s.c.resize(s.num_equalities());
   s.c.head(s.size.equalities) = equalities;
   if (link) {
@@ -246,19 +251,19 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
     VectorXd& on_next = on_next_[static_cast<std::size_t>(k)];
     on_next = next.p;
     on_next.noalias() += next.P * *link;
-    no_inequalities_.setZero(s.size.inequalities);
-    nlp_.add_pull_back(k, on_next, no_inequalities_, row_);
+    nlp_.add_pull_back(k, on_next, s.no_inequalities, s.gradient);
     if (s.carried > 0) {
       s.c.tail(s.carried) = next.e;
       s.c.tail(s.carried).noalias() += next.E * *link;
     }
   }
-  s.m.resize(row_.size());
-  for (Index i = 0; i < s.m.size(); ++i) s.m(i) = row_(s.order[static_cast<std::size_t>(i)]);
+  s.m.resize(s.gradient.size());
+  for (Index i = 0; i < s.m.size(); ++i) s.m(i) = s.gradient(s.order[static_cast<std::size_t>(i)]);
 
   s.r = s.m.tail(s.rest());
   if (rank > 0) {
-    s.c = (s.lu.permutationP() * s.c).eval();
+    s.permuted.noalias() = s.lu.permutationP() * s.c;
+    s.c.swap(s.permuted);
     const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
     auto determining = s.c.head(rank);
     lu.triangularView<Eigen::UnitLower>().solveInPlace(determining);
@@ -324,7 +329,8 @@ void StageKkt::find_multipliers(int k) {
     lu.triangularView<Eigen::Upper>().transpose().solveInPlace(on_determining);
     on_determining.noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank).transpose() * s.on_rows.tail(left);
     lu.triangularView<Eigen::UnitLower>().transpose().solveInPlace(on_determining);
-    s.on_rows = (s.lu.permutationP().transpose() * s.on_rows).eval();
+    s.permuted.noalias() = s.lu.permutationP().transpose() * s.on_rows;
+    s.on_rows.swap(s.permuted);
   }
   on_equalities_[static_cast<std::size_t>(k)] = s.on_rows.head(s.size.equalities);
   if (s.carried > 0) stage(k + 1).on_carried = s.on_rows.tail(s.carried);

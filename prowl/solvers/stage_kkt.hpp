@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <vector>
 
 #include "prowl/nlp/stagewise_nlp.hpp"
@@ -58,6 +59,8 @@ class StageKkt {
     Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of those in u
     Eigen::MatrixXd in_states;         ///< L^-1 of those in x, rows in the order of the pivots
     std::vector<Eigen::Index> order;   ///< place of each variable in (u, x)
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of what determines no input
+    Eigen::MatrixXd in_order;          ///< M in the order of (u, x), then work space
     Eigen::MatrixXd M;
     Eigen::MatrixXd K;                 ///< determined inputs = K r + k
     Eigen::MatrixXd T;                 ///< M_dd K + M_dr
@@ -68,6 +71,7 @@ class StageKkt {
     std::vector<int> passed_rows;      ///< which rows of in_states E is
 
     Eigen::VectorXd m, c, k, r, p, e, step, on_rows, on_carried;
+    Eigen::VectorXd gradient, permuted, no_inequalities;
     int num_equalities() const { return size.equalities + carried; }
     int free() const { return size.inputs - rank; }
     int rest() const { return size.variables() - rank; }
@@ -97,9 +101,8 @@ class StageKkt {
   struct Solution {
     StageVectors steps, on_equalities, on_next, along_inequalities;
   } sum_;
-  StageVectors residual_gradient_, residual_equalities_, residual_links_;
-  Eigen::MatrixXd no_hessian_, in_order_, work_;
-  Eigen::VectorXd no_inequalities_, row_;
+  StageVectors residual_gradient_, residual_equalities_, residual_links_, residual_next_, residual_inequalities_;
+  Eigen::MatrixXd no_hessian_;
 };
 
 }  // namespace prowl

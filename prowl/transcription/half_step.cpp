@@ -19,9 +19,12 @@ Turn turn(const Matrix3d& charts, const Vector3d& theta, double s, const Vector3
   return Turn({{{charts, theta}, {Matrix3d::Identity(), s * omega}}});
 }
 
-void add_symmetric(MatrixXd& hessian, Index row, Index column, const Eigen::Ref<const MatrixXd>& block) {
-  hessian.block(row, column, block.rows(), block.cols()) += block;
-  hessian.block(column, row, block.cols(), block.rows()) += block.transpose();
+/// `block` may be an expression: evaluated in place, without a temporary on the heap.
+template <class Block>
+void add_symmetric(MatrixXd& hessian, Index row, Index column, const Eigen::MatrixBase<Block>& block) {
+  hessian.block<Block::RowsAtCompileTime, Block::ColsAtCompileTime>(row, column, block.rows(), block.cols()) += block;
+  hessian.block<Block::ColsAtCompileTime, Block::RowsAtCompileTime>(column, row, block.cols(), block.rows()) +=
+      block.transpose();
 }
 
 /// Adds the Hessian of lambda . s R v_linear, which is in theta, v and the duration.

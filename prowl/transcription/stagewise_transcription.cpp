@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "prowl/error.hpp"
@@ -22,6 +23,18 @@ StagewiseTranscription::StagewiseTranscription(Transcription& flat)
     : flat_(flat), stages_(static_cast<std::size_t>(flat.layout_.num_nodes())) {
   for (int k = 0; k < num_stages(); ++k) set_variables(k);
   for (int k = 0; k < num_stages(); ++k) set_functions(k);
+  set_shapes();
+}
+
+void StagewiseTranscription::set_shapes() {
+  std::vector<std::array<Index, 3>> shapes;
+  for (Stage& stage : stages_) {
+    const std::array<Index, 3> shape = {stage.fixed.size(), stage.num_rows, stage.size.equalities};
+    const auto known = std::ranges::find(shapes, shape);
+    stage.shape = static_cast<std::size_t>(known - shapes.begin());
+    if (known == shapes.end()) shapes.push_back(shape);
+  }
+  works_.resize(shapes.size());
 }
 
 std::pair<double, double> StagewiseTranscription::bounds(int k, int variable) const {
@@ -147,9 +160,9 @@ HalfTime StagewiseTranscription::half_time(int k, double h, const VectorXd& node
   return {slope * node(column), slope, column};
 }
 
-void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, Arrival& arrival) const {
+void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, VectorXd& state, Arrival& arrival) const {
   const Stage& stage = this->stage(k);
-  VectorXd state = stage.fixed;
+  state = stage.fixed;
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
     state(stage.variables[i]) = ux(static_cast<Index>(i)) * stage.unit(static_cast<Index>(i));
   }
@@ -162,7 +175,7 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
   if (stage.at.size() == ux.size() && stage.at == ux) return;
   stage.have_values = stage.have_derivatives = false;
   stage.at = ux;
-  set_arrival(k, ux, stage.arrival);
+  set_arrival(k, ux, work(stage).state, stage.arrival);
   const VectorXd& node = stage.node();
   if (stage.num_next() > 0) {
     stage.departure.set(flat_.charts_[static_cast<std::size_t>(k)], flat_.charts_[static_cast<std::size_t>(k) + 1],
@@ -209,29 +222,30 @@ const StageValues& StagewiseTranscription::values(int k, const VectorXd& ux) {
 
 void StagewiseTranscription::fill_slopes(int k) {
   Stage& stage = this->stage(k);
+  Work& work = this->work(stage);
   const MatrixXd& jacobian = stage.node_values.rows_jacobian;
   const Index size = stage.node().size();
 
-  on_node_ = stage.node_values.cost_gradient;
-  stage.arrival.pull_back(on_node_);
+  work.on_node = stage.node_values.cost_gradient;
+  stage.arrival.pull_back(work.on_node);
   stage.cost_gradient.resize(stage.size.variables());
   for (Index i = 0; i < stage.cost_gradient.size(); ++i) {
-    stage.cost_gradient(i) = stage.unit(i) * on_node_(stage.variables[static_cast<std::size_t>(i)]);
+    stage.cost_gradient(i) = stage.unit(i) * work.on_node(stage.variables[static_cast<std::size_t>(i)]);
   }
 
-  slopes_.setZero(stage.size.equalities, size);
+  work.slopes.setZero(stage.size.equalities, size);
   for (int i = 0; i < stage.size.equalities; ++i) {
     const int place = stage.equalities[static_cast<std::size_t>(i)], bound = place - stage.num_rows;
     if (bound < 0) {
-      slopes_.row(i) = jacobian.row(place);
+      work.slopes.row(i) = jacobian.row(place);
     } else {
-      slopes_(i, stage.bounded[static_cast<std::size_t>(bound)]) = stage.per_unit(bound);
+      work.slopes(i, stage.bounded[static_cast<std::size_t>(bound)]) = stage.per_unit(bound);
     }
   }
-  stage.arrival.pull_back(slopes_);
+  stage.arrival.pull_back(work.slopes);
   stage.equality_slopes.resize(stage.size.equalities, stage.size.variables());
   for (Index i = 0; i < stage.equality_slopes.cols(); ++i) {
-    stage.equality_slopes.col(i) = stage.unit(i) * slopes_.col(stage.variables[static_cast<std::size_t>(i)]);
+    stage.equality_slopes.col(i) = stage.unit(i) * work.slopes.col(stage.variables[static_cast<std::size_t>(i)]);
   }
 
   const auto is_row = [&](int place) { return place < stage.num_rows; };
@@ -272,35 +286,36 @@ void StagewiseTranscription::gather(const Stage& stage, const MatrixXd& form, Ma
 void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) {
   move_to(k, ux);
   Stage& stage = this->stage(k);
-  on_rows_.setZero(stage.num_rows);
-  on_node_.setZero(stage.node().size());
+  Work& work = this->work(stage);
+  work.on_rows.setZero(stage.num_rows);
+  work.on_node.setZero(stage.node().size());
   const auto distribute = [&](const std::vector<int>& places, const VectorXd& on) {
     for (std::size_t i = 0; i < places.size(); ++i) {
       const int bound = places[i] - stage.num_rows;
       if (bound < 0) {
-        on_rows_(places[i]) = on(static_cast<Index>(i));
+        work.on_rows(places[i]) = on(static_cast<Index>(i));
       } else {
-        on_node_(stage.bounded[static_cast<std::size_t>(bound)]) += on(static_cast<Index>(i)) * stage.per_unit(bound);
+        const int variable = stage.bounded[static_cast<std::size_t>(bound)];
+        work.on_node(variable) += on(static_cast<Index>(i)) * stage.per_unit(bound);
       }
     }
   };
   flat_.at_node(k, [&] {
     distribute(stage.equalities, multipliers.equalities);
     distribute(stage.inequalities, multipliers.inequalities);
-    flat_.functions(k).linearise(stage.point, cost_factor, on_rows_, stage.node_values, form_);
+    flat_.functions(k).linearise(stage.point, cost_factor, work.on_rows, stage.node_values, work.form);
   });
   if (stage.num_next() > 0) {
-    on_next_.setZero(stage.node().size());
-    add_on_next(stage, multipliers.next, on_next_);
-    step_ = on_next_.head(2 * flat_.layout_.nv());
-    stage.departure.add_hessian(step_, form_);
-    stage.departure.pull_back(on_next_);
-    on_node_ += on_next_;
+    work.on_next.setZero(stage.node().size());
+    add_on_next(stage, multipliers.next, work.on_next);
+    stage.departure.add_hessian(work.on_next, work.form);
+    stage.departure.pull_back(work.on_next);
+    work.on_node += work.on_next;
   }
-  on_node_ += cost_factor * stage.node_values.cost_gradient;
-  on_node_.noalias() += stage.node_values.rows_jacobian.transpose() * on_rows_;
-  stage.arrival.pull_back_hessian(form_, on_node_);
-  gather(stage, form_, stage.hessian);
+  work.on_node += cost_factor * stage.node_values.cost_gradient;
+  work.on_node.noalias() += stage.node_values.rows_jacobian.transpose() * work.on_rows;
+  stage.arrival.pull_back_hessian(work.form, work.on_node);
+  gather(stage, work.form, stage.hessian);
   if (!stage.have_values) fill_values(k);
   if (!stage.have_derivatives) fill_slopes(k);
   stage.have_derivatives = true;
@@ -310,17 +325,18 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
 
 void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
   Stage& stage = this->stage(k);
+  Work& work = this->work(stage);
   const Index size = stage.node().size(), states = 2 * flat_.layout_.nv();
-  form_.setZero(size, size);
+  work.form.setZero(size, size);
   if (stage.num_next() > 0) {
     const VectorXd& unit = stage.next_per_unit;
     const auto place = [&](Index i) {
       return i < states ? i : Index{stage.carried[static_cast<std::size_t>(i - states)]};
     };
     for (Index j = 0; j < unit.size(); ++j) {
-      for (Index i = 0; i < unit.size(); ++i) form_(place(i), place(j)) = unit(i) * unit(j) * next_hessian(i, j);
+      for (Index i = 0; i < unit.size(); ++i) work.form(place(i), place(j)) = unit(i) * unit(j) * next_hessian(i, j);
     }
-    stage.linear_departure.pull_back_form(form_);
+    stage.linear_departure.pull_back_form(work.form);
   }
   const Index rows = stage.rows.gradients.cols();
   for (Index i = 0; i < rows; ++i) {
@@ -329,58 +345,64 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
     for (const int column : places) {
       const double factor = weights(i) * gradient(column);
       if (2 * places.size() > size) {
-        form_.col(column) += factor * gradient;
+        work.form.col(column) += factor * gradient;
       } else {
-        for (const int row : places) form_(row, column) += factor * gradient(row);
+        for (const int row : places) work.form(row, column) += factor * gradient(row);
       }
     }
   }
   for (Index i = rows; i < weights.size(); ++i) {
     const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
     const int variable = stage.bounded[static_cast<std::size_t>(bound)];
-    form_(variable, variable) += weights(i) * stage.per_unit(bound) * stage.per_unit(bound);
+    work.form(variable, variable) += weights(i) * stage.per_unit(bound) * stage.per_unit(bound);
   }
-  stage.linear_arrival.pull_back_form(form_);
-  gather(stage, form_, result);
+  stage.linear_arrival.pull_back_form(work.form);
+  gather(stage, work.form, result);
 }
 
 void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd& next, VectorXd& inequalities) {
   Stage& stage = this->stage(k);
-  step_.setZero(stage.node().size());
-  for (Index i = 0; i < step.size(); ++i) step_(stage.variables[static_cast<std::size_t>(i)]) = stage.unit(i) * step(i);
-  stage.linear_arrival.push_forward(step_);
+  Work& work = this->work(stage);
+  work.step.setZero(stage.node().size());
+  for (Index i = 0; i < step.size(); ++i) {
+    work.step(stage.variables[static_cast<std::size_t>(i)]) = stage.unit(i) * step(i);
+  }
+  stage.linear_arrival.push_forward(work.step);
   const Index rows = stage.rows.gradients.cols();
   inequalities.resize(stage.size.inequalities);
-  inequalities.head(rows).noalias() = stage.rows.gradients.transpose() * step_;
+  inequalities.head(rows).noalias() = stage.rows.gradients.transpose() * work.step;
   for (Index i = rows; i < inequalities.size(); ++i) {
     const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
-    inequalities(i) = step_(stage.bounded[static_cast<std::size_t>(bound)]) * stage.per_unit(bound);
+    inequalities(i) = work.step(stage.bounded[static_cast<std::size_t>(bound)]) * stage.per_unit(bound);
   }
   next.resize(stage.num_next());
   if (stage.num_next() == 0) return;
   const Index states = 2 * flat_.layout_.nv();
-  stage.linear_departure.push_forward(step_, next.head(states));
-  for (std::size_t i = 0; i < stage.carried.size(); ++i) next(states + static_cast<Index>(i)) = step_(stage.carried[i]);
+  stage.linear_departure.push_forward(work.step, next.head(states));
+  for (std::size_t i = 0; i < stage.carried.size(); ++i) {
+    next(states + static_cast<Index>(i)) = work.step(stage.carried[i]);
+  }
   next.array() *= stage.next_per_unit.array();
 }
 
 void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const VectorXd& on_inequalities,
                                            VectorXd& gradient) {
   Stage& stage = this->stage(k);
-  on_node_.setZero(stage.node().size());
+  Work& work = this->work(stage);
+  work.on_node.setZero(stage.node().size());
   if (stage.num_next() > 0) {
-    add_on_next(stage, on_next, on_node_);
-    stage.linear_departure.pull_back(on_node_);
+    add_on_next(stage, on_next, work.on_node);
+    stage.linear_departure.pull_back(work.on_node);
   }
   const Index rows = stage.rows.gradients.cols();
-  on_node_.noalias() += stage.rows.gradients * on_inequalities.head(rows);
+  work.on_node.noalias() += stage.rows.gradients * on_inequalities.head(rows);
   for (Index i = rows; i < on_inequalities.size(); ++i) {
     const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
-    on_node_(stage.bounded[static_cast<std::size_t>(bound)]) += on_inequalities(i) * stage.per_unit(bound);
+    work.on_node(stage.bounded[static_cast<std::size_t>(bound)]) += on_inequalities(i) * stage.per_unit(bound);
   }
-  stage.linear_arrival.pull_back(on_node_);
+  stage.linear_arrival.pull_back(work.on_node);
   for (Index i = 0; i < gradient.size(); ++i) {
-    gradient(i) += stage.unit(i) * on_node_(stage.variables[static_cast<std::size_t>(i)]);
+    gradient(i) += stage.unit(i) * work.on_node(stage.variables[static_cast<std::size_t>(i)]);
   }
 }
 
@@ -437,10 +459,10 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
 }
 
 VectorXd StagewiseTranscription::flat(const std::vector<VectorXd>& stages) const {
-  VectorXd z(flat_.num_variables());
+  VectorXd z(flat_.num_variables()), state;
   for (int k = num_stages() - 1; k >= 0; --k) {  // what is shared: as it began
     Arrival arrival;
-    set_arrival(k, stages[static_cast<std::size_t>(k)], arrival);
+    set_arrival(k, stages[static_cast<std::size_t>(k)], state, arrival);
     const VectorXd& node = arrival.node();
     for (Index i = 0; i < node.size(); ++i) z(flat_.column(k, static_cast<int>(i))) = node(i);
   }

@@ -58,8 +58,14 @@ class StagewiseTranscription : public StagewiseNlp {
     Eigen::MatrixXi places;
     Eigen::VectorXi counts;
   };
+  /// Work space, in the variables of a node. Stages of one shape share it, so that it keeps its size.
+  struct Work {
+    Eigen::VectorXd on_rows, on_node, step, on_next, state;
+    Eigen::MatrixXd form, slopes;
+  };
   struct Stage {
     StageSize size;
+    std::size_t shape = 0;       ///< its work space
     std::vector<int> variables;  ///< of (u, x): places among the variables of the node, z and w in those of q and v
     struct Run {
       int first, place, length;
@@ -97,17 +103,19 @@ class StagewiseTranscription : public StagewiseNlp {
   const Stage& stage(int k) const { return stages_[static_cast<std::size_t>(k)]; }
 
   Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
+  Work& work(const Stage& stage) { return works_[stage.shape]; }
 
   /// Units of all variables of node k.
   Eigen::VectorXd units(int k) const;
   void set_variables(int k);
   void set_functions(int k);
+  void set_shapes();
   /// Bounds on a variable of node k. Both nodes of a phase switch have one q and v: the first has the bounds of both.
   std::pair<double, double> bounds(int k, int variable) const;
 
   /// Half the step `h` of the mesh on one side of node k.
   HalfTime half_time(int k, double h, const Eigen::VectorXd& node) const;
-  void set_arrival(int k, const Eigen::VectorXd& ux, Arrival& arrival) const;
+  void set_arrival(int k, const Eigen::VectorXd& ux, Eigen::VectorXd& state, Arrival& arrival) const;
   /// Sets the point; what was evaluated elsewhere is forgotten.
   void move_to(int k, const Eigen::VectorXd& ux);
   void fill_values(int k);
@@ -118,9 +126,7 @@ class StagewiseTranscription : public StagewiseNlp {
 
   Transcription& flat_;
   std::vector<Stage> stages_;
-  // Work space, in the variables of a node.
-  Eigen::VectorXd on_rows_, on_node_, step_, on_next_;
-  Eigen::MatrixXd form_, slopes_;
+  std::vector<Work> works_;
 };
 
 }  // namespace prowl

@@ -159,6 +159,33 @@ TEST(Slacks, LongestStepsKeepTheirDistance) {
   EXPECT_GT(whole, 10);
 }
 
+TEST(Slacks, ResetToTheValuesThatAreFarEnoughInside) {
+  std::mt19937 rng(5);
+  constexpr double tau = 0.9;
+  int taken = 0, left = 0;
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    Slacks slacks = random_slacks(rng);
+    const VectorXd from = slacks.s, before = distances(slacks);
+    ASSERT_TRUE(slacks.move(from, slacks.longest_primal(tau, -0.1 * from), -0.1 * from));
+    const VectorXd stepped = slacks.s, values = from + random_vector(rng, kRows, repeat % 2 == 0 ? 1e-7 : 3.0);
+    slacks.reset(from, values, tau);
+    const VectorXd after = distances(slacks);
+    for (Index i = 0; i < kRows; ++i) {
+      const bool is_taken = slacks.s(i) == values(i);
+      EXPECT_TRUE(is_taken || slacks.s(i) == stepped(i));
+      ++(is_taken ? taken : left);
+      const double below = values(i) - kLower(i), above = kUpper(i) - values(i);
+      const bool is_inside = (!std::isfinite(kLower(i)) || below > (1.0 - tau) * before(i)) &&
+                             (!std::isfinite(kUpper(i)) || above > (1.0 - tau) * before(kRows + i));
+      EXPECT_EQ(is_taken, is_inside) << "row " << i;
+      EXPECT_GT(after(i), 0.0);
+      EXPECT_GT(after(kRows + i), 0.0);
+    }
+  }
+  EXPECT_GT(taken, 10);
+  EXPECT_GT(left, 10);
+}
+
 TEST(Slacks, LongestStepsKeepMultipliersPositive) {
   constexpr double tau = 0.9;
   Slacks slacks(VectorXd::Zero(1), VectorXd::Constant(1, kInfinity));

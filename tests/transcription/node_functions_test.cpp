@@ -2,47 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 
 #include "prowl/model/so3.hpp"
 #include "prowl/transcription/independent_contacts.hpp"
+#include "tests/support/allocations.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
-
-// Every allocation of the process comes by here, those of operator new and of Eigen in Prowl's and Pinocchio's
-// libraries too: what a program defines goes before what libraries do. glibc keeps the real ones under these names.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define PROWL_COUNTS_ALLOCATIONS
-namespace {
-std::atomic<long> allocations{0};
-}
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t count, std::size_t size);
-void* __libc_realloc(void* old, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-
-void* malloc(std::size_t size) noexcept {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* calloc(std::size_t count, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_calloc(count, size);
-}
-void* realloc(void* old, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_realloc(old, size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-}
-#endif
 
 namespace prowl {
 namespace {
@@ -156,9 +123,9 @@ TEST(NodeFunctions, HessianIsThatOfDifferencesOfTheGradient) {
 #ifdef PROWL_COUNTS_ALLOCATIONS
 TEST(NodeFunctions, AllocateNothingAfterTheFirstEvaluation) {
   const auto count = [](const auto& call) {
-    const long before = allocations;
+    const long before = test::allocations;
     call();
-    return allocations - before;
+    return test::allocations - before;
   };
   const Eigen::VectorXd q = test::hyq().nominal_configuration();
   EXPECT_GT(count([&] { static_cast<void>(difference(q, q)); }), 0) << "allocations in Prowl's libraries go unseen";
