@@ -78,7 +78,8 @@ Tally resolve(const prowl::Task& task, const prowl::Plan& plan, auto disturbed) 
   std::mt19937 random(1);
   Tally tally;
   for (int i = 0; i < kDisturbances; ++i) {
-    prowl::PlanOptions options{.solver = task.solver, .start_from = plan.trajectory};
+    prowl::PlanOptions options{.solver = task.solver, .start_from = plan.trajectory,
+                                .start_multipliers = plan.result.stage_multipliers};
     const prowl::Plan again = prowl::make_plan(disturbed(random_direction(random)), prowl::RiccatiSolver(), options);
     if (again.result.status == prowl::SolveStatus::converged) {
       tally.iterations.push_back(again.result.iterations);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "prowl/nlp/nlp.hpp"
 
@@ -35,6 +36,9 @@ struct SolverOptions {
   int max_iterations = 300;
   double max_seconds = 300.0;
   bool start_is_near = false;  ///< a solution of a neighbouring problem: stay near it
+  /// Those of that solution (SolveResult::stage_multipliers), if its stages have the same sizes; empty: none. For solvers that
+  /// go by stages.
+  std::vector<StageMultipliers> start_multipliers = {};
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
   const std::atomic<bool>* interrupt = nullptr;            ///< looked at once an iteration; true stops
 };
@@ -58,6 +62,7 @@ struct SolveResult {
   std::string message;          ///< the solver's own words, and what failed where
   Eigen::VectorXd z;            ///< the solution, or the iterate of least violation
   Eigen::VectorXd multipliers;  ///< of g at z; empty if unknown
+  std::vector<StageMultipliers> stage_multipliers;  ///< of the stages at z; empty if unknown
   double cost = 0.0;
   double constraint_violation = 0.0;
   double dual_violation = 0.0;

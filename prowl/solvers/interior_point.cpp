@@ -33,6 +33,7 @@ constexpr int kMostRestorations = 100;
 /// same on each mesh mu has to fall as a step does (HyQ rear from the task alone on 350 intervals: with mu = 1e-3
 /// 59 iterations, with this 22; on 23 intervals 16 and 16).
 constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-4;
+constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< of slacks off their bounds
 /// Where no part of a step is an improvement, shorter steps by more regularisation, so many times.
 constexpr double kFailureGrowth = 100.0;
 constexpr int kMostFailures = 4;
@@ -197,6 +198,44 @@ void InteriorPoint::scale_cost() {
     if (nlp_.cost_gradient(k).size() > 0) slope = std::max(slope, nlp_.cost_gradient(k).cwiseAbs().maxCoeff());
   }
   if (slope > kLargestCostSlope) cost_scale_ = kLargestCostSlope / slope;
+}
+
+bool InteriorPoint::has_start_multipliers() const {
+  const std::vector<StageMultipliers>& start = options_.start_multipliers;
+  bool fits = options_.start_is_near && start.size() == on_.size();
+  for (std::size_t i = 0; fits && i < on_.size(); ++i) {
+    fits = start[i].next.size() == on_[i].next.size() && start[i].equalities.size() == on_[i].equalities.size() &&
+           start[i].inequalities.size() == on_[i].inequalities.size();
+  }
+  return fits;
+}
+
+void InteriorPoint::start_slacks() {
+  const double push = options_.start_is_near ? kNearPush : kFirstPush;
+  if (!has_start_multipliers()) {
+    slacks_.start(values_.inequalities, push);
+    slacks_.center(mu_);
+    slacks_.pull(mu_, lambda_);
+    return;
+  }
+  for (int k = 0; k < num_stages_; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    on_[i].next = cost_scale_ * options_.start_multipliers[i].next;
+    on_[i].equalities = cost_scale_ * options_.start_multipliers[i].equalities;
+    segment(lambda_, k) = cost_scale_ * options_.start_multipliers[i].inequalities;
+  }
+  slacks_.start(values_.inequalities, lambda_, mu_, push);
+}
+
+std::vector<StageMultipliers> InteriorPoint::multipliers() const {
+  std::vector<StageMultipliers> result = on_;
+  for (int k = 0; k < num_stages_; ++k) {
+    StageMultipliers& on = result[static_cast<std::size_t>(k)];
+    on.next /= cost_scale_;
+    on.equalities /= cost_scale_;
+    on.inequalities = segment(lambda_, k) / cost_scale_;
+  }
+  return result;
 }
 
 /// Least squares: those that leave the least violation of the dual equations.
@@ -430,12 +469,10 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
   ux_ = start;
   if (!evaluate(ux_, values_)) return {evaluation_failed, failure_};
   mu_ = (options_.start_is_near ? kNearBarrier : kFirstBarrier) / num_stages_;
-  slacks_.start(values_.inequalities, options_.start_is_near ? 1e-4 : 1e-2);
-  slacks_.center(mu_);
-  slacks_.pull(mu_, lambda_);
   try {
     scale_cost();
-    estimate_multipliers();
+    start_slacks();
+    if (!has_start_multipliers()) estimate_multipliers();
     linearise();
     theta_ = violation(values_, slacks_.s);
     least_theta_ = 1e-4 * std::max(1.0, theta_);

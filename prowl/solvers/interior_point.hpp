@@ -34,6 +34,7 @@ class InteriorPoint {
   const IterateFigures& figures() const { return figures_; }
   const StageVectors& stages() const { return ux_; }
   const SolveTimes& times() const { return times_; }
+  std::vector<StageMultipliers> multipliers() const;  ///< of the program itself, cost not scaled
 
  private:
   /// Values of all functions at a point.
@@ -54,6 +55,8 @@ class InteriorPoint {
   bool update_barrier();
 
   StageKkt::Outcome factorise(StageKkt::Hessian hessian, double delta);
+  bool has_start_multipliers() const;
+  void start_slacks();
   void estimate_multipliers();
   double largest_multiplier() const;
   void scale_cost();

@@ -76,6 +76,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
   const bool has_converged = result.status == SolveStatus::converged;
   if (has_converged || !best_stages.empty()) {
     result.z = stages.flat(has_converged ? method.stages() : best_stages);
+    if (has_converged) result.stage_multipliers = method.multipliers();
     result.dual_violation = (has_converged ? method.figures() : best).dual_violation;
   }
 

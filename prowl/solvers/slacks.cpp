@@ -35,6 +35,17 @@ void Slacks::center(double mu) {
   for_each(*this, [mu](Bound& b, double distance, double) { b.z = mu / distance; });
 }
 
+void Slacks::start(const VectorXd& values, const VectorXd& lambda, double mu, double push) {
+  start(values, push);
+  for_each(*this, [&](Bound& b, double, double sign) {
+    b.z = std::max(0.0, -sign * lambda(b.row));
+    const double inside = sign * (values(b.row) - b.at);
+    const double wanted = std::max(inside, mu / std::max(b.z, mu / push));
+    if (sign * (s(b.row) - b.at) > wanted) s(b.row) = b.at + sign * wanted;
+  });
+  for_each(*this, [&](Bound& b, double distance, double) { b.z = std::max(b.z, mu / distance); });
+}
+
 double Slacks::log_barrier() const {
   double sum = 0.0;
   for_each(*this, [&](const Bound&, double distance, double) { sum -= std::log(distance); });

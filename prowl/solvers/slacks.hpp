@@ -21,6 +21,9 @@ class Slacks {
   void start(const Eigen::VectorXd& values, double push);
   /// z = mu / distance.
   void center(double mu);
+  /// Starts from multipliers of a neighbouring problem: z is what they say, but at least mu / distance, and slacks keep a
+  /// distance of mu / z.
+  void start(const Eigen::VectorXd& values, const Eigen::VectorXd& lambda, double mu, double push);
 
   double log_barrier() const;  ///< without mu
   /// beta = derivative of mu log_barrier in s: lambda is to become that.

@@ -61,7 +61,7 @@ TEST_F(GuardedNlpTest, PassesOnWhatIsFinite) {
   EXPECT_TRUE(guarded_.jacobian(z_, jacobian_));
   EXPECT_TRUE(guarded_.hessian(z_, 1.0, multipliers_, hessian_));
   EXPECT_EQ(guarded_.failure(), "");
-  EXPECT_GT(guarded_.seconds(), 0.0);
+  EXPECT_GT(guarded_.times().evaluation(), 0.0);
 }
 
 TEST_F(GuardedNlpTest, NamesThePlaceOfWhatIsNotFinite) {
