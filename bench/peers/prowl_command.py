@@ -67,7 +67,7 @@ class ProwlCommand:
         checks = {check["name"]: check["worst"] for check in record["certificate"]["checks"]}
         return ProwlRun(motion, [phase["duration_s"] for phase in record["problem"]["phases"]], seconds,
                         last_seconds, "cpu" if "cpu_seconds" in found else "wall",
-                        found.get("evaluation", {"evaluation": found["evaluation_seconds"]}), found["levels"],
+                        found.get("evaluation", {}), found["levels"],
                         record["status"] == "converged", record["certificate"]["grade"], checks.get("re-integration", float("nan")))
 
     def _run(self, task_file, solver, intervals, one_mesh, out) -> float:

@@ -33,7 +33,7 @@ constexpr int kMostRestorations = 100;
 /// same on each mesh mu has to fall as a step does (HyQ rear from the task alone on 350 intervals: with mu = 1e-3
 /// 59 iterations, with this 22; on 23 intervals 16 and 16).
 /// Near a solution whose multipliers are known slacks are placed by them, and mu can be near its end: HyQ balance with the goal
-/// moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5.
+/// moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
 constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-4, kKnownBarrier = 3e-5;
 constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< of slacks off their bounds
 /// Where no part of a step is an improvement, shorter steps by more regularisation, so many times.
