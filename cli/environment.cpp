@@ -10,6 +10,7 @@
 #include "prowl/error.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/riccati_solver.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -47,6 +48,7 @@ void check_processor() {
 
 std::map<std::string, std::string> versions() {
   return {{"prowl", PROWL_VERSION},
+          {"Riccati", RiccatiSolver().version()},
           {"Ipopt", IpoptSolver().version()},
           {"Fatrop", FatropSolver().version()},
           {"Pinocchio", PROWL_PINOCCHIO_VERSION},

@@ -148,7 +148,7 @@ void add_plan_command(CLI::App& app, int& status) {
       ->type_name("DIR")->expected(1)->take_all();
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
-  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations"}) phases->excludes(unused);
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh"}) phases->excludes(unused);
   verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"
                "  prowl plan tasks/hyq/balance.toml --print-phases\n"
                "  prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out stand\n\n"

@@ -44,7 +44,7 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   const bool from_elsewhere = plan.levels.empty();  // --warm-start
   level_options.start_is_near =
       !plan.trajectory.empty() && (from_elsewhere || plan.result.status == SolveStatus::converged);
-  if (from_elsewhere) level_options.start_multipliers = options.start_multipliers;
+  level_options.start_multipliers = from_elsewhere ? options.start_multipliers : std::vector<StageMultipliers>{};
   constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
   level_options.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
   if (options.on_level) options.on_level(count_intervals(problem));

@@ -40,6 +40,7 @@ struct PlanOptions {
   /// Empty: start from the task alone, on a coarse mesh first. Else start from this motion (see resample()).
   Trajectory start_from = {};
   /// Of the plan whose motion that is (Plan::result.stage_multipliers), if at hand and the mesh is the same.
+  /// Sizes that do not fit are left out.
   std::vector<StageMultipliers> start_multipliers = {};
   /// For the small programs behind the hints after a failure, which are no chains of stages; null: that of the plan.
   const NlpSolver* hint_solver = nullptr;

@@ -52,7 +52,7 @@ class StagewiseNlp {
 
   /// Values and all derivatives of a stage at once, for the functions below. Those know how a stage is made, and so need
   /// less than the dense matrices above; what they return holds until the stage is linearised again or its derivatives()
-  /// are asked for, whatever values() are.
+  /// or hessian() are asked for, whatever values() are.
   virtual void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) = 0;
   virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
   virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;

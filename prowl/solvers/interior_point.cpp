@@ -21,6 +21,7 @@ constexpr double kKappaEpsilon = 10.0, kKappaMu = 0.2, kThetaMu = 1.5, kTauMin =
 constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1.0, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
 constexpr double kGammaAlpha = 0.05, kKappaSoc = 0.99, kKappaSigma = 1e10, kSMax = 100.0;
 constexpr int kMostCorrections = 4;
+constexpr double kShortestStep = 1e-12;  ///< part of a direction; below it is rounding
 constexpr double kLargestRegularisation = 1e20, kLeastRegularisation = 1e-20;
 
 constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3.0;
@@ -96,7 +97,7 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options)
     values->equalities = right_equalities_;
     values->inequalities.setZero(rows_.back());
   }
-  for (VectorXd* v : {&s_, &ds_, &lambda_, &beta_, &sigma_, &residual_, &corrected_, &step_lambda_}) v->setZero(rows_.back());
+  for (VectorXd* v : {&s_, &ds_, &lambda_, &beta_, &sigma_, &residual_, &step_lambda_}) v->setZero(rows_.back());
 }
 
 bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
@@ -312,7 +313,8 @@ bool InteriorPoint::compute_direction(double least_regularisation, std::string& 
       return false;
     }
   }
-  if (regularisation_ > 0.0) last_regularisation_ = regularisation_;
+  // What a step that failed asks for says nothing of the curvature.
+  if (regularisation_ > 0.0 && least_regularisation == 0.0) last_regularisation_ = regularisation_;
 
   set_right_sides(values_, slacks_.s);
   solve_direction(residual_);
@@ -390,7 +392,7 @@ bool InteriorPoint::search_line() {
     least = std::min(least, kGammaPhi * theta_ / -slope_);
     if (theta_ <= least_theta_) least = std::min(least, kDelta * std::pow(theta_, kSTheta) / std::pow(-slope_, kSPhi));
   }
-  least *= kGammaAlpha;
+  least = std::max(kGammaAlpha * least, kShortestStep);
   step_on_equalities_ = kkt_.on_equalities();
   step_on_next_ = kkt_.on_next();
   for (double alpha = longest; alpha > least; alpha *= 0.5) {
@@ -422,37 +424,47 @@ void InteriorPoint::accept(double alpha_primal, double alpha_dual) {
   slacks_.move_dual(alpha_dual, mu_, kKappaSigma);
 }
 
-/// Short steps towards the constraints, the cost left out, until the filter accepts where that leads.
-bool InteriorPoint::restore_feasibility(const Watch& watch, std::optional<Ending>& ending) {
+/// Short steps towards the constraints, the cost left out, until the filter accepts where that leads. Else why not.
+std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Watch& watch) {
+  using enum SolveStatus;
   filter_.add((1.0 - kGammaTheta) * theta_, phi_ - kGammaPhi * theta_);
   const double theta_before = theta_;
   for (int i = 0; i < kMostRestorations; ++i) {
-    if ((ending = watch(iterations_, figures_))) return false;
+    if (i > 0) {
+      if (auto ending = watch(++iterations_, figures_)) return ending;
+    }
     slacks_.center(mu_);
     slacks_.weights(sigma_);
     for (int k = 0; k < num_stages_; ++k) weights_[static_cast<std::size_t>(k)] = segment(sigma_, k);
-    if (factorise(StageKkt::Hessian::identity, std::sqrt(mu_)) != StageKkt::Outcome::solvable) return false;
+    if (factorise(StageKkt::Hessian::identity, std::sqrt(mu_)) != StageKkt::Outcome::solvable) {
+      return Ending{solver_failed, "restoration of feasibility: its equations are singular"};
+    }
     set_right_sides(values_, slacks_.s);
     const double cost_scale = cost_scale_;
     cost_scale_ = 0.0;
     solve_direction(residual_);
     cost_scale_ = cost_scale;
+    if (!ds_.allFinite()) return Ending{solver_failed, "restoration of feasibility: the step is not finite"};
     s_ = slacks_.s;
     const double theta = violation(values_, s_);
-    double alpha = slacks_.longest_primal(kTauMin, ds_);
-    bool moved = false;
-    for (; alpha > 1e-10; alpha *= 0.5) {
-      moved = try_step(alpha, kkt_.steps(), ds_) && violation(trial_, slacks_.s) <= (1.0 - 1e-4 * alpha) * theta;
-      if (moved) break;
+    bool moved = false, evaluated = false;
+    for (double alpha = slacks_.longest_primal(kTauMin, ds_); !moved && alpha > kShortestStep; alpha *= 0.5) {
+      if (!try_step(alpha, kkt_.steps(), ds_)) continue;
+      evaluated = true;
+      moved = violation(trial_, slacks_.s) <= (1.0 - 1e-4 * alpha) * theta;
     }
     if (!moved) {
       slacks_.s = s_;
-      return false;
+      if (!evaluated) return Ending{evaluation_failed, failure_};
+      if (figures_.violation <= options_.tolerance) {
+        return Ending{solver_failed, "no step along the search direction is an improvement"};
+      }
+      return Ending{infeasible, "converged to a point of locally least violation"};
     }
     ux_.swap(trial_ux_);
     std::swap(values_, trial_);
-    ++iterations_;
     linearise();
+    largest_dual_violation_ = std::numeric_limits<double>::infinity();  // not looked at here
     update_figures();
     const double now = violation(values_, slacks_.s);
     if (now <= 0.9 * theta_before && filter_.accepts(now, barrier_function(values_, slacks_))) {
@@ -460,10 +472,10 @@ bool InteriorPoint::restore_feasibility(const Watch& watch, std::optional<Ending
       slacks_.pull(mu_, lambda_);
       estimate_multipliers();
       linearise();
-      return true;
+      return std::nullopt;
     }
   }
-  return false;
+  return Ending{solver_failed, fmt::format("restoration of feasibility: no end in {} steps", kMostRestorations)};
 }
 
 InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch& watch) {
@@ -500,12 +512,8 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
         least_regularisation = kFailureGrowth * std::max(kFirstRegularisation, regularisation_);
       }
       if (!has_moved) {
-        std::optional<Ending> ending;
-        if (restore_feasibility(watch, ending)) continue;
-        if (ending) return *ending;
-        return figures_.violation > options_.tolerance
-                   ? Ending{infeasible, "converged to a point of locally least violation"}
-                   : Ending{solver_failed, "no step along the search direction is an improvement"};
+        if (const auto ending = restore_feasibility(watch)) return *ending;
+        continue;
       }
       linearise();
       const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasible;

@@ -47,7 +47,7 @@ class InteriorPoint {
   bool evaluate(const StageVectors& ux, Values& values);
   void linearise();
   double violation(const Values& values, const Eigen::VectorXd& s) const;          ///< sum of absolute values
-  double largest_violation(const Values& values, const Eigen::VectorXd& s) const;  ///< in the program's own scale
+  double largest_violation(const Values& values, const Eigen::VectorXd& s) const;  ///< in units of the stages
   double barrier_function(const Values& values, const Slacks& slacks) const;
   void update_dual_violation();
   double error(double mu) const;
@@ -68,7 +68,7 @@ class InteriorPoint {
   bool is_acceptable(double alpha, double theta, double phi, bool& is_phi_step) const;
   bool correct_second_order(double alpha, double theta);
   void accept(double alpha_primal, double alpha_dual);
-  bool restore_feasibility(const Watch& watch, std::optional<Ending>& ending);
+  std::optional<Ending> restore_feasibility(const Watch& watch);
 
   Eigen::Index row(int k) const { return rows_[static_cast<std::size_t>(k)]; }
   auto segment(Eigen::VectorXd& all, int k) const { return all.segment(row(k), row(k + 1) - row(k)); }
@@ -82,7 +82,7 @@ class InteriorPoint {
 
   StageVectors ux_, trial_ux_;
   Slacks slacks_;
-  Eigen::VectorXd s_, ds_, lambda_, beta_, sigma_, residual_, corrected_;
+  Eigen::VectorXd s_, ds_, lambda_, beta_, sigma_, residual_;
   std::vector<StageMultipliers> on_;
   Values values_, trial_;
   StageVectors dual_violation_, gradient_, weights_, right_equalities_, right_links_;

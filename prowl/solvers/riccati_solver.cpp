@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cmath>
 
 #include "prowl/error.hpp"
 #include "prowl/solvers/interior_point.hpp"

@@ -8,11 +8,11 @@ namespace prowl {
 /// systems StageKkt solves by a Riccati recursion. docs/solvers.md.
 ///
 /// - Takes problems with a stage-wise form only (Nlp::stagewise).
-/// - `converged` means that the dual equations, the constraints and the complementarity are within tolerance, and that the
-///   point, as the Nlp sees it, is too.
+/// - `converged` means that the dual equations and the complementarity (scaled as in Wächter and Biegler 2006, eq. (5)) and
+///   the constraints are within tolerance in units of the stages, and the constraints as the Nlp sees them too.
 /// - A value that is not finite at a trial point shortens the step; a derivative that is not ends the solve as
 ///   `evaluation_failed`. Limits and interrupts are looked at once an iteration.
-/// - Stopped early, it returns its best iterate, as IpoptSolver does. Multipliers are not given.
+/// - Stopped early, it returns its best iterate, as IpoptSolver does. Multipliers are given by stages, if it converged.
 /// - Fixed order of operations: same problem, same start, same machine, same iterates.
 class RiccatiSolver : public NlpSolver {
  public:

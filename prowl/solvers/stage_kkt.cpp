@@ -175,6 +175,9 @@ void StageKkt::pass_conditions(Stage& s) {
   if (left == 0 || s.size.states == 0) return;
   const auto& qr = s.conditions.compute(s.in_states.bottomRows(left).transpose());
   s.passed = count_above(qr.matrixQR().diagonal(), kDependent * s.equalities.cwiseAbs().maxCoeff());
+  const auto left_out = qr.matrixQR().diagonal();
+  const double rounding = kRounding * s.equalities.cwiseAbs().maxCoeff();
+  is_exact_ = is_exact_ && (s.passed == left_out.size() || std::abs(left_out(s.passed)) < rounding);
   s.E.resize(s.passed, s.size.states);
   for (int i = 0; i < s.passed; ++i) {
     s.passed_rows.push_back(s.rank + static_cast<int>(qr.colsPermutation().indices()(i)));
