@@ -448,6 +448,7 @@ std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Wa
     s_ = slacks_.s;
     const double theta = violation(values_, s_);
     bool moved = false, evaluated = false;
+    failure_.clear();
     for (double alpha = slacks_.longest_primal(kTauMin, ds_); !moved && alpha > kShortestStep; alpha *= 0.5) {
       if (!try_step(alpha, kkt_.steps(), ds_)) continue;
       evaluated = true;
@@ -455,7 +456,7 @@ std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Wa
     }
     if (!moved) {
       slacks_.s = s_;
-      if (!evaluated) return Ending{evaluation_failed, failure_};
+      if (!evaluated && !failure_.empty()) return Ending{evaluation_failed, failure_};
       if (figures_.violation <= options_.tolerance) {
         return Ending{solver_failed, "no step along the search direction is an improvement"};
       }
