@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fatrop/fatrop.hpp>
 #include <fatrop/ip_algorithm/ip_eq_mult_initializer.hpp>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "prowl/error.hpp"
+#include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/stopwatch.hpp"
@@ -27,12 +27,9 @@ using fatrop::VecRealView;
 using Type = fatrop::OcpType;
 using Info = fatrop::ProblemInfo<Type>;
 using Dims = fatrop::ProblemDims<Type>;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kNearlyFeasible = 1e-2;  // as recalc_y_feas_tol in IpoptSolver
 constexpr double kLargestMultiplier = 1e6;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// Thrown through Fatrop, which has no other way to be stopped.
 struct Stopped {
@@ -83,7 +80,7 @@ Eigen::Map<VectorXd> segment(const VecRealView& vector, Index first, Eigen::Inde
 /// dynamics, then of the equalities, then of the inequalities.
 class FatropProblem : public fatrop::Nlp<Type> {
  public:
-  FatropProblem(StagewiseNlp& nlp, std::vector<VectorXd> start, const SolverOptions& options, Clock::time_point began)
+  FatropProblem(StagewiseNlp& nlp, std::vector<VectorXd> start, const SolverOptions& options, double began)
       : nlp_(nlp),
         options_(options),
         began_(began),
@@ -210,7 +207,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
     note(iterate);
     failure_.clear();  // a shorter step got away from it
     if (options_.on_iteration) {
-      options_.on_iteration({iterations_, last_.cost, last_.violation, last_.dual_violation, seconds_since(began_)});
+      options_.on_iteration({iterations_, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - began_});
     }
     check_limits();
     if (iterations_ >= options_.max_iterations) throw Stopped{SolveStatus::iteration_limit, "iteration limit reached"};
@@ -249,7 +246,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
   void check_limits() const {
     if (options_.interrupt && options_.interrupt->load()) throw Stopped{SolveStatus::interrupted, "stopped on request"};
-    if (seconds_since(began_) > options_.max_seconds) throw Stopped{SolveStatus::time_limit, "time limit reached"};
+    if (wall_seconds() - began_ > options_.max_seconds) throw Stopped{SolveStatus::time_limit, "time limit reached"};
   }
 
   /// Whether a stage's evaluation is of use; else failure_ says why not.
@@ -280,7 +277,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
   StagewiseNlp& nlp_;
   const SolverOptions& options_;
-  Clock::time_point began_;
+  double began_;
   Dims dims_;
   fatrop::NlpDims totals_;
   std::vector<VectorXd> start_;
@@ -336,24 +333,12 @@ std::string FatropSolver::name() const { return "Fatrop"; }
 std::string FatropSolver::version() const { return PROWL_FATROP_VERSION; }
 
 std::optional<std::string> FatropSolver::why_unsupported(Nlp& nlp) const {
-  const StagewiseNlp* stages = nlp.stagewise();
-  if (!stages) return "Fatrop needs a problem that is a chain of stages, and this one is not";
-  for (int k = 0; k < stages->num_stages(); ++k) {
-    for (int i = 0; i < stages->size(k).inequalities; ++i) {
-      if (stages->lower(k)(i) < stages->upper(k)(i)) continue;  // false for NaN too
-      return fmt::format("{}: bounds [{}, {}] leave nothing", stages->describe_stage(k), stages->lower(k)(i),
-                         stages->upper(k)(i));
-    }
-  }
-  return std::nullopt;
+  return why_no_chain(nlp, "Fatrop");
 }
 
 SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  validate(options);
-  if (z_start.size() != nlp.num_variables()) {
-    throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
-  }
-  const Clock::time_point began = Clock::now();
+  check_arguments(nlp, z_start, options);
+  const double began = wall_seconds();
   const double cpu_start = cpu_seconds();
   if (const auto reason = why_unsupported(nlp)) {
     SolveResult result;
@@ -399,7 +384,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
   judge(nlp, options.tolerance, name(), result);
   result.times = problem->times();
   result.times.cpu = cpu_seconds() - cpu_start;
-  result.seconds = seconds_since(began);
+  result.seconds = wall_seconds() - began;
   return result;
 }
 

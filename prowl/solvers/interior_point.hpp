@@ -62,7 +62,9 @@ class InteriorPoint {
   void scale_cost();
   bool compute_direction(double least_regularisation, std::string& failure);
   void set_right_sides(const Values& values, const Eigen::VectorXd& s);
-  void solve_direction(const Eigen::VectorXd& residual);
+  void set_gradient(double cost_scale, const Eigen::VectorXd& lambda);
+  void set_weights();
+  void solve_direction(double cost_scale, const Eigen::VectorXd& residual);
   bool search_line();
   bool try_step(double alpha, const StageVectors& steps, const Eigen::VectorXd& ds);
   bool is_acceptable(double alpha, double theta, double phi, bool& is_phi_step) const;

@@ -6,12 +6,11 @@
 #include <IpIpoptApplication.hpp>
 #include <IpTNLP.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
-#include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/stopwatch.hpp"
@@ -27,9 +26,6 @@ using Ipopt::Index;
 using Ipopt::Number;
 using VectorMap = Eigen::Map<VectorXd>;
 using ConstVectorMap = Eigen::Map<const VectorXd>;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 struct Iterate : IterateFigures {
   VectorXd z, multipliers;
@@ -38,7 +34,7 @@ struct Iterate : IterateFigures {
 /// What Ipopt asks, passed on to the Nlp.
 class IpoptProblem : public Ipopt::TNLP {
  public:
-  IpoptProblem(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, Clock::time_point start)
+  IpoptProblem(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, double start)
       : guarded_(guarded), nlp_(guarded.nlp()), options_(options), start_(start), z_start_(z_start) {}
 
   const Iterate& best() const { return best_; }
@@ -95,7 +91,7 @@ class IpoptProblem : public Ipopt::TNLP {
     iterations_ = iteration;
     read_iterate(mode, cost, inf_du, data, quantities);
     if (options_.on_iteration) {
-      options_.on_iteration({iteration, last_.cost, last_.violation, last_.dual_violation, seconds_since(start_)});
+      options_.on_iteration({iteration, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - start_});
     }
     guarded_.forget_failure();  // a shorter step got away from it
     return !guarded_.broken() && !(options_.interrupt && options_.interrupt->load());
@@ -150,7 +146,7 @@ class IpoptProblem : public Ipopt::TNLP {
   GuardedNlp& guarded_;
   const Nlp& nlp_;
   const SolverOptions& options_;
-  Clock::time_point start_;
+  double start_;
   const VectorXd z_start_;
   VectorXd z_;
   Iterate best_, last_;
@@ -238,7 +234,7 @@ bool evaluate_result(GuardedNlp& guarded, const Iterate& iterate, SolveResult& r
   return true;
 }
 
-void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, Clock::time_point start,
+void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, double start,
                SolveResult& result) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication(false);  // prints nothing
   set_options(*ipopt->Options(), options);
@@ -293,11 +289,8 @@ std::optional<std::string> IpoptSolver::why_unsupported(Nlp& nlp) const {
 }
 
 SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  validate(options);
-  if (z_start.size() != nlp.num_variables()) {
-    throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
-  }
-  const Clock::time_point start = Clock::now();
+  check_arguments(nlp, z_start, options);
+  const double start = wall_seconds();
   const double cpu_start = cpu_seconds();
   GuardedNlp guarded(nlp);
   SolveResult result;
@@ -311,7 +304,7 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   }
   result.times = guarded.times();
   result.times.cpu = cpu_seconds() - cpu_start;
-  result.seconds = seconds_since(start);
+  result.seconds = wall_seconds() - start;
   return result;
 }
 

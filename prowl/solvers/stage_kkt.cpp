@@ -23,21 +23,6 @@ constexpr double kRounding = 1e-12;
 constexpr int kMostRefinements = 5;
 constexpr double kRefined = 1e-12;  ///< residual, as a part of the right sides
 
-template <class Pivots>
-int count_above(const Pivots& pivots, double threshold) {
-  int count = 0;
-  while (count < pivots.size() && std::abs(pivots(count)) > threshold) ++count;
-  return count;
-}
-
-double largest(const StageVectors& vectors) {
-  double result = 0.0;
-  for (const VectorXd& v : vectors) {
-    if (v.size() > 0) result = std::max(result, v.cwiseAbs().maxCoeff());
-  }
-  return result;
-}
-
 void add(const StageVectors& from, StageVectors& to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
 }
@@ -71,20 +56,20 @@ StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const Stage
   delta_ = delta;
   weights_ = weights;
   for (int k = num_stages_ - 1; k >= 0; --k) {
-    const Outcome outcome = factorise_stage(k, hessian, delta, weights[static_cast<std::size_t>(k)]);
+    const Outcome outcome = factorise_stage(k);
     if (outcome != Outcome::solvable) return outcome;
   }
   return Outcome::solvable;
 }
 
-StageKkt::Outcome StageKkt::factorise_stage(int k, Hessian hessian, double delta, const VectorXd& weights) {
+StageKkt::Outcome StageKkt::factorise_stage(int k) {
   Stage& s = stage(k);
   gather_equalities(k);
   if (!s.equalities.allFinite()) return Outcome::not_finite;
   determine_inputs(s);
-  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights, s.in_order);
-  if (hessian == Hessian::lagrangian) s.in_order += nlp_.lagrangian_hessian(k);
-  s.in_order.diagonal().array() += delta;
+  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[static_cast<std::size_t>(k)], s.in_order);
+  if (hessian_ == Hessian::lagrangian) s.in_order += nlp_.lagrangian_hessian(k);
+  s.in_order.diagonal().array() += delta_;
   put_in_order(s);
   if (!s.M.allFinite()) return Outcome::not_finite;
   eliminate(s);
@@ -117,14 +102,20 @@ void StageKkt::gather_equalities(int k) {
   }
 }
 
+template <class Pivots>
+int StageKkt::count_independent(const Stage& s, const Pivots& pivots) {
+  const double scale = s.equalities.cwiseAbs().maxCoeff();
+  int count = 0;
+  while (count < pivots.size() && std::abs(pivots(count)) > kDependent * scale) ++count;
+  is_exact_ = is_exact_ && (count == pivots.size() || std::abs(pivots(count)) < kRounding * scale);
+  return count;
+}
+
 void StageKkt::determine_inputs(Stage& s) {
   s.rank = 0;
   if (s.num_equalities() == 0 || s.size.inputs == 0) return;
   s.lu.compute(s.equalities.leftCols(s.size.inputs));
-  const double scale = s.equalities.cwiseAbs().maxCoeff();
-  const auto pivots = s.lu.matrixLU().diagonal();
-  s.rank = count_above(pivots, kDependent * scale);
-  is_exact_ = is_exact_ && (s.rank == pivots.size() || std::abs(pivots(s.rank)) < kRounding * scale);
+  s.rank = count_independent(s, s.lu.matrixLU().diagonal());
   for (int i = 0; i < s.size.inputs; ++i) s.order[static_cast<std::size_t>(i)] = s.lu.permutationQ().indices()(i);
 }
 
@@ -174,10 +165,7 @@ void StageKkt::pass_conditions(Stage& s) {
   const int left = s.num_equalities() - s.rank;
   if (left == 0 || s.size.states == 0) return;
   const auto& qr = s.conditions.compute(s.in_states.bottomRows(left).transpose());
-  s.passed = count_above(qr.matrixQR().diagonal(), kDependent * s.equalities.cwiseAbs().maxCoeff());
-  const auto left_out = qr.matrixQR().diagonal();
-  const double rounding = kRounding * s.equalities.cwiseAbs().maxCoeff();
-  is_exact_ = is_exact_ && (s.passed == left_out.size() || std::abs(left_out(s.passed)) < rounding);
+  s.passed = count_independent(s, qr.matrixQR().diagonal());
   s.E.resize(s.passed, s.size.states);
   for (int i = 0; i < s.passed; ++i) {
     s.passed_rows.push_back(s.rank + static_cast<int>(qr.colsPermutation().indices()(i)));

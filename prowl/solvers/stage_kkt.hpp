@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "prowl/nlp/stagewise_nlp.hpp"
+#include "prowl/solvers/stage_vectors.hpp"
 
 namespace prowl {
-
-/// One vector a stage.
-using StageVectors = std::vector<Eigen::VectorXd>;
 
 /// Newton's equations of a chain of stages, by a Riccati recursion: the step d_k = (du_k, dx_k) that minimises
 ///
@@ -83,7 +81,10 @@ class StageKkt {
   void determine_inputs(Stage& stage);
   void eliminate(Stage& stage);
   void pass_conditions(Stage& stage);
-  Outcome factorise_stage(int k, Hessian hessian, double delta, const Eigen::VectorXd& weights);
+  /// How many of the pivots of a stage's equalities count; notes whether others were more than rounding.
+  template <class Pivots>
+  int count_independent(const Stage& stage, const Pivots& pivots);
+  Outcome factorise_stage(int k);
   void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
   void forward(int k, const Eigen::VectorXd* link);
   void find_multipliers(int k);

@@ -300,9 +300,9 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
       }
     }
   };
+  distribute(stage.equalities, multipliers.equalities);
+  distribute(stage.inequalities, multipliers.inequalities);
   flat_.at_node(k, [&] {
-    distribute(stage.equalities, multipliers.equalities);
-    distribute(stage.inequalities, multipliers.inequalities);
     flat_.functions(k).linearise(stage.point, cost_factor, work.on_rows, stage.node_values, work.form);
   });
   if (stage.num_next() > 0) {
@@ -352,9 +352,8 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
     }
   }
   for (Index i = rows; i < weights.size(); ++i) {
-    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
-    const int variable = stage.bounded[static_cast<std::size_t>(bound)];
-    work.form(variable, variable) += weights(i) * stage.per_unit(bound) * stage.per_unit(bound);
+    const auto [variable, per_unit] = stage.bound(i);
+    work.form(variable, variable) += weights(i) * per_unit * per_unit;
   }
   stage.linear_arrival.pull_back_form(work.form);
   gather(stage, work.form, result);
@@ -372,8 +371,8 @@ void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd&
   inequalities.resize(stage.size.inequalities);
   inequalities.head(rows).noalias() = stage.rows.gradients.transpose() * work.step;
   for (Index i = rows; i < inequalities.size(); ++i) {
-    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
-    inequalities(i) = work.step(stage.bounded[static_cast<std::size_t>(bound)]) * stage.per_unit(bound);
+    const auto [variable, per_unit] = stage.bound(i);
+    inequalities(i) = work.step(variable) * per_unit;
   }
   next.resize(stage.num_next());
   if (stage.num_next() == 0) return;
@@ -397,8 +396,8 @@ void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const
   const Index rows = stage.rows.gradients.cols();
   work.on_node.noalias() += stage.rows.gradients * on_inequalities.head(rows);
   for (Index i = rows; i < on_inequalities.size(); ++i) {
-    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
-    work.on_node(stage.bounded[static_cast<std::size_t>(bound)]) += on_inequalities(i) * stage.per_unit(bound);
+    const auto [variable, per_unit] = stage.bound(i);
+    work.on_node(variable) += on_inequalities(i) * per_unit;
   }
   stage.linear_arrival.pull_back(work.on_node);
   for (Index i = 0; i < gradient.size(); ++i) {
@@ -406,7 +405,7 @@ void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const
   }
 }
 
-// Dense matrices are the products of the functions above with unit vectors.
+// The same derivatives as dense matrices.
 const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorXd& ux) {
   move_to(k, ux);
   Stage& stage = this->stage(k);
@@ -421,8 +420,8 @@ const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorX
   MatrixXd slopes = MatrixXd::Zero(stage.size.inequalities + stage.num_next(), size);
   slopes.topRows(rows) = stage.rows.gradients.transpose();
   for (Index i = rows; i < stage.size.inequalities; ++i) {
-    const int bound = stage.inequalities[static_cast<std::size_t>(i)] - stage.num_rows;
-    slopes(i, stage.bounded[static_cast<std::size_t>(bound)]) = stage.per_unit(bound);
+    const auto [variable, per_unit] = stage.bound(i);
+    slopes(i, variable) = per_unit;
   }
   if (stage.num_next() > 0) {
     const Index states = 2 * flat_.layout_.nv();

@@ -99,6 +99,11 @@ class StagewiseTranscription : public StagewiseNlp {
     StageDerivatives derivatives;  ///< dense, if asked for
     const Eigen::VectorXd& node() const { return arrival.node(); }
     int num_next() const { return static_cast<int>(next_per_unit.size()); }
+    /// Of an inequality that is a bound: its variable, and the bound's slope in that.
+    std::pair<int, double> bound(Eigen::Index inequality) const {
+      const int i = inequalities[static_cast<std::size_t>(inequality)] - num_rows;
+      return {bounded[static_cast<std::size_t>(i)], per_unit(i)};
+    }
   };
   const Stage& stage(int k) const { return stages_[static_cast<std::size_t>(k)]; }
 

@@ -1,0 +1,28 @@
+#include "prowl/solvers/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+
+void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) {
+  validate(options);
+  if (z_start.size() == nlp.num_variables()) return;
+  throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
+}
+
+std::optional<std::string> why_no_chain(Nlp& nlp, const std::string& solver) {
+  const StagewiseNlp* stages = nlp.stagewise();
+  if (!stages) return solver + " needs a problem that is a chain of stages, and this one is not";
+  for (int k = 0; k < stages->num_stages(); ++k) {
+    for (int i = 0; i < stages->size(k).inequalities; ++i) {
+      if (stages->lower(k)(i) < stages->upper(k)(i)) continue;  // false for NaN too
+      return fmt::format("{}: bounds [{}, {}] leave nothing", stages->describe_stage(k), stages->lower(k)(i),
+                         stages->upper(k)(i));
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace prowl

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+namespace prowl {
+
+/// One vector a stage.
+using StageVectors = std::vector<Eigen::VectorXd>;
+
+/// Largest absolute value of all entries; 0 if there is none.
+inline double largest(const StageVectors& vectors) {
+  double result = 0.0;
+  for (const Eigen::VectorXd& v : vectors) {
+    if (v.size() > 0) result = std::max(result, v.cwiseAbs().maxCoeff());
+  }
+  return result;
+}
+
+}  // namespace prowl
