@@ -11,6 +11,10 @@ namespace {
 constexpr int kCoarser = 4;
 constexpr int kLeastIntervals = 4;  // what it takes for a swing to leave, pass and land
 
+/// A mesh this small is solved at once: a start from a coarser one saves fewer iterations than that one takes
+/// (docs/solvers.md).
+constexpr int kSmallMesh = 48;
+
 MotionProblem coarsened(const MotionProblem& problem) {
   const std::vector<int> divisors = interval_divisors(problem);
   MotionProblem coarse = problem;
@@ -37,7 +41,7 @@ int count_intervals(const MotionProblem& problem) {
 
 std::vector<MotionProblem> mesh_levels(const MotionProblem& problem) {
   std::vector<MotionProblem> levels{problem};
-  for (;;) {
+  while (count_intervals(levels.back()) > kSmallMesh) {
     MotionProblem coarse = coarsened(levels.back());
     if (2 * count_intervals(coarse) > count_intervals(levels.back())) break;
     levels.push_back(std::move(coarse));
