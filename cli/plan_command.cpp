@@ -36,8 +36,11 @@ struct PlanArguments {
   bool json = false;
   bool print_phases = false;
   bool one_mesh = false;
+  int threads = 1;
+  std::string hessian = "exact";
 };
 
+constexpr int kMostThreads = 256;
 constexpr double kMostSamples = 1e7;  // of the uniform grid: some gigabytes of text
 
 /// A finite number > 0; CLI11's own check lets NaN through.
@@ -99,6 +102,8 @@ int run_plan(const PlanArguments& arguments) {
   const IpoptSolver hint_solver;
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
+  options.solver.threads = arguments.threads;
+  options.hessian = arguments.hessian == "exact" ? HessianKind::exact : HessianKind::gauss_newton;
   options.on_level = [&](int intervals) { progress.begin_level(intervals); };
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
@@ -131,6 +136,11 @@ void add_plan_command(CLI::App& app, int& status) {
       ->check(kPositive)->type_name("S");
   verb->add_option("--solver", arguments->solver, "Who solves it; default riccati")
       ->check(CLI::IsMember({"riccati", "fatrop", "ipopt"}))->type_name("NAME");
+  verb->add_option("--threads", arguments->threads,
+                   "Threads that evaluate the problem, with riccati and ipopt; default 1. The result is the same")
+      ->check(CLI::Range(1, kMostThreads))->type_name("N");
+  verb->add_option("--hessian", arguments->hessian, "Second derivatives: exact (default), or gauss-newton: of the cost alone")
+      ->check(CLI::IsMember({"exact", "gauss-newton"}))->type_name("NAME");
   verb->add_option("--max-time", arguments->overrides.max_seconds,
                    key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
       ->check(kPositive)->type_name("S");

@@ -15,6 +15,7 @@ list(PREPEND CMAKE_PREFIX_PATH ${PROWL_CMEEL})
 set(Boost_NO_WARN_NEW_VERSIONS ON)  # newer than the CMake of Debian 12 knows
 find_package(pinocchio 4.1 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
+find_package(Threads REQUIRED)
 
 # Ipopt comes without a CMake package in the casadi wheel.
 if(EXISTS ${PROWL_CASADI}/include/coin-or/IpTNLP.hpp)

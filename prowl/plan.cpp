@@ -38,6 +38,7 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   const Trajectory guess =
       plan.trajectory.empty() ? initial_guess(problem, mesh) : resample(plan.trajectory, problem, mesh);
   Transcription nlp{problem, mesh, guess};
+  nlp.use_hessian(options.hessian);
   if (const auto reason = solver.why_unsupported(nlp)) throw InputError(*reason);
 
   SolverOptions level_options = options.solver;

@@ -8,6 +8,7 @@
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/trajectory/certificate.hpp"
 #include "prowl/trajectory/trajectory.hpp"
+#include "prowl/transcription/hessian_kind.hpp"
 
 namespace prowl {
 
@@ -44,6 +45,7 @@ struct PlanOptions {
   std::vector<StageMultipliers> start_multipliers = {};
   /// For the small programs behind the hints after a failure, which are no chains of stages; null: that of the plan.
   const NlpSolver* hint_solver = nullptr;
+  HessianKind hessian = HessianKind::exact;
   bool coarse_first = true;  ///< false: on the mesh of the problem at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
 };

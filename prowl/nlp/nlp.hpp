@@ -17,7 +17,7 @@ struct SparsityPattern {
 
 /// Nonlinear program: minimise f(z) subject to z_lower <= z <= z_upper, g_lower <= g(z) <= g_upper.
 /// Sizes, bounds and sparsity are fixed at construction; +-inf where there is no bound.
-/// Evaluations may reuse internal work space: one Nlp, one thread. They may throw NumericalError.
+/// Evaluations may reuse internal work space: one Nlp, one thread (but see use_threads()). They may throw NumericalError.
 class Nlp {
  public:
   virtual ~Nlp() = default;
@@ -42,6 +42,10 @@ class Nlp {
   /// In the words of the task, e.g. "phase 2, lh_foot, friction cone, t = 0.41 s".
   virtual std::string describe_constraint(int row) const = 0;
   virtual std::string describe_variable(int index) const = 0;
+
+  /// How many threads an evaluation may use, and how many of a ThreadTeam may evaluate different stages at once. Does not change
+  /// what comes out.
+  virtual void use_threads(int /*count*/) {}
 
   /// The same program as a chain of stages, if it is one; valid as long as the Nlp is.
   virtual StagewiseNlp* stagewise() { return nullptr; }

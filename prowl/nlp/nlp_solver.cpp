@@ -26,6 +26,7 @@ void validate(const SolverOptions& options) {
   if (options.max_iterations < 0) {
     throw InputError(fmt::format("max_iterations {} is not allowed; need 0 or more", options.max_iterations));
   }
+  if (options.threads < 1) throw InputError(fmt::format("{} threads are not allowed; need 1 or more", options.threads));
   if (!(options.max_seconds > 0.0)) {
     throw InputError(fmt::format("max_seconds {} is not allowed; need more than 0 [s]", options.max_seconds));
   }

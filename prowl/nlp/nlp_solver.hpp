@@ -35,6 +35,7 @@ struct SolverOptions {
   double tolerance = 1e-6;  ///< on optimality and on constraint violation
   int max_iterations = 300;
   double max_seconds = 300.0;
+  int threads = 1;             ///< for evaluations; results do not depend on it
   bool start_is_near = false;  ///< a solution of a neighbouring problem: stay near it
   /// Those of that solution (SolveResult::stage_multipliers), if its stages have the same sizes; empty: none. For solvers that
   /// go by stages.

@@ -6,11 +6,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 void DenseStagewiseNlp::linearise(int k, const VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) {
+  linearise_to_first_order(k, ux);
+  models_[static_cast<std::size_t>(k)].hessian = hessian(k, ux, cost_factor, multipliers);
+}
+
+void DenseStagewiseNlp::linearise_to_first_order(int k, const VectorXd& ux) {
   models_.resize(static_cast<std::size_t>(num_stages()));
-  Model& model = models_[static_cast<std::size_t>(k)];
   values(k, ux);
-  model.slopes = derivatives(k, ux);
-  model.hessian = hessian(k, ux, cost_factor, multipliers);
+  models_[static_cast<std::size_t>(k)].slopes = derivatives(k, ux);
 }
 
 void DenseStagewiseNlp::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {

@@ -54,6 +54,8 @@ class StagewiseNlp {
   /// less than the dense matrices above; what they return holds until the stage is linearised again or its derivatives()
   /// or hessian() are asked for, whatever values() are.
   virtual void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) = 0;
+  /// The same without second derivatives: what lagrangian_hessian() returns has no meaning then.
+  virtual void linearise_to_first_order(int k, const Eigen::VectorXd& ux) = 0;
   virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
   virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;
   virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;  ///< as hessian()
@@ -79,6 +81,7 @@ class StagewiseNlp {
 class DenseStagewiseNlp : public StagewiseNlp {
  public:
   void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) override;
+  void linearise_to_first_order(int k, const Eigen::VectorXd& ux) override;
   const Eigen::VectorXd& cost_gradient(int k) const override { return model(k).slopes.cost_gradient; }
   const Eigen::MatrixXd& equality_slopes(int k) const override { return model(k).slopes.equalities; }
   const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return model(k).hessian; }

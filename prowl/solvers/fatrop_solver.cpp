@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fatrop/fatrop.hpp>
 #include <fatrop/ip_algorithm/ip_eq_mult_initializer.hpp>
+#include <fatrop/ip_algorithm/ip_nlp_orig.hpp>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -358,6 +359,10 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     fatrop::IpAlgBuilder<Type> builder(problem);
     const auto algorithm = builder.with_options_registry(&registry).build();
     set_options(registry, options);
+    // As for Ipopt; no option in Fatrop's registry.
+    if (const auto nlp_of_method = std::dynamic_pointer_cast<fatrop::IpNlpOrig<Type>>(builder.get_ipdata()->get_nlp())) {
+      nlp_of_method->set_bound_relax_factor(0.01 * options.tolerance);
+    }
     fatrop::IpEqMultInitializer<Type> initializer(builder.get_ipdata(), builder.get_pd_solver());
     initializer.set_lam_max(kLargestMultiplier);
     problem->set_multiplier_estimate([&] { initializer.initialize_eq_mult(); });

@@ -23,6 +23,7 @@ constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3
 constexpr double kLargestMultiplier = 1e3;  ///< of an estimate that is of use
 constexpr double kNearlyFeasible = 1e-2, kHugeMultiplier = 1e5;
 constexpr double kLargestCostSlope = 100.0;
+constexpr double kStepAccuracy = 1e-2;  ///< of Newton's equations, as a part of the tolerance: what a full step leaves
 
 /// First mu times the number of stages: the cost is an integral, the barrier a sum over stages, and for both to weigh the
 /// same on each mesh mu has to fall as a step does (HyQ rear from the task alone on 350 intervals: with mu = 1e-3
@@ -62,6 +63,7 @@ double sum_of_sizes(const StageVectors& vectors) {
 InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options)
     : nlp_(nlp),
       options_(options),
+      threads_(options.threads),
       num_stages_(nlp.num_stages()),
       rows_(first_rows(nlp)),
       kkt_(nlp),
@@ -79,6 +81,7 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options)
   step_on_equalities_ = right_equalities_;
   step_on_next_ = no_next_ = right_links_;
   for (Values* values : {&values_, &trial_}) {
+    values->stage_costs.setZero(num_stages_);
     values->links = right_links_;
     values->equalities = right_equalities_;
     values->inequalities.setZero(rows_.back());
@@ -88,35 +91,42 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options)
 
 bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
   const Stopwatch stopwatch(times_.values);
-  values.cost = 0.0;
-  for (int k = 0; k < num_stages_; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    try {
-      const StageValues& stage = nlp_.values(k, ux[i]);
-      values.cost += stage.cost;
-      values.equalities[i] = stage.equalities;
-      segment(values.inequalities, k) = stage.inequalities;
-      if (k + 1 < num_stages_) values.links[i] = stage.next - ux[i + 1].tail(stage.next.size());
-      if (std::isfinite(stage.cost) && stage.equalities.allFinite() && stage.inequalities.allFinite() &&
-          stage.next.allFinite()) {
-        continue;
-      }
-      failure_ = fmt::format("a function is not finite at {}", nlp_.describe_stage(k));
-    } catch (const NumericalError& error) {
-      failure_ = error.what();
-    }
+  try {
+    threads_.for_each(num_stages_, [&](int k) { evaluate_stage(k, ux, values); });
+  } catch (const NumericalError& error) {
+    failure_ = error.what();
     return false;
   }
+  values.cost = values.stage_costs.sum();
   return true;
+}
+
+void InteriorPoint::evaluate_stage(int k, const StageVectors& ux, Values& values) {
+  const auto i = static_cast<std::size_t>(k);
+  const StageValues& stage = nlp_.values(k, ux[i]);
+  values.stage_costs(k) = stage.cost;
+  values.equalities[i] = stage.equalities;
+  segment(values.inequalities, k) = stage.inequalities;
+  if (k + 1 < num_stages_) values.links[i] = stage.next - ux[i + 1].tail(stage.next.size());
+  if (!std::isfinite(stage.cost) || !stage.equalities.allFinite() || !stage.inequalities.allFinite() ||
+      !stage.next.allFinite()) {
+    throw NumericalError("a function is not finite at " + nlp_.describe_stage(k));
+  }
 }
 
 void InteriorPoint::linearise() {
   const Stopwatch stopwatch(times_.derivatives);
-  for (int k = 0; k < num_stages_; ++k) {
+  threads_.for_each(num_stages_, [this](int k) {
     const auto i = static_cast<std::size_t>(k);
     on_[i].inequalities = segment(lambda_, k);
     nlp_.linearise(k, ux_[i], cost_scale_, on_[i]);
-  }
+  });
+}
+
+/// For what needs no second derivatives.
+void InteriorPoint::linearise_to_first_order() {
+  const Stopwatch stopwatch(times_.derivatives);
+  threads_.for_each(num_stages_, [this](int k) { nlp_.linearise_to_first_order(k, ux_[static_cast<std::size_t>(k)]); });
 }
 
 StageKkt::Outcome InteriorPoint::factorise(StageKkt::Hessian hessian, double delta) {
@@ -181,7 +191,7 @@ bool InteriorPoint::update_barrier() {
 
 void InteriorPoint::scale_cost() {
   cost_scale_ = 1.0;
-  linearise();
+  linearise_to_first_order();
   double slope = 0.0;
   for (int k = 0; k < num_stages_; ++k) {
     if (nlp_.cost_gradient(k).size() > 0) slope = std::max(slope, nlp_.cost_gradient(k).cwiseAbs().maxCoeff());
@@ -279,7 +289,7 @@ void InteriorPoint::solve_direction(double cost_scale, const VectorXd& residual)
   slacks_.pull(mu_, beta_);
   step_lambda_ = beta_ + sigma_.cwiseProduct(residual);
   set_gradient(cost_scale, step_lambda_);
-  kkt_.solve(gradient_, right_equalities_, right_links_);
+  kkt_.solve(gradient_, right_equalities_, right_links_, kStepAccuracy * options_.tolerance);
   for (int k = 0; k < num_stages_; ++k) segment(ds_, k) = kkt_.along_inequalities()[static_cast<std::size_t>(k)];
   ds_ += residual;
   step_lambda_ = beta_ + sigma_.cwiseProduct(ds_);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/nlp/thread_team.hpp"
 #include "prowl/solvers/filter.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/slacks.hpp"
@@ -20,6 +21,7 @@ namespace prowl {
 /// for a sequence of mu that goes to zero, each step by StageKkt with the exact Hessian. Docs: docs/solvers.md.
 class InteriorPoint {
  public:
+  /// Evaluates stages on options.threads threads, which `nlp` must be ready for (Nlp::use_threads).
   InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options);
 
   struct Ending {
@@ -40,12 +42,15 @@ class InteriorPoint {
   /// Values of all functions at a point.
   struct Values {
     double cost = 0.0;
+    Eigen::VectorXd stage_costs;
     StageVectors links, equalities;  ///< next - x_{k+1}, equalities
     Eigen::VectorXd inequalities;
   };
 
   bool evaluate(const StageVectors& ux, Values& values);
+  void evaluate_stage(int k, const StageVectors& ux, Values& values);
   void linearise();
+  void linearise_to_first_order();
   double violation(const Values& values, const Eigen::VectorXd& s) const;          ///< sum of absolute values
   double largest_violation(const Values& values, const Eigen::VectorXd& s) const;  ///< in units of the stages
   double barrier_function(const Values& values, const Slacks& slacks) const;
@@ -78,6 +83,7 @@ class InteriorPoint {
 
   StagewiseNlp& nlp_;
   const SolverOptions& options_;
+  ThreadTeam threads_;
   int num_stages_;
   std::vector<Eigen::Index> rows_;  ///< first inequality of each stage, and their number
   StageKkt kkt_;

@@ -153,7 +153,7 @@ std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Wa
     }
     ux_.swap(trial_ux_);
     std::swap(values_, trial_);
-    linearise();
+    linearise_to_first_order();
     largest_dual_violation_ = std::numeric_limits<double>::infinity();  // not looked at here
     update_figures();
     const double now = violation(values_, slacks_.s);

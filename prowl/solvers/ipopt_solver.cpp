@@ -290,6 +290,7 @@ std::optional<std::string> IpoptSolver::why_unsupported(Nlp& nlp) const {
 
 SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
   check_arguments(nlp, z_start, options);
+  nlp.use_threads(options.threads);
   const double start = wall_seconds();
   const double cpu_start = cpu_seconds();
   GuardedNlp guarded(nlp);

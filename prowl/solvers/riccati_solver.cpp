@@ -27,6 +27,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     result.message = *reason;
     return result;
   }
+  nlp.use_threads(options.threads);
   StagewiseNlp& stages = *nlp.stagewise();
   InteriorPoint method(stages, options);
   IterateFigures best;

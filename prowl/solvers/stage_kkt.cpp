@@ -21,7 +21,7 @@ constexpr double kDependent = 1e-7;
 constexpr double kRounding = 1e-12;
 
 constexpr int kMostRefinements = 5;
-constexpr double kRefined = 1e-12;  ///< residual, as a part of the right sides
+constexpr double kRefined = 1e-12;  ///< residual, as a part of the right sides: no better than this
 
 void add(const StageVectors& from, StageVectors& to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
@@ -36,7 +36,6 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
     s.size = nlp.size(k);
     if (k == 0) s.size = {s.size.variables(), 0, s.size.equalities, s.size.inequalities};  // states nothing leads to
     const int variables = s.size.variables(), next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
-    s.M.setZero(variables, variables);
     for (int i = 0; i < variables; ++i) s.order.push_back(i);
     s.P.setZero(s.size.states, s.size.states);
     s.p.setZero(s.size.states);
@@ -62,129 +61,142 @@ StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const Stage
   return Outcome::solvable;
 }
 
+MatrixXd& StageKkt::Shared::of_size(Index rows, Index cols) {
+  const auto has_size = [&](const MatrixXd& matrix) { return matrix.rows() == rows && matrix.cols() == cols; };
+  const auto found = std::ranges::find_if(matrices_, has_size);
+  return found != matrices_.end() ? *found : matrices_.emplace_back(rows, cols);
+}
+
 StageKkt::Outcome StageKkt::factorise_stage(int k) {
   Stage& s = stage(k);
-  gather_equalities(k);
-  if (!s.equalities.allFinite()) return Outcome::not_finite;
-  determine_inputs(s);
-  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[static_cast<std::size_t>(k)], s.in_order);
-  if (hessian_ == Hessian::lagrangian) s.in_order += nlp_.lagrangian_hessian(k);
-  s.in_order.diagonal().array() += delta_;
-  put_in_order(s);
-  if (!s.M.allFinite()) return Outcome::not_finite;
-  eliminate(s);
-  pass_conditions(s);
+  const int variables = s.size.variables(), states = s.size.states;
+  const MatrixXd& equalities = gather_equalities(k);
+  if (!equalities.allFinite()) return Outcome::not_finite;
+  determine_inputs(s, equalities);
+  MatrixXd& condensed = work_.condensed.of_size(variables, variables);
+  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[static_cast<std::size_t>(k)], condensed);
+  if (hessian_ == Hessian::lagrangian) condensed += nlp_.lagrangian_hessian(k);
+  condensed.diagonal().array() += delta_;
+  if (!condensed.allFinite()) return Outcome::not_finite;
+  MatrixXd& M = work_.M.of_size(variables, variables);
+  put_in_order(s, condensed, M);
+  MatrixXd& N = work_.N.of_size(s.rest(), s.rest());
+  MatrixXd& in_states = work_.in_states.of_size(s.num_equalities(), states);
+  eliminate(s, equalities, M, in_states, N);
+  pass_conditions(s, equalities, in_states);
 
-  const int free = s.free(), states = s.size.states;
-  s.P = s.N.bottomRightCorner(states, states);
+  const int free = s.free();
+  s.P = N.bottomRightCorner(states, states);
   if (free > 0) {
-    s.cholesky.compute(s.N.topLeftCorner(free, free));
+    s.cholesky.compute(N.topLeftCorner(free, free));
     if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite()) return Outcome::indefinite;
-    s.G = s.N.topRightCorner(free, states);
+    s.G = N.bottomLeftCorner(states, free).transpose();
     s.cholesky.matrixL().solveInPlace(s.G);
-    s.P.noalias() -= s.G.transpose() * s.G;
+    if (states > 0) s.P.selfadjointView<Eigen::Lower>().rankUpdate(s.G.transpose(), -1.0);
   }
+  s.P.triangularView<Eigen::StrictlyUpper>() = s.P.transpose();
   return s.P.allFinite() ? Outcome::solvable : Outcome::indefinite;
 }
 
 /// The equalities with those of the next stage's state.
-void StageKkt::gather_equalities(int k) {
+MatrixXd& StageKkt::gather_equalities(int k) {
   Stage& s = stage(k);
   s.carried = k + 1 < num_stages_ ? stage(k + 1).passed : 0;
-  s.equalities.resize(s.num_equalities(), s.size.variables());
-  s.equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k);
+  MatrixXd& equalities = work_.equalities.of_size(s.num_equalities(), s.size.variables());
+  equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k);
   for (int i = 0; i < s.carried; ++i) {
     VectorXd& on_next = on_next_[static_cast<std::size_t>(k)];
     on_next = stage(k + 1).E.row(i).transpose();
     s.gradient.setZero(s.size.variables());
     nlp_.add_pull_back(k, on_next, s.no_inequalities, s.gradient);
-    s.equalities.row(s.size.equalities + i) = s.gradient.transpose();
+    equalities.row(s.size.equalities + i) = s.gradient.transpose();
   }
+  return equalities;
 }
 
 template <class Pivots>
-int StageKkt::count_independent(const Stage& s, const Pivots& pivots) {
-  const double scale = s.equalities.cwiseAbs().maxCoeff();
+int StageKkt::count_independent(const MatrixXd& equalities, const Pivots& pivots) {
+  const double scale = equalities.cwiseAbs().maxCoeff();
   int count = 0;
   while (count < pivots.size() && std::abs(pivots(count)) > kDependent * scale) ++count;
   is_exact_ = is_exact_ && (count == pivots.size() || std::abs(pivots(count)) < kRounding * scale);
   return count;
 }
 
-void StageKkt::determine_inputs(Stage& s) {
+void StageKkt::determine_inputs(Stage& s, const MatrixXd& equalities) {
   s.rank = 0;
   if (s.num_equalities() == 0 || s.size.inputs == 0) return;
-  s.lu.compute(s.equalities.leftCols(s.size.inputs));
-  s.rank = count_independent(s, s.lu.matrixLU().diagonal());
+  s.lu.compute(equalities.leftCols(s.size.inputs));
+  s.rank = count_independent(equalities, s.lu.matrixLU().diagonal());
   for (int i = 0; i < s.size.inputs; ++i) s.order[static_cast<std::size_t>(i)] = s.lu.permutationQ().indices()(i);
 }
 
-/// M with the inputs in their order; states have theirs.
-void StageKkt::put_in_order(Stage& s) {
+/// M with the inputs in their order; states have theirs. Its lower triangle, and all of it in the inputs.
+void StageKkt::put_in_order(const Stage& s, const MatrixXd& condensed, MatrixXd& M) {
   const int inputs = s.size.inputs, states = s.size.states;
   for (int j = 0; j < inputs; ++j) {
-    const auto from = s.in_order.col(s.order[static_cast<std::size_t>(j)]);
-    for (int i = 0; i < inputs; ++i) s.M(i, j) = from(s.order[static_cast<std::size_t>(i)]);
-    s.M.col(j).tail(states) = from.tail(states);
+    const auto from = condensed.col(s.order[static_cast<std::size_t>(j)]);
+    for (int i = 0; i < inputs; ++i) M(i, j) = from(s.order[static_cast<std::size_t>(i)]);
+    M.col(j).tail(states) = from.tail(states);
   }
-  s.M.topRightCorner(inputs, states) = s.M.bottomLeftCorner(states, inputs).transpose();
-  s.M.bottomRightCorner(states, states) = s.in_order.bottomRightCorner(states, states);
+  M.bottomRightCorner(states, states) = condensed.bottomRightCorner(states, states);
 }
 
 /// M in the variables that are left: N = M_rr + M_rd K + K' M_dr + K' M_dd K.
-void StageKkt::eliminate(Stage& s) {
+void StageKkt::eliminate(Stage& s, const MatrixXd& equalities, const MatrixXd& M, MatrixXd& in_states, MatrixXd& N) {
   const int rank = s.rank, rest = s.rest(), states = s.size.states;
-  s.in_states = s.equalities.rightCols(states);
-  s.N = s.M.bottomRightCorner(rest, rest);
+  in_states = equalities.rightCols(states);
+  N.triangularView<Eigen::Lower>() = M.bottomRightCorner(rest, rest);
   if (rank == 0) return;
   const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
-  if (states > 0) s.in_states.noalias() = s.lu.permutationP() * s.equalities.rightCols(states);
-  auto determining = s.in_states.topRows(rank);
+  if (states > 0) in_states.noalias() = s.lu.permutationP() * equalities.rightCols(states);
+  auto determining = in_states.topRows(rank);
   lu.triangularView<Eigen::UnitLower>().solveInPlace(determining);
-  const Index left = s.in_states.rows() - rank;
-  s.in_states.bottomRows(left).noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank) * determining;
+  const Index left = in_states.rows() - rank;
+  in_states.bottomRows(left).noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank) * determining;
   s.K.resize(rank, rest);
   s.K.leftCols(s.free()) = -s.lu.matrixLU().topRightCorner(rank, s.free());
   s.K.rightCols(states) = -determining;
   lu.triangularView<Eigen::Upper>().solveInPlace(s.K);
 
-  const auto dd = s.M.topLeftCorner(rank, rank);
-  s.T = s.M.topRightCorner(rank, rest);
-  s.T.noalias() += 0.5 * dd * s.K;
-  auto work = s.in_order.topLeftCorner(rest, rest);
-  work.noalias() = s.T.transpose() * s.K;
-  s.N += work;
-  s.N += work.transpose();
-  s.T.noalias() += 0.5 * dd * s.K;
+  s.M_dd = M.topLeftCorner(rank, rank);
+  MatrixXd& M_ddK = work_.M_ddK.of_size(rank, rest);
+  M_ddK.noalias() = s.M_dd * s.K;
+  s.T = M.bottomLeftCorner(rest, rank).transpose() + 0.5 * M_ddK;
+  if (rest == 0) return;  // Eigen's triangular product of nothing divides by zero
+  N.triangularView<Eigen::Lower>() += s.T.transpose() * s.K;
+  N.triangularView<Eigen::Lower>() += s.K.transpose() * s.T;
+  s.T += 0.5 * M_ddK;
 }
 
 /// Equalities that determine no input are conditions on the state: those that do not depend on each other.
-void StageKkt::pass_conditions(Stage& s) {
+void StageKkt::pass_conditions(Stage& s, const MatrixXd& equalities, const MatrixXd& in_states) {
   s.passed_rows.clear();
   s.passed = 0;
   const int left = s.num_equalities() - s.rank;
   if (left == 0 || s.size.states == 0) return;
-  const auto& qr = s.conditions.compute(s.in_states.bottomRows(left).transpose());
-  s.passed = count_independent(s, qr.matrixQR().diagonal());
+  const auto& qr = s.conditions.compute(in_states.bottomRows(left).transpose());
+  s.passed = count_independent(equalities, qr.matrixQR().diagonal());
   s.E.resize(s.passed, s.size.states);
   for (int i = 0; i < s.passed; ++i) {
     s.passed_rows.push_back(s.rank + static_cast<int>(qr.colsPermutation().indices()(i)));
-    s.E.row(i) = s.in_states.row(s.passed_rows.back());
+    s.E.row(i) = in_states.row(s.passed_rows.back());
   }
 }
 
-void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
+void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
+                     double accuracy) {
   solve_once(gradient, equalities, links);
   if (is_exact_) return;
   sum_.steps = steps_;
   sum_.on_equalities = on_equalities_;
   sum_.on_next = on_next_;
   sum_.along_inequalities = along_inequalities_;
-  const double size = std::max({largest(gradient), largest(equalities), largest(links)});
+  const double rounding = kRefined * std::max({largest(gradient), largest(equalities), largest(links)});
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMostRefinements; ++i) {
     const double residual = find_residual(gradient, equalities, links);
-    if (!(residual > kRefined * size) || residual > 0.5 * last) break;
+    if (!(residual > std::max(accuracy, rounding)) || residual > 0.5 * last) break;
     last = residual;
     solve_once(residual_gradient_, residual_equalities_, residual_links_);
     add(steps_, sum_.steps);
@@ -304,7 +316,7 @@ void StageKkt::forward(int k, const VectorXd* link) {
   if (s.carried > 0) on_next_[at].noalias() += next.E.transpose() * next.on_carried;
 }
 
-/// From the gradient in the determined inputs: M step + m + equalities' multipliers = 0. Those of the conditions on the
+/// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. Those of the conditions on the
 /// state are known from the stage before.
 void StageKkt::find_multipliers(int k) {
   Stage& s = stage(k);
@@ -316,7 +328,8 @@ void StageKkt::find_multipliers(int k) {
     const Index left = s.on_rows.size() - rank;
     auto on_determining = s.on_rows.head(rank);
     on_determining = -s.m.head(rank);
-    on_determining.noalias() -= s.M.topRows(rank) * s.step;
+    on_determining.noalias() -= s.M_dd * s.k;
+    on_determining.noalias() -= s.T * s.step.tail(s.rest());
     lu.triangularView<Eigen::Upper>().transpose().solveInPlace(on_determining);
     on_determining.noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank).transpose() * s.on_rows.tail(left);
     lu.triangularView<Eigen::UnitLower>().transpose().solveInPlace(on_determining);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <deque>
 #include <vector>
 
 #include "prowl/nlp/stagewise_nlp.hpp"
@@ -38,8 +39,10 @@ class StageKkt {
   /// `weights`: of the inequalities. With `identity` M is delta I and the weighted inequalities.
   Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
 
-  /// Of g, c and b, one vector a stage each; b has none after the last stage.
-  void solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
+  /// Of g, c and b, one vector a stage each; b has none after the last stage. `accuracy`: of the equations, largest
+  /// absolute value, where iterative refinement may end.
+  void solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
+             double accuracy = 0.0);
 
   const StageVectors& steps() const { return steps_; }
   const StageVectors& on_equalities() const { return on_equalities_; }
@@ -47,26 +50,23 @@ class StageKkt {
   const StageVectors& along_inequalities() const { return along_inequalities_; }  ///< their derivatives times the step
 
  private:
-  /// Variables in the order (determined inputs, free inputs, states). r: all but the determined ones.
+  /// Variables in the order (determined inputs, free inputs, states). r: all but the determined ones. What a solve reads is
+  /// kept small: on long chains it comes from main memory.
   struct Stage {
     StageSize size;
     int carried = 0;                   ///< conditions E of the next stage, which are equalities here
     int rank = 0;                      ///< number of determined inputs
     int passed = 0;                    ///< conditions E of this stage
-    Eigen::MatrixXd equalities;        ///< own and carried ones, in (u, x)
-    Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of those in u
-    Eigen::MatrixXd in_states;         ///< L^-1 of those in x, rows in the order of the pivots
+    Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of the equalities, own and carried ones, in u
     std::vector<Eigen::Index> order;   ///< place of each variable in (u, x)
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of what determines no input
-    Eigen::MatrixXd in_order;          ///< M in the order of (u, x), then work space
-    Eigen::MatrixXd M;
+    Eigen::MatrixXd M_dd;              ///< M in the determined inputs
     Eigen::MatrixXd K;                 ///< determined inputs = K r + k
     Eigen::MatrixXd T;                 ///< M_dd K + M_dr
-    Eigen::MatrixXd N;                 ///< M in r
     Eigen::LLT<Eigen::MatrixXd> cholesky;
     Eigen::MatrixXd G;                 ///< L^-1 N_fx of the free inputs
     Eigen::MatrixXd P, E;
-    std::vector<int> passed_rows;      ///< which rows of in_states E is
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of what determines no input
+    std::vector<int> passed_rows;      ///< which of the rows in the order of the pivots E is
 
     Eigen::VectorXd m, c, k, r, p, e, step, on_rows, on_carried;
     Eigen::VectorXd gradient, permuted, no_inequalities;
@@ -75,15 +75,33 @@ class StageKkt {
     int rest() const { return size.variables() - rank; }
   };
 
+  /// Matrices that are of use only while a stage is factorised: one of each size, shared by the stages that need it.
+  class Shared {
+   public:
+    Eigen::MatrixXd& of_size(Eigen::Index rows, Eigen::Index cols);
+
+   private:
+    std::deque<Eigen::MatrixXd> matrices_;  ///< stay where they are
+  };
+  struct Work {
+    Shared equalities;  ///< own and carried ones, in (u, x)
+    Shared in_states;   ///< L^-1 of those in x, rows in the order of the pivots
+    Shared condensed;   ///< M in (u, x)
+    Shared M;           ///< in the stage's order
+    Shared N;           ///< M in r, lower triangle
+    Shared M_ddK;
+  };
+
   Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
-  void gather_equalities(int k);
-  void put_in_order(Stage& stage);
-  void determine_inputs(Stage& stage);
-  void eliminate(Stage& stage);
-  void pass_conditions(Stage& stage);
+  Eigen::MatrixXd& gather_equalities(int k);
+  void put_in_order(const Stage& stage, const Eigen::MatrixXd& condensed, Eigen::MatrixXd& M);
+  void determine_inputs(Stage& stage, const Eigen::MatrixXd& equalities);
+  void eliminate(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& M, Eigen::MatrixXd& in_states,
+                 Eigen::MatrixXd& N);
+  void pass_conditions(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& in_states);
   /// How many of the pivots of a stage's equalities count; notes whether others were more than rounding.
   template <class Pivots>
-  int count_independent(const Stage& stage, const Pivots& pivots);
+  int count_independent(const Eigen::MatrixXd& equalities, const Pivots& pivots);
   Outcome factorise_stage(int k);
   void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
   void forward(int k, const Eigen::VectorXd* link);
@@ -94,6 +112,7 @@ class StageKkt {
   StagewiseNlp& nlp_;
   int num_stages_;
   std::vector<Stage> stages_;
+  Work work_;
   StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
   bool is_exact_ = true;  ///< no pivot but rounding was left out
   Hessian hessian_ = Hessian::lagrangian;

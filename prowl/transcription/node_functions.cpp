@@ -226,11 +226,16 @@ void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const 
   evaluate_with_derivatives(point, values);
   hessian.setZero(num_columns(), num_columns());
   add_cost_hessian(point, cost_factor, hessian);
-  add_force_hessian(point, cost_factor, multipliers, hessian);
-  add_dynamics_hessian(point, multipliers, hessian);
-  add_limits_hessian(point, multipliers, hessian);
   Eigen::Vector3d pull = cost_factor * rotation_gradient_;  // gradient of it all in the tangent of the rotation
-  for (Index row = 0; row < multipliers.size(); ++row) pull += multipliers(row) * rotation_.row(row).transpose();
+  if (hessian_kind_ == HessianKind::exact) {
+    add_force_hessian(point, cost_factor, multipliers, hessian);
+    add_dynamics_hessian(point, multipliers, hessian);
+    add_limits_hessian(point, multipliers, hessian);
+    for (Index row = 0; row < multipliers.size(); ++row) pull += multipliers(row) * rotation_.row(row).transpose();
+  } else {
+    no_multipliers_.setZero(multipliers.size());
+    add_force_hessian(point, cost_factor, no_multipliers_, hessian);
+  }
   turn_to_chart(point, pull, hessian);
   hessian.triangularView<Eigen::StrictlyLower>() = hessian.transpose();
 }

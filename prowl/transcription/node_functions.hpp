@@ -8,6 +8,7 @@
 #include "prowl/motion/contact_schedule.hpp"
 #include "prowl/motion/friction_limit.hpp"
 #include "prowl/motion/motion_problem.hpp"
+#include "prowl/transcription/hessian_kind.hpp"
 #include "prowl/transcription/node_cost.hpp"
 #include "prowl/transcription/node_point.hpp"
 #include "prowl/transcription/placement_rows.hpp"
@@ -68,6 +69,8 @@ class NodeFunctions {
   /// evaluation of the dynamics.
   void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values,
                  Eigen::MatrixXd& hessian);
+  void use_hessian(HessianKind kind) { hessian_kind_ = kind; }  ///< of the above; exact, if not said otherwise
+  HessianKind hessian_kind() const { return hessian_kind_; }
 
  private:
   int num_places() const { return 2 * static_cast<int>(landed_.size()); }
@@ -95,6 +98,7 @@ class NodeFunctions {
   void turn_to_chart(const NodePoint& point, const Eigen::Vector3d& pull, Eigen::MatrixXd& result) const;
 
   int nv_, nu_, num_chosen_, intervals_;
+  HessianKind hessian_kind_ = HessianKind::exact;
   bool free_duration_;
   std::vector<std::string> contact_names_, force_names_;
   std::vector<bool> opens_;
@@ -117,6 +121,7 @@ class NodeFunctions {
   Eigen::Vector3d rotation_gradient_;                  ///< of the cost, likewise
   Eigen::VectorXd mu_, force_pull_, joints_, rates_;
   NodeValues unused_;                                  ///< values of hessian()
+  Eigen::VectorXd no_multipliers_;
 };
 
 }  // namespace prowl

@@ -34,7 +34,11 @@ void StagewiseTranscription::set_shapes() {
     stage.shape = static_cast<std::size_t>(known - shapes.begin());
     if (known == shapes.end()) shapes.push_back(shape);
   }
-  works_.resize(shapes.size());
+  works_.assign(1, std::vector<Work>(shapes.size()));
+}
+
+void StagewiseTranscription::use_threads(int count) {
+  works_.resize(static_cast<std::size_t>(count), std::vector<Work>(works_.front().size()));
 }
 
 std::pair<double, double> StagewiseTranscription::bounds(int k, int variable) const {
@@ -184,11 +188,11 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
   flat_.set_point(k, node, stage.point);
 }
 
-void StagewiseTranscription::fill_values(int k) {
+void StagewiseTranscription::fill_values(int k, const NodeValues& node) {
   Stage& stage = this->stage(k);
-  stage.values.cost = stage.node_values.cost;
+  stage.values.cost = node.cost;
   const auto function = [&](int place) {
-    if (place < stage.num_rows) return stage.node_values.rows(place);
+    if (place < stage.num_rows) return node.rows(place);
     const int i = place - stage.num_rows;
     return stage.node()(stage.bounded[static_cast<std::size_t>(i)]) * stage.per_unit(i);
   };
@@ -215,18 +219,19 @@ const StageValues& StagewiseTranscription::values(int k, const VectorXd& ux) {
   move_to(k, ux);
   Stage& stage = this->stage(k);
   if (stage.have_values) return stage.values;
-  flat_.at_node(k, [&] { flat_.functions(k).evaluate(stage.point, stage.node_values); });
-  fill_values(k);
+  NodeValues& node = work(stage).values;
+  flat_.at_node(k, [&] { flat_.functions(k).evaluate(stage.point, node); });
+  fill_values(k, node);
   return stage.values;
 }
 
-void StagewiseTranscription::fill_slopes(int k) {
+void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
   Stage& stage = this->stage(k);
   Work& work = this->work(stage);
-  const MatrixXd& jacobian = stage.node_values.rows_jacobian;
+  const MatrixXd& jacobian = node.rows_jacobian;
   const Index size = stage.node().size();
 
-  work.on_node = stage.node_values.cost_gradient;
+  work.on_node = node.cost_gradient;
   stage.arrival.pull_back(work.on_node);
   stage.cost_gradient.resize(stage.size.variables());
   for (Index i = 0; i < stage.cost_gradient.size(); ++i) {
@@ -287,6 +292,7 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   move_to(k, ux);
   Stage& stage = this->stage(k);
   Work& work = this->work(stage);
+  const bool is_exact = flat_.functions(k).hessian_kind() == HessianKind::exact;
   work.on_rows.setZero(stage.num_rows);
   work.on_node.setZero(stage.node().size());
   const auto distribute = [&](const std::vector<int>& places, const VectorXd& on) {
@@ -303,21 +309,37 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   distribute(stage.equalities, multipliers.equalities);
   distribute(stage.inequalities, multipliers.inequalities);
   flat_.at_node(k, [&] {
-    flat_.functions(k).linearise(stage.point, cost_factor, work.on_rows, stage.node_values, work.form);
+    flat_.functions(k).linearise(stage.point, cost_factor, work.on_rows, work.values, work.form);
   });
   if (stage.num_next() > 0) {
     work.on_next.setZero(stage.node().size());
     add_on_next(stage, multipliers.next, work.on_next);
-    stage.departure.add_hessian(work.on_next, work.form);
+    if (is_exact) stage.departure.add_hessian(work.on_next, work.form);
     stage.departure.pull_back(work.on_next);
     work.on_node += work.on_next;
   }
-  work.on_node += cost_factor * stage.node_values.cost_gradient;
-  work.on_node.noalias() += stage.node_values.rows_jacobian.transpose() * work.on_rows;
-  stage.arrival.pull_back_hessian(work.form, work.on_node);
+  work.on_node += cost_factor * work.values.cost_gradient;
+  work.on_node.noalias() += work.values.rows_jacobian.transpose() * work.on_rows;
+  is_exact ? stage.arrival.pull_back_hessian(work.form, work.on_node) : stage.arrival.pull_back_form(work.form);
   gather(stage, work.form, stage.hessian);
-  if (!stage.have_values) fill_values(k);
-  if (!stage.have_derivatives) fill_slopes(k);
+  if (!stage.have_values) fill_values(k, work.values);
+  if (!stage.have_derivatives) fill_slopes(k, work.values);
+  keep_linear(stage);
+}
+
+void StagewiseTranscription::linearise_to_first_order(int k, const VectorXd& ux) {
+  move_to(k, ux);
+  Stage& stage = this->stage(k);
+  if (!stage.have_derivatives) {
+    NodeValues& node = work(stage).values;
+    flat_.at_node(k, [&] { flat_.functions(k).evaluate_with_derivatives(stage.point, node); });
+    if (!stage.have_values) fill_values(k, node);
+    fill_slopes(k, node);
+  }
+  keep_linear(stage);
+}
+
+void StagewiseTranscription::keep_linear(Stage& stage) {
   stage.have_derivatives = true;
   stage.linear_arrival = stage.arrival;
   stage.linear_departure = stage.departure;
@@ -339,17 +361,25 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
     stage.linear_departure.pull_back_form(work.form);
   }
   const Index rows = stage.rows.gradients.cols();
+  work.dense.resize(size, rows);
+  work.scaled.resize(size, rows);
+  Index dense = 0;
   for (Index i = 0; i < rows; ++i) {
     const auto gradient = stage.rows.gradients.col(i);
     const auto places = stage.rows.places.col(i).head(stage.rows.counts(i));
+    if (2 * places.size() > size) {
+      work.dense.col(dense) = gradient;
+      work.scaled.col(dense++) = weights(i) * gradient;
+      continue;
+    }
     for (const int column : places) {
       const double factor = weights(i) * gradient(column);
-      if (2 * places.size() > size) {
-        work.form.col(column) += factor * gradient;
-      } else {
-        for (const int row : places) work.form(row, column) += factor * gradient(row);
-      }
+      for (const int row : places) work.form(row, column) += factor * gradient(row);
     }
+  }
+  if (dense > 0) {  // Eigen's triangular product of nothing divides by zero
+    work.form.triangularView<Eigen::Lower>() += work.dense.leftCols(dense) * work.scaled.leftCols(dense).transpose();
+    work.form.triangularView<Eigen::StrictlyUpper>() = work.form.transpose();
   }
   for (Index i = rows; i < weights.size(); ++i) {
     const auto [variable, per_unit] = stage.bound(i);
@@ -407,14 +437,8 @@ void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const
 
 // The same derivatives as dense matrices.
 const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorXd& ux) {
-  move_to(k, ux);
+  linearise_to_first_order(k, ux);
   Stage& stage = this->stage(k);
-  if (!stage.have_derivatives) {
-    flat_.at_node(k, [&] { flat_.functions(k).evaluate_with_derivatives(stage.point, stage.node_values); });
-    fill_values(k);
-    fill_slopes(k);
-    stage.have_derivatives = true;
-  }
   StageDerivatives& derivatives = stage.derivatives;
   const Index size = stage.node().size(), rows = stage.rows.gradients.cols();
   MatrixXd slopes = MatrixXd::Zero(stage.size.inequalities + stage.num_next(), size);

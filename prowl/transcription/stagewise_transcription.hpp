@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prowl/nlp/stagewise_nlp.hpp"
+#include "prowl/nlp/thread_team.hpp"
 #include "prowl/transcription/half_step.hpp"
 #include "prowl/transcription/node_functions.hpp"
 
@@ -38,6 +39,7 @@ class StagewiseTranscription : public StagewiseNlp {
                                  const StageMultipliers& multipliers) override;
 
   void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) override;
+  void linearise_to_first_order(int k, const Eigen::VectorXd& ux) override;
   const Eigen::VectorXd& cost_gradient(int k) const override { return stage(k).cost_gradient; }
   const Eigen::MatrixXd& equality_slopes(int k) const override { return stage(k).equality_slopes; }
   const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return stage(k).hessian; }
@@ -51,6 +53,8 @@ class StagewiseTranscription : public StagewiseNlp {
   Eigen::VectorXd flat(const std::vector<Eigen::VectorXd>& stages) const override;
   std::string describe_stage(int k) const override;
 
+  void use_threads(int count);  ///< see Nlp
+
  private:
   /// Gradients of the inequalities among the rows of a node, one a column, and where they are not zero.
   struct InequalityRows {
@@ -58,10 +62,11 @@ class StagewiseTranscription : public StagewiseNlp {
     Eigen::MatrixXi places;
     Eigen::VectorXi counts;
   };
-  /// Work space, in the variables of a node. Stages of one shape share it, so that it keeps its size.
+  /// Work space, in the variables of a node. Stages of one shape share it, so that it keeps its size; one a thread.
   struct Work {
+    NodeValues values;  ///< of the stage evaluated last
     Eigen::VectorXd on_rows, on_node, step, on_next, state;
-    Eigen::MatrixXd form, slopes;
+    Eigen::MatrixXd form, slopes, scaled, dense;
   };
   struct Stage {
     StageSize size;
@@ -88,7 +93,6 @@ class StagewiseTranscription : public StagewiseNlp {
     Arrival arrival;
     Departure departure;
     NodePoint point;
-    NodeValues node_values;
     StageValues values;
     Eigen::VectorXd cost_gradient;
     Eigen::MatrixXd equality_slopes, hessian;
@@ -108,7 +112,7 @@ class StagewiseTranscription : public StagewiseNlp {
   const Stage& stage(int k) const { return stages_[static_cast<std::size_t>(k)]; }
 
   Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
-  Work& work(const Stage& stage) { return works_[stage.shape]; }
+  Work& work(const Stage& stage) { return works_[static_cast<std::size_t>(ThreadTeam::slot())][stage.shape]; }
 
   /// Units of all variables of node k.
   Eigen::VectorXd units(int k) const;
@@ -123,15 +127,16 @@ class StagewiseTranscription : public StagewiseNlp {
   void set_arrival(int k, const Eigen::VectorXd& ux, Eigen::VectorXd& state, Arrival& arrival) const;
   /// Sets the point; what was evaluated elsewhere is forgotten.
   void move_to(int k, const Eigen::VectorXd& ux);
-  void fill_values(int k);
-  void fill_slopes(int k);
+  void fill_values(int k, const NodeValues& node);
+  void fill_slopes(int k, const NodeValues& node);
+  void keep_linear(Stage& stage);
   /// Multipliers, or a gradient, of the next states in the places that these have among the node's variables.
   void add_on_next(const Stage& stage, const Eigen::VectorXd& on_next, Eigen::VectorXd& on_node) const;
   static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
   Transcription& flat_;
   std::vector<Stage> stages_;
-  std::vector<Work> works_;
+  std::vector<std::vector<Work>> works_;  ///< for each thread, one a shape
 };
 
 }  // namespace prowl

@@ -20,14 +20,29 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-std::vector<NodeFunctions> functions_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
-                                               const Mesh& mesh, const Trajectory& guess) {
-  std::vector<NodeFunctions> functions;
+std::vector<PhaseContacts> contacts_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
+                                              const Mesh& mesh, const Trajectory& guess) {
+  std::vector<PhaseContacts> contacts;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const VectorXd& q = guess.nodes[static_cast<std::size_t>(mesh.index({p, 0}))].q;
-    functions.emplace_back(problem, schedule, p, phase_contacts(problem, schedule, p, q));
+    contacts.push_back(phase_contacts(problem, schedule, p, q));
+  }
+  return contacts;
+}
+
+std::vector<NodeFunctions> functions_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
+                                               const std::vector<PhaseContacts>& contacts) {
+  std::vector<NodeFunctions> functions;
+  for (std::size_t p = 0; p < contacts.size(); ++p) {
+    functions.emplace_back(problem, schedule, static_cast<int>(p), contacts[p]);
   }
   return functions;
+}
+
+std::vector<std::vector<NodeFunctions>> first_thread(std::vector<NodeFunctions> functions) {
+  std::vector<std::vector<NodeFunctions>> threads;
+  threads.push_back(std::move(functions));
+  return threads;
 }
 
 std::vector<int> sizes_of_w(const std::vector<NodeFunctions>& phases) {
@@ -69,15 +84,16 @@ Transcription::Transcription(const MotionProblem& problem, const Mesh& mesh, con
     : problem_(problem),
       schedule_(problem),
       mesh_(mesh),
-      phases_(functions_of_phases(problem, schedule_, mesh, guess)),
+      contacts_(contacts_of_phases(problem, schedule_, mesh, guess)),
+      phases_(first_thread(functions_of_phases(problem, schedule_, contacts_))),
       anchor_origins_(anchor_origins(problem, schedule_)),
-      layout_(problem, schedule_, mesh, sizes_of_w(phases_), rows_of_nodes(phases_, mesh)),
+      layout_(problem, schedule_, mesh, sizes_of_w(phases_.front()), rows_of_nodes(phases_.front(), mesh)),
       charts_(rotation_charts(problem, mesh, guess)) {
   std::set<std::pair<int, int>> pairs;
-  for (int p = 0; p < static_cast<int>(phases_.size()); ++p) {
+  for (int p = 0; p < static_cast<int>(problem_.phases.size()); ++p) {
     std::vector<int>& shared = shared_.emplace_back();
     if (layout_.duration(p) >= 0) shared.push_back(layout_.duration(p));
-    for (const int i : phases_[static_cast<std::size_t>(p)].landed()) {
+    for (const int i : phases_.front()[static_cast<std::size_t>(p)].landed()) {
       const int place = layout_.place(schedule_.stance(p, i));
       shared.insert(shared.end(), {place, place + 1});
     }
@@ -108,8 +124,28 @@ Transcription::Transcription(const MotionProblem& problem, const Mesh& mesh, con
 Transcription::~Transcription() = default;
 
 StagewiseNlp* Transcription::stagewise() {
-  if (!stagewise_) stagewise_ = std::make_unique<StagewiseTranscription>(*this);
+  if (!stagewise_) {
+    stagewise_ = std::make_unique<StagewiseTranscription>(*this);
+    stagewise_->use_threads(threads_.count());
+  }
   return stagewise_.get();
+}
+
+void Transcription::use_threads(int count) {
+  threads_ = ThreadTeam(count);
+  const HessianKind hessian = phases_.front().front().hessian_kind();
+  phases_.resize(static_cast<std::size_t>(std::min(count, static_cast<int>(phases_.size()))));
+  while (static_cast<int>(phases_.size()) < count) {
+    phases_.push_back(functions_of_phases(problem_, schedule_, contacts_));
+  }
+  use_hessian(hessian);
+  if (stagewise_) stagewise_->use_threads(count);
+}
+
+void Transcription::use_hessian(HessianKind kind) {
+  for (std::vector<NodeFunctions>& phases : phases_) {
+    for (NodeFunctions& functions : phases) functions.use_hessian(kind);
+  }
 }
 
 double Transcription::duration(const VectorXd& z, int phase) const {
@@ -171,13 +207,13 @@ IntervalDefects Transcription::interval(const VectorXd& z, int k) const {
 void Transcription::evaluate_nodes(const VectorXd& z, bool with_derivatives) {
   if (evaluated_at_.size() == z.size() && evaluated_at_ == z && (have_derivatives_ || !with_derivatives)) return;
   evaluated_at_.resize(0);  // in case that an evaluation throws half-way
-  for (int k = 0; k < layout_.num_nodes(); ++k) {
+  threads_.for_each(layout_.num_nodes(), [&](int k) {
     NodeValues& values = values_[static_cast<std::size_t>(k)];
     at_node(k, [&] {
       const NodePoint point = node_point(z, k);
       with_derivatives ? functions(k).evaluate_with_derivatives(point, values) : functions(k).evaluate(point, values);
     });
-  }
+  });
   evaluated_at_ = z;
   have_derivatives_ = with_derivatives;
 }
@@ -337,17 +373,19 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
   const int nv = layout_.nv();
   const int num_shared = num_variables() - layout_.first_shared();
   std::vector<MatrixXd> nodes(static_cast<std::size_t>(layout_.num_nodes()));
-  std::vector<Eigen::Matrix<double, 6, 6>> links(static_cast<std::size_t>(layout_.num_links()));
+  std::vector<Eigen::Matrix<double, 6, 6>> links(static_cast<std::size_t>(layout_.num_links()),
+                                                 Eigen::Matrix<double, 6, 6>::Zero());
   MatrixXd shared = MatrixXd::Zero(num_shared, num_shared);
-  for (int k = 0; k < layout_.num_nodes(); ++k) {
+  threads_.for_each(layout_.num_nodes(), [&](int k) {
     at_node(k, [&] {
       functions(k).hessian(node_point(z, k), cost_factor,
                            multipliers.segment(layout_.node_row(k), functions(k).num_rows(mesh_node(k).node)),
                            nodes[static_cast<std::size_t>(k)]);
     });
-  }
+  });
+  const bool is_exact = phases_.front().front().hessian_kind() == HessianKind::exact;
   for (int k = 0; k < layout_.num_links(); ++k) {
-    if (!is_interval(k)) continue;
+    if (!is_interval(k) || !is_exact) continue;
     const IntervalDefects::Hessian bent = interval(z, k).hessian(multipliers.segment(layout_.link_row(k), 2 * nv));
     links[static_cast<std::size_t>(k)] = bent.link;
     const int free_duration = layout_.duration(phase_of(k));
@@ -398,7 +436,7 @@ VectorXd Transcription::pack(const Trajectory& trajectory) const {
       z(layout_.w(k) + static_cast<Index>(i)) = point.force(3 * contact + chosen[i] % 3);
     }
   }
-  for (int p = 0; p < static_cast<int>(phases_.size()); ++p) {
+  for (int p = 0; p < static_cast<int>(problem_.phases.size()); ++p) {
     if (layout_.duration(p) < 0) continue;
     const int last = problem_.phases[static_cast<std::size_t>(p)].intervals;
     z(layout_.duration(p)) = trajectory.nodes[static_cast<std::size_t>(mesh_.index({p, last}))].time -

@@ -9,6 +9,7 @@
 #include "prowl/motion/contact_schedule.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp.hpp"
+#include "prowl/nlp/thread_team.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 #include "prowl/transcription/decision_layout.hpp"
 #include "prowl/transcription/interval_defects.hpp"
@@ -58,14 +59,19 @@ class Transcription : public Nlp {
   std::string describe_constraint(int row) const override;
   std::string describe_variable(int index) const override;
 
+  void use_threads(int count) override;
+  void use_hessian(HessianKind kind);  ///< exact, if not said otherwise
   StagewiseNlp* stagewise() override;
 
  private:
   friend class StagewiseTranscription;  // another form of the same nodes
   const MeshNode& mesh_node(int k) const { return mesh_.nodes[static_cast<std::size_t>(k)]; }
   int phase_of(int k) const { return mesh_node(k).phase; }
-  const NodeFunctions& functions(int k) const { return phases_[static_cast<std::size_t>(phase_of(k))]; }
-  NodeFunctions& functions(int k) { return phases_[static_cast<std::size_t>(phase_of(k))]; }
+  const NodeFunctions& functions(int k) const { return phases_.front()[static_cast<std::size_t>(phase_of(k))]; }
+  /// Those of the calling thread.
+  NodeFunctions& functions(int k) {
+    return phases_[static_cast<std::size_t>(ThreadTeam::slot())][static_cast<std::size_t>(phase_of(k))];
+  }
   /// Whether nodes k and k + 1 are the ends of an interval; else they are a phase switch.
   bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
   double duration(const Eigen::VectorXd& z, int phase) const;
@@ -101,7 +107,8 @@ class Transcription : public Nlp {
   MotionProblem problem_;
   ContactSchedule schedule_;
   Mesh mesh_;
-  std::vector<NodeFunctions> phases_;            ///< what holds at a node, one a phase
+  std::vector<PhaseContacts> contacts_;          ///< of each phase
+  std::vector<std::vector<NodeFunctions>> phases_;  ///< what holds at a node: for each thread, one a phase
   std::vector<std::vector<int>> shared_;         ///< decision variables that the nodes of a phase share
   std::vector<Eigen::VectorXd> anchor_origins_;  ///< anchors of each phase's contacts where the places are zero
   DecisionLayout layout_;
@@ -114,6 +121,7 @@ class Transcription : public Nlp {
   Eigen::VectorXd evaluated_at_;
   bool have_derivatives_ = false;
   std::vector<NodeValues> values_;
+  ThreadTeam threads_{1};
 
   std::unique_ptr<StagewiseTranscription> stagewise_;  ///< made when first asked for
 };

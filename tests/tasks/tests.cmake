@@ -1,6 +1,7 @@
 prowl_test(tasks/free_duration prowl::prowl)
 prowl_test(tasks/solvers_agree prowl::prowl)
 prowl_test(tasks/no_allocations prowl::prowl)
+prowl_test(tasks/threads prowl::prowl)
 if(PROWL_BUILD_CLI)
   prowl_test(tasks/shipped_tasks prowl::io nlohmann_json::nlohmann_json)
   target_compile_definitions(tasks_shipped_tasks_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")

@@ -186,6 +186,49 @@ TEST(StagewiseTranscription, LinearisedStagesAreTheirDenseMatrices) {
   EXPECT_GT(carried, 0) << "no stage hands on what a phase shares";
 }
 
+TEST(StagewiseTranscription, FirstOrderIsTheSameWithoutTheHessian) {
+  std::mt19937 rng(13);
+  for (const MotionProblem& problem : problems()) {
+    Forms forms(problem), other(problem);
+    const std::vector<VectorXd> here = forms.random_stages(rng, 0.05), there = forms.random_stages(rng, 0.05);
+    for (int k = 0; k < forms.stages.num_stages(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const StageMultipliers at = random_multipliers(rng, StageDerivatives(forms.stages.derivatives(k, here[i])));
+      const MatrixXd next_hessian = random_form(rng, at.next.size());
+      const VectorXd weights = test::random_vector(rng, at.inequalities.size(), 1.0).cwiseAbs();
+      const VectorXd step = test::random_vector(rng, here[i].size(), 1.0);
+      const auto all = [&](StagewiseNlp& of) -> VectorXd {  // but the Hessian, which comes last
+        const VectorXd functions = linear_functions(of, k, next_hessian, weights, step, at);
+        return functions.head(functions.size() - of.lagrangian_hessian(k).size());
+      };
+      forms.stages.linearise(k, here[i], 1.7, at);
+      other.stages.linearise_to_first_order(k, there[i]);
+      other.stages.linearise_to_first_order(k, here[i]);
+      EXPECT_EQ(all(other.stages), all(forms.stages)) << forms.stages.describe_stage(k);
+    }
+  }
+}
+
+TEST(StagewiseTranscription, TheHessianOfTheCostAloneKnowsNoMultipliers) {
+  std::mt19937 rng(14);
+  for (const MotionProblem& problem : problems()) {
+    Forms forms(problem);
+    const std::vector<VectorXd> here = forms.random_stages(rng, 0.05);
+    for (int k = 0; k < forms.stages.num_stages(); ++k) {
+      const VectorXd& ux = here[static_cast<std::size_t>(k)];
+      const StageMultipliers at = random_multipliers(rng, StageDerivatives(forms.stages.derivatives(k, ux)));
+      const StageMultipliers none = {0.0 * at.next, 0.0 * at.equalities, 0.0 * at.inequalities};
+      forms.nlp.use_hessian(HessianKind::exact);
+      const MatrixXd exact = forms.stages.hessian(k, ux, 1.7, at);
+      forms.nlp.use_hessian(HessianKind::gauss_newton);
+      const MatrixXd of_cost = forms.stages.hessian(k, ux, 1.7, at);
+      EXPECT_EQ(of_cost, forms.stages.hessian(k, ux, 1.7, none)) << forms.stages.describe_stage(k);
+      EXPECT_EQ(forms.stages.hessian(k, ux, 0.0, at).norm(), 0.0) << forms.stages.describe_stage(k);
+      EXPECT_GT((exact - of_cost).norm(), 1e-3 * exact.norm()) << forms.stages.describe_stage(k);
+    }
+  }
+}
+
 /// As when a line search looks elsewhere, and then a second order correction takes the same matrices again.
 TEST(StagewiseTranscription, LinearisedStagesStayWhateverIsEvaluated) {
   std::mt19937 rng(12);

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace prowl {
+
+/// Second derivatives of the Lagrangian: exact, or of the cost alone, as if the constraints were linear.
+enum class HessianKind { exact, gauss_newton };
+
+}  // namespace prowl
