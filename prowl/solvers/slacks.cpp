@@ -8,6 +8,12 @@ namespace prowl {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace {
+
+constexpr double kRounding = 1e-13;  ///< of an inequality, as a part of it or of one
+
+}  // namespace
+
 Slacks::Slacks(const VectorXd& lower, const VectorXd& upper) : s(VectorXd::Zero(lower.size())), lower_(lower), upper_(upper) {
   for (Index i = 0; i < lower.size(); ++i) {
     if (std::isfinite(lower(i))) below_.push_back({i, lower(i)});
@@ -101,7 +107,8 @@ void Slacks::reset(const VectorXd& from, const VectorXd& values, double tau) {
   for (const Bound& b : below_) check(b, 1.0);
   for (const Bound& b : above_) check(b, -1.0);
   for (Index i = 0; i < size(); ++i) {
-    if (!outside_[static_cast<std::size_t>(i)]) s(i) = values(i);
+    const double rounding = kRounding * std::max(1.0, std::abs(values(i)));
+    if (!outside_[static_cast<std::size_t>(i)] && std::abs(values(i) - s(i)) > rounding) s(i) = values(i);
   }
 }
 

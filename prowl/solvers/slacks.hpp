@@ -37,7 +37,8 @@ class Slacks {
   double longest_dual(double tau) const;
   /// s = from + alpha ds. False if that is on a bound or beyond.
   bool move(const Eigen::VectorXd& from, double alpha, const Eigen::VectorXd& ds);
-  /// s = value of the inequality where that is as far inside as the fraction to the boundary allows, seen from `from`.
+  /// s = value of the inequality where that is as far inside as the fraction to the boundary allows, seen from `from`, and
+  /// differs by more than rounding: near a bound, where s is mu / z, rounding would turn mu / s about.
   void reset(const Eigen::VectorXd& from, const Eigen::VectorXd& values, double tau);
   /// z += alpha dz, and then as near to mu / distance as `spread` allows.
   void move_dual(double alpha, double mu, double spread);

@@ -238,17 +238,17 @@ TEST_F(Command, SaysThatItReplacesAGoodPlan) {
 }
 
 TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
-  const Outcome result = run("$prowl plan hold.toml $dirs --out out --intervals 64");
+  const Outcome result = run("$prowl plan hold.toml $dirs --out out --intervals 200");
   EXPECT_EQ(result.status, 0) << result.error;
-  EXPECT_THAT(result.error, HasSubstr("mesh of 4 intervals\n"));
-  EXPECT_THAT(result.error, HasSubstr("mesh of 16 intervals\n"));
-  EXPECT_THAT(result.error, HasSubstr("mesh of 64 intervals\n"));
+  EXPECT_THAT(result.error, HasSubstr("mesh of 13 intervals\n"));
+  EXPECT_THAT(result.error, HasSubstr("mesh of 50 intervals\n"));
+  EXPECT_THAT(result.error, HasSubstr("mesh of 200 intervals\n"));
   const nlohmann::json solver = plan().at("solver");
   ASSERT_EQ(solver.at("levels").size(), 3u);
   int iterations = 0;
   for (const auto& level : solver.at("levels")) iterations += level.at("iterations").get<int>();
   EXPECT_EQ(solver.at("iterations"), iterations);
-  EXPECT_THAT(result.out, HasSubstr(" iterations on 4, 16, 64 intervals"));
+  EXPECT_THAT(result.out, HasSubstr(" iterations on 13, 50, 200 intervals"));
 }
 
 TEST_F(Command, SaysThatATaskWithoutCostIsLeftToChance) {

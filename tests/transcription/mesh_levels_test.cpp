@@ -26,28 +26,29 @@ std::vector<std::vector<int>> intervals_of_levels(const MotionProblem& problem) 
 using testing::ElementsAre;
 
 TEST(MeshLevels, GoFromCoarseToFineByFour) {
-  EXPECT_THAT(intervals_of_levels(with_intervals({400})), ElementsAre(ElementsAre(7), ElementsAre(25), ElementsAre(100), ElementsAre(400)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({400})), ElementsAre(ElementsAre(25), ElementsAre(100), ElementsAre(400)));
 }
 
 TEST(MeshLevels, KeepFourIntervalsAPhase) {
-  EXPECT_THAT(intervals_of_levels(with_intervals({3, 100})),
-              ElementsAre(ElementsAre(3, 7), ElementsAre(3, 25), ElementsAre(3, 100)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({3, 210})),
+              ElementsAre(ElementsAre(3, 14), ElementsAre(3, 53), ElementsAre(3, 210)));
 }
 
 TEST(MeshLevels, LeaveOutWhatSavesLittle) {
-  EXPECT_THAT(intervals_of_levels(with_intervals({7})), ElementsAre(ElementsAre(7)));
-  EXPECT_THAT(intervals_of_levels(with_intervals({8})), ElementsAre(ElementsAre(4), ElementsAre(8)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({48})), ElementsAre(ElementsAre(48)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({49})), ElementsAre(ElementsAre(13), ElementsAre(49)));
+  EXPECT_THAT(intervals_of_levels(with_intervals(std::vector<int>(13, 7))), ElementsAre(std::vector<int>(13, 7)));
 }
 
 TEST(MeshLevels, KeepEveryGoalAtItsTime) {
-  MotionProblem problem = with_intervals({10, 90});
-  for (const NodeRef at : {NodeRef{0, 0}, NodeRef{1, 30}, NodeRef{1, 45}, NodeRef{1, 90}}) {
+  MotionProblem problem = with_intervals({40, 360});
+  for (const NodeRef at : {NodeRef{0, 0}, NodeRef{1, 120}, NodeRef{1, 180}, NodeRef{1, 360}}) {
     problem.boundary_conditions.push_back(
         BoundaryCondition::unbounded(problem.robot, "goal", at, problem.robot.nominal_configuration()));
   }
   const std::vector<MotionProblem> levels = mesh_levels(problem);
   ASSERT_EQ(levels.size(), 3u);
-  EXPECT_EQ(levels[1].phases[1].intervals, 24);  // 23 are a quarter, and it takes a multiple of six
+  EXPECT_EQ(levels[0].phases[1].intervals, 24);  // 23 are a quarter of 90, and it takes a multiple of six
   for (const MotionProblem& level : levels) {
     const Mesh mesh = make_mesh(level);
     for (std::size_t i = 0; i < level.boundary_conditions.size(); ++i) {
