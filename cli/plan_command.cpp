@@ -147,6 +147,9 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--max-iterations", arguments->overrides.max_iterations,
                    key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))->type_name("N");
+  verb->add_option("--tolerance", arguments->overrides.tolerance,
+                   key_meaning(keys, "solver", "tolerance") + "; in place of solver.tolerance")
+      ->check(CLI::Range(1e-12, 1e-2))->type_name("X");
   verb->add_option("--intervals", arguments->overrides.intervals,
                    "Mesh intervals in all, shared out over the phases as in the task file")
       ->check(CLI::Range(1, 10000))->type_name("N");

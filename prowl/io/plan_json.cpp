@@ -86,6 +86,7 @@ Json overrides_to_json(const TaskOverrides& overrides) {
   if (overrides.intervals) json["intervals"] = *overrides.intervals;
   if (overrides.max_iterations) json["max_iterations"] = *overrides.max_iterations;
   if (overrides.max_seconds) json["max_time_s"] = *overrides.max_seconds;
+  if (overrides.tolerance) json["tolerance"] = *overrides.tolerance;
   return json;
 }
 
@@ -206,6 +207,7 @@ TaskOverrides read_overrides(const Reader& json) {
   if (json.has("intervals")) overrides.intervals = json.integer("intervals");
   if (json.has("max_iterations")) overrides.max_iterations = json.integer("max_iterations");
   if (json.has("max_time_s")) overrides.max_seconds = json.number("max_time_s");
+  if (json.has("tolerance")) overrides.tolerance = json.number("tolerance");
   return overrides;
 }
 

@@ -240,6 +240,7 @@ SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides)
   }
   options.max_iterations = overrides.max_iterations.value_or(options.max_iterations);
   options.max_seconds = overrides.max_seconds.value_or(options.max_seconds);
+  options.tolerance = overrides.tolerance.value_or(options.tolerance);
   return options;
 }
 

@@ -15,6 +15,7 @@ struct TaskOverrides {
   std::optional<int> intervals;  ///< total, shared out over the phases as in the file; at least one each
   std::optional<int> max_iterations;
   std::optional<double> max_seconds;
+  std::optional<double> tolerance;
 };
 
 /// A task file, understood, and all that it was read from: enough to read it again (see plan_directory.hpp).

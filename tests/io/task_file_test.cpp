@@ -178,10 +178,11 @@ joints = { rf_kfe_joint = -1.2 }
 }
 
 TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
-  const Task task = read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5});
+  const Task task = read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5, .tolerance = 1e-9});
   EXPECT_EQ(task.problem.phases[0].intervals, 40);
   EXPECT_EQ(task.problem.boundary_conditions[1].at, (NodeRef{0, 40})) << "the goal stays at its time";
   EXPECT_EQ(task.solver.max_iterations, 7);
+  EXPECT_EQ(task.solver.tolerance, 1e-9);
   EXPECT_EQ(task.solver.max_seconds, 1.5);
 }
 
