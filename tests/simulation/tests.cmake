@@ -1,0 +1,1 @@
+prowl_test(simulation/physics prowl::simulation pinocchio::pinocchio_default)
