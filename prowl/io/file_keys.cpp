@@ -59,6 +59,7 @@ FileKeys make_task_file_keys() {
       {"", "swing_clearance_m", "number >= 0 [m]; default 5 % of the standing height",
        "of contacts in the air above the surfaces that they pass, in the middle of the swing"},
       {"", "solver", "[solver]", "when the solver stops"},
+      {"", "simulation", "[simulation]", "when `prowl simulate` counts as a success"},
       {"surface", "name", "string", "for phases to refer to"},
       {"surface", "point_m", "3 numbers [m]; default [0, 0, 0]", "any point of the plane, world frame"},
       {"surface", "normal", "3 numbers; default [0, 0, 1]", "points out of the ground; any length but zero"},
@@ -115,6 +116,11 @@ FileKeys make_task_file_keys() {
   keys.push_back({"solver", "tolerance", "number, 1e-12 to 1e-2; default 1e-6", "on optimality and on the constraints"});
   keys.push_back({"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations, on each mesh"});
   keys.push_back({"solver", "max_time_s", "number > 0 [s]; default 300", "stop after this much wall-clock time"});
+  keys.push_back({"simulation", "base_position_m", "number > 0 [m]; default 0.02",
+                  "most that the base in rest at the end is away from where the plan ends"});
+  keys.push_back({"simulation", "base_angle_rad", "number > 0 [rad]; default 0.035", "the same of its orientation"});
+  keys.push_back({"simulation", "slip_m", "number > 0 [m]; default 0.02", "most that a standing foot slips"});
+  keys.push_back({"simulation", "rest_s", "number > 0 [s]; default 1.5", "how long the robot goes on standing after the plan"});
   return keys;
 }
 

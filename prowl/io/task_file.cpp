@@ -243,6 +243,20 @@ SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides)
   return options;
 }
 
+SuccessCriteria read_success(const TomlTable& root) {
+  SuccessCriteria criteria;
+  const auto table = root.find_table("simulation");
+  if (!table) return criteria;
+  const auto read = [&](const char* name, double& value) {
+    if (const auto number = table->find(name)) value = number->as_number(NumberRange::positive());
+  };
+  read("base_position_m", criteria.position);
+  read("base_angle_rad", criteria.angle);
+  read("slip_m", criteria.slip);
+  read("rest_s", criteria.rest);
+  return criteria;
+}
+
 MotionProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
                            const TaskOverrides& overrides, std::vector<int>& file_intervals) {
   std::vector<Surface> surfaces = read_surfaces(root);
@@ -310,6 +324,7 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   const TomlTable root = task_root(document);
   root.need("robot").as_text();
   const SolverOptions solver = read_solver(root, overrides);
+  const SuccessCriteria success = read_success(root);
   std::vector<int> file_intervals;
   MotionProblem problem =
       read_problem(root, load_robot(robot_file, search, {.urdf_copy = urdf}), robot_file, overrides, file_intervals);
@@ -320,7 +335,7 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   } catch (const InputError& error) {
     throw InputError(in_terms_of_the_file(task_file, error.what()));
   }
-  return {std::move(problem), solver, task_file, robot_file, overrides, std::move(file_intervals)};
+  return {std::move(problem), solver, success, task_file, robot_file, overrides, std::move(file_intervals)};
 }
 
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {

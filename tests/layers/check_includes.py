@@ -22,7 +22,9 @@ ALLOWED = {
     "feasibility": {"model", "dynamics", "motion", "trajectory", "nlp"},
     "tracker": set(),  # nor prowl/error.hpp: it goes on the robot
     "tracking": {"model", "dynamics", "motion", "trajectory", "tracker"},
-    "simulation": {"model", "motion", "trajectory", "tracker"},
+    "estimation": {"model"},
+    # Of dynamics nothing: an independent judge.
+    "simulation": {"model", "motion", "trajectory", "tracker", "estimation"},
     "io": None,  # what it needs
     ".": None,  # prowl/plan
 }
@@ -35,6 +37,7 @@ LIBRARIES = {
     "toml++": (r"toml\+\+/|toml\.hpp", {"io"}),
     "nlohmann": (r"nlohmann/", {"io"}),
     "tinyxml2": (r"tinyxml2\.h", {"model", "io"}),
+    "MuJoCo": (r"mujoco/", {"simulation"}),
     "CLI11": (r"CLI/", set()),
 }
 
