@@ -1,19 +1,18 @@
 #include "prowl/simulation/onboard.hpp"
 
 #include <algorithm>
-
-#include "prowl/model/configuration.hpp"
+#include <cmath>
 
 namespace prowl {
 namespace {
 
-// Joint accelerations that the plan does not have, as white noise [rad^2/s^3]: docs/simulation.md says how it was chosen.
+// Joint accelerations that the model does not know, as white noise [rad^2/s^3]: docs/simulation.md says how it was chosen.
 constexpr double kJointDensity = 1.0;
-constexpr double kLeastEncoderNoise = 1e-5;  // [rad]; of a filter that is told there is none
 
+/// What the filter is told of sensors without noise: it divides by it.
 EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
   EstimatorNoise noise;
-  noise.encoder = std::max(scale * sensors.encoder, kLeastEncoderNoise);
+  noise.encoder = std::max(scale * sensors.encoder, 1e-5);
   noise.gyro = std::max(scale * sensors.gyro, 1e-5);
   noise.accelerometer = std::max(scale * sensors.accelerometer, 1e-4);
   noise.gyro_bias = noise.gyro;
@@ -21,57 +20,61 @@ EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
   return noise;
 }
 
-std::vector<std::vector<Eigen::Vector3d>> surface_normals(const MotionProblem& problem) {
-  std::vector<std::vector<Eigen::Vector3d>> normals;
-  for (const Phase& phase : problem.phases) {
-    normals.emplace_back(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());
-    for (const PhaseContact& contact : phase.contacts) {
-      normals.back()[static_cast<std::size_t>(contact.contact)] =
+std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& tracker) {
+  std::vector<Stand> stands;
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    Stand& stand = stands.emplace_back();
+    stand.in_contact = tracker.plan().segments[p].in_contact;
+    stand.normals.assign(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());
+    for (const PhaseContact& contact : problem.phases[p].contacts) {
+      stand.normals[static_cast<std::size_t>(contact.contact)] =
           problem.surfaces[static_cast<std::size_t>(contact.surface)].normal;
     }
   }
-  return normals;
+  return stands;
 }
 
 }  // namespace
 
-Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options)
-    : problem_(problem),
-      tracker_(tracker),
-      joints_(problem.start_configuration().tail(problem.robot.nu()),
-              std::max(options.noise_scale * options.noise.encoder, kLeastEncoderNoise), kJointDensity),
-      base_(problem.robot, problem.start_configuration(), tracker.plan().segments.front().in_contact,
-            estimator_noise(options.noise, options.noise_scale)),
-      normals_(surface_normals(problem)),
-      q_(problem.start_configuration()),
-      v_(Eigen::VectorXd::Zero(problem.robot.nv())) {}
-
-void Onboard::sense(double t, double dt, const SensorReading& reading) {
-  const TrackingPlan::Segment& segment = tracker_.segment(t);
-  const auto phase = static_cast<std::size_t>(&segment - tracker_.plan().segments.data());
-  joints_.update(dt, planned_joint_acceleration(t - dt, t), reading.encoders);
-  base_.update(dt, reading.gyro, reading.accelerometer, reading.encoders, joints_.rates(), segment.in_contact,
-               normals_[phase]);
-  const Eigen::Index nu = problem_.robot.nu();
-  q_.head<3>() = base_.position();
-  set_base_rotation(q_, base_.rotation());
-  q_.tail(nu) = joints_.positions();
-  v_.head<3>() = base_.rotation().transpose() * base_.velocity();
-  v_.segment<3>(3) = base_.angular_velocity();
-  v_.tail(nu) = joints_.rates();
+Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options, double period)
+    : tracker_(tracker),
+      options_(options),
+      period_(period),
+      stands_(make_stands(problem, tracker)),
+      estimator_(problem.robot, problem.start_configuration(), stands_.front(),
+                 estimator_noise(options.noise, options.noise_scale), kJointDensity),
+      feedforward_(problem.robot.nu()),
+      feedback_(problem.robot.nu()),
+      command_(problem.robot.nu()) {
+  tracker.feedforward(tracker.start(), command_);
+  commands_.assign(1 + static_cast<std::size_t>(std::lround(options.delay / period)), command_);
 }
 
-void Onboard::be_told(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
-  q_ = q;
-  v_ = v;
+void Onboard::sense(double t, const SensorReading& reading) {
+  estimator_.update(period_, reading, commands_.front(), stand(t));
 }
 
-Eigen::VectorXd Onboard::planned_joint_acceleration(double from, double to) const {
-  Eigen::VectorXd q(problem_.robot.nq()), before(problem_.robot.nv()), after(problem_.robot.nv());
-  tracker_.reference(from, q, before);
-  tracker_.reference(to, q, after);
-  if (to <= from || to > tracker_.end()) return Eigen::VectorXd::Zero(problem_.robot.nu());
-  return (after - before).tail(problem_.robot.nu()) / (to - from);
+void Onboard::act(double t) {
+  std::rotate(commands_.begin(), commands_.begin() + 1, commands_.end());
+  q_ = estimator_.q();
+  v_ = estimator_.v();
+  double acts = t;
+  for (std::size_t i = 0; i + 1 < commands_.size(); ++i, acts += period_) {
+    estimator_.predict(period_, commands_[i], stand(acts), q_, v_);
+  }
+  tracker_.feedforward(acts, feedforward_);
+  if (options_.open_loop) {
+    feedback_.setZero();
+  } else {
+    tracker_.feedback(acts, q_, v_, feedback_);
+  }
+  command_ = feedforward_ + feedback_;
+  tracker_.limit(q_, v_, command_);
+  commands_.back() = command_;
+}
+
+const Stand& Onboard::stand(double t) const {
+  return stands_[static_cast<std::size_t>(&tracker_.segment(t) - tracker_.plan().segments.data())];
 }
 
 }  // namespace prowl

@@ -4,15 +4,10 @@
 #include <boost/random/normal_distribution.hpp>
 #include <random>
 
+#include "prowl/estimation/state_estimator.hpp"
 #include "prowl/simulation/simulation_options.hpp"
 
 namespace prowl {
-
-struct SensorReading {
-  Eigen::VectorXd encoders;       ///< nu [rad]
-  Eigen::Vector3d gyro;           ///< base frame [rad/s]
-  Eigen::Vector3d accelerometer;  ///< specific force, base frame [m/s^2]: +9.81 up at rest
-};
 
 /// Encoders and an IMU in the base frame. The IMU gives means over the time between two samples, as those that integrate
 /// inside do. The random numbers are those of std::mt19937_64 and of Boost's normal distribution, whose result, unlike that

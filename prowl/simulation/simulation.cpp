@@ -10,6 +10,7 @@
 #include "prowl/simulation/actuators.hpp"
 #include "prowl/simulation/measures.hpp"
 #include "prowl/simulation/onboard.hpp"
+#include "prowl/simulation/sensors.hpp"
 
 namespace prowl {
 namespace {
@@ -80,17 +81,14 @@ class Run {
         end_(tracker.end() + criteria.rest),
         physics_(problem.robot, problem.surfaces, stepped(options.physics, period_ / substeps_)),
         sensors_(problem.robot.nu(), options.noise, options.noise_scale, options.seed),
-        onboard_(problem, tracker, options),
+        onboard_(problem, tracker, options, period_),
         actuators_(problem.robot, period_ / substeps_, options.delay, options.bandwidth, first_torque(tracker)),
         measures_(problem, tracker, end_),
         slip_(problem.robot.contacts().size()) {
     physics_.set_state(problem.start_configuration(), Eigen::VectorXd::Zero(problem.robot.nv()));
-    const auto nq = problem.robot.nq(), nv = problem.robot.nv(), nu = problem.robot.nu();
+    const auto nq = problem.robot.nq(), nv = problem.robot.nv();
     sample_.q_ref.resize(nq);
     sample_.v_ref.resize(nv);
-    sample_.feedforward.resize(nu);
-    sample_.feedback.resize(nu);
-    command_.resize(nu);
   }
 
   SimulationResult operator()() {
@@ -140,19 +138,14 @@ class Run {
     if (options_.perfect_state) {
       onboard_.be_told(physics_.q(), physics_.v());
     } else if (t > 0.0) {
-      onboard_.sense(t, period_, reading);
+      onboard_.sense(t, reading);
     }
     sample_.q_seen = onboard_.q();
     sample_.v_seen = onboard_.v();
-    tracker_.feedforward(t, sample_.feedforward);
-    if (options_.open_loop) {
-      sample_.feedback.setZero();
-    } else {
-      tracker_.feedback(t, onboard_.q(), onboard_.v(), sample_.feedback);
-    }
-    command_ = sample_.feedforward + sample_.feedback;
-    tracker_.limit(onboard_.q(), onboard_.v(), command_);
-    actuators_.command(command_);
+    onboard_.act(t);
+    sample_.feedforward = onboard_.feedforward();
+    sample_.feedback = onboard_.feedback();
+    actuators_.command(onboard_.command());
   }
 
   bool advance(double t) {
@@ -190,7 +183,7 @@ class Run {
   Measures measures_;
   SimulationSample sample_;
   std::vector<Eigen::Vector3d> slip_;
-  Eigen::VectorXd command_, torque_, q_before_, v_before_;
+  Eigen::VectorXd torque_, q_before_, v_before_;
   bool saturated_ = false;
 };
 

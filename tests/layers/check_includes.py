@@ -22,7 +22,7 @@ ALLOWED = {
     "feasibility": {"model", "dynamics", "motion", "trajectory", "nlp"},
     "tracker": set(),  # nor prowl/error.hpp: it goes on the robot
     "tracking": {"model", "dynamics", "motion", "trajectory", "tracker"},
-    "estimation": {"model"},
+    "estimation": {"model", "dynamics"},
     # Of dynamics nothing: an independent judge.
     "simulation": {"model", "motion", "trajectory", "tracker", "estimation"},
     "io": None,  # what it needs
