@@ -1,5 +1,6 @@
 #include "prowl/estimation/state_estimator.hpp"
 
+#include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 
 namespace prowl {
@@ -37,8 +38,8 @@ void StateEstimator::predict(double dt, const Eigen::VectorXd& tau, const Stand&
   v += dt * a;
 }
 
-const Eigen::VectorXd& StateEstimator::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                                                    const Eigen::VectorXd& tau, const Stand& stand) {
+Eigen::VectorXd StateEstimator::acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                                             const Eigen::VectorXd& tau, const Stand& stand) {
   std::unique_ptr<ForwardDynamics>& dynamics = dynamics_[stand.in_contact];
   if (!dynamics) {
     std::vector<int> contacts;
@@ -47,8 +48,12 @@ const Eigen::VectorXd& StateEstimator::acceleration(const Eigen::VectorXd& q, co
     }
     dynamics = std::make_unique<ForwardDynamics>(robot_, contacts);
   }
-  dynamics->evaluate(q, v, tau);
-  return dynamics->acceleration();
+  try {
+    dynamics->evaluate(q, v, tau);
+    return dynamics->acceleration();
+  } catch (const NumericalError&) {
+    return Eigen::VectorXd::Zero(robot_.nv());  // a robot that has fallen apart in its own eyes still has to go on
+  }
 }
 
 }  // namespace prowl

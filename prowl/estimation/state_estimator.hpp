@@ -43,8 +43,8 @@ class StateEstimator {
   void predict(double dt, const Eigen::VectorXd& tau, const Stand& stand, Eigen::VectorXd& q, Eigen::VectorXd& v);
 
  private:
-  const Eigen::VectorXd& acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau,
-                                      const Stand& stand);
+  Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau,
+                               const Stand& stand);
 
   const RobotModel& robot_;
   JointFilter joints_;

@@ -15,7 +15,7 @@ struct TrackingOptions {
   Eigen::VectorXd state_deviation;   ///< 2 nv, > 0: tangent of configuration.hpp [m, rad], v [m/s, rad/s]
   Eigen::VectorXd torque_deviation;  ///< nu, > 0 [N m]
   /// A foot that lands beside its place stays there. What a landing cuts off the state costs as if it stayed so long [s].
-  double landing_time = 0.2;
+  double landing_time = 1.0;
 
   Eigen::VectorXd state_weight() const { return state_deviation.array().square().inverse(); }    ///< 2 nv
   Eigen::VectorXd torque_weight() const { return torque_deviation.array().square().inverse(); }  ///< nu
