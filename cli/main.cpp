@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   add_check_command(app, status);
   add_robot_command(app, status);
   add_simulate_command(app, status);
+  add_sweep_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

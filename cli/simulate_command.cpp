@@ -1,16 +1,15 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "output.hpp"
-#include "prowl/error.hpp"
+#include "plan_tracker.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/simulation_files.hpp"
-#include "prowl/tracker/tracker.hpp"
+#include "prowl/simulation/sweep.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -23,27 +22,21 @@ struct SimulateArguments {
   std::optional<double> friction;
   std::vector<double> push;  ///< time, impulse in x, y, z
   double push_duration = 0.1;
+  std::optional<std::uint64_t> sweep_case;
   bool json = false;
 };
-
-Tracker read_tracker(const std::filesystem::path& directory) {
-  try {
-    return Tracker::read((directory / "tracker.bin").string());
-  } catch (const TrackerError& error) {
-    throw InputError(error.what());
-  }
-}
 
 int run_simulate(SimulateArguments arguments) {
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
   const Tracker tracker = read_tracker(arguments.directory);
   SimulationOptions& options = arguments.options;
   options.delay = 1e-3 * arguments.delay_ms;
-  options.physics.friction = arguments.friction;
+  options.physics.friction = arguments.friction ? arguments.friction : plan.task.simulated_friction;
   for (std::size_t i = 0; i + 3 < arguments.push.size(); i += 4) {
     const double* const push = &arguments.push[i];
     options.pushes.push_back({{push[1], push[2], push[3]}, push[0], arguments.push_duration});
   }
+  if (arguments.sweep_case) options = perturbed(tracker, options, {}, *arguments.sweep_case);
   const SimulationRecord record{options, simulate(plan.task.problem, tracker, plan.task.success, options)};
   write_simulation(arguments.directory, plan, record);
   print_result(arguments.json ? simulation_json(plan, record)
@@ -73,6 +66,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   verb->add_option("--push-duration", arguments->push_duration, "Of every push; default 0.1")->type_name("S")->check(CLI::PositiveNumber);
   verb->add_option("--step", options.physics.step, "Of the physics; default 0.0005")->type_name("S");
   verb->add_option("--seed", options.seed, "Of all random numbers; default 1")->type_name("N");
+  verb->add_option("--case", arguments->sweep_case, "Perturbed as the case of that seed in prowl sweep without options")->type_name("SEED");
   verb->add_option("--record-rate", options.record_rate, "Rows a second in simulate.csv; default 200")->type_name("HZ");
   verb->add_flag("--json", arguments->json, "Print the result as JSON");
   verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")

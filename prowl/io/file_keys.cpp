@@ -120,6 +120,8 @@ FileKeys make_task_file_keys() {
                   "most that the base in rest at the end is away from where the plan ends"});
   keys.push_back({"simulation", "base_angle_rad", "number > 0 [rad]; default 0.035", "the same of its orientation"});
   keys.push_back({"simulation", "slip_m", "number > 0 [m]; default 0.02", "most that a standing foot slips"});
+  keys.push_back({"simulation", "friction", "number > 0; default: that of each [[surface]]",
+                  "coefficient of all surfaces; more than what is planned with leaves a margin"});
   keys.push_back({"simulation", "rest_s", "number > 0 [s]; default 1.5", "how long the robot goes on standing after the plan"});
   return keys;
 }

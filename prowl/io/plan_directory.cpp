@@ -17,7 +17,8 @@ namespace {
 const char* const kPlan = "plan.json";
 const char* const kNodes = "trajectory.csv";
 const char* const kUniform = "trajectory_uniform.csv";
-const std::set<std::string> kFiles = {kPlan, kNodes, kUniform, "tracker.bin", "simulate.json", "simulate.csv"};
+const std::set<std::string> kFiles = {kPlan, kNodes, kUniform, "tracker.bin", "simulate.json", "simulate.csv",
+                                      "sweep.json"};
 
 constexpr std::size_t kLongestTrajectory = 1u << 30;  // [bytes]
 constexpr std::size_t kLongestPlan = 128u << 20;      // [bytes]; of which the URDF may be 16 MB

@@ -257,6 +257,12 @@ SuccessCriteria read_success(const TomlTable& root) {
   return criteria;
 }
 
+std::optional<double> read_simulated_friction(const TomlTable& root) {
+  const auto table = root.find_table("simulation");
+  const auto friction = table ? table->find("friction") : std::nullopt;
+  return friction ? std::optional(friction->as_number(NumberRange::positive())) : std::nullopt;
+}
+
 MotionProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
                            const TaskOverrides& overrides, std::vector<int>& file_intervals) {
   std::vector<Surface> surfaces = read_surfaces(root);
@@ -335,7 +341,7 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   } catch (const InputError& error) {
     throw InputError(in_terms_of_the_file(task_file, error.what()));
   }
-  return {std::move(problem), solver, success, task_file, robot_file, overrides, std::move(file_intervals)};
+  return {std::move(problem), solver, success, read_simulated_friction(root), task_file, robot_file, overrides, std::move(file_intervals)};
 }
 
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {

@@ -23,6 +23,7 @@ struct Task {
   MotionProblem problem;
   SolverOptions solver;
   SuccessCriteria success = {};  ///< of a simulation
+  std::optional<double> simulated_friction = {};  ///< of all surfaces in a simulation; else as planned with
   SourceText task_file;
   SourceText robot_file;
   TaskOverrides overrides;

@@ -29,6 +29,7 @@ void check_fit(const MotionProblem& problem, const Tracker& tracker, const Simul
   };
   need(options.control_rate >= 10.0 && options.control_rate <= 1e5, "control rate", options.control_rate, "10 to 1e5 Hz");
   need(options.delay >= 0.0 && options.delay <= 1.0, "delay", options.delay, "0 to 1 s");
+  need(options.unknown_delay >= 0.0 && options.unknown_delay <= 1.0, "unknown delay", options.unknown_delay, "0 to 1 s");
   need(options.bandwidth >= 0.0 && std::isfinite(options.bandwidth), "bandwidth", options.bandwidth, ">= 0 Hz");
   need(options.noise_scale >= 0.0 && std::isfinite(options.noise_scale), "noise", options.noise_scale, ">= 0");
   need(options.physics.step >= 1e-5 && options.physics.step <= 1e-2, "step", options.physics.step, "1e-5 to 1e-2 s");
@@ -82,7 +83,7 @@ class Run {
         physics_(problem.robot, problem.surfaces, stepped(options.physics, period_ / substeps_)),
         sensors_(problem.robot.nu(), options.noise, options.noise_scale, options.seed),
         onboard_(problem, tracker, options, period_),
-        actuators_(problem.robot, period_ / substeps_, options.delay, options.bandwidth, first_torque(tracker)),
+        actuators_(problem.robot, period_ / substeps_, options.delay + options.unknown_delay, options.bandwidth, first_torque(tracker)),
         measures_(problem, tracker, end_),
         slip_(problem.robot.contacts().size()) {
     physics_.set_state(problem.start_configuration(), Eigen::VectorXd::Zero(problem.robot.nv()));

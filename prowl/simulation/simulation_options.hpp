@@ -36,6 +36,7 @@ struct SimulationOptions {
   SensorNoise noise;
   double noise_scale = 1.0;      ///< on all of it
   double delay = 2e-3;           ///< from the sample of the sensors to the torque [s]
+  double unknown_delay = 0.0;    ///< on top of it, which the controller does not count on [s]
   double bandwidth = 0.0;        ///< of the actuators, first order [Hz]; 0: they follow at once
   bool perfect_state = false;    ///< the controller sees the true state, not the estimated one
   bool open_loop = false;        ///< feedforward torques only
