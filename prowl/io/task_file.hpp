@@ -7,6 +7,7 @@
 #include "prowl/io/text_file.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/tracking/tracking_options.hpp"
 
 namespace prowl {
 
@@ -21,6 +22,7 @@ struct TaskOverrides {
 struct Task {
   MotionProblem problem;
   SolverOptions solver;
+  TrackingOptions tracking;
   SourceText task_file;
   SourceText robot_file;
   TaskOverrides overrides;
