@@ -13,6 +13,7 @@
 #include "prowl/io/task_cost.hpp"
 #include "prowl/io/task_gait.hpp"
 #include "prowl/io/task_goals.hpp"
+#include "prowl/io/task_tracking.hpp"
 #include "prowl/io/toml_value.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/name_check.hpp"
@@ -341,7 +342,16 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   } catch (const InputError& error) {
     throw InputError(in_terms_of_the_file(task_file, error.what()));
   }
-  return {std::move(problem), solver, success, read_simulated_friction(root), task_file, robot_file, overrides, std::move(file_intervals)};
+  TrackingOptions tracking = read_tracking(root, problem.robot);
+  return {.problem = std::move(problem),
+          .solver = solver,
+          .tracking = std::move(tracking),
+          .success = success,
+          .simulated_friction = read_simulated_friction(root),
+          .task_file = task_file,
+          .robot_file = robot_file,
+          .overrides = overrides,
+          .file_intervals = std::move(file_intervals)};
 }
 
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,17 +19,21 @@ struct PhaseDecay {
   double worst = 0.0;             ///< largest of |dx(end)| / |dx(start)|
   double mean = 0.0;              ///< root mean square of it over all directions
   std::string worst_direction;    ///< coordinate with the largest part in the worst dx(start): "base x", ...
+  double bandwidth = 0.0;         ///< largest of the feedback [rad/s], see TrackingOptions
 };
 
 /// Gains along a motion and what they do.
 struct FeedbackDesign {
-  std::vector<ReferencePhase> phases;
+  std::vector<ReferencePhase> phases;               ///< of the motion; if it stands on, one more, see stand_on()
   std::vector<std::vector<Eigen::MatrixXd>> gains;  ///< K of each sample of each phase, nu x 2 nv: dtau = -K dx
   std::vector<PhaseDecay> decay;                    ///< of each phase, with the landing at its end
   PhaseDecay whole;                                 ///< of the whole motion
-  /// The end has gains for ever: S there is that of standing on after the end. Else that of the next second.
+  /// The gains at the end are for ever: S there is that of standing on. Else S is that of one more second.
   bool stands_on = false;
-  double slowest_rate = 0.0, fastest_rate = 0.0;    ///< of the closed loop after the end, |Re| and modulus of poles [1/s]
+  double slowest_rate = 0.0, fastest_rate = 0.0;    ///< of standing on: |Re| and modulus of closed-loop poles [1/s]
+  double seconds = 0.0;                             ///< that the design took
+
+  int num_samples() const;
 };
 
 /// What the backward pass sees at one sample of the grid; n deviations xi that the contacts allow, dx = Z xi.
@@ -39,6 +44,11 @@ struct ReducedSample {
   const Eigen::MatrixXd& B;  ///< n x nu
   const Eigen::MatrixXd& S;  ///< n x n, cost to go xi' S xi
 };
+
+/// The phase after the end of a motion, one step long: at rest in the last configuration, on its contacts, with the torques
+/// that keep it there, which are nearest to the last ones (a motion may end with an acceleration). None where no torques
+/// do: in the air, on two point feet off balance.
+std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferencePhase& last, const TrackingOptions& options);
 
 /// Time-varying linear-quadratic regulator on the projected dynamics along the motion (docs/tracking.md): backwards in time
 /// over the grid, on the deviations that the contacts allow, from the stationary solution at the end. `on_sample` is called

@@ -21,7 +21,7 @@ MatrixXd impulse_response(const MatrixXd& M, const MatrixXd& V) {
 }  // namespace
 
 LinearisedDynamics::LinearisedDynamics(const RobotModel& robot, std::vector<int> contacts)
-    : dynamics_(robot, contacts), terms_(robot), kinematics_(std::move(contacts)) {}
+    : dynamics_(robot, contacts, kContactRankThreshold), terms_(robot), kinematics_(std::move(contacts)) {}
 
 void LinearisedDynamics::evaluate(const VectorXd& q, const VectorXd& v, const VectorXd& tau) {
   q_ = q;
@@ -94,7 +94,7 @@ VectorXd velocity_after_landing(const RobotModel& robot, const std::vector<int>&
   ContactKinematics kinematics(contacts);
   kinematics.set_configuration(terms);
   Projector projector;
-  projector.compute(kinematics.jacobian());
+  projector.compute(kinematics.jacobian(), kContactRankThreshold);
   if (projector.rank() == 0) return v;
   const MatrixXd V = projector.row_space();
   return v - impulse_response(terms.mass_matrix(), V) * (V.transpose() * v);

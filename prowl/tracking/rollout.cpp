@@ -29,7 +29,7 @@ struct State {
 class Motion {
  public:
   Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, std::vector<int> contacts)
-      : tracker_(tracker), options_(options), contacts_(std::move(contacts)), dynamics_(robot, contacts_),
+      : tracker_(tracker), options_(options), contacts_(std::move(contacts)), dynamics_(robot, contacts_, kContactRankThreshold),
         held_(VectorXd::Zero(robot.nu())), force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
 
   /// The torque that is held until the next tick.
