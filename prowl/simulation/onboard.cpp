@@ -22,9 +22,10 @@ EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
 
 std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& tracker) {
   std::vector<Stand> stands;
-  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+  for (std::size_t s = 0; s < tracker.plan().segments.size(); ++s) {
+    const std::size_t p = std::min(s, problem.phases.size() - 1);  // what comes after the end stands as the last phase
     Stand& stand = stands.emplace_back();
-    stand.in_contact = tracker.plan().segments[p].in_contact;
+    stand.in_contact = tracker.plan().segments[s].in_contact;
     stand.normals.assign(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());
     for (const PhaseContact& contact : problem.phases[p].contacts) {
       stand.normals[static_cast<std::size_t>(contact.contact)] =

@@ -21,7 +21,7 @@ constexpr double kFallenShare = 1.0 / 3.0;   // of the standing height off the p
 void check_fit(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options) {
   const TrackingPlan& plan = tracker.plan();
   if (plan.joint_names != problem.robot.joint_names() || plan.contact_names.size() != problem.robot.contacts().size() ||
-      plan.segments.size() != problem.phases.size()) {
+      (plan.segments.size() != problem.phases.size() && plan.segments.size() != problem.phases.size() + 1)) {
     throw InputError("the tracker is of another robot or of other phases than the plan");
   }
   const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {

@@ -57,7 +57,8 @@ struct SimulationResult {
 
 constexpr double kRestWindow = 0.2;  ///< [s]
 
-/// Runs a plan with its tracker in MuJoCo (docs/simulation.md). `tracker` has one segment for each phase of the problem.
+/// Runs a plan with its tracker in MuJoCo (docs/simulation.md). `tracker` has one segment for each phase of the problem, and may have
+/// another one to stand on after the end.
 /// Ends early if the robot falls: base more than 0.5 rad or a third of its standing height off the plan. Same arguments,
 /// same result, bit for bit. Throws InputError if the parts do not fit each other or an option makes no sense.
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "prowl/tracking/rest_torque.hpp"
-
 namespace prowl {
 namespace {
 
@@ -54,9 +52,6 @@ TrackingPlan make_tracking_plan(const MotionProblem& problem, const FeedbackDesi
       plan.gains.col(column) = design.gains[p][k].reshaped();
     }
   }
-  // What goes on after the end with the last sample rests there.
-  const Eigen::Index last = column - 1;
-  plan.tau.col(last) = rest_torque(robot, design.phases.back().contacts, plan.q.col(last), plan.tau.col(last));
   return plan;
 }
 
