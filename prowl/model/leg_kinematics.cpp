@@ -25,6 +25,7 @@ LegKinematics::LegKinematics(const RobotModel& robot)
   update(robot.nominal_configuration().tail(robot.nu()));
 }
 
+LegKinematics::LegKinematics(LegKinematics&&) noexcept = default;
 LegKinematics::~LegKinematics() = default;
 
 void LegKinematics::update(const Eigen::VectorXd& joints) {

@@ -12,6 +12,7 @@ namespace prowl {
 class LegKinematics {
  public:
   explicit LegKinematics(const RobotModel& robot);
+  LegKinematics(LegKinematics&&) noexcept;
   ~LegKinematics();
 
   /// `joints`: nu positions [rad].
