@@ -58,7 +58,7 @@ void add_tracking(FileKeys& keys) {
   add("joint_velocity_radps", "number > 0, or {joint = number > 0} [rad/s]; default 10", "the same");
   add("torque_share", "number > 0 [-]; default 0.1",
       "the same, of the torque limit; where there is none, of the robot's weight on a lever as long as its legs reach");
-  add("landing_s", "number >= 0 [s]; default 0.2",
+  add("landing_s", "number >= 0 [s]; default 1",
       "a foot that lands beside its place costs as if it were off for so long: it cannot be moved any more");
   add("bandwidth_radps", "number > 0 [rad/s]; default 100", "gains that would act faster are brought down to this");
 }

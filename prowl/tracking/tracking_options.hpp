@@ -16,7 +16,7 @@ struct TrackingOptions {
   Eigen::VectorXd state_deviation;   ///< 2 nv, > 0: tangent of configuration.hpp [m, rad], v [m/s, rad/s]
   Eigen::VectorXd torque_deviation;  ///< nu, > 0 [N m]
   /// A foot that lands beside its place stays there. What a landing cuts off the state costs as if it stayed so long [s].
-  double landing_time = 0.2;
+  double landing_time = 1.0;
   /// Bandwidth of the feedback [rad/s]: frequency where the loop gain from torque to torque is one. Gains that would go
   /// beyond it are scaled down to it, in the directions of torque where they do: delays and filters of a robot cost phase,
   /// 0.3 rad at 3 ms and this.
