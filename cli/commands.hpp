@@ -8,5 +8,7 @@ namespace prowl::cli {
 void add_plan_command(CLI::App& app, int& status);
 void add_check_command(CLI::App& app, int& status);
 void add_robot_command(CLI::App& app, int& status);
+void add_simulate_command(CLI::App& app, int& status);
+void add_sweep_command(CLI::App& app, int& status);
 
 }  // namespace prowl::cli

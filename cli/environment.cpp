@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "prowl/error.hpp"
+#include "prowl/simulation/physics.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
@@ -51,6 +52,7 @@ std::map<std::string, std::string> versions() {
           {"Riccati", RiccatiSolver().version()},
           {"Ipopt", IpoptSolver().version()},
           {"Fatrop", FatropSolver().version()},
+          {"MuJoCo", Physics::version()},
           {"Pinocchio", PROWL_PINOCCHIO_VERSION},
           {"vector instructions", PROWL_SIMD},
           {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};

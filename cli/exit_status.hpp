@@ -14,6 +14,7 @@ enum ExitStatus : int {
   kNumericalFailure = 5,
   kLimit = 6,               ///< of time or iterations
   kCertificateFailed = 7,   ///< converged, but the motion does not hold
+  kSimulationFailed = 8,    ///< not a success by the task's criteria
   kInterrupted = 130,
 };
 

@@ -38,6 +38,7 @@ struct PlanArguments {
   bool one_mesh = false;
   int threads = 1;
   std::string hessian = "exact";
+  bool no_gains = false;
 };
 
 constexpr int kMostThreads = 256;
@@ -79,6 +80,16 @@ std::unique_ptr<NlpSolver> make_solver(const std::string& name) {
   return std::make_unique<IpoptSolver>();
 }
 
+/// Gains for a plan that is good; why there are none is a note, for the plan is as good without.
+void add_feedback(PlanRecord& record) {
+  if (!is_good(record.plan)) return;
+  try {
+    record.feedback = design_feedback(record.task.problem, record.plan.trajectory, record.task.tracking);
+  } catch (const NumericalError& error) {
+    print_message(fmt::format("note: {}\n", error.what()));
+  }
+}
+
 int run_plan(const PlanArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), arguments.overrides);
@@ -110,8 +121,9 @@ int run_plan(const PlanArguments& arguments) {
   }
   Plan plan = make_plan(task.problem, *make_solver(arguments.solver), options);
 
-  const PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
-                          .warm_start = arguments.warm_start};
+  PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
+                    .feedback = {}, .warm_start = arguments.warm_start};
+  if (!arguments.no_gains) add_feedback(record);
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
   write_plan(out, record, arguments.step);
@@ -153,6 +165,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--intervals", arguments->overrides.intervals,
                    "Mesh intervals in all, shared out over the phases as in the task file")
       ->check(CLI::Range(1, 10000))->type_name("N");
+  verb->add_flag("--no-gains", arguments->no_gains, "Leave out the feedback gains, tracker.bin");
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
   verb->add_option("--warm-start", arguments->warm_start,
                    "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ")
@@ -161,7 +174,7 @@ void add_plan_command(CLI::App& app, int& status) {
       ->type_name("DIR")->expected(1)->take_all();
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
-  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh"}) phases->excludes(unused);
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--no-gains"}) phases->excludes(unused);
   verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"
                "  prowl plan tasks/hyq/balance.toml --print-phases\n"
                "  prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out stand\n\n"

@@ -44,6 +44,17 @@ foreach(name fatrop blasfeo)
 endforeach()
 target_link_libraries(prowl_dep_fatrop INTERFACE prowl_dep_blasfeo)
 
+# MuJoCo comes without one too; the soname of its library carries the version.
+set(PROWL_MUJOCO ${PROWL_SITE_PACKAGES}/mujoco)
+file(GLOB mujoco_library ${PROWL_MUJOCO}/libmujoco.so.*)
+if(NOT mujoco_library)
+  message(FATAL_ERROR "No MuJoCo in ${PROWL_MUJOCO}: run scripts/setup.")
+endif()
+add_library(prowl_dep_mujoco SHARED IMPORTED)
+set_target_properties(prowl_dep_mujoco PROPERTIES
+  IMPORTED_LOCATION ${mujoco_library}
+  INTERFACE_INCLUDE_DIRECTORIES ${PROWL_MUJOCO}/include)
+
 find_package(tinyxml2 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)

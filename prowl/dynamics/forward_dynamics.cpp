@@ -4,15 +4,15 @@
 
 namespace prowl {
 
-ForwardDynamics::ForwardDynamics(const RobotModel& robot, std::vector<int> contacts)
-    : terms_(robot), kinematics_(std::move(contacts)) {}
+ForwardDynamics::ForwardDynamics(const RobotModel& robot, std::vector<int> contacts, double rank_threshold)
+    : terms_(robot), kinematics_(std::move(contacts)), rank_threshold_(rank_threshold) {}
 
 void ForwardDynamics::evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(terms_.nv());
   terms_.update_with_derivatives(q, v, zero);  // for M; r0 at a = 0 is h
   kinematics_.set_configuration(terms_);
   kinematics_.set_motion(v, zero);  // the acceleration at a = 0 is J̇ v
-  projector_.compute(kinematics_.jacobian());
+  projector_.compute(kinematics_.jacobian(), rank_threshold_);
   P_ = projector_.matrix();
   pinv_ = projector_.pseudo_inverse();
 

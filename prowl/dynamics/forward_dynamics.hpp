@@ -26,8 +26,8 @@ class ForwardDynamics {
     Eigen::MatrixXd q, v, tau;
   };
 
-  /// `contacts`: indices of contacts of the robot, in the order of the forces.
-  ForwardDynamics(const RobotModel& robot, std::vector<int> contacts);
+  /// `contacts`: indices of contacts of the robot, in the order of the forces. `rank_threshold`: see Projector::compute.
+  ForwardDynamics(const RobotModel& robot, std::vector<int> contacts, double rank_threshold = Projector::kRankThreshold);
 
   /// a and f. Throws NumericalError if they are not finite.
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
@@ -48,6 +48,7 @@ class ForwardDynamics {
   RigidBodyTerms terms_;
   ContactKinematics kinematics_;
   Projector projector_;
+  double rank_threshold_;
   Eigen::MatrixXd P_, pinv_;  // P, J⁺
   Eigen::PartialPivLU<Eigen::MatrixXd> constrained_mass_;  // of Mc
   Eigen::VectorXd a_, f_;

@@ -6,12 +6,12 @@
 
 namespace prowl {
 
-void Projector::compute(const Eigen::MatrixXd& J) {
+void Projector::compute(const Eigen::MatrixXd& J, double rank_threshold) {
   if (!J.allFinite()) throw NumericalError("the contact Jacobian is not finite: a configuration is NaN or too large");
   const Eigen::Index rows = J.rows();
   transposed_ = J.transpose();
   if (rows > 0) qr_.compute(transposed_);
-  find_rank();
+  find_rank(rank_threshold);
   if (rank_ < rows) {
     factor_deficient();
     gram_inverse_.noalias() = inverse_factor_.transpose() * inverse_factor_;
@@ -52,7 +52,7 @@ void Projector::factor_full() {
 // other leave pivots of 1e-14 or less, and two points d metres apart on one link leave a pivot of about d. So the
 // threshold parts redundant contacts from all that a robot can have. And it is the square root of the rounding:
 // (J J')⁺, and with it the forces, would have no correct digit below it.
-void Projector::find_rank() {
+void Projector::find_rank(double threshold) {
   rank_ = 0;
   pivot_ratio_ = 1.0;
   rank_is_ambiguous_ = false;
@@ -62,7 +62,7 @@ void Projector::find_rank() {
   for (Eigen::Index i = 0; i < pivots.size(); ++i) {
     const double ratio = std::abs(pivots(i) / pivots(0));
     rank_is_ambiguous_ |= ratio > kAmbiguousAbove && ratio < kAmbiguousBelow;
-    if (ratio <= kRankThreshold) continue;
+    if (ratio <= threshold) continue;
     pivot_ratio_ = ratio;
     ++rank_;
   }

@@ -22,8 +22,9 @@ class Projector {
   /// Pivot ratios in between are too near the threshold: right methods may differ there by several percent.
   static constexpr double kAmbiguousAbove = 1e-10, kAmbiguousBelow = 1e-6;
 
-  /// Throws NumericalError if J is not finite.
-  void compute(const Eigen::MatrixXd& J);
+  /// Throws NumericalError if J is not finite. A larger threshold is for configurations that are a little off their contacts,
+  /// where rows that depend on each other do so but for that distance [m].
+  void compute(const Eigen::MatrixXd& J, double rank_threshold = kRankThreshold);
 
   int rank() const { return rank_; }
   bool full_rank() const { return rank_ == gram_inverse_.cols(); }
@@ -39,7 +40,7 @@ class Projector {
   Eigen::MatrixXd matrix() const;                                        ///< P, n × n
 
  private:
-  void find_rank();
+  void find_rank(double threshold);
   void factor_full();
   void factor_deficient();
 

@@ -160,4 +160,17 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
   Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
 }
 
+void write_file_atomically(const fs::path& file, const std::string& text) {
+  const fs::path path = real_path(file);
+  const SiblingFolder fresh(path);
+  const fs::path written = fresh.path() / "file";
+  {
+    const Descriptor descriptor(written, O_WRONLY | O_CREAT | O_EXCL);
+    descriptor.write_all(text);
+    descriptor.sync();
+  }
+  if (::rename(written.c_str(), path.c_str()) != 0) fail(path, "cannot put the new file in place", errno);
+  Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
+}
+
 }  // namespace prowl

@@ -17,4 +17,7 @@ void check_replaceable(const std::filesystem::path& folder, const std::set<std::
 void write_folder_atomically(const std::filesystem::path& folder, const std::map<std::string, std::string>& files,
                              const std::set<std::string>& own_names);
 
+/// The same for one file: beside it, synced, then renamed. Throws FileError, and then the old one is as it was.
+void write_file_atomically(const std::filesystem::path& file, const std::string& text);
+
 }  // namespace prowl

@@ -43,6 +43,26 @@ void add_running_weights(FileKeys& keys) {
   keys.push_back({"cost", "force", vector, "weight on every contact's force, world x y z [1/N²]"});
 }
 
+/// Deviations that cost 1 a second each.
+void add_tracking(FileKeys& keys) {
+  const auto add = [&keys](const char* name, const char* value, const char* meaning) {
+    keys.push_back({"tracking", name, value, meaning});
+  };
+  const char* const weigh = "a deviation as large as this costs 1 a second; a smaller number, a stiffer robot";
+  add("step_s", "number, 1e-4 to 0.1 [s]; default 0.002", "grid of the gains");
+  add("base_position_m", "number or 3 numbers > 0 [m]; default 0.02", weigh);
+  add("base_orientation_rad", "number or 3 numbers > 0 [rad]; default 0.04", "the same, about the axes of the base");
+  add("joint_position_rad", "number > 0, or {joint = number > 0} [rad]; default 0.1", "the same");
+  add("base_linear_velocity_mps", "number or 3 numbers > 0 [m/s]; default 0.2", "the same, base frame");
+  add("base_angular_velocity_radps", "number or 3 numbers > 0 [rad/s]; default 0.4", "the same, base frame");
+  add("joint_velocity_radps", "number > 0, or {joint = number > 0} [rad/s]; default 10", "the same");
+  add("torque_share", "number > 0 [-]; default 0.1",
+      "the same, of the torque limit; where there is none, of the robot's weight on a lever as long as its legs reach");
+  add("landing_s", "number >= 0 [s]; default 1",
+      "a foot that lands beside its place costs as if it were off for so long: it cannot be moved any more");
+  add("bandwidth_radps", "number > 0 [rad/s]; default 100", "gains that would act faster are brought down to this");
+}
+
 FileKeys make_task_file_keys() {
   FileKeys keys = {
       {"", "name", "string; default: the file's name", "name of the motion"},
@@ -59,6 +79,8 @@ FileKeys make_task_file_keys() {
       {"", "swing_clearance_m", "number >= 0 [m]; default 5 % of the standing height",
        "of contacts in the air above the surfaces that they pass, in the middle of the swing"},
       {"", "solver", "[solver]", "when the solver stops"},
+      {"", "tracking", "[tracking]", "what the feedback gains weigh"},
+      {"", "simulation", "[simulation]", "when `prowl simulate` counts as a success"},
       {"surface", "name", "string", "for phases to refer to"},
       {"surface", "point_m", "3 numbers [m]; default [0, 0, 0]", "any point of the plane, world frame"},
       {"surface", "normal", "3 numbers; default [0, 0, 1]", "points out of the ground; any length but zero"},
@@ -112,9 +134,17 @@ FileKeys make_task_file_keys() {
   add_state_weights(keys, "cost");
   add_running_weights(keys);
   add_state_weights(keys, "terminal_cost");
+  add_tracking(keys);
   keys.push_back({"solver", "tolerance", "number, 1e-12 to 1e-2; default 1e-6", "on optimality and on the constraints"});
   keys.push_back({"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations, on each mesh"});
   keys.push_back({"solver", "max_time_s", "number > 0 [s]; default 300", "stop after this much wall-clock time"});
+  keys.push_back({"simulation", "base_position_m", "number > 0 [m]; default 0.02",
+                  "most that the base in rest at the end is away from where the plan ends"});
+  keys.push_back({"simulation", "base_angle_rad", "number > 0 [rad]; default 0.035", "the same of its orientation"});
+  keys.push_back({"simulation", "slip_m", "number > 0 [m]; default 0.02", "most that a standing foot slips"});
+  keys.push_back({"simulation", "friction", "number > 0; default: that of each [[surface]]",
+                  "coefficient of all surfaces; more than what is planned with leaves a margin"});
+  keys.push_back({"simulation", "rest_s", "number > 0 [s]; default 1.5", "how long the robot goes on standing after the plan"});
   return keys;
 }
 

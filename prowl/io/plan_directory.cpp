@@ -9,7 +9,9 @@
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_json.hpp"
+#include "prowl/io/tracker_file.hpp"
 #include "prowl/io/trajectory_csv.hpp"
+#include "prowl/tracking/make_tracking_plan.hpp"
 
 namespace prowl {
 namespace {
@@ -17,7 +19,8 @@ namespace {
 const char* const kPlan = "plan.json";
 const char* const kNodes = "trajectory.csv";
 const char* const kUniform = "trajectory_uniform.csv";
-const std::set<std::string> kFiles = {kPlan, kNodes, kUniform};
+const char* const kTracker = "tracker.bin";
+const std::set<std::string> kFiles = {kPlan, kNodes, kUniform, kTracker, "simulate.json", "simulate.csv", "sweep.json"};
 
 constexpr std::size_t kLongestTrajectory = 1u << 30;  // [bytes]
 constexpr std::size_t kLongestPlan = 128u << 20;      // [bytes]; of which the URDF may be 16 MB
@@ -31,6 +34,7 @@ void write_plan(const std::filesystem::path& directory, const PlanRecord& record
   std::map<std::string, std::string> files;
   files[kPlan] = json_text(plan_to_json(record));
   files[kNodes] = trajectory_to_csv(problem, record.plan.trajectory);
+  if (record.feedback) files[kTracker] = tracker_file_bytes(make_tracking_plan(problem, *record.feedback));
   if (uniform_step) {
     files[kUniform] = trajectory_to_csv(problem, sample_uniformly(record.plan.trajectory, *uniform_step));
   }

@@ -7,6 +7,7 @@
 
 #include "prowl/io/task_file.hpp"
 #include "prowl/plan.hpp"
+#include "prowl/tracking/feedback_design.hpp"
 
 namespace prowl {
 
@@ -15,6 +16,7 @@ struct PlanRecord {
   Task task;
   Plan plan;                                    ///< of the result, z and multipliers are not kept in files
   std::map<std::string, std::string> versions;  ///< "prowl" -> "0.1.0", "Ipopt" -> ...
+  std::optional<FeedbackDesign> feedback = {};  ///< gains, if there are; not read back: Tracker::read does
   std::string warm_start = {};                  ///< folder of the plan that it started from; "" if from the task alone
 };
 
@@ -27,12 +29,12 @@ bool holds_good_plan(const std::filesystem::path& directory);
 /// Throws FileError if write_plan could not replace this folder; for a look before solving.
 void check_plan_directory(const std::filesystem::path& directory);
 
-/// Writes plan.json and trajectory.csv (docs/plan-directory.md), and trajectory_uniform.csv if a step [s] is given; whole
-/// or not at all, see write_folder_atomically. Throws FileError.
+/// Writes plan.json and trajectory.csv (docs/plan-directory.md), tracker.bin if there are gains, and trajectory_uniform.csv
+/// if a step [s] is given; whole or not at all, see write_folder_atomically. Throws FileError.
 void write_plan(const std::filesystem::path& directory, const PlanRecord& record,
                 std::optional<double> uniform_step = std::nullopt);
 
-/// Reads what write_plan wrote, but trajectory_uniform.csv; the task comes from the texts in plan.json, and the URDF,
+/// Reads what write_plan wrote, but tracker.bin and trajectory_uniform.csv; the task comes from the texts in plan.json, and the URDF,
 /// too, if it is no longer where it was. Throws InputError naming file and key for anything missing, wrong or changed
 /// since, FileError.
 PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search);

@@ -241,6 +241,33 @@ std::vector<LevelResult> read_levels(const Reader& solver) {
   return levels;
 }
 
+Json decay_to_json(const PhaseDecay& decay) {
+  return {{"phase", decay.name},
+          {"start_s", decay.start},
+          {"end_s", decay.end},
+          {"directions", decay.directions},
+          {"worst", decay.worst},
+          {"worst_direction", decay.worst_direction},
+          {"mean", decay.mean},
+          {"bandwidth_radps", decay.bandwidth}};
+}
+
+/// null where there are no gains.
+Json tracking_to_json(const PlanRecord& record) {
+  if (!record.feedback) return nullptr;
+  const FeedbackDesign& feedback = *record.feedback;
+  Json phases = Json::array();
+  for (const PhaseDecay& decay : feedback.decay) phases.push_back(decay_to_json(decay));
+  return {{"step_s", record.task.tracking.step},
+          {"samples", feedback.num_samples()},
+          {"seconds", feedback.seconds},
+          {"stands_on", feedback.stands_on},
+          {"slowest_rate_per_s", feedback.slowest_rate},
+          {"fastest_rate_per_s", feedback.fastest_rate},
+          {"whole", decay_to_json(feedback.whole)},
+          {"phases", phases}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
@@ -286,6 +313,7 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
           {"hints", record.plan.hints},
           {"certificate", certificate_to_json(record.plan.certificate)},
           {"solver", solver_to_json(record)},
+          {"tracking", tracking_to_json(record)},
           {"problem", problem_to_json(record)},
           {"versions", record.versions},
           {"overrides", overrides_to_json(task.overrides)},
@@ -310,6 +338,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                                        search, read_overrides(plan.object("overrides")), urdf),
                     .plan = {},
                     .versions = {},
+                    .feedback = {},
                     .warm_start = {}};
   const RobotDescription& robot = record.task.problem.robot.description();
   if (as_utf8(robot.urdf_text) != urdf.text) {

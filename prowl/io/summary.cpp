@@ -117,9 +117,25 @@ std::string certificate_summary(const Certificate& certificate) {
   return text + failed_checks(certificate);
 }
 
+std::string feedback_summary(const FeedbackDesign& feedback, double step) {
+  std::string text = fmt::format("feedback: {} gains, one every {:g} ms, {:.2f} s; bandwidth up to {:.0f} rad/s\n",
+                                 feedback.num_samples(), step * 1e3, feedback.seconds, feedback.whole.bandwidth);
+  const auto worst = std::max_element(feedback.decay.begin(), feedback.decay.end(),
+                                      [](const PhaseDecay& a, const PhaseDecay& b) { return a.worst < b.worst; });
+  text += fmt::format("  a deviation at the start is {:.1e} of itself at the end, at worst ({})\n", feedback.whole.worst,
+                      feedback.whole.worst_direction);
+  if (worst->worst > 1.0) {
+    text += fmt::format("  it grows at most in phase '{}', {:.1f} times ({})\n", worst->name, worst->worst,
+                        worst->worst_direction);
+  }
+  if (!feedback.stands_on) text += "  no gains to stand on with after the end: its contacts do not hold the robot\n";
+  return text;
+}
+
 std::string plan_report(const PlanRecord& record, const std::string& when) {
   if (!record.plan.reasons.empty()) return plan_summary(record, when);
-  return plan_summary(record, when) + certificate_summary(record.plan.certificate) + mesh_advice(record);
+  return plan_summary(record, when) + certificate_summary(record.plan.certificate) + mesh_advice(record) +
+         (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
 }
 
 }  // namespace prowl

@@ -12,7 +12,10 @@ std::string plan_summary(const PlanRecord& record, const std::string& when = "")
 /// Verdict, grade and a table of all checks: worst value, limit, time and place; the failed ones again in one line.
 std::string certificate_summary(const Certificate& certificate);
 
-/// All that is printed of a plan: both of the above and the advice on the mesh; of one that is certain to have no solution only
+/// The gains and what they do to deviations, in a few lines.
+std::string feedback_summary(const FeedbackDesign& feedback, double step);
+
+/// All that is printed of a plan: all of the above and the advice on the mesh; of one that is certain to have no solution only
 /// why, since a certificate of its initial guess says nothing.
 std::string plan_report(const PlanRecord& record, const std::string& when = "");
 

@@ -7,6 +7,8 @@
 #include "prowl/io/text_file.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/simulation/simulation_options.hpp"
+#include "prowl/tracking/tracking_options.hpp"
 
 namespace prowl {
 
@@ -22,6 +24,9 @@ struct TaskOverrides {
 struct Task {
   MotionProblem problem;
   SolverOptions solver;
+  TrackingOptions tracking;
+  SuccessCriteria success = {};  ///< of a simulation
+  std::optional<double> simulated_friction = {};  ///< of all surfaces in a simulation; else as planned with
   SourceText task_file;
   SourceText robot_file;
   TaskOverrides overrides;

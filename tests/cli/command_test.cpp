@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../io/test_files.hpp"
+#include "prowl/tracker/tracker.hpp"
 
 namespace prowl {
 namespace {
@@ -113,6 +114,26 @@ TEST_F(Command, PlansAndChecks) {
   const Outcome check = run("$prowl check out $dirs");
   EXPECT_EQ(check.status, 7) << check.out << check.error;
   EXPECT_THAT(check.out, HasSubstr("FAIL"));
+}
+
+TEST_F(Command, WritesGainsUnlessAskedNotTo) {
+  const Outcome result = run("$prowl plan hold.toml $dirs --out out");
+  ASSERT_EQ(result.status, 0) << result.error;
+  EXPECT_THAT(result.out, HasSubstr("feedback: 1003 gains, one every 2 ms"));
+  const nlohmann::json tracking = plan().at("tracking");
+  EXPECT_EQ(tracking.at("stands_on"), true);
+  EXPECT_EQ(tracking.at("phases").size(), 1u);
+  EXPECT_LT(tracking.at("whole").at("worst"), 1e-3);
+
+  const Tracker tracker = Tracker::read((folder_.path() / "out/tracker.bin").string());
+  EXPECT_EQ(tracker.plan().joint_names.front(), "lf_haa_joint");
+  EXPECT_EQ(tracker.plan().contact_names.size(), 4u);
+  EXPECT_EQ(tracker.plan().num_samples(), tracking.at("samples"));
+  EXPECT_NEAR(tracker.end(), 2.002, 1e-9) << "and one step of standing on";
+
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out --no-gains").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/tracker.bin")) << "gains of another plan";
+  EXPECT_TRUE(plan().at("tracking").is_null());
 }
 
 TEST_F(Command, PlansWithoutAnybodyListening) {

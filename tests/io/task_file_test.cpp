@@ -177,6 +177,44 @@ joints = { rf_kfe_joint = -1.2 }
   EXPECT_EQ(problem.boundary_conditions[2].at, (NodeRef{2, 2}));
 }
 
+TEST_F(TaskFile, TrackingReplacesTheRobotsDefaults) {
+  const Task plain = read(kTaskFile);
+  const TrackingOptions defaults = default_tracking_options(plain.problem.robot);
+  EXPECT_EQ(plain.tracking.state_deviation, defaults.state_deviation);
+  EXPECT_EQ(plain.tracking.torque_deviation, defaults.torque_deviation);
+
+  const TrackingOptions tracking = read(kTaskFile + R"(
+[tracking]
+step_s = 0.004
+base_position_m = [0.01, 0.02, 0.03]
+base_orientation_rad = 0.05
+joint_position_rad = { lf_hfe_joint = 0.3 }
+base_linear_velocity_mps = 0.5
+base_angular_velocity_radps = [1, 2, 3]
+joint_velocity_radps = 7
+torque_share = 0.2
+landing_s = 0
+bandwidth_radps = 60
+)").tracking;
+  EXPECT_EQ(tracking.step, 0.004);
+  EXPECT_EQ(tracking.landing_time, 0.0);
+  EXPECT_EQ(tracking.largest_bandwidth, 60.0);
+  Eigen::VectorXd expected(36);
+  expected << 0.01, 0.02, 0.03, Eigen::Vector3d::Constant(0.05), defaults.state_deviation.segment(6, 12),
+      Eigen::Vector3d::Constant(0.5), 1.0, 2.0, 3.0, Eigen::VectorXd::Constant(12, 7.0);
+  expected(7) = 0.3;
+  EXPECT_EQ(tracking.state_deviation, expected);
+  EXPECT_LT((tracking.torque_deviation - 2.0 * defaults.torque_deviation).norm(), 1e-12);
+}
+
+TEST_F(TaskFile, RefusesTrackingThatMakesNoSense) {
+  for (const char* line : {"base_position_m = 0", "joint_position_rad = -1", "step_s = 1", "torque_share = 0", "landing_s = -1",
+                           "bandwidth_radps = 0", "stiffness = 3", "joint_position_rad = { nose = 1 }"}) {
+    const std::string key = std::string(line).substr(0, std::string(line).find(' '));
+    EXPECT_THAT(message_of(kTaskFile + "\n[tracking]\n" + line + "\n"), HasSubstr(key)) << line;
+  }
+}
+
 TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
   const Task task = read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5, .tolerance = 1e-9});
   EXPECT_EQ(task.problem.phases[0].intervals, 40);

@@ -20,8 +20,11 @@ ALLOWED = {
     "trajectory": {"model", "motion"},
     "transcription": {"model", "dynamics", "motion", "trajectory", "nlp"},
     "feasibility": {"model", "dynamics", "motion", "trajectory", "nlp"},
-    "feedback": {"model", "dynamics", "trajectory"},
-    "simulation": {"model", "motion", "trajectory", "feedback"},
+    "tracker": set(),  # nor prowl/error.hpp: it goes on the robot
+    "tracking": {"model", "dynamics", "motion", "trajectory", "tracker"},
+    "estimation": {"model", "dynamics"},
+    # Of dynamics nothing: an independent judge.
+    "simulation": {"model", "motion", "trajectory", "tracker", "estimation"},
     "io": None,  # what it needs
     ".": None,  # prowl/plan
 }
@@ -34,6 +37,7 @@ LIBRARIES = {
     "toml++": (r"toml\+\+/|toml\.hpp", {"io"}),
     "nlohmann": (r"nlohmann/", {"io"}),
     "tinyxml2": (r"tinyxml2\.h", {"model", "io"}),
+    "MuJoCo": (r"mujoco/", {"simulation"}),
     "CLI11": (r"CLI/", set()),
 }
 
@@ -67,7 +71,9 @@ def violations(root, internal_headers=()):
 def is_allowed(layer, include):
     if include.startswith("prowl/"):
         allowed = ALLOWED[layer]
-        return allowed is None or layer_of(include) in allowed | {layer} or include == "prowl/error.hpp"
+        if include == "prowl/error.hpp":
+            return layer != "tracker"
+        return allowed is None or layer_of(include) in allowed | {layer}
     library = library_of(include)
     return library is None or layer in LIBRARIES[library][1]
 

@@ -44,6 +44,8 @@ class CheckIncludes(unittest.TestCase):
             ("transcription__defects_cpp", '"prowl/solvers/ipopt_solver.hpp"'),
             ("simulation__rollout_cpp", '"prowl/dynamics/projector.hpp"'),
             ("dynamics__projector_hpp", '"prowl/plan.hpp"'),
+            ("tracker__tracker_cpp", '"prowl/model/so3.hpp"'),
+            ("tracker__tracker_hpp", '"prowl/error.hpp"'),
         ]:
             with self.subTest(include=include):
                 self.assertEqual(1, len(self.found(**{name: include})))

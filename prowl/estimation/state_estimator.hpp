@@ -1,0 +1,56 @@
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "prowl/dynamics/forward_dynamics.hpp"
+#include "prowl/estimation/base_estimator.hpp"
+#include "prowl/estimation/joint_filter.hpp"
+
+namespace prowl {
+
+struct SensorReading {
+  Eigen::VectorXd encoders;       ///< nu [rad]
+  Eigen::Vector3d gyro;           ///< base frame, mean since the last reading [rad/s]
+  Eigen::Vector3d accelerometer;  ///< specific force, base frame, mean since the last reading [m/s^2]: +9.81 up at rest
+};
+
+/// Which contacts of the robot hold, and on what.
+struct Stand {
+  std::vector<bool> in_contact;          ///< one a contact of the robot
+  std::vector<Eigen::Vector3d> normals;  ///< of the surface under each, unit vectors, world frame
+};
+
+/// State of the whole robot as a robot can know it: base by BaseEstimator, joints by JointFilter with the accelerations that
+/// its own model expects of the torques it has commanded. Without the model the filter would lag behind what the feedback
+/// does, and with the delay of the torques swing legs would shake.
+class StateEstimator {
+ public:
+  /// Starts at the known state q, at rest. `joint_density` [rad^2/s^3]: of the accelerations that the model does not know.
+  StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Stand& stand, const EstimatorNoise& noise,
+                 double joint_density);
+
+  /// dt seconds on. `tau` (nu): the torques at the joints meanwhile, as commanded.
+  void update(double dt, const SensorReading& reading, const Eigen::VectorXd& tau, const Stand& stand);
+  /// In place of all that: the state as it is.
+  void set(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+  const Eigen::VectorXd& q() const { return q_; }  ///< nq
+  const Eigen::VectorXd& v() const { return v_; }  ///< nv
+  const BaseEstimator& base() const { return base_; }
+
+  /// Moves (q, v) on by dt under the torques tau, by the model.
+  void predict(double dt, const Eigen::VectorXd& tau, const Stand& stand, Eigen::VectorXd& q, Eigen::VectorXd& v);
+
+ private:
+  Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau,
+                               const Stand& stand);
+
+  const RobotModel& robot_;
+  JointFilter joints_;
+  BaseEstimator base_;
+  std::map<std::vector<bool>, std::unique_ptr<ForwardDynamics>> dynamics_;  ///< of each set of contacts seen so far
+  Eigen::VectorXd q_, v_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "prowl/simulation/simulation.hpp"
+
+namespace prowl {
+
+/// Collects a SimulationResult, sample by sample of the controller.
+class Measures {
+ public:
+  /// `end`: when the simulation is to end [s].
+  Measures(const MotionProblem& problem, const Tracker& tracker, double end);
+
+  /// A sample, `dt` after the one before. `slip`: way of each contact's material along its surface since then [m], world
+  /// frame; `saturated`: some torque was at its limit.
+  void add(const SimulationSample& sample, double dt, const std::vector<Eigen::Vector3d>& slip, bool saturated);
+
+  /// All but end, samples and failures.
+  SimulationResult result() const;
+
+ private:
+  struct Sum {
+    double largest = 0.0, squares = 0.0, rest = 0.0;
+    long count = 0;
+    void add(double value, bool at_rest);
+    ErrorMeasure measure() const;
+  };
+
+  double touch_near(int contact, double from, double to, bool lands) const;
+
+  const MotionProblem& problem_;
+  const Tracker& tracker_;
+  double end_;
+  Sum position_, angle_, joints_, estimated_position_, estimated_angle_, estimated_velocity_, estimated_rates_;
+  double joint_squares_ = 0.0;
+  std::vector<Eigen::Vector3d> slip_now_;
+  std::vector<double> slip_;
+  std::vector<double> times_;
+  std::vector<std::vector<bool>> touches_;  ///< one a contact, at each of the times
+  SimulationResult result_;
+  double time_ = 0.0, saturated_ = 0.0;
+};
+
+}  // namespace prowl

@@ -1,0 +1,207 @@
+#include "prowl/simulation/mujoco_model.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "prowl/error.hpp"
+#include "prowl/model/body_tree.hpp"
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr double kSmallestBall = 1e-3;  // [m] for contacts without a radius: corners of flat feet
+constexpr double kPatchDepth = 0.2;     // [m] of the block under a patch
+
+// Contact: what docs/simulation.md says and measures. The reference is a critically damped return of a penetration with
+// this time constant, four steps of the default step: the stiffest that stays clear of MuJoCo's own bound of two.
+constexpr double kTimeConstant = 2e-3;  // [s]
+constexpr double kImpedance[mjNIMP] = {0.99, 0.999, 1e-4, 0.5, 2.0};
+constexpr double kFrictionToNormal = 10.0;  // impedance ratio: sticking feet creep ten times less
+constexpr int kNoSlipIterations = 0;
+
+/// Of every body in the nominal posture, to the world.
+std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const BodyTree& tree) {
+  std::vector<Eigen::Matrix3d> rotations;
+  for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
+    const Body& body = tree.bodies[b];
+    if (b == 0) {
+      rotations.push_back(base_rotation(robot.nominal_configuration()));
+      continue;
+    }
+    const double angle = body.prismatic ? 0.0 : robot.nominal_configuration()(6 + static_cast<Eigen::Index>(b));
+    rotations.push_back(rotations[static_cast<std::size_t>(body.parent)] * body.placement.linear() *
+                        Eigen::AngleAxisd(angle, body.axis));
+  }
+  return rotations;
+}
+
+void ignore_message(const mjLogMessage*) {}
+
+/// MuJoCo writes warnings to a file in the working directory unless told otherwise, for the whole process.
+void silence() {
+  static std::once_flag once;
+  std::call_once(once, [] { mju_setLogHandler(ignore_message); });
+}
+
+void copy(const Eigen::Vector3d& from, double* to) { std::copy(from.begin(), from.end(), to); }
+
+void copy_rotation(const Eigen::Matrix3d& R, double* quaternion) {
+  const Eigen::Quaterniond r(R);
+  Eigen::Map<Eigen::Vector4d>(quaternion) << r.w(), r.x(), r.y(), r.z();
+}
+
+void set_inertia(const Body& from, double scale, mjsBody* to) {
+  // Principal axes by Eigen: MuJoCo's own are good to fewer digits.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(from.inertia);
+  Eigen::Matrix3d axes = principal.eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  to->explicitinertial = 1;
+  to->mass = scale * from.mass;
+  copy(from.center, to->ipos);
+  copy(scale * principal.eigenvalues(), to->inertia);
+  copy_rotation(axes, to->iquat);
+}
+
+void add_contact_law(mjsGeom* geom) {
+  geom->condim = 3;
+  geom->solref[0] = kTimeConstant;
+  geom->solref[1] = 1.0;
+  std::copy(std::begin(kImpedance), std::end(kImpedance), geom->solimp);
+}
+
+void add_ball(const ContactPoint& contact, const BodyTree::Point& point, const Eigen::Vector3d& up, mjsBody* body) {
+  mjsGeom* const geom = mjs_addGeom(body, nullptr);
+  mjs_setName(geom->element, ("contact " + contact.name).c_str());
+  geom->type = mjGEOM_SPHERE;
+  geom->size[0] = std::max(contact.radius, kSmallestBall);
+  // The small ball of a corner is moved up so that its lowest point in the nominal posture is the corner.
+  copy(point.position + (geom->size[0] - contact.radius) * up, geom->pos);
+  geom->contype = 0;
+  geom->conaffinity = 1;
+  add_contact_law(geom);
+}
+
+void add_surface(const Surface& surface, double friction, mjSpec* spec, mjsBody* world) {
+  mjsGeom* const geom = mjs_addGeom(world, nullptr);
+  mjs_setName(geom->element, ("surface " + surface.name).c_str());
+  Eigen::Matrix3d R;
+  R << surface.axes(), surface.normal;
+  copy(surface.point, geom->pos);
+  copy_rotation(R, geom->quat);
+  if (surface.patch.empty()) {
+    geom->type = mjGEOM_PLANE;
+    geom->size[2] = 1.0;  // spacing of a grid that nobody draws
+  } else {
+    std::vector<float> corners;
+    for (const double z : {0.0, -kPatchDepth}) {
+      for (const Eigen::Vector2d& corner : surface.patch) {
+        for (const double value : {corner.x(), corner.y(), z}) corners.push_back(static_cast<float>(value));
+      }
+    }
+    mjsMesh* const mesh = mjs_addMesh(spec, nullptr);
+    mjs_setName(mesh->element, ("surface " + surface.name).c_str());
+    mjs_setFloat(mesh->uservert, corners.data(), static_cast<int>(corners.size()));
+    geom->type = mjGEOM_MESH;
+    mjs_setString(geom->meshname, ("surface " + surface.name).c_str());
+  }
+  geom->contype = 1;
+  geom->conaffinity = 0;
+  geom->priority = 1;  // its friction counts, not the larger of the two
+  geom->friction[0] = friction;
+  add_contact_law(geom);
+}
+
+void set_options(const PhysicsOptions& options, mjSpec* spec) {
+  spec->compiler.degree = 0;
+  spec->compiler.alignfree = 0;
+  spec->compiler.usethread = 0;
+  mjOption& option = spec->option;
+  option.timestep = options.step;
+  copy({0.0, 0.0, -RobotModel::kGravity}, option.gravity);
+  option.integrator = mjINT_EULER;
+  option.solver = mjSOL_NEWTON;
+  option.cone = mjCONE_ELLIPTIC;
+  option.impratio = kFrictionToNormal;
+  option.noslip_iterations = kNoSlipIterations;
+  option.tolerance = 1e-10;
+  option.disableflags |= mjDSBL_AUTORESET;
+}
+
+}  // namespace
+
+MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
+                              const PhysicsOptions& options) {
+  silence();
+  const std::unique_ptr<mjSpec, decltype(&mj_deleteSpec)> spec(mj_makeSpec(), mj_deleteSpec);
+  set_options(options, spec.get());
+  const BodyTree tree = body_tree(robot);
+  mjsBody* const world = mjs_findBody(spec.get(), "world");
+  std::vector<mjsBody*> bodies;
+  for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
+    const Body& from = tree.bodies[b];
+    mjsBody* const body = mjs_addBody(b == 0 ? world : bodies[static_cast<std::size_t>(from.parent)], nullptr);
+    bodies.push_back(body);
+    mjs_setName(body->element, from.name.c_str());
+    copy(from.placement.translation(), body->pos);
+    copy_rotation(from.placement.linear(), body->quat);
+    set_inertia(from, options.mass_scale, body);
+    if (b == 0) {
+      mjsJoint* const base = mjs_addFreeJoint(body);
+      base->align = mjALIGNFREE_FALSE;
+      continue;
+    }
+    const auto j = static_cast<Eigen::Index>(b - 1);
+    mjsJoint* const joint = mjs_addJoint(body, nullptr);
+    mjs_setName(joint->element, from.name.c_str());
+    joint->type = from.prismatic ? mjJNT_SLIDE : mjJNT_HINGE;
+    copy(from.axis, joint->axis);
+    joint->range[0] = robot.position_lower()(j);
+    joint->range[1] = robot.position_upper()(j);
+    joint->limited = std::isfinite(joint->range[0]) && std::isfinite(joint->range[1]) ? mjLIMITED_TRUE : mjLIMITED_FALSE;
+    mjsActuator* const actuator = mjs_addActuator(spec.get(), nullptr);
+    mjs_setToMotor(actuator);
+    mjs_setName(actuator->element, from.name.c_str());
+    actuator->trntype = mjTRN_JOINT;
+    mjs_setString(actuator->target, from.name.c_str());
+  }
+  const std::vector<Eigen::Matrix3d> rotations = nominal_rotations(robot, tree);
+  for (std::size_t c = 0; c < tree.points.size(); ++c) {
+    const auto body = static_cast<std::size_t>(tree.points[c].body);
+    const Eigen::Vector3d up = rotations[body].transpose() * Eigen::Vector3d::UnitZ();
+    add_ball(robot.contacts()[c], tree.points[c], up, bodies[body]);
+  }
+  for (const Surface& surface : surfaces) {
+    add_surface(surface, options.friction.value_or(surface.friction), spec.get(), world);
+  }
+
+  MujocoModel result;
+  result.model.reset(mj_compile(spec.get(), nullptr));
+  if (!result.model) throw InputError(fmt::format("robot '{}' in MuJoCo: {}", robot.name(), mjs_getError(spec.get())));
+  const mjModel* const model = result.model.get();
+  result.base_body = mj_name2id(model, mjOBJ_BODY, "base");
+  for (int j = 0; j < robot.nu(); ++j) {
+    const std::string& name = robot.joint_names()[static_cast<std::size_t>(j)];
+    const int joint = mj_name2id(model, mjOBJ_JOINT, name.c_str());
+    if (joint < 0 || model->jnt_dofadr[joint] != 6 + j || mj_name2id(model, mjOBJ_ACTUATOR, name.c_str()) != j) {
+      throw InputError(fmt::format("robot '{}' in MuJoCo: joint '{}' is not where it was", robot.name(), name));
+    }
+  }
+  result.contact_of_geom.assign(static_cast<std::size_t>(model->ngeom), -1);
+  result.surface_of_geom = result.contact_of_geom;
+  for (std::size_t c = 0; c < robot.contacts().size(); ++c) {
+    const int geom = mj_name2id(model, mjOBJ_GEOM, ("contact " + robot.contacts()[c].name).c_str());
+    result.contact_of_geom[static_cast<std::size_t>(geom)] = static_cast<int>(c);
+  }
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const int geom = mj_name2id(model, mjOBJ_GEOM, ("surface " + surfaces[s].name).c_str());
+    result.surface_of_geom[static_cast<std::size_t>(geom)] = static_cast<int>(s);
+  }
+  return result;
+}
+
+}  // namespace prowl

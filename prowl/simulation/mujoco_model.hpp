@@ -1,0 +1,26 @@
+#pragma once
+
+#include <mujoco/mujoco.h>
+
+#include <memory>
+#include <vector>
+
+#include "prowl/simulation/physics.hpp"
+
+namespace prowl {
+
+struct MujocoModel {
+  struct Delete {
+    void operator()(mjModel* model) const { mj_deleteModel(model); }
+  };
+  std::unique_ptr<mjModel, Delete> model;
+  int base_body = 0;
+  std::vector<int> contact_of_geom;  ///< index of the robot's contact, or -1
+  std::vector<int> surface_of_geom;  ///< index of the surface, or -1
+};
+
+/// Builds the model of physics.hpp. Its degrees of freedom are in the robot's order. Throws InputError with MuJoCo's reason.
+MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
+                              const PhysicsOptions& options);
+
+}  // namespace prowl

@@ -1,0 +1,81 @@
+#include "prowl/simulation/onboard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prowl {
+namespace {
+
+// Joint accelerations that the model does not know, as white noise [rad^2/s^3]: docs/simulation.md says how it was chosen.
+constexpr double kJointDensity = 1.0;
+
+/// What the filter is told of sensors without noise: it divides by it.
+EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
+  EstimatorNoise noise;
+  noise.encoder = std::max(scale * sensors.encoder, 1e-5);
+  noise.gyro = std::max(scale * sensors.gyro, 1e-5);
+  noise.accelerometer = std::max(scale * sensors.accelerometer, 1e-4);
+  noise.gyro_bias = noise.gyro;
+  noise.accelerometer_bias = noise.accelerometer;
+  return noise;
+}
+
+std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& tracker) {
+  std::vector<Stand> stands;
+  for (std::size_t s = 0; s < tracker.plan().segments.size(); ++s) {
+    const std::size_t p = std::min(s, problem.phases.size() - 1);  // what comes after the end stands as the last phase
+    Stand& stand = stands.emplace_back();
+    stand.in_contact = tracker.plan().segments[s].in_contact;
+    stand.normals.assign(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());
+    for (const PhaseContact& contact : problem.phases[p].contacts) {
+      stand.normals[static_cast<std::size_t>(contact.contact)] =
+          problem.surfaces[static_cast<std::size_t>(contact.surface)].normal;
+    }
+  }
+  return stands;
+}
+
+}  // namespace
+
+Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options, double period)
+    : tracker_(tracker),
+      options_(options),
+      period_(period),
+      stands_(make_stands(problem, tracker)),
+      estimator_(problem.robot, problem.start_configuration(), stands_.front(),
+                 estimator_noise(options.noise, options.noise_scale), kJointDensity),
+      feedforward_(problem.robot.nu()),
+      feedback_(problem.robot.nu()),
+      command_(problem.robot.nu()) {
+  tracker.feedforward(tracker.start(), command_);
+  commands_.assign(1 + static_cast<std::size_t>(std::lround(options.delay / period)), command_);
+}
+
+void Onboard::sense(double t, const SensorReading& reading) {
+  estimator_.update(period_, reading, commands_.front(), stand(t));
+}
+
+void Onboard::act(double t) {
+  std::rotate(commands_.begin(), commands_.begin() + 1, commands_.end());
+  q_ = estimator_.q();
+  v_ = estimator_.v();
+  double acts = t;
+  for (std::size_t i = 0; i + 1 < commands_.size(); ++i, acts += period_) {
+    estimator_.predict(period_, commands_[i], stand(acts), q_, v_);
+  }
+  tracker_.feedforward(acts, feedforward_);
+  if (options_.open_loop) {
+    feedback_.setZero();
+  } else {
+    tracker_.feedback(acts, q_, v_, feedback_);
+  }
+  command_ = feedforward_ + feedback_;
+  tracker_.limit(q_, v_, command_);
+  commands_.back() = command_;
+}
+
+const Stand& Onboard::stand(double t) const {
+  return stands_[static_cast<std::size_t>(&tracker_.segment(t) - tracker_.plan().segments.data())];
+}
+
+}  // namespace prowl

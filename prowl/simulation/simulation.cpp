@@ -1,0 +1,201 @@
+#include "prowl/simulation/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/simulation/actuators.hpp"
+#include "prowl/simulation/measures.hpp"
+#include "prowl/simulation/onboard.hpp"
+#include "prowl/simulation/sensors.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr double kFallenAngle = 0.5;         // [rad] off the plan
+constexpr double kFallenShare = 1.0 / 3.0;   // of the standing height off the plan
+
+void check_fit(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options) {
+  const TrackingPlan& plan = tracker.plan();
+  if (plan.joint_names != problem.robot.joint_names() || plan.contact_names.size() != problem.robot.contacts().size() ||
+      (plan.segments.size() != problem.phases.size() && plan.segments.size() != problem.phases.size() + 1)) {
+    throw InputError("the tracker is of another robot or of other phases than the plan");
+  }
+  const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {
+    if (!ok) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, range));
+  };
+  need(options.control_rate >= 10.0 && options.control_rate <= 1e5, "control rate", options.control_rate, "10 to 1e5 Hz");
+  need(options.delay >= 0.0 && options.delay <= 1.0, "delay", options.delay, "0 to 1 s");
+  need(options.unknown_delay >= 0.0 && options.unknown_delay <= 1.0, "unknown delay", options.unknown_delay, "0 to 1 s");
+  need(options.bandwidth >= 0.0 && std::isfinite(options.bandwidth), "bandwidth", options.bandwidth, ">= 0 Hz");
+  need(options.noise_scale >= 0.0 && std::isfinite(options.noise_scale), "noise", options.noise_scale, ">= 0");
+  need(options.physics.step >= 1e-5 && options.physics.step <= 1e-2, "step", options.physics.step, "1e-5 to 1e-2 s");
+  need(options.physics.mass_scale > 0.0 && std::isfinite(options.physics.mass_scale), "mass scale",
+       options.physics.mass_scale, "> 0");
+  const double friction = options.physics.friction.value_or(1.0);
+  need(friction >= 0.0 && std::isfinite(friction), "friction", friction, ">= 0");
+}
+
+Eigen::Vector3d push_at(const std::vector<Push>& pushes, double t) {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  for (const Push& push : pushes) {
+    if (t >= push.time && t < push.time + push.duration) force += push.impulse / push.duration;
+  }
+  return force;
+}
+
+std::vector<std::string> failures(const SimulationResult& result, const MotionProblem& problem,
+                                  const SuccessCriteria& criteria) {
+  std::vector<std::string> texts;
+  if (result.end == SimulationResult::End::fell) texts.push_back(fmt::format("fell at {:.3f} s, in phase '{}'", result.end_time, result.phase));
+  if (result.end == SimulationResult::End::diverged) texts.push_back(fmt::format("the simulation diverged at {:.3f} s", result.end_time));
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  if (result.end == SimulationResult::End::finished) {
+    if (!(result.base_position.rest <= criteria.position)) {
+      texts.push_back(fmt::format("base {:.1f} cm from where the plan ends; {:.1f} cm allowed", 100 * result.base_position.rest,
+                                  100 * criteria.position));
+    }
+    if (!(result.base_angle.rest <= criteria.angle)) {
+      texts.push_back(fmt::format("base turned {:.1f} degrees from where the plan ends; {:.1f} allowed",
+                                  result.base_angle.rest / kDegree, criteria.angle / kDegree));
+    }
+  }
+  for (std::size_t c = 0; c < result.slip.size(); ++c) {
+    if (result.slip[c] <= criteria.slip) continue;
+    texts.push_back(fmt::format("{} slipped {:.1f} cm; {:.1f} cm allowed", problem.robot.contacts()[c].name,
+                                100 * result.slip[c], 100 * criteria.slip));
+  }
+  return texts;
+}
+
+/// One run: the physics on one side, what is on board on the other.
+class Run {
+ public:
+  Run(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
+      const SimulationOptions& options)
+      : problem_(problem), tracker_(tracker), options_(options),
+        period_(1.0 / options.control_rate),
+        substeps_(std::max(1, static_cast<int>(std::ceil(period_ / options.physics.step - 1e-6)))),
+        end_(tracker.end() + criteria.rest),
+        physics_(problem.robot, problem.surfaces, stepped(options.physics, period_ / substeps_)),
+        sensors_(problem.robot.nu(), options.noise, options.noise_scale, options.seed),
+        onboard_(problem, tracker, options, period_),
+        actuators_(problem.robot, period_ / substeps_, options.delay + options.unknown_delay, options.bandwidth, first_torque(tracker)),
+        measures_(problem, tracker, end_),
+        slip_(problem.robot.contacts().size()) {
+    physics_.set_state(problem.start_configuration(), Eigen::VectorXd::Zero(problem.robot.nv()));
+    const auto nq = problem.robot.nq(), nv = problem.robot.nv();
+    sample_.q_ref.resize(nq);
+    sample_.v_ref.resize(nv);
+  }
+
+  SimulationResult operator()() {
+    std::vector<SimulationSample> samples;
+    const long ticks = std::lround(end_ / period_), record_each = record_ticks();
+    auto end = SimulationResult::End::finished;
+    long tick = 0;
+    for (; tick <= ticks && end == SimulationResult::End::finished; ++tick) {
+      const double t = static_cast<double>(tick) * period_;
+      control(t);
+      if (!advance(t)) end = SimulationResult::End::diverged;
+      sample_.tau = torque_;
+      sample_.contacts = physics_.contacts();
+      if (end == SimulationResult::End::finished) measures_.add(sample_, period_, slip_, saturated_);
+      if (record_each > 0 && tick % record_each == 0) samples.push_back(sample_);
+      if (end == SimulationResult::End::finished && fallen()) end = SimulationResult::End::fell;
+    }
+    SimulationResult result = measures_.result();
+    result.end = end;
+    result.end_time = static_cast<double>(tick - 1) * period_;
+    result.phase = tracker_.segment(result.end_time).name;
+    result.samples = std::move(samples);
+    return result;
+  }
+
+ private:
+  static PhysicsOptions stepped(PhysicsOptions options, double step) {
+    options.step = step;
+    return options;
+  }
+  static Eigen::VectorXd first_torque(const Tracker& tracker) {
+    Eigen::VectorXd tau(tracker.plan().nu());
+    tracker.feedforward(tracker.start(), tau);
+    return tau;
+  }
+  long record_ticks() const {
+    if (options_.record_rate <= 0.0) return 0;
+    return std::max(1L, std::lround(options_.control_rate / options_.record_rate));
+  }
+
+  void control(double t) {
+    sample_.time = t;
+    sample_.q = physics_.q();
+    sample_.v = physics_.v();
+    tracker_.reference(t, sample_.q_ref, sample_.v_ref);
+    const SensorReading reading = sensors_.read(physics_.q());
+    if (options_.perfect_state) {
+      onboard_.be_told(physics_.q(), physics_.v());
+    } else if (t > 0.0) {
+      onboard_.sense(t, reading);
+    }
+    sample_.q_seen = onboard_.q();
+    sample_.v_seen = onboard_.v();
+    onboard_.act(t);
+    sample_.feedforward = onboard_.feedforward();
+    sample_.feedback = onboard_.feedback();
+    actuators_.command(onboard_.command());
+  }
+
+  bool advance(double t) {
+    for (Eigen::Vector3d& way : slip_) way.setZero();
+    saturated_ = false;
+    const double step = period_ / substeps_;
+    for (int i = 0; i < substeps_; ++i) {
+      q_before_ = physics_.q();
+      v_before_ = physics_.v();
+      torque_ = actuators_.step(q_before_, v_before_);
+      if (!physics_.step(torque_, push_at(options_.pushes, t + i * step))) return false;
+      sensors_.integrate(step, q_before_, v_before_, physics_.q(), physics_.v());
+      for (std::size_t c = 0; c < slip_.size(); ++c) slip_[c] += step * physics_.contacts()[c].slip_velocity;
+      saturated_ = saturated_ || actuators_.saturated();
+    }
+    return true;
+  }
+
+  bool fallen() const {
+    const Eigen::VectorXd error = difference(sample_.q_ref, physics_.q());
+    const double height = problem_.robot.nominal_configuration()(2);
+    return error.head<3>().norm() > kFallenShare * height || error.segment<3>(3).norm() > kFallenAngle;
+  }
+
+  const MotionProblem& problem_;
+  const Tracker& tracker_;
+  const SimulationOptions& options_;
+  double period_;
+  int substeps_;
+  double end_;
+  Physics physics_;
+  Sensors sensors_;
+  Onboard onboard_;
+  Actuators actuators_;
+  Measures measures_;
+  SimulationSample sample_;
+  std::vector<Eigen::Vector3d> slip_;
+  Eigen::VectorXd torque_, q_before_, v_before_;
+  bool saturated_ = false;
+};
+
+}  // namespace
+
+SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
+                          const SimulationOptions& options) {
+  check_fit(problem, tracker, options);
+  SimulationResult result = Run(problem, tracker, criteria, options)();
+  result.failures = failures(result, problem, criteria);
+  return result;
+}
+
+}  // namespace prowl

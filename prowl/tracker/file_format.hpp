@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+/// tracker.bin: a TrackingPlan as bytes, all numbers little-endian, floating point IEEE 754 double.
+///
+///   header   8 bytes "PROWLTRK", then uint32: version, joints (nu), contacts, segments, torque curves, samples;
+///            uint64: bytes of the payload, checksum of the payload
+///   payload  names of joints and contacts; a text is its length (uint32) and its bytes
+///            segments: name, start and end (double), samples (uint32), one byte a contact: 1 if it holds its place, else 0
+///            torque curves: joint, over_velocity, number of values (uint32), lower, upper, values (double)
+///            torque limits (nu), then q, v, tau and gains of all samples, each sample after the other (double)
+///
+/// The file ends where the payload does. The writer is in prowl/io, the reader is Tracker::read.
+namespace prowl::tracker_file {
+
+constexpr char kMagic[] = "PROWLTRK";
+constexpr std::size_t kMagicBytes = 8;
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kHeaderBytes = kMagicBytes + 6 * sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
+constexpr std::uint64_t kLongestFile = std::uint64_t{1} << 30;  // [bytes]
+
+/// FNV-1a (Fowler, Noll, Vo) over words of 8 bytes, the last filled up with zeros.
+inline std::uint64_t checksum(const char* bytes, std::size_t size) {
+  constexpr std::uint64_t kOffset = 0xcbf29ce484222325, kPrime = 0x100000001b3;
+  std::uint64_t hash = kOffset;
+  for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, size - i < sizeof(word) ? size - i : sizeof(word));
+    hash = (hash ^ word) * kPrime;
+  }
+  return hash;
+}
+
+}  // namespace prowl::tracker_file

@@ -1,0 +1,251 @@
+#include "prowl/tracking/feedback_design.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "prowl/error.hpp"
+#include "prowl/tracking/linearised_dynamics.hpp"
+#include "prowl/tracking/riccati_flow.hpp"
+#include "prowl/trajectory/state_scale.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The dynamics at one sample on the deviations that its contacts allow.
+struct Reduced {
+  MatrixXd Z, A, B;
+};
+
+Reduced reduce(const LinearisedDynamics& linear, const VectorXd& weight, MatrixXd Z) {
+  const MatrixXd left = Z.transpose() * weight.asDiagonal();
+  return {Z, left * linear.A() * Z, left * linear.B()};
+}
+
+/// `Z` turned within its space to lie as near as can be to the basis of the next sample, so that along a phase the basis
+/// turns only as much as the space itself does (its own turning, Z' W dZ/dt, then is zero). The polar factor of Z' W next
+/// by Newton's iteration: Higham, Functions of Matrices, 2008, section 8.3.
+MatrixXd aligned(const MatrixXd& Z, const MatrixXd& next, const VectorXd& weight) {
+  MatrixXd turn = Z.transpose() * weight.asDiagonal() * next;
+  const MatrixXd identity = MatrixXd::Identity(turn.rows(), turn.cols());
+  for (int i = 0; i < 20; ++i) {
+    const MatrixXd gram = turn.transpose() * turn;
+    if ((gram - identity).norm() < 1e-13 * static_cast<double>(turn.rows())) break;
+    turn = (0.5 * turn * (3.0 * identity - gram)).eval();
+  }
+  return Z * turn;
+}
+
+/// Largest and mean singular value, and the coordinate that leads in the worst initial deviation.
+void fill_decay(const RobotModel& robot, const MatrixXd& transition, const MatrixXd& Z, const VectorXd& weight,
+                PhaseDecay& decay) {
+  const Eigen::BDCSVD<MatrixXd> svd(transition, Eigen::ComputeThinV);
+  decay.directions = static_cast<int>(Z.cols());
+  decay.worst = svd.singularValues()(0);
+  decay.mean = transition.norm() / std::sqrt(static_cast<double>(Z.cols()));
+  Eigen::Index leading = 0;
+  (weight.cwiseSqrt().asDiagonal() * (Z * svd.matrixV().col(0))).cwiseAbs().maxCoeff(&leading);
+  decay.worst_direction = state_name(robot, leading);
+}
+
+/// The backward pass: from the end of the motion to its start, one sample after the other.
+class BackwardPass {
+ public:
+  BackwardPass(const MotionProblem& problem, const TrackingOptions& options, bool has_phase_after_end, FeedbackDesign& design,
+               const std::function<void(const ReducedSample&)>& on_sample)
+      : robot_(problem.robot), options_(options), has_phase_after_end_(has_phase_after_end), design_(design),
+        on_sample_(on_sample), weight_(options.state_weight()), control_weight_(options.torque_weight().cwiseInverse()) {}
+
+  void run() {
+    design_.gains.resize(design_.phases.size());
+    for (std::size_t p = design_.phases.size(); p-- > 0;) run_phase(p);
+    std::reverse(design_.decay.begin(), design_.decay.end());
+    design_.whole.name = "all";
+    design_.whole.start = design_.phases.front().start();
+    fill_decay(robot_, whole_, now_.Z, weight_, design_.whole);
+  }
+
+ private:
+  void run_phase(std::size_t p) {
+    const ReferencePhase& phase = design_.phases[p];
+    LinearisedDynamics linear(robot_, phase.contacts);
+    design_.gains[p].resize(phase.samples.size());
+    MatrixXd transition;
+    for (std::size_t k = phase.samples.size(); k-- > 0;) {
+      const TrajectoryPoint& point = phase.samples[k];
+      linear.evaluate(point.q, point.v, point.tau);
+      const MatrixXd Z = linear.consistent_directions(weight_);
+      if (k + 1 == phase.samples.size()) {
+        transition = p + 1 < design_.phases.size() ? land(reduce(linear, weight_, Z)) : begin_at_end(reduce(linear, weight_, Z));
+      } else if (Z.cols() == now_.Z.cols()) {
+        transition = (transition * step_back(reduce(linear, weight_, aligned(Z, now_.Z, weight_)), phase.step())).eval();
+      } else {
+        throw NumericalError(fmt::format("no feedback gains in phase \"{}\": at t = {:.3f} s its contacts begin to depend on "
+                                         "each other in another way (a leg is straight)", phase.name, point.time));
+      }
+      if (!S_.allFinite()) {
+        throw NumericalError(fmt::format("no feedback gains in phase \"{}\" at t = {:.3f} s: the Riccati equation is not finite "
+                                         "there", phase.name, point.time));
+      }
+      design_.gains[p][k] = gain_ * now_.Z.transpose() * weight_.asDiagonal();
+      if (on_sample_) on_sample_({static_cast<int>(p), static_cast<int>(k), now_.Z, now_.A, now_.B, S_});
+    }
+    record(p, transition);
+    if (p > 0) landing_ = linear.landing(weight_);
+  }
+
+  /// The phase after the end of the motion is not part of it.
+  void record(std::size_t p, const MatrixXd& transition) {
+    const bool after_end = has_phase_after_end_ && p + 1 == design_.phases.size();
+    if (!after_end) {
+      PhaseDecay& decay = design_.decay.emplace_back();
+      decay.name = design_.phases[p].name;
+      decay.start = design_.phases[p].start();
+      decay.end = design_.phases[p].end();
+      decay.bandwidth = bandwidth_;
+      design_.whole.end = std::max(design_.whole.end, decay.end);
+      design_.whole.bandwidth = std::max(design_.whole.bandwidth, bandwidth_);
+      fill_decay(robot_, transition, now_.Z, weight_, decay);
+    }
+    whole_ = after_end || whole_.size() == 0 ? transition : MatrixXd(whole_ * transition);
+    bandwidth_ = 0.0;
+  }
+
+  /// Feedback from S at the sample that was done last, dtau = -gain xi, no faster than allowed: from torque to torque the
+  /// loop is gain (s I - A)⁻¹ B, in R^(1/2) dtau at high frequencies F' S F / s with F = B R^(-1/2). The eigenvalues of F' S F
+  /// are where it crosses one.
+  void set_gain() {
+    const VectorXd root = control_weight_.cwiseSqrt();
+    const MatrixXd F = now_.B * root.asDiagonal();
+    const MatrixXd feedback = F.transpose() * S_;
+    const MatrixXd loop = feedback * F;
+    const double limit = options_.largest_bandwidth;
+    is_limited_ = false;
+    gain_ = root.asDiagonal() * feedback;
+    if (!loop.allFinite()) return;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> crossings(loop);
+    const VectorXd& rates = crossings.eigenvalues();
+    bandwidth_ = std::max(bandwidth_, std::min(rates(rates.size() - 1), limit));
+    if (rates(rates.size() - 1) <= limit) return;
+    is_limited_ = true;
+    const VectorXd share = rates.unaryExpr([&](double rate) { return rate > limit ? limit / rate : 1.0; });
+    const MatrixXd& U = crossings.eigenvectors();
+    gain_ = root.asDiagonal() * U * share.asDiagonal() * U.transpose() * feedback;
+  }
+
+  /// S at the end: of standing on for ever as at the end, or if that cannot be, for a second.
+  MatrixXd begin_at_end(Reduced end) {
+    now_ = std::move(end);
+    const Eigen::Index n = now_.A.rows();
+    RiccatiFlow flow = riccati_flow(now_.A, control_of(now_.B), MatrixXd::Identity(n, n), options_.step);
+    const std::optional<MatrixXd> stationary = stationary_cost(flow);
+    design_.stands_on = has_phase_after_end_ && stationary;
+    if (stationary) {
+      S_ = *stationary;
+    } else {
+      for (double time = options_.step; time < 1.0; time *= 2.0) flow = compose(flow, flow);
+      S_ = flow.cost;
+    }
+    set_gain();
+    if (stationary) {
+      const Eigen::VectorXcd poles = (now_.A - now_.B * gain_).eigenvalues();
+      design_.slowest_rate = poles.real().cwiseAbs().minCoeff();
+      design_.fastest_rate = poles.cwiseAbs().maxCoeff();
+    }
+    return MatrixXd::Identity(n, n);
+  }
+
+  /// S before the switch to the phase after, whose first sample is at hand, and what the switch does to a deviation.
+  MatrixXd land(Reduced before) {
+    const MatrixXd landed = landing_ * before.Z;
+    const MatrixXd jump = now_.Z.transpose() * weight_.asDiagonal() * landed;
+    const Eigen::Index nv = robot_.nv();
+    const MatrixXd lost = weight_.head(nv).cwiseSqrt().asDiagonal() * (before.Z - landed).topRows(nv);
+    S_ = jump.transpose() * S_ * jump;
+    S_ += options_.landing_time * lost.transpose() * lost;
+    now_ = std::move(before);
+    set_gain();
+    return jump;
+  }
+
+  MatrixXd step_back(Reduced left, double h) {
+    const MatrixXd A = 0.5 * (left.A + now_.A), B = 0.5 * (left.B + now_.B);
+    const Eigen::Index n = A.rows();
+    const RiccatiFlow flow = riccati_flow(A, control_of(B), MatrixXd::Identity(n, n), h);
+    const MatrixXd optimal = flow.closed_loop(S_), gain_at_end = gain_;
+    const bool was_limited = is_limited_;
+    S_ = flow.back(S_);
+    now_ = std::move(left);
+    set_gain();
+    if (!is_limited_ && !was_limited) return optimal;
+    return (h * (A - 0.5 * B * (gain_ + gain_at_end))).exp();
+  }
+
+  MatrixXd control_of(const MatrixXd& B) const { return B * control_weight_.asDiagonal() * B.transpose(); }
+
+  const RobotModel& robot_;
+  const TrackingOptions& options_;
+  bool has_phase_after_end_;
+  FeedbackDesign& design_;
+  const std::function<void(const ReducedSample&)>& on_sample_;
+  VectorXd weight_, control_weight_;  // W; R⁻¹
+  Reduced now_;       // at the sample that was done last
+  MatrixXd S_, gain_;  // there, dtau = -gain xi
+  bool is_limited_ = false;
+  double bandwidth_ = 0.0;  // largest of the phase so far
+  MatrixXd landing_;  // at the first sample of the phase that was done last
+  MatrixXd whole_;    // deviation at the first sample of that phase -> at the end
+};
+
+}  // namespace
+
+int FeedbackDesign::num_samples() const {
+  std::size_t samples = 0;
+  for (const ReferencePhase& phase : phases) samples += phase.samples.size();
+  return static_cast<int>(samples);
+}
+
+std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferencePhase& last, const TrackingOptions& options) {
+  TrajectoryPoint rest = last.samples.back();
+  rest.v.setZero();
+  ForwardDynamics dynamics(robot, last.contacts, kContactRankThreshold);
+  dynamics.evaluate_with_derivatives(rest.q, rest.v, rest.tau);
+  // a = a0 + D dtau, exactly: the dtau of least weight that makes it zero.
+  const VectorXd scale = options.torque_deviation;
+  const MatrixXd D = dynamics.acceleration_derivatives().tau * scale.asDiagonal();
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
+  factors.setThreshold(1e-8);
+  factors.compute(D);
+  rest.tau -= scale.asDiagonal() * factors.solve(dynamics.acceleration());
+  rest.a.setZero();
+  dynamics.evaluate(rest.q, rest.v, rest.tau);
+  constexpr double kStill = 1e-6;  // of what gravity does
+  if (dynamics.acceleration().norm() > kStill * RobotModel::kGravity) return std::nullopt;
+
+  ReferencePhase after{"stand on", last.contacts, {rest, rest}};
+  after.samples.back().time += options.step;
+  return after;
+}
+
+FeedbackDesign design_feedback(const MotionProblem& problem, const Trajectory& trajectory, const TrackingOptions& options,
+                               const std::function<void(const ReducedSample&)>& on_sample) {
+  const auto begin = std::chrono::steady_clock::now();
+  FeedbackDesign design;
+  design.phases = reference_grid(problem, trajectory, options.step);
+  std::optional<ReferencePhase> after = stand_on(problem.robot, design.phases.back(), options);
+  if (after) design.phases.push_back(std::move(*after));
+  BackwardPass(problem, options, after.has_value(), design, on_sample).run();
+  design.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return design;
+}
+
+}  // namespace prowl

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/tracker/tracking_plan.hpp"
+#include "prowl/tracking/feedback_design.hpp"
+
+namespace prowl {
+
+/// What a robot takes along: reference, gains and schedule of a design, joints, contacts and torque limits of the robot.
+TrackingPlan make_tracking_plan(const MotionProblem& problem, const FeedbackDesign& design);
+
+}  // namespace prowl

@@ -1,0 +1,48 @@
+#include "prowl/tracking/reference_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+using Nodes = std::vector<TrajectoryPoint>;
+
+/// The motion between the nodes of one phase, at time t.
+TrajectoryPoint sample_phase(Nodes::const_iterator begin, Nodes::const_iterator end, double t) {
+  const auto after = std::upper_bound(begin, end, t, [](double time, const auto& node) { return time < node.time; });
+  if (after == begin) return *begin;
+  if (after == end) return *std::prev(end);
+  return interpolate(*std::prev(after), *after, t - std::prev(after)->time);
+}
+
+}  // namespace
+
+std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const Trajectory& trajectory, double step) {
+  std::vector<ReferencePhase> grid;
+  const Nodes& nodes = trajectory.nodes;
+  for (auto begin = nodes.begin(); begin != nodes.end();) {
+    const auto end = std::find_if(begin, nodes.end(), [&](const auto& node) { return node.phase != begin->phase; });
+    const Phase& phase = problem.phases[static_cast<std::size_t>(begin->phase)];
+    const double start = begin->time, duration = std::prev(end)->time - start;
+    if (!(duration > 0.0)) throw InputError(fmt::format("phase \"{}\" has no duration: no gains for it", phase.name));
+    constexpr double kRounding = 1e-9;  // a duration of ten steps has ten, not eleven
+    const int intervals = std::max(1, static_cast<int>(std::ceil(duration / step - kRounding)));
+
+    ReferencePhase& sampled = grid.emplace_back();
+    sampled.name = phase.name;
+    for (const PhaseContact& contact : phase.contacts) sampled.contacts.push_back(contact.contact);
+    for (int i = 0; i < intervals; ++i) {
+      sampled.samples.push_back(sample_phase(begin, end, start + duration * i / intervals));
+    }
+    sampled.samples.push_back(*std::prev(end));
+    begin = end;
+  }
+  return grid;
+}
+
+}  // namespace prowl

@@ -1,0 +1,2 @@
+prowl_test(estimation/joint_filter prowl::estimation)
+prowl_test(estimation/base_estimator prowl::estimation)

@@ -1,0 +1,83 @@
+#include "prowl/simulation/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/simulation/standing_tracker.hpp"
+
+namespace prowl {
+namespace {
+
+/// Clopper and Pearson's bounds p are where the binomial tail from the outcome on has 2.5 %.
+TEST(SuccessRate, BoundsCutOffTheTails) {
+  const auto tail = [](int cases, int from, double p) {  // P(X >= from)
+    double sum = 0.0;
+    for (int k = from; k <= cases; ++k) {
+      sum += std::exp(std::lgamma(cases + 1) - std::lgamma(k + 1) - std::lgamma(cases - k + 1) + k * std::log(p) +
+                      (cases - k) * std::log1p(-p));
+    }
+    return sum;
+  };
+  for (const int successes : {1, 10, 100, 195, 199}) {
+    const SuccessRate rate = success_rate(successes, 200);
+    EXPECT_NEAR(tail(200, successes, rate.lower), 0.025, 1e-6) << successes;
+    EXPECT_NEAR(1.0 - tail(200, successes + 1, rate.upper), 0.025, 1e-6) << successes;
+  }
+  EXPECT_EQ(success_rate(0, 200).lower, 0.0);
+  EXPECT_EQ(success_rate(200, 200).upper, 1.0);
+}
+
+TEST(Sweep, DrawsFromItsRanges) {
+  const MotionProblem problem = test::standing_problem();
+  TrackingPlan plan = test::standing_tracker(problem).plan();
+  plan.segments = {{"four", 0.0, 1.0, 0, 2, {true, true, true, true}}, {"two", 1.0, 2.0, 2, 2, {true, false, false, true}}};
+  for (Eigen::MatrixXd* part : {&plan.q, &plan.v, &plan.tau, &plan.gains}) *part = part->replicate(1, 2).eval();
+  const Tracker tracker(plan);
+  const PerturbationRanges ranges;
+  int weak = 0;
+  double lightest = 2.0, heaviest = 0.0;
+  std::set<std::uint64_t> seeds;
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    const SimulationOptions options = perturbed(tracker, {}, ranges, seed);
+    seeds.insert(options.seed);
+    lightest = std::min(lightest, options.physics.mass_scale);
+    heaviest = std::max(heaviest, options.physics.mass_scale);
+    ASSERT_GE(*options.physics.friction, 0.4);
+    ASSERT_LE(*options.physics.friction, 0.8);
+    const Push& push = options.pushes.at(0);
+    EXPECT_EQ(push.impulse.z(), 0.0);
+    const bool on_two = push.time + push.duration >= 1.0;
+    EXPECT_NEAR(push.impulse.norm(), on_two ? 2.0 : 10.0, 1e-12) << push.time;
+    weak += on_two ? 1 : 0;
+  }
+  EXPECT_NEAR(lightest, 0.9, 0.005);
+  EXPECT_NEAR(heaviest, 1.1, 0.005);
+  EXPECT_NEAR(weak, 275, 50);
+  EXPECT_EQ(seeds.size(), 500u);
+}
+
+/// A case of a sweep is what simulate() makes of it, and all of them are there, in order.
+TEST(Sweep, CasesCanBeReplayed) {
+  MotionProblem problem = test::standing_problem();
+  problem.phases.front().duration = {0.3, 0.3};
+  const Tracker tracker = test::standing_tracker(problem);
+  const SuccessCriteria criteria{.rest = 0.3};
+  std::vector<SimulationOptions> options;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) options.push_back(perturbed(tracker, {}, {}, seed));
+  int last = 0;
+  const auto cases = run_cases(problem, tracker, criteria, options, [&](int done) { EXPECT_EQ(done, ++last); }, nullptr);
+  ASSERT_EQ(cases.size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const SimulationResult again = simulate(problem, tracker, criteria, options[i]);
+    EXPECT_EQ(cases[i].result.base_position.largest, again.base_position.largest);
+    EXPECT_EQ(cases[i].result.positive_work, again.positive_work);
+  }
+  EXPECT_NE(cases[0].result.positive_work, cases[1].result.positive_work);
+  const std::atomic<bool> stop = true;
+  EXPECT_TRUE(run_cases(problem, tracker, criteria, options, {}, &stop).empty());
+}
+
+}  // namespace
+}  // namespace prowl

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "../io/test_files.hpp"
+#include "prowl/io/plan_directory.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/plan.hpp"
+#include "prowl/solvers/riccati_solver.hpp"
+
+namespace prowl::test {
+
+struct SolvedTask {
+  Task task;
+  Trajectory trajectory;
+};
+
+/// A shipped task ("hyq/stand"), planned.
+inline SolvedTask solve_task(const std::string& name) {
+  Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test_search());
+  Plan plan = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
+  if (!is_good(plan)) throw std::runtime_error(name + " has no good plan");
+  return {std::move(task), std::move(plan.trajectory)};
+}
+
+}  // namespace prowl::test

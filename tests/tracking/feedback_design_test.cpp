@@ -1,0 +1,173 @@
+#include "prowl/tracking/feedback_design.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "prowl/dynamics/forward_dynamics.hpp"
+#include "prowl/tracker/tracker.hpp"
+#include "prowl/tracking/linearised_dynamics.hpp"
+#include "prowl/tracking/make_tracking_plan.hpp"
+#include "tests/support/solved_task.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Plans are made once.
+const test::SolvedTask& solved(const std::string& name) {
+  static std::map<std::string, test::SolvedTask> tasks;
+  const auto found = tasks.find(name);
+  return found != tasks.end() ? found->second : tasks.emplace(name, test::solve_task(name)).first->second;
+}
+
+FeedbackDesign design(const test::SolvedTask& solved, const TrackingOptions& options) {
+  return design_feedback(solved.task.problem, solved.trajectory, options);
+}
+
+FeedbackDesign design(const std::string& name) { return design(solved(name), solved(name).task.tracking); }
+
+class FeedbackOfTask : public testing::TestWithParam<std::string> {};
+
+// Independent and redundant contacts, contacts that change: deviations that the contacts do not allow get no torque, in the
+// metric of the weights: K W⁻¹ C' = 0.
+TEST_P(FeedbackOfTask, HasNoGainOnWhatTheContactsForbid) {
+  const test::SolvedTask& task = solved(GetParam());
+  const FeedbackDesign found = design(GetParam());
+  const VectorXd deviation = task.task.tracking.state_deviation.array().square();
+  for (std::size_t p = 0; p < found.phases.size(); ++p) {
+    const ReferencePhase& phase = found.phases[p];
+    LinearisedDynamics linear(task.task.problem.robot, phase.contacts);
+    for (std::size_t k = 0; k < phase.samples.size(); k += 37) {
+      const TrajectoryPoint& point = phase.samples[k];
+      linear.evaluate(point.q, point.v, point.tau);
+      const MatrixXd forbidden = deviation.asDiagonal() * linear.C().transpose();
+      const MatrixXd& K = found.gains[p][k];
+      EXPECT_GT(K.norm(), 1.0);
+      EXPECT_LT((K * forbidden).norm(), 1e-9 * K.norm() * forbidden.norm()) << phase.name << ", sample " << k;
+    }
+  }
+}
+
+TEST_P(FeedbackOfTask, KeepsItsBandwidthAndStandsOn) {
+  const test::SolvedTask& task = solved(GetParam());
+  const FeedbackDesign found = design(GetParam());
+  const double limit = task.task.tracking.largest_bandwidth;
+  EXPECT_TRUE(found.stands_on);
+  EXPECT_GT(found.slowest_rate, 0.5);
+  EXPECT_LE(found.whole.bandwidth, limit);
+  EXPECT_LT(found.whole.worst, 0.5) << "a deviation at the start is gone at the end";
+  ASSERT_EQ(found.decay.size() + 1, found.phases.size());
+  for (const PhaseDecay& decay : found.decay) {
+    EXPECT_GT(decay.mean, 0.0);
+    EXPECT_LE(decay.mean, decay.worst);
+    EXPECT_THAT(decay.worst_direction, testing::Not(testing::IsEmpty()));
+  }
+  // The crossing frequencies, here as eigenvalues of the loop itself: B' (C B = 0) and dtau have the same.
+  for (std::size_t p = 0; p < found.phases.size(); ++p) {
+    LinearisedDynamics linear(task.task.problem.robot, found.phases[p].contacts);
+    for (std::size_t k = 0; k < found.phases[p].samples.size(); k += 37) {
+      const TrajectoryPoint& point = found.phases[p].samples[k];
+      linear.evaluate(point.q, point.v, point.tau);
+      const Eigen::VectorXcd rates = (found.gains[p][k] * linear.B()).eigenvalues();
+      EXPECT_LT(rates.cwiseAbs().maxCoeff(), limit * (1.0 + 1e-6));
+      EXPECT_GT(rates.real().minCoeff(), -1e-6 * limit);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FeedbackOfTask,
+                         testing::Values("hyq/stand", "hyq/balance", "hyq/kneel", "solo12/step"),
+                         [](const auto& info) {
+                           std::string name = info.param;
+                           std::replace(name.begin(), name.end(), '/', '_');
+                           return name;
+                         });
+
+// The reference after the end is an equilibrium: without a deviation the robot does not move.
+TEST(FeedbackDesign, StandsStillAfterTheEnd) {
+  const test::SolvedTask& task = solved("hyq/crouch");
+  const FeedbackDesign found = design("hyq/crouch");
+  const ReferencePhase& after = found.phases.back();
+  EXPECT_EQ(after.name, "stand on");
+  ForwardDynamics dynamics(task.task.problem.robot, after.contacts);
+  dynamics.evaluate(after.samples.back().q, after.samples.back().v, after.samples.back().tau);
+  EXPECT_LT(dynamics.acceleration().norm(), 1e-6);
+  EXPECT_EQ(after.samples.back().v.norm(), 0.0);
+}
+
+TEST(FeedbackDesign, HasNoGainsToStandOnWithInTheAir) {
+  test::SolvedTask task = solved("hyq/jump");
+  task.trajectory.nodes.erase(std::find_if(task.trajectory.nodes.begin(), task.trajectory.nodes.end(),
+                                           [](const TrajectoryPoint& node) { return node.phase == 3; }),
+                              task.trajectory.nodes.end());
+  const FeedbackDesign found = design(task, task.task.tracking);
+  EXPECT_FALSE(found.stands_on);
+  EXPECT_EQ(found.phases.size(), 3u);
+  EXPECT_TRUE(found.gains.front().front().allFinite());
+}
+
+// Halving the step of the grid brings the gains nearer to their limit by the square of it.
+TEST(FeedbackDesign, ConvergesWithTheGrid) {
+  const test::SolvedTask& task = solved("hyq/crouch");
+  std::vector<MatrixXd> first_gain;
+  for (const double step : {0.04, 0.02, 0.01}) {
+    TrackingOptions options = task.task.tracking;
+    options.step = step;
+    first_gain.push_back(design(task, options).gains.front().front());
+  }
+  const double coarse = (first_gain[0] - first_gain[1]).norm(), fine = (first_gain[1] - first_gain[2]).norm();
+  EXPECT_GT(coarse, 0.0);
+  EXPECT_LT(fine, coarse / 3.0);
+  EXPECT_LT(fine, 1e-2 * first_gain[2].norm());
+}
+
+TEST(FeedbackDesign, WeighsAsItIsTold) {
+  const test::SolvedTask& task = solved("hyq/stand");
+  TrackingOptions options = task.task.tracking;
+  const MatrixXd before = design(task, options).gains.front().front();
+  options.state_deviation.head<3>() *= 0.5;
+  options.torque_deviation *= 2.0;
+  const MatrixXd stiffer = design(task, options).gains.front().front();
+  EXPECT_GT(stiffer.leftCols<3>().norm(), 1.5 * before.leftCols<3>().norm());
+}
+
+// What goes to the robot is what was designed.
+TEST(MakeTrackingPlan, HasTheReferenceTheGainsAndTheSchedule) {
+  const test::SolvedTask& task = solved("hyq/balance");
+  const MotionProblem& problem = task.task.problem;
+  const FeedbackDesign found = design("hyq/balance");
+  const Tracker tracker(make_tracking_plan(problem, found));
+  MatrixXd K(problem.robot.nu(), 2 * problem.robot.nv());
+  VectorXd q(problem.robot.nq()), v(problem.robot.nv()), tau(problem.robot.nu());
+  for (std::size_t p = 0; p < found.phases.size(); ++p) {
+    const ReferencePhase& phase = found.phases[p];
+    const TrackingPlan::Segment& segment = tracker.segment(0.5 * (phase.start() + phase.end()));
+    EXPECT_EQ(segment.name, phase.name);
+    for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
+      const bool held = std::find(phase.contacts.begin(), phase.contacts.end(), c) != phase.contacts.end();
+      EXPECT_EQ(segment.in_contact[static_cast<std::size_t>(c)], held);
+    }
+    for (std::size_t k = 0; k + 1 < phase.samples.size(); ++k) {
+      const TrajectoryPoint& point = phase.samples[k];
+      tracker.gains(point.time, K);
+      EXPECT_LT((K - found.gains[p][k]).norm(), 1e-9 * K.norm());
+      tracker.torque(point.time, point.q, point.v, tau);
+      EXPECT_LT((tau - point.tau).norm(), 1e-6 * (1.0 + point.tau.norm())) << "on the reference, its torque";
+    }
+  }
+  EXPECT_EQ(tracker.plan().joint_names, problem.robot.joint_names());
+  // Between samples too: as far off the motion as a parabola is off its chords.
+  for (double t = 0.0; t < task.trajectory.duration(); t += 0.0137) {
+    const TrajectoryPoint point = sample(task.trajectory, t);
+    tracker.reference(t, q, v);
+    EXPECT_LT((q.tail(12) - point.q.tail(12)).cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_LT((v - point.v).cwiseAbs().maxCoeff(), 2e-2);
+  }
+}
+
+}  // namespace
+}  // namespace prowl

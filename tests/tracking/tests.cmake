@@ -1,0 +1,14 @@
+prowl_test(tracking/riccati_flow prowl::tracking)
+prowl_test(tracking/linearised_dynamics prowl::tracking pinocchio::pinocchio_default)
+target_sources(tracking_linearised_dynamics_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support/null_space_dynamics.cpp)
+prowl_test(tracking/feedback_design prowl::prowl)
+prowl_test(tracking/rollout prowl::prowl)
+
+# The Riccati solution against SciPy: a program writes what the backward pass sees, a script solves it in its own way.
+add_executable(tracking_print_design ${CMAKE_CURRENT_LIST_DIR}/print_design.cpp)
+target_link_libraries(tracking_print_design PRIVATE prowl::prowl fmt::fmt)
+target_compile_definitions(tracking_print_design PRIVATE
+  PROWL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PROWL_ROBOTS_DATA="${PROWL_CMEEL}/share")
+add_test(NAME tracking/riccati_scipy
+  COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/riccati_scipy_test.py $<TARGET_FILE:tracking_print_design>)
+set_tests_properties(tracking/riccati_scipy PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
