@@ -5,6 +5,10 @@
 namespace prowl::cli {
 
 Tracker read_tracker(const std::filesystem::path& directory) {
+  if (!std::filesystem::exists(directory / "tracker.bin")) {
+    throw InputError((directory / "tracker.bin").string() +
+                     ": no such file; prowl plan writes it with a plan that is good, unless told --no-gains");
+  }
   try {
     return Tracker::read((directory / "tracker.bin").string());
   } catch (const TrackerError& error) {

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from judge.motion import Motion, read_plan_motion
 
 ONE_MESH = "--one-mesh"  # option that leaves out the coarser meshes, where the command has it
+NO_GAINS = "--no-gains"
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,7 @@ class ProwlCommand:
         self.packages = [word for folder in package_dirs for word in ("--package-dir", str(folder))]
         self.help = subprocess.run([binary, "plan", "--help"], capture_output=True, text=True, check=True).stdout
         self.has_one_mesh = ONE_MESH in self.help
+        self.without_gains = [NO_GAINS] if NO_GAINS in self.help else []
 
     def solvers(self) -> list[str]:
         found = re.search(r"--solver NAME:\{([^}]*)\}", self.help)
@@ -73,7 +75,7 @@ class ProwlCommand:
     def _run(self, task_file, solver, intervals, one_mesh, out) -> float:
         """CPU seconds of the whole process."""
         command = [str(self.binary), "plan", str(task_file), "--solver", solver, "--out", str(out), "--max-time",
-                   str(self.time_limit), *self.packages]
+                   str(self.time_limit), *self.packages, *self.without_gains]
         command += ["--intervals", str(intervals)] if intervals else []
         command += [ONE_MESH] if one_mesh else []
         with tempfile.TemporaryFile("w+") as messages:

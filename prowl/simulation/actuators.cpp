@@ -23,11 +23,14 @@ const Eigen::VectorXd& Actuators::step(const Eigen::VectorXd& q, const Eigen::Ve
   }
   ++now_;
   filtered_ += share_ * (wanted_ - filtered_);
-  saturated_ = false;
+  largest_share_ = 0.0;
   for (int j = 0; j < robot_.nu(); ++j) {
     const double lower = robot_.torque_lower(j, q(7 + j), v(6 + j)), upper = robot_.torque_upper(j, q(7 + j), v(6 + j));
     torque_(j) = std::clamp(filtered_(j), lower, upper);
-    saturated_ = saturated_ || torque_(j) == lower || torque_(j) == upper;
+    const double share = torque_(j) / (torque_(j) > 0.0 ? upper : lower);
+    if (share <= largest_share_) continue;
+    largest_share_ = share;
+    most_used_ = j;
   }
   return torque_;
 }

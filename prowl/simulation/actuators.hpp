@@ -17,7 +17,10 @@ class Actuators {
   void command(const Eigen::VectorXd& tau);
   /// Torques of the next step of dt, at the true state.
   const Eigen::VectorXd& step(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
-  bool saturated() const { return saturated_; }  ///< some torque of the last step is at its limit
+  /// Of the last step: the largest torque as a share of its limit, whose it is, and whether it is at the limit.
+  double largest_share() const { return largest_share_; }
+  int most_used() const { return most_used_; }
+  bool saturated() const { return largest_share_ >= 1.0; }
 
  private:
   const RobotModel& robot_;
@@ -25,7 +28,8 @@ class Actuators {
   double share_;  ///< of the way to the command in one step
   std::deque<std::pair<long, Eigen::VectorXd>> commands_;  ///< with the step at which each begins to count
   Eigen::VectorXd wanted_, filtered_, torque_;
-  bool saturated_ = false;
+  double largest_share_ = 0.0;
+  int most_used_ = 0;
 };
 
 }  // namespace prowl

@@ -24,7 +24,7 @@ Measures::Measures(const MotionProblem& problem, const Tracker& tracker, double 
       slip_(problem.robot.contacts().size(), 0.0),
       touches_(problem.robot.contacts().size()) {}
 
-void Measures::add(const SimulationSample& sample, double dt, const std::vector<Eigen::Vector3d>& slip, bool saturated) {
+void Measures::add(const SimulationSample& sample, const std::vector<Eigen::Vector3d>& slip) {
   const RobotModel& robot = problem_.robot;
   const bool at_rest = sample.time >= end_ - kRestWindow;
   const Eigen::VectorXd error = difference(sample.q_ref, sample.q), seen = difference(sample.q, sample.q_seen);
@@ -44,17 +44,16 @@ void Measures::add(const SimulationSample& sample, double dt, const std::vector<
     slip_now_[c] = segment.in_contact[c] ? Eigen::Vector3d(slip_now_[c] + slip[c]) : Eigen::Vector3d::Zero();
     slip_[c] = std::max(slip_[c], slip_now_[c].norm());
   }
-  for (int j = 0; j < robot.nu(); ++j) {
-    const double position = sample.q(7 + j), rate = sample.v(6 + j), tau = sample.tau(j);
-    const double limit = tau > 0.0 ? robot.torque_upper(j, position, rate) : -robot.torque_lower(j, position, rate);
-    if (std::abs(tau) / limit > result_.largest_torque_share) {
-      result_.largest_torque_share = std::abs(tau) / limit;
-      result_.largest_torque_joint = robot.joint_names()[static_cast<std::size_t>(j)];
-    }
-    result_.positive_work += dt * std::max(0.0, tau * rate);
+}
+
+void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& tau, const Eigen::VectorXd& v, double dt) {
+  if (actuators.largest_share() > result_.largest_torque_share) {
+    result_.largest_torque_share = actuators.largest_share();
+    result_.largest_torque_joint = problem_.robot.joint_names()[static_cast<std::size_t>(actuators.most_used())];
   }
+  result_.positive_work += dt * tau.cwiseProduct(v.tail(tau.size())).cwiseMax(0.0).sum();
   time_ += dt;
-  if (saturated) saturated_ += dt;
+  if (actuators.saturated()) saturated_ += dt;
 }
 
 /// Between `from` and `to`: the first touch if the contact lands, else the last.

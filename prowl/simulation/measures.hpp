@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prowl/simulation/actuators.hpp"
 #include "prowl/simulation/simulation.hpp"
 
 namespace prowl {
@@ -10,9 +11,11 @@ class Measures {
   /// `end`: when the simulation is to end [s].
   Measures(const MotionProblem& problem, const Tracker& tracker, double end);
 
-  /// A sample, `dt` after the one before. `slip`: way of each contact's material along its surface since then [m], world
-  /// frame; `saturated`: some torque was at its limit.
-  void add(const SimulationSample& sample, double dt, const std::vector<Eigen::Vector3d>& slip, bool saturated);
+  /// A sample. `slip`: way of each contact's material along its surface since the one before [m], world
+  /// frame.
+  void add(const SimulationSample& sample, const std::vector<Eigen::Vector3d>& slip);
+  /// Torques of a physics step of `dt`, at the joints, which turn at v.
+  void add_torques(const Actuators& actuators, const Eigen::VectorXd& tau, const Eigen::VectorXd& v, double dt);
 
   /// All but end, samples and failures.
   SimulationResult result() const;

@@ -103,7 +103,7 @@ class Run {
       if (!advance(t)) end = SimulationResult::End::diverged;
       sample_.tau = torque_;
       sample_.contacts = physics_.contacts();
-      if (end == SimulationResult::End::finished) measures_.add(sample_, period_, slip_, saturated_);
+      if (end == SimulationResult::End::finished) measures_.add(sample_, slip_);
       if (record_each > 0 && tick % record_each == 0) samples.push_back(sample_);
       if (end == SimulationResult::End::finished && fallen()) end = SimulationResult::End::fell;
     }
@@ -151,7 +151,6 @@ class Run {
 
   bool advance(double t) {
     for (Eigen::Vector3d& way : slip_) way.setZero();
-    saturated_ = false;
     const double step = period_ / substeps_;
     for (int i = 0; i < substeps_; ++i) {
       q_before_ = physics_.q();
@@ -160,7 +159,7 @@ class Run {
       if (!physics_.step(torque_, push_at(options_.pushes, t + i * step))) return false;
       sensors_.integrate(step, q_before_, v_before_, physics_.q(), physics_.v());
       for (std::size_t c = 0; c < slip_.size(); ++c) slip_[c] += step * physics_.contacts()[c].slip_velocity;
-      saturated_ = saturated_ || actuators_.saturated();
+      measures_.add_torques(actuators_, torque_, v_before_, step);
     }
     return true;
   }
@@ -185,7 +184,6 @@ class Run {
   SimulationSample sample_;
   std::vector<Eigen::Vector3d> slip_;
   Eigen::VectorXd torque_, q_before_, v_before_;
-  bool saturated_ = false;
 };
 
 }  // namespace

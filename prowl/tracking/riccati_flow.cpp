@@ -45,11 +45,14 @@ RiccatiFlow riccati_flow(const MatrixXd& A, const MatrixXd& G, const MatrixXd& Q
 }
 
 RiccatiFlow compose(const RiccatiFlow& first, const RiccatiFlow& second) {
-  const MatrixXd transition = solve_coupled(first.control, second.cost, first.transition);
-  const MatrixXd control = solve_coupled(first.control, second.cost, first.control);
+  const Eigen::Index n = first.cost.rows();
+  MatrixXd both(n, 2 * n);
+  both << first.transition, first.control;
+  const MatrixXd coupled = solve_coupled(first.control, second.cost, both);
+  const auto transition = coupled.leftCols(n), control = coupled.rightCols(n);
   return {second.transition * transition,
-          symmetric(second.control + second.transition * control * second.transition.transpose()),
-          symmetric(first.cost + first.transition.transpose() * second.cost * transition)};
+          symmetric(second.control + second.transition * (control * second.transition.transpose())),
+          symmetric(first.cost + first.transition.transpose() * (second.cost * transition))};
 }
 
 std::optional<MatrixXd> stationary_cost(RiccatiFlow flow) {

@@ -59,7 +59,7 @@ TEST_F(Command, TellsVersionsAndHelp) {
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, StartsWith("prowl "));
   for (const char* part : {"Ipopt 3.14", "Pinocchio 4", "Eigen 3.4"}) EXPECT_THAT(version.out, HasSubstr(part));
-  for (const char* verb : {"", "plan", "check", "robot"}) {
+  for (const char* verb : {"", "plan", "check", "robot", "simulate", "sweep"}) {
     const Outcome help = run(std::string("$prowl ") + verb + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Example")) << verb;
@@ -134,6 +134,28 @@ TEST_F(Command, WritesGainsUnlessAskedNotTo) {
   EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out --no-gains").status, 0);
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/tracker.bin")) << "gains of another plan";
   EXPECT_TRUE(plan().at("tracking").is_null());
+}
+
+TEST_F(Command, SimulatesAndSweeps) {
+  ASSERT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 0);
+  const Outcome first = run("$prowl simulate out $dirs --json");
+  EXPECT_EQ(first.status, 0) << first.error << first.out;
+  EXPECT_EQ(nlohmann::json::parse(first.out).at("success"), true);
+  EXPECT_EQ(run("$prowl simulate out $dirs --json").out, first.out) << "the same seed";
+  EXPECT_NE(run("$prowl simulate out $dirs --json --seed 2").out, first.out);
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/simulate.csv"));
+  const Outcome pushed = run("$prowl simulate out $dirs --push 0.5 0 500 0");
+  EXPECT_EQ(pushed.status, 8) << pushed.out;
+  EXPECT_THAT(pushed.out, HasSubstr("fell at"));
+  EXPECT_EQ(run("$prowl simulate out $dirs --delay -1").status, 2);
+  const Outcome sweep = run("$prowl sweep out $dirs --n 2 --breakdown 0 --json");
+  EXPECT_EQ(sweep.status, 0) << sweep.error;
+  EXPECT_EQ(nlohmann::json::parse(sweep.out).at("cases"), 2);
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 0) << "its own files are in the way";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/simulate.json")) << "of the plan before";
+  const Outcome without = run("rm out/tracker.bin; $prowl simulate out $dirs");
+  EXPECT_EQ(without.status, 2);
+  EXPECT_THAT(without.error, HasSubstr("--no-gains"));
 }
 
 TEST_F(Command, PlansWithoutAnybodyListening) {

@@ -148,6 +148,10 @@ TEST_P(ShippedTask, ConvergesAndIsWhatTheCertificateSays) {
   EXPECT_EQ(planned.status, 0);
   EXPECT_EQ(planned.plan.at("certificate").at("passed"), true);
   EXPECT_LT(planned.check("contact drift").at("worst"), 1e-3);
+  const nlohmann::json& tracking = planned.plan.at("tracking");
+  ASSERT_FALSE(tracking.is_null()) << "no gains";
+  EXPECT_TRUE(tracking.at("stands_on"));
+  EXPECT_LT(tracking.at("whole").at("worst"), 0.5) << "what is left of a deviation at the start";
   const auto purpose = kPurposes.find(GetParam());
   if (purpose != kPurposes.end()) purpose->second(read_plan(folder_.path() / "out", test::test_search()));
 }
