@@ -84,6 +84,9 @@ class BackwardPass {
       const TrajectoryPoint& point = phase.samples[k];
       linear.evaluate(point.q, point.v, point.tau);
       const MatrixXd Z = linear.consistent_directions(weight_);
+      if (Z.cols() == 0) {
+        throw NumericalError(fmt::format("no feedback gains in phase \"{}\": its contacts leave nothing that moves", phase.name));
+      }
       if (k + 1 == phase.samples.size()) {
         transition = p + 1 < design_.phases.size() ? land(reduce(linear, weight_, Z)) : begin_at_end(reduce(linear, weight_, Z));
       } else if (Z.cols() == now_.Z.cols()) {

@@ -174,6 +174,47 @@ TEST(Rollout, KeepsTheContactsOfItsSchedule) {
   EXPECT_NEAR(carried, robot.weight(), 1e-3 * robot.weight());
 }
 
+/// No contact, no torque, no gains.
+Tracker flight(const RobotModel& robot, const VectorXd& q, double duration) {
+  TrackingPlan plan;
+  plan.joint_names = robot.joint_names();
+  for (const ContactPoint& contact : robot.contacts()) plan.contact_names.push_back(contact.name);
+  plan.torque_limit = robot.torque_limit();
+  plan.segments = {{"flight", 0.0, duration, 0, 2, std::vector<bool>(robot.contacts().size(), false)}};
+  plan.q = q.replicate(1, 2);
+  plan.v.setZero(robot.nv(), 2);
+  plan.tau.setZero(robot.nu(), 2);
+  plan.gains.setZero(2L * robot.nu() * robot.nv(), 2);
+  return Tracker(plan);
+}
+
+// Tumbling in the air: the same however wide the chart gets between two samples, and its momentum changes by the weight.
+TEST(Rollout, Tumbles) {
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/stand.toml", test::test_search());
+  const RobotModel& robot = task.problem.robot;
+  constexpr double kDuration = 0.12;
+  const VectorXd& q = task.problem.start_configuration();
+  const Tracker tracker = flight(robot, q, kDuration);
+  std::mt19937 rng(5);
+  VectorXd v(robot.nv());
+  v << 0.5, 0.0, 1.0, 2.0, -1.5, 1.0, test::random_vector(rng, robot.nu(), 3.0);
+  const Rollout wide = rollout(robot, tracker, q, v, {.sample_step = kDuration, .tolerance = 1e-11}),
+                narrow = rollout(robot, tracker, q, v, {.sample_step = 1e-3, .tolerance = 1e-11});
+  ASSERT_FALSE(wide.fell || narrow.fell);
+  const RolloutSample &one = wide.samples.back(), &other = narrow.samples.back();
+  EXPECT_GT(difference(q, one.q).segment<3>(3).norm(), 0.2) << "too little of a turn to tell";
+  EXPECT_LT(difference(one.q, other.q).norm(), 1e-8);
+  EXPECT_LT((one.v - other.v).norm(), 1e-7);
+
+  RigidBodyTerms terms(robot);
+  const auto momentum = [&](const VectorXd& at_q, const VectorXd& at_v) {
+    terms.update_with_derivatives(at_q, at_v, VectorXd::Zero(robot.nv()));
+    return Eigen::Vector3d(base_rotation(at_q) * (terms.mass_matrix() * at_v).head<3>());
+  };
+  const Eigen::Vector3d change = momentum(one.q, one.v) - momentum(q, v);
+  EXPECT_LT((change + robot.weight() * kDuration * Eigen::Vector3d::UnitZ()).norm(), 1e-6 * robot.weight());
+}
+
 TEST(Rollout, IsTheSameEveryTime) {
   const Tracked tracked = track("hyq/stand");
   VectorXd move = VectorXd::Constant(6, 0.01);
