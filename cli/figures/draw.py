@@ -19,6 +19,7 @@ import style
 from matplotlib.lines import Line2D
 
 DEGREE = np.pi / 180
+JA, JDOTV = r"$J\,a$", r"$-\dot{J}\,v$"
 
 
 def by_leg(plan: series.Plan, row_height: float):
@@ -52,12 +53,14 @@ def draw_torques(plan: series.Plan, folder: pathlib.Path) -> None:
             axes.plot(table["time_s"], table[f"tau_{joint}_Nm"], color=style.BLUE)
             axes.plot(table["time_s"], table[f"feedforward_{joint}_Nm"], color=style.VERMILLION, ls=style.DASHES[1])
             axes.plot(table["time_s"], table[f"feedback_{joint}_Nm"], color=style.GREEN, lw=0.9)
+    limit_seen = False
+    for axes, joint in panels:
         style.at_least(axes, 1.0)
-    limits = [(axes, axes.get_ylim()) for axes, _ in panels]
-    for (axes, joint), (_, shown) in zip(panels, limits):  # where they come near; they do not decide the scale
+        low, high = axes.get_ylim()  # limits are drawn where torques come near; they do not decide the scale
         for side in ("lower", "upper"):
-            axes.plot(plan.limits["time_s"], plan.limits[f"{side}_{joint}_Nm"], color="black", lw=0.9, ls=style.DASHES[2])
-        axes.set_ylim(shown)
+            limit = plan.limits[f"{side}_{joint}_Nm"]
+            axes.plot(plan.limits["time_s"], limit, color="black", lw=0.9, ls=style.DASHES[2])
+            limit_seen = limit_seen or bool(np.any((limit > low) & (limit < high)))
     for row in grid:
         row[0].set_ylabel("torque [N m]")
     style.mark_phases(grid, plan.phases(), end_of(plan))
@@ -66,7 +69,8 @@ def draw_torques(plan: series.Plan, folder: pathlib.Path) -> None:
         handles += [Line2D([], [], color=style.BLUE, label="simulated, at the joint"),
                     Line2D([], [], color=style.VERMILLION, ls=style.DASHES[1], label="feedforward"),
                     Line2D([], [], color=style.GREEN, label="feedback")]
-    handles.append(Line2D([], [], color="black", lw=0.9, ls=style.DASHES[2], label="limit, where in sight"))
+    if limit_seen:
+        handles.append(Line2D([], [], color="black", lw=0.9, ls=style.DASHES[2], label="limit, where torques come near"))
     style.finish(figure, f"{plan.title}: joint torques", plan.settings(), handles, folder, "torques")
 
 
@@ -85,10 +89,10 @@ def draw_contact_acceleration(plan: series.Plan, folder: pathlib.Path) -> None:
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     style.mark_phases(grid, plan.phases(), float(plan.nodes["time_s"][-1]))
-    handles = [Line2D([], [], color=style.SKY, lw=3.5, label="J a"),
-               Line2D([], [], color="black", lw=0.9, ls=style.DASHES[1], label="−J̇ v")]
-    style.finish(figure, f"{plan.title}: acceleration of the contacts, J a against −J̇ v",
-                 "planned; world axes; drawn while the contact holds, where J a + J̇ v = 0", handles, folder, "contact_acceleration")
+    handles = [Line2D([], [], color=style.SKY, lw=3.5, label=JA),
+               Line2D([], [], color="black", lw=0.9, ls=style.DASHES[1], label=JDOTV)]
+    style.finish(figure, f"{plan.title}: acceleration of the contacts, {JA} against {JDOTV}",
+                 "as planned, world axes, while the contact holds: there " + r"$J\,a + \dot{J}\,v = 0$", handles, folder, "contact_acceleration")
 
 
 def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
@@ -99,8 +103,8 @@ def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
     for row, (name, what) in zip(grid, rows):
         for axes, kind, unit, scale, quantity in ((row[0], "p", "m", 1e3, "position [mm]"), (row[1], "r", "rad", 1 / DEGREE, "orientation [deg]")):
             values = np.array([table[f"{name}_{kind}{axis}_{unit}"] for axis in series.AXES])
-            for value, colour, dash in zip(values, style.AXIS_COLOURS, style.DASHES):
-                axes.plot(table["time_s"], scale * value, color=colour, ls=dash)
+            for value, colour in zip(values, style.AXIS_COLOURS):
+                axes.plot(table["time_s"], scale * value, color=colour, lw=1.1 if name == "error" else 0.7)
             worst = scale * np.max(np.linalg.norm(values, axis=0))
             axes.set_title(f"{what}: at most {worst:.2g} {'mm' if kind == 'p' else 'deg'}", loc="left")
             axes.set_ylabel(quantity)
@@ -108,7 +112,7 @@ def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     style.mark_phases(grid, plan.phases(), end_of(plan))
-    handles = [Line2D([], [], color=c, ls=d, label=a) for a, c, d in zip(series.AXES, style.AXIS_COLOURS, style.DASHES)]
+    handles = [Line2D([], [], color=c, label=a) for a, c in zip(series.AXES, style.AXIS_COLOURS)]
     style.finish(figure, f"{plan.title}: errors of the base",
                  plan.settings() + "\npositions in the world, orientation as a rotation vector", handles, folder, "base_error")
 
@@ -120,6 +124,7 @@ def draw_joint_error(plan: series.Plan, folder: pathlib.Path) -> None:
     for axes, joint in panels:
         axes.plot(table["time_s"], table[f"estimate_error_{joint}_rad"] / DEGREE, color=style.ORANGE, lw=0.8)
         axes.plot(table["time_s"], table[f"error_{joint}_rad"] / DEGREE, color=style.BLUE)
+    for axes, _ in panels:
         style.at_least(axes, 0.02)
     for row in grid:
         row[0].set_ylabel("angle [deg]")
@@ -150,44 +155,41 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
     for row in grid:
         row[0].set_ylabel("gain")
     style.mark_phases(grid, plan.phases(), float(plan.nodes["time_s"][-1]))
-    for axes in grid[:, 0]:
-        axes.legend(handles=[Line2D([], [], color=c, ls=d, label=a) for a, c, d in zip(series.AXES, style.AXIS_COLOURS, style.DASHES)],
-                    ncols=3, loc="best")
+    axes_handles = [Line2D([], [], color=c, ls=d, label=f"base {a}") for a, c, d in zip(series.AXES, style.AXIS_COLOURS, style.DASHES)]
     handles = [Line2D([], [], color=style.LEG_COLOURS[k % len(style.LEG_COLOURS)], ls=style.DASHES[i % len(style.DASHES)], label=name)
                for k, leg in enumerate(plan.legs) for i, name in enumerate(leg)]
     figure.legend(handles, [h.get_label() for h in handles], loc="lower center", ncols=min(6, len(handles)), handlelength=2.8)
     rows = -(-len(handles) // 6)
     style.finish(figure, f"{plan.title}: the {len(names)} gains of the torque of {joint}",
                  "torque = planned + gains · (planned − measured state); lines of the joints by leg (colour) and place in it (dashes)",
-                 [], folder, "gains", bottom=0.1 + 0.18 * rows)
+                 axes_handles, folder, "gains", bottom=0.1 + 0.18 * rows)
 
 
 def draw_torque_over_position(plan: series.Plan, folder: pathlib.Path) -> None:
     table = series.torque_over_position(plan)
     series.write_torque_over_position(folder / "torque_over_position.csv", table)
     rows = (len(table) + 1) // 2
-    figure, grid = style.grid(rows, 2, 8.5, 1.2 + 2.7 * rows, sharey=True)
+    figure, grid = style.grid(rows, 2, 8.5, 1.2 + 2.5 * rows, sharey=True, sharex=False)
     for axes, (joint, by_series) in zip(grid.flat, table.items()):
         position, limit = plan.limit_curves[joint]
         axes.fill_between(position, -limit, limit, color="0.955", zorder=0)
         for sign in (1, -1):
             axes.plot(position, sign * limit, color="black", lw=1.2)
-        for name, colour, width in (("simulation", style.SKY, 1.0), ("plan", style.VERMILLION, 1.6)):
+        for name, colour, width in (("simulation", style.SKY, 3.0), ("plan", style.VERMILLION, 1.1)):
             if name in by_series:
                 axes.plot(by_series[name][1], by_series[name][2], color=colour, lw=width)
         axes.plot(*by_series["plan"][1:, 0], "o", color=style.VERMILLION, mec="white", ms=6)
         shares = {name: style.largest(rows[2] / np.interp(rows[1], position, limit)) for name, rows in by_series.items()}
         axes.set_title(f"{joint}: " + ", ".join(f"{name} {share:.0%}" for name, share in shares.items()) + " of the limit", loc="left")
-        axes.tick_params(labelbottom=True)
         axes.set_xlabel("position [rad]")
     for axes in grid.flat[len(table) :]:
         axes.set_visible(False)
     for axes in grid[:, 0]:
         axes.set_ylabel("torque [N m]")
-    handles = [Line2D([], [], color="black", lw=1.2, label="limit"), Line2D([], [], color=style.VERMILLION, lw=1.6, label="planned"),
+    handles = [Line2D([], [], color="black", lw=1.2, label="limit"), Line2D([], [], color=style.VERMILLION, label="planned"),
                Line2D([], [], color=style.VERMILLION, marker="o", mec="white", ms=6, lw=0, label="start")]
     if plan.simulated is not None:
-        handles.append(Line2D([], [], color=style.SKY, label="simulated"))
+        handles.append(Line2D([], [], color=style.SKY, lw=3, label="simulated"))
     style.finish(figure, f"{plan.title}: torque against position, with its limit", plan.settings(), handles, folder, "torque_over_position")
 
 

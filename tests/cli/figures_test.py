@@ -23,7 +23,7 @@ PALETTE = {"blue": (0, 114, 178), "vermillion": (213, 94, 0), "green": (0, 158, 
 COLOURS = {"torques": ("blue", "vermillion", "green"), "contact_acceleration": ("sky", "black"),
            "base_error": ("blue", "vermillion", "green"), "joint_error": ("blue",),
            "gains": ("blue", "vermillion", "green"), "torque_over_position": ("sky", "vermillion", "black")}
-LABELS = {"torques": ("torque [N m]", "feedback", "feedforward", "lh_kfe_joint"), "contact_acceleration": ("[m/s²]", "J a", "−J̇ v"),
+LABELS = {"torques": ("torque [N m]", "feedback", "feedforward", "lh_kfe_joint"), "contact_acceleration": ("[m/s²]", r"$J\,a$", r"$-\dot{J}\,v$"),
           "base_error": ("position [mm]", "orientation [deg]"), "joint_error": ("angle [deg]",),
           "gains": ("on joint rates [N m s/rad]", "rh_kfe_joint"), "torque_over_position": ("position [rad]", "limit")}
 command = robots = None
@@ -99,7 +99,7 @@ class Figures(unittest.TestCase):
                     drawn = np.sum(np.all(np.abs(image - PALETTE[colour]) < 12, axis=2))
                     self.assertGreater(drawn, 500, f"{colour}: lines are missing")
                 text = (self.plan / "figures" / f"{name}.svg").read_text(encoding="utf-8")
-                paths = [p.get("d") for p in ElementTree.fromstring(text).iter("{http://www.w3.org/2000/svg}path")]
+                paths = [p.get("d", "") for p in ElementTree.fromstring(text).iter("{http://www.w3.org/2000/svg}path")]
                 self.assertGreater(sum(d.count("L") > 30 for d in paths), 3, "hardly a curve")
                 for label in LABELS[name]:
                     self.assertIn(label, text)
@@ -167,7 +167,7 @@ class Figures(unittest.TestCase):
         told.mkdir()
         for name in ("plan.json", "trajectory.csv", "tracker.bin"):
             (told / name).write_bytes((self.plan / name).read_bytes())
-        self.run_or_fail("simulate", told, "--perfect-state", "--delay", 0, "--push", 0.5, 3, 5, 0, "--record-rate", 500)
+        self.run_or_fail("simulate", told, "--perfect-state", "--delay", 0, "--push", 0.5, 5, 15, 0, "--record-rate", 500)
         self.run_or_fail("figures", told, "--joint", joint, "--out", out)
         self.assertFalse((told / "figures").exists())
         gains, sim = read(out / "gains.csv"), read(told / "simulate.csv")
