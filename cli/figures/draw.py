@@ -3,6 +3,8 @@
 TABLES_FOLDER holds what the robot's model has to say, as CSV; the figures and their own tables go there, too.
 Exit status 3: a library is missing.
 """
+import concurrent.futures
+import multiprocessing
 import pathlib
 import sys
 
@@ -197,15 +199,16 @@ def main() -> None:
     folder, tables, joint = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
     plan = series.Plan(folder, tables)
     style.use()
-    draw_torques(plan, tables)
-    draw_contact_acceleration(plan, tables)
+    tasks = [(draw_torques,), (draw_contact_acceleration,)]
     if plan.simulated is not None:
-        draw_base_error(plan, tables)
-        draw_joint_error(plan, tables)
+        tasks += [(draw_base_error,), (draw_joint_error,)]
     if plan.gains is not None:
-        draw_gains(plan, tables, joint)
+        tasks += [(draw_gains, joint)]
     if plan.limit_curves:
-        draw_torque_over_position(plan, tables)
+        tasks += [(draw_torque_over_position,)]
+    with concurrent.futures.ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as pool:
+        for done in [pool.submit(draw, plan, tables, *more) for draw, *more in tasks]:
+            done.result()
 
 
 if __name__ == "__main__":

@@ -23,6 +23,8 @@ PALETTE = {"blue": (0, 114, 178), "vermillion": (213, 94, 0), "green": (0, 158, 
 COLOURS = {"torques": ("blue", "vermillion", "green"), "contact_acceleration": ("sky", "black"),
            "base_error": ("blue", "vermillion", "green"), "joint_error": ("blue",),
            "gains": ("blue", "vermillion", "green"), "torque_over_position": ("sky", "vermillion", "black")}
+CURVES = {"torques": 12 * 4, "contact_acceleration": 4 * 3 * 2, "base_error": 4 * 3, "joint_error": 12 * 2, "gains": 36,
+          "torque_over_position": 4 * (2 + 2)}
 LABELS = {"torques": ("torque [N m]", "feedback", "feedforward", "lh_kfe_joint"), "contact_acceleration": ("[m/s²]", r"$J\,a$", r"$-\dot{J}\,v$"),
           "base_error": ("position [mm]", "orientation [deg]"), "joint_error": ("angle [deg]",),
           "gains": ("on joint rates [N m s/rad]", "rh_kfe_joint"), "torque_over_position": ("position [rad]", "limit")}
@@ -99,8 +101,9 @@ class Figures(unittest.TestCase):
                     drawn = np.sum(np.all(np.abs(image - PALETTE[colour]) < 12, axis=2))
                     self.assertGreater(drawn, 500, f"{colour}: lines are missing")
                 text = (self.plan / "figures" / f"{name}.svg").read_text(encoding="utf-8")
-                paths = [p.get("d", "") for p in ElementTree.fromstring(text).iter("{http://www.w3.org/2000/svg}path")]
-                self.assertGreater(sum(d.count("L") > 30 for d in paths), 3, "hardly a curve")
+                paths = ElementTree.fromstring(text).iter("{http://www.w3.org/2000/svg}path")
+                curves = [p for p in paths if p.get("clip-path") and "fill: none" in p.get("style", "") and p.get("d", "").count("L") > 4]
+                self.assertGreaterEqual(len(curves), CURVES[name])
                 for label in LABELS[name]:
                     self.assertIn(label, text)
 
