@@ -21,23 +21,30 @@ import style
 from matplotlib.lines import Line2D
 
 DEGREE = np.pi / 180
+MOST_COLUMNS = 6
 JA, JDOTV = r"$J\,a$", r"$-\dot{J}\,v$"
 
 
 def by_leg(plan: series.Plan, row_height: float):
-    """Small multiples: a row a leg, a panel a joint; yields nothing for the places that a short leg leaves."""
-    columns = max(len(leg) for leg in plan.legs)
-    figure, grid = style.grid(len(plan.legs), columns, max(7.0, 3.4 * columns), 1.1 + row_height * len(plan.legs), sharey="col")
+    """Small multiples: a row a leg, a panel a joint. What is longer than MOST_COLUMNS (arms and head) takes several rows. Joints
+    of a column share their scale if all rows are alike."""
+    rows = [leg[i : i + MOST_COLUMNS] for leg in plan.legs for i in range(0, len(leg), MOST_COLUMNS)]
+    columns = max(len(row) for row in rows)
+    alike = all(len(row) == columns for row in rows)
+    figure, grid = style.grid(len(rows), columns, max(7.0, min(3.4, 13 / columns) * columns), 1.1 + row_height * len(rows),
+                              sharey="col" if alike else False)
     panels = []
-    for row, leg in zip(grid, plan.legs):
+    for row, leg in zip(grid, rows):
         for axes, joint in zip(row, leg):
             axes.set_title(joint, loc="left")
             panels.append((axes, joint))
         for axes in row[len(leg) :]:
             axes.set_visible(False)
-    for axes in grid[-1]:
-        axes.set_xlabel("time [s]")
-    return figure, grid, panels
+    for column in grid.T:
+        lowest = [axes for axes in column if axes.get_visible()][-1]
+        lowest.tick_params(labelbottom=True)
+        lowest.set_xlabel("time [s]")
+    return figure, grid, panels  # axes with their joints
 
 
 def end_of(plan: series.Plan) -> float:
@@ -142,7 +149,8 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
     groups = [("base position [N m/m]", names[0:3]), ("base orientation [N m/rad]", names[3:6]),
               ("joint positions [N m/rad]", names[6:half]), ("base velocity [N m s/m]", names[half : half + 3]),
               ("base angular velocity [N m s/rad]", names[half + 3 : half + 6]), ("joint rates [N m s/rad]", names[half + 6 :])]
-    figure, grid = style.grid(2, 3, 11.5, 6.4)
+    legend_rows = -(-len(plan.joints) // 6)
+    figure, grid = style.grid(2, 3, 11.5, 6.0 + 0.18 * legend_rows)
     for axes, (title, columns) in zip(grid.flat, groups):
         for i, column in enumerate(columns):
             if len(columns) == 3 and column.startswith("base"):
@@ -161,10 +169,9 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
     handles = [Line2D([], [], color=style.LEG_COLOURS[k % len(style.LEG_COLOURS)], ls=style.DASHES[i % len(style.DASHES)], label=name)
                for k, leg in enumerate(plan.legs) for i, name in enumerate(leg)]
     figure.legend(handles, [h.get_label() for h in handles], loc="lower center", ncols=min(6, len(handles)), handlelength=2.8)
-    rows = -(-len(handles) // 6)
     style.finish(figure, f"{plan.title}: the {len(names)} gains of the torque of {joint}",
                  "torque = planned + gains · (planned − measured state); lines of the joints by leg (colour) and place in it (dashes)",
-                 axes_handles, folder, "gains", bottom=0.1 + 0.18 * rows)
+                 axes_handles, folder, "gains", bottom=0.1 + 0.18 * legend_rows)
 
 
 def draw_torque_over_position(plan: series.Plan, folder: pathlib.Path) -> None:
