@@ -1,7 +1,6 @@
 """What the figures show, from the files of a plan: read, put side by side, written as tables."""
 import csv
 import json
-import os
 import pathlib
 
 import numpy as np
@@ -77,11 +76,6 @@ class Plan:
             parts.append(f"{len(options['pushes'])} push(es)")
         parts.append("success" if self.simulation["success"] else "FAILED")
         return ", ".join(parts)
-
-
-def leg_name(joints: list[str]) -> str:
-    """What the names of its joints have in common: lf for lf_haa_joint, lf_hfe_joint, ..."""
-    return os.path.commonprefix(joints).rpartition("_")[0] if len(joints) > 1 else joints[0]
 
 
 def torques(plan: Plan) -> Table:
