@@ -124,6 +124,14 @@ void try_to_make(const fs::path& path) {
   remove_missing();
 }
 
+/// A file of one of these names, or a folder that one of them goes through.
+bool is_own(const std::string& name, const fs::directory_entry& entry, const std::set<std::string>& own_names) {
+  if (entry.is_regular_file()) return own_names.contains(name);
+  if (entry.is_symlink()) return false;  // what it leads to is not looked through
+  const auto inside = own_names.lower_bound(name + "/");
+  return entry.is_directory() && inside != own_names.end() && inside->starts_with(name + "/");
+}
+
 }  // namespace
 
 void check_replaceable(const fs::path& folder, const std::set<std::string>& own_names) {
@@ -131,10 +139,11 @@ void check_replaceable(const fs::path& folder, const std::set<std::string>& own_
   std::error_code error;
   if (fs::exists(path, error)) {
     if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", folder.string()));
-    for (const auto& entry : fs::directory_iterator(path, error)) {
-      if (own_names.contains(entry.path().filename().string()) && entry.is_regular_file()) continue;
+    for (const auto& entry : fs::recursive_directory_iterator(path, error)) {
+      const std::string name = entry.path().lexically_relative(path).generic_string();
+      if (is_own(name, entry, own_names)) continue;
       throw FileError(fmt::format("{}: would be replaced, but holds {}, which is not part of a plan; need another --out",
-                                  folder.string(), entry.path().filename().string()));
+                                  folder.string(), name));
     }
     if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
   }

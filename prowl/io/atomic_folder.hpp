@@ -8,7 +8,8 @@
 namespace prowl {
 
 /// Throws FileError unless write_folder_atomically can be expected to work: `folder` is missing, empty, or holds only
-/// files called as in `own_names`, and a folder can be made there: it tries. For a look before hours of work.
+/// files called as in `own_names` ("a.txt", "folder/b.txt"), and a folder can be made there: it tries. For a look before
+/// hours of work.
 void check_replaceable(const std::filesystem::path& folder, const std::set<std::string>& own_names);
 
 /// Makes `folder` hold exactly these files (name -> content), whole or not at all: they are written and synced in a

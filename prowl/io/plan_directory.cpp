@@ -7,6 +7,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
+#include "prowl/io/figure_files.hpp"
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_json.hpp"
 #include "prowl/io/tracker_file.hpp"
@@ -20,14 +21,22 @@ const char* const kPlan = "plan.json";
 const char* const kNodes = "trajectory.csv";
 const char* const kUniform = "trajectory_uniform.csv";
 const char* const kTracker = "tracker.bin";
-const std::set<std::string> kFiles = {kPlan, kNodes, kUniform, kTracker, "simulate.json", "simulate.csv", "sweep.json"};
+/// Whatever may be in the folder of a plan; a new plan removes what was made of the old one.
+const std::set<std::string>& own_names() {
+  static const std::set<std::string> names = [] {
+    std::set<std::string> all = {kPlan, kNodes, kUniform, kTracker, "simulate.json", "simulate.csv", "sweep.json"};
+    for (const std::string& figure : figure_file_names()) all.insert(std::string(kFiguresFolder) + "/" + figure);
+    return all;
+  }();
+  return names;
+}
 
 constexpr std::size_t kLongestTrajectory = 1u << 30;  // [bytes]
 constexpr std::size_t kLongestPlan = 128u << 20;      // [bytes]; of which the URDF may be 16 MB
 
 }  // namespace
 
-void check_plan_directory(const std::filesystem::path& directory) { check_replaceable(directory, kFiles); }
+void check_plan_directory(const std::filesystem::path& directory) { check_replaceable(directory, own_names()); }
 
 void write_plan(const std::filesystem::path& directory, const PlanRecord& record, std::optional<double> uniform_step) {
   const MotionProblem& problem = record.task.problem;
@@ -38,7 +47,7 @@ void write_plan(const std::filesystem::path& directory, const PlanRecord& record
   if (uniform_step) {
     files[kUniform] = trajectory_to_csv(problem, sample_uniformly(record.plan.trajectory, *uniform_step));
   }
-  write_folder_atomically(directory, files, kFiles);
+  write_folder_atomically(directory, files, own_names());
 }
 
 bool is_good(const Plan& plan) { return plan.result.status == SolveStatus::converged && plan.certificate.passed; }

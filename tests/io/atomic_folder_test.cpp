@@ -22,6 +22,20 @@ class AtomicFolder : public testing::Test {
   const fs::path out_ = folder_.path() / "out";
 };
 
+TEST_F(AtomicFolder, ReplacesFoldersWithinOnlyIfAllInThemIsKnown) {
+  const std::set<std::string> names = {"a.txt", "pictures/b.png"};
+  folder_.write("out/pictures/b.png", "old");
+  folder_.write("out/pictures/mine.txt", "mine");
+  EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "1"}}, names), FileError);
+  EXPECT_EQ(test::read_file(out_ / "pictures/mine.txt"), "mine");
+  fs::remove(out_ / "pictures/mine.txt");
+  fs::create_directory(out_ / "other");
+  EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "1"}}, names), FileError) << "an empty folder of another name";
+  fs::remove(out_ / "other");
+  write_folder_atomically(out_, {{"a.txt", "1"}}, names);
+  EXPECT_FALSE(fs::exists(out_ / "pictures"));
+}
+
 TEST_F(AtomicFolder, HoldsExactlyTheNewFiles) {
   write_folder_atomically(out_, {{"a.txt", "1"}, {"b.txt", "2"}}, kNames);
   write_folder_atomically(out_, {{"a.txt", "3"}, {"c.txt", ""}}, kNames);

@@ -1,4 +1,5 @@
 prowl_test(io/atomic_folder prowl::io)
+prowl_test(io/figure_data prowl::prowl)
 prowl_test(io/file_keys prowl::io)
 prowl_test(io/mesh_advice prowl::io)
 prowl_test(io/package_path prowl::io)

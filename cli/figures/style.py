@@ -1,0 +1,78 @@
+"""How the figures look: one palette that the colour-blind can tell apart, light grids, phases behind the lines."""
+import pathlib
+
+import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+
+# Okabe and Ito, "Color universal design", 2008.
+BLUE, VERMILLION, GREEN, SKY, ORANGE, PURPLE = "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7"
+AXIS_COLOURS = (VERMILLION, GREEN, BLUE)
+LEG_COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, "0.2", "0.6")
+DASHES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (5, 1.5, 1.2, 1.5)), (0, (8, 2)), (0, (3, 1, 1, 1, 1, 1)), (0, (1, 3)))
+
+
+def use() -> None:
+    matplotlib.use("Agg")
+    plt.rcParams.update({
+        "font.size": 8.5, "axes.titlesize": 8.5, "axes.labelsize": 8.5, "legend.fontsize": 8.5,
+        "axes.grid": True, "grid.color": "0.88", "grid.linewidth": 0.5, "axes.axisbelow": True, "axes.edgecolor": "0.4",
+        "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.1, "legend.frameon": False,
+        "axes.formatter.useoffset": False, "figure.dpi": 100, "savefig.dpi": 160, "svg.hashsalt": "prowl",  # same input, same file
+    })
+
+
+def grid(rows: int, columns: int, width: float, height: float, **sharing):
+    return plt.subplots(rows, columns, figsize=(width, height), squeeze=False, **{"sharex": True, **sharing})
+
+
+def at_least(axes, half: float) -> None:
+    """No axis shows less than ± half: rounding is not to look like a motion. Only when all is drawn: it ends autoscaling."""
+    low, high = axes.get_ylim()
+    axes.set_ylim(min(low, -half), max(high, half))
+
+
+def mark_phases(grid, phases, end: float) -> None:
+    """Every other phase is shaded, a line marks the end of the plan; above the first row the names that fit."""
+    start, stop = phases[0][1], phases[-1][2]
+    rests = end > stop * (1 + 1e-9)
+    for axes in grid.flat:
+        axes.set_xlim(start, end)
+        for _, first, last in phases[1::2]:
+            axes.axvspan(first, last, color="0.95", lw=0, zorder=0)
+        if rests:
+            axes.axvline(stop, color="0.55", lw=0.8, ls=(0, (2, 2)), zorder=1)
+    named = phases + [("stands on", stop, end)] if rests else phases
+    if len(named) < 2:
+        return
+    for axes in grid[0]:
+        axes.set_title(axes.get_title("left"), loc="left", pad=14)
+        letters = axes.get_position().width * axes.figure.get_figwidth() * 72 / 3.7
+        for name, first, last in named:
+            if len(name) <= letters * (last - first) / (end - start):
+                axes.text((first + last) / 2, 1.02, name, transform=axes.get_xaxis_transform(), ha="center", va="bottom",
+                          fontsize=6.5, color="0.35")
+
+
+def finish(figure, title: str, subtitle: str, handles, folder: pathlib.Path, name: str, bottom: float = 0.0) -> None:
+    """Title, legend of the whole figure, and both files. Sizes in inches, so that tall figures look as flat ones do;
+    `bottom` is left free."""
+    height = figure.get_figheight()
+    figure.text(0.012, 1 - 0.08 / height, title, ha="left", va="top", fontweight="bold", fontsize=12)
+    figure.text(0.012, 1 - 0.33 / height, subtitle, ha="left", va="top", color="0.35")
+    lines = 0.15 * subtitle.count("\n")
+    top = 0.58 + lines
+    if handles:
+        labels = [handle.get_label() for handle in handles]
+        figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.006, 1 - (0.5 + lines) / height), ncols=len(labels),
+                      borderaxespad=0.2, columnspacing=1.6, handlelength=2.6)
+        top = 0.84 + lines
+    figure.tight_layout(rect=(0, bottom / height, 1, 1 - top / height))
+    figure.savefig(folder / f"{name}.svg", metadata={"Date": None, "Title": title.replace("$", "")})
+    figure.savefig(folder / f"{name}.png", metadata={"Title": title.replace("$", "")})
+    plt.close(figure)
+
+
+def largest(values: np.ndarray) -> float:
+    """Of the finite ones, in size; 0 if there are none."""
+    return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))

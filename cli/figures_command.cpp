@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "environment.hpp"
+#include "exit_status.hpp"
+#include "output.hpp"
+#include "plan_tracker.hpp"
+#include "process.hpp"
+#include "prowl/error.hpp"
+#include "prowl/io/atomic_folder.hpp"
+#include "prowl/io/figure_data.hpp"
+#include "prowl/io/figure_files.hpp"
+#include "prowl/io/plan_directory.hpp"
+
+namespace prowl::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kStep = 0.005;                       ///< of contact accelerations [s]
+constexpr std::size_t kLongestFigure = 1u << 30;      ///< [bytes]
+constexpr int kNoLibrary = 3;                         ///< exit status of draw.py
+
+struct FiguresArguments {
+  std::string directory, out, joint, python = PROWL_PYTHON;
+  std::vector<std::string> package_dirs;
+};
+
+/// For tables and pictures until all are there; removed at the end.
+class WorkFolder {
+ public:
+  WorkFolder() {
+    std::string name = (fs::temp_directory_path() / "prowl_figures_XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw FileError(fmt::format("{}: cannot make this folder", name));
+    path_ = name;
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// PREFIX/bin/prowl: PREFIX/share/prowl/figures/draw.py, installed as well as in a build.
+fs::path drawing_script() {
+  std::error_code ignored;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path script = executable.parent_path().parent_path() / "share/prowl/figures/draw.py";
+  if (!fs::exists(script, ignored)) throw FileError(fmt::format("{}: missing; it belongs to this program", script.string()));
+  return script;
+}
+
+void draw(const FiguresArguments& arguments, const fs::path& work, const std::string& joint) {
+  const int status = run_program({arguments.python, "-B", drawing_script().string(), arguments.directory, work.string(), joint});
+  if (status == kNoLibrary) {
+    throw InputError(fmt::format("{}: need a Python with numpy, scipy and matplotlib (scripts/setup makes one in .venv): --python PATH",
+                                 arguments.python));
+  }
+  if (status != 0) throw Error(fmt::format("{} failed with status {}", drawing_script().string(), status));
+}
+
+/// "--joint" or a default, checked.
+int gains_joint(const RobotModel& robot, const std::string& name) {
+  return name.empty() ? default_gains_joint(robot) : joint_index(robot, name);
+}
+
+int run_figures(const FiguresArguments& arguments) {
+  const fs::path directory = arguments.directory;
+  const fs::path out = arguments.out.empty() ? directory / kFiguresFolder : fs::path(arguments.out);
+  const PlanRecord plan = read_plan(directory, package_search(arguments.package_dirs));
+  const MotionProblem& problem = plan.task.problem;
+  const Trajectory& trajectory = plan.plan.trajectory;
+  const int joint = gains_joint(problem.robot, arguments.joint);
+  check_replaceable(out, figure_file_names());
+
+  const WorkFolder work;
+  write_file_atomically(work.path() / "contact_acceleration.csv", contact_acceleration_csv(problem, trajectory, kStep));
+  write_file_atomically(work.path() / "torque_limits.csv", torque_limits_csv(problem.robot, trajectory));
+  if (!problem.robot.torque_curves().empty()) {
+    write_file_atomically(work.path() / "limit_curves.csv", limit_curves_csv(problem.robot));
+  }
+  write_file_atomically(work.path() / "legs.csv", legs_csv(problem.robot));
+  std::error_code ignored;
+  if (fs::exists(directory / "tracker.bin", ignored)) {
+    write_file_atomically(work.path() / "gains.csv", gains_csv(problem.robot, read_tracker(directory), joint));
+  } else {
+    print_message(fmt::format("no gains in {}: without figure gains; prowl plan writes them (tracker.bin)\n", arguments.directory));
+  }
+  if (!fs::exists(directory / "simulate.csv", ignored)) {
+    print_message(fmt::format("no simulation in {}: planned motion only, without base_error and joint_error; for all figures first\n"
+                              "  prowl simulate {}\n", arguments.directory, arguments.directory));
+  }
+  draw(arguments, work.path(), problem.robot.joint_names()[static_cast<std::size_t>(joint)]);
+
+  std::map<std::string, std::string> files;
+  std::string pictures;
+  for (const std::string& name : figure_file_names()) {
+    if (!fs::exists(work.path() / name, ignored)) continue;
+    files[name] = read_text_file(work.path() / name, kLongestFigure).text;
+    if (name.ends_with(".png")) pictures += (pictures.empty() ? "" : ", ") + name.substr(0, name.size() - 4);
+  }
+  write_folder_atomically(out, files, figure_file_names());
+  print_result(fmt::format("{}\nwritten to {}, each as .svg, .png and .csv\n", pictures, out.string()));
+  return kPassed;
+}
+
+}  // namespace
+
+void add_figures_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<FiguresArguments>();
+  CLI::App* const verb = app.add_subcommand("figures", "Draw a plan, its gains and its simulation");
+  verb->add_option("directory", arguments->directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
+  verb->add_option("--out", arguments->out, "Folder for the figures; default: DIR/figures")->type_name("DIR");
+  verb->add_option("--joint", arguments->joint, "Whose gains to draw; default: the first knee, or else the first leg's last joint")
+      ->type_name("NAME");
+  verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " PROWL_PYTHON)->type_name("PATH");
+  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
+      ->type_name("DIR")->expected(1)->take_all();
+  verb->footer("Example:\n  prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch\n\nExit status: 0 if they are drawn.");
+  verb->callback([arguments, &status] { status = run_figures(*arguments); });
+}
+
+}  // namespace prowl::cli
