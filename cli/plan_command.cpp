@@ -97,6 +97,9 @@ int run_plan(const PlanArguments& arguments) {
     print_result(arguments.json ? phases_json(task.problem) : phase_table(task.problem));
     return kPassed;
   }
+  if (arguments.solver == "fatrop" && arguments.threads > 1) {
+    throw InputError("--threads: Fatrop evaluates one stage at a time; leave it out, or take --solver riccati or ipopt");
+  }
   const std::filesystem::path out = arguments.out.empty() ? "out" / std::filesystem::path(task_slug(arguments.task))
                                                           : std::filesystem::path(arguments.out);
   check_plan_directory(out);

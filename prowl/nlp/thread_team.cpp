@@ -8,11 +8,7 @@
 
 namespace prowl {
 
-namespace {
-
-thread_local int this_slot = 0;
-
-}  // namespace
+thread_local int ThreadTeam::this_slot_ = 0;
 
 struct ThreadTeam::Pool {
   explicit Pool(int count) : threads(static_cast<std::size_t>(count)) {}
@@ -25,19 +21,16 @@ ThreadTeam::~ThreadTeam() = default;
 ThreadTeam::ThreadTeam(ThreadTeam&&) noexcept = default;
 ThreadTeam& ThreadTeam::operator=(ThreadTeam&&) noexcept = default;
 
-int ThreadTeam::slot() { return this_slot; }
-
 void ThreadTeam::share_out(int size, const std::function<void(int)>& function) {
   std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(count_));
   const auto run = [&](int slot) {
-    this_slot = slot;
+    const InSlot in_slot(slot);
     try {
       const auto first = [&](int of) { return static_cast<int>(static_cast<long>(size) * of / count_); };
       for (int i = first(slot); i < first(slot + 1); ++i) function(i);
     } catch (...) {
       thrown[static_cast<std::size_t>(slot)] = std::current_exception();
     }
-    this_slot = 0;
   };
   std::latch others_done(count_ - 1);
   for (int slot = 1; slot < count_; ++slot) {

@@ -23,8 +23,8 @@ constexpr double kRounding = 1e-12;
 constexpr int kMostRefinements = 5;
 constexpr double kRefined = 1e-12;  ///< residual, as a part of the right sides: no better than this
 
-void add(const StageVectors& from, StageVectors& to) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += from[i];
+void add(double factor, const StageVectors& from, StageVectors& to) {
+  for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];
 }
 
 }  // namespace
@@ -196,15 +196,19 @@ void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalitie
   sum_.along_inequalities = along_inequalities_;
   const double rounding = kRefined * std::max({largest(gradient), largest(equalities), largest(links)});
   double last = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kMostRefinements; ++i) {
+  const auto add_correction = [this](double factor) {
+    add(factor, steps_, sum_.steps);
+    add(factor, on_equalities_, sum_.on_equalities);
+    add(factor, on_next_, sum_.on_next);
+    add(factor, along_inequalities_, sum_.along_inequalities);
+  };
+  for (int i = 0;; ++i) {
     const double residual = find_residual(gradient, equalities, links);
-    if (!(residual > std::max(accuracy, rounding)) || residual > 0.5 * last) break;
+    if (!(residual < last)) add_correction(-1.0);  // the last one made it worse
+    if (!(residual > std::max(accuracy, rounding)) || !(residual <= 0.5 * last) || i == kMostRefinements) break;
     last = residual;
     solve_once(residual_gradient_, residual_equalities_, residual_links_);
-    add(steps_, sum_.steps);
-    add(on_equalities_, sum_.on_equalities);
-    add(on_next_, sum_.on_next);
-    add(along_inequalities_, sum_.along_inequalities);
+    add_correction(1.0);
   }
   steps_ = sum_.steps;
   on_equalities_ = sum_.on_equalities;

@@ -2,7 +2,7 @@
 
 namespace prowl {
 
-/// Second derivatives of the Lagrangian: exact, or of the cost alone, as if the constraints were linear.
+/// Second derivatives of the Lagrangian: exact, or of the cost alone, as if constraints and recovered forces were linear.
 enum class HessianKind { exact, gauss_newton };
 
 }  // namespace prowl

@@ -132,7 +132,6 @@ StagewiseNlp* Transcription::stagewise() {
 }
 
 void Transcription::use_threads(int count) {
-  threads_ = ThreadTeam(count);
   const HessianKind hessian = phases_.front().front().hessian_kind();
   phases_.resize(static_cast<std::size_t>(std::min(count, static_cast<int>(phases_.size()))));
   while (static_cast<int>(phases_.size()) < count) {
@@ -140,6 +139,7 @@ void Transcription::use_threads(int count) {
   }
   use_hessian(hessian);
   if (stagewise_) stagewise_->use_threads(count);
+  threads_ = ThreadTeam(count);
 }
 
 void Transcription::use_hessian(HessianKind kind) {

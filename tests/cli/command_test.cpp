@@ -294,6 +294,16 @@ TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
   EXPECT_THAT(result.out, HasSubstr(" iterations on 13, 50, 200 intervals"));
 }
 
+TEST_F(Command, TakesThreadsHessianAndTolerance) {
+  const Outcome result = run("$prowl plan hold.toml $dirs --out out --threads 2 --hessian gauss-newton --tolerance 1e-7");
+  EXPECT_EQ(result.status, 0) << result.error;
+  EXPECT_EQ(plan().at("solver").at("tolerance"), 1e-7);
+  const Outcome refused = run("$prowl plan hold.toml $dirs --out out2 --threads 2 --solver fatrop");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.error, HasSubstr("--threads: Fatrop evaluates one stage at a time"));
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out2 --hessian none").status, 2);
+}
+
 TEST_F(Command, SaysThatATaskWithoutCostIsLeftToChance) {
   folder_.write("free.toml", kPhase);
   EXPECT_THAT(run("$prowl plan free.toml $dirs --out out").out, HasSubstr("  note         without [cost] all motions are as good"));

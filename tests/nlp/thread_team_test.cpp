@@ -41,6 +41,18 @@ TEST(ThreadTeam, ASlotIsOneThread) {
   EXPECT_EQ(ThreadTeam::slot(), 0);
 }
 
+TEST(ThreadTeam, ATeamInsideAnotherHasSlotsOfItsOwn) {
+  ThreadTeam outer(3);
+  outer.for_each(3, [](int i) {
+    const int before = ThreadTeam::slot();
+    EXPECT_EQ(before, i);
+    ThreadTeam(1).for_each(2, [](int) { EXPECT_EQ(ThreadTeam::slot(), 0); });
+    EXPECT_EQ(ThreadTeam::slot(), before);
+    ThreadTeam(2).for_each(2, [](int j) { EXPECT_EQ(ThreadTeam::slot(), j); });
+    EXPECT_EQ(ThreadTeam::slot(), before);
+  });
+}
+
 TEST(ThreadTeam, WhatTheSmallestIndexThrewGoesOn) {
   for (const int count : {1, 2, 4}) {
     ThreadTeam team(count);
@@ -56,9 +68,9 @@ TEST(ThreadTeam, WhatTheSmallestIndexThrewGoesOn) {
       }
       EXPECT_EQ(ThreadTeam::slot(), 0);
     }
-    int calls = 0;
-    ThreadTeam(1).for_each(5, [&](int) { ++calls; });
-    EXPECT_EQ(calls, 5);
+    std::vector<int> calls(5, 0);
+    team.for_each(5, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+    EXPECT_EQ(calls, std::vector<int>(5, 1)) << "of no use after a throw";
   }
 }
 

@@ -212,5 +212,14 @@ TEST(Slacks, MultipliersStayNearTheCentre) {
   }
 }
 
+TEST(Slacks, ResetLeavesWhatDiffersByRounding) {
+  Slacks slacks(VectorXd::Zero(2), VectorXd::Constant(2, 10.0));
+  slacks.s = VectorXd::Constant(2, 0.5);
+  const VectorXd from = slacks.s;
+  slacks.reset(from, Eigen::Vector2d(0.5 + 5e-14, 0.5 + 1e-9), 0.99);
+  EXPECT_EQ(slacks.s(0), 0.5);
+  EXPECT_EQ(slacks.s(1), 0.5 + 1e-9);
+}
+
 }  // namespace
 }  // namespace prowl

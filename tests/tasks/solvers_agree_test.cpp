@@ -39,6 +39,16 @@ TEST_P(SolversAgree, OnTheMotion) {
   expect_same_motion(riccati, ipopt);
 }
 
+/// Newton's method and Gauss and Newton's have one solution; the latter takes longer to it.
+TEST(GaussNewton, FindsTheSameMotion) {
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/stand.toml", test::test_search(), {.intervals = 24});
+  const Plan exact = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
+  const Plan other = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver, .hessian = HessianKind::gauss_newton});
+  ASSERT_EQ(other.result.status, SolveStatus::converged) << other.result.message;
+  EXPECT_NEAR(other.result.cost, exact.result.cost, 1e-4 * exact.result.cost);
+  EXPECT_GT(other.result.iterations, exact.result.iterations);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SolversAgree, ::testing::Values("hold", "stand", "crouch", "balance", "step"),
                          [](const auto& task) { return std::string(task.param); });
 

@@ -1,11 +1,16 @@
 // How many threads evaluate a problem changes nothing of what comes out, to the last bit.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <vector>
+
 #include "../io/test_files.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
 namespace {
@@ -26,6 +31,11 @@ void expect_same_with_more_threads(const NlpSolver& solver) {
     EXPECT_EQ(more.iterations, one.iterations);
     EXPECT_EQ(more.cost, one.cost);
     EXPECT_EQ(more.z, one.z) << threads << " threads";
+    EXPECT_EQ(more.dual_violation, one.dual_violation);
+    for (std::size_t k = 0; k < one.stage_multipliers.size(); ++k) {
+      EXPECT_EQ(more.stage_multipliers[k].next, one.stage_multipliers[k].next);
+      EXPECT_EQ(more.stage_multipliers[k].inequalities, one.stage_multipliers[k].inequalities);
+    }
   }
 }
 
@@ -34,24 +44,25 @@ TEST(Threads, RiccatiFindsTheSame) { expect_same_with_more_threads(RiccatiSolver
 TEST(Threads, IpoptFindsTheSame) { expect_same_with_more_threads(IpoptSolver()); }
 
 TEST(Threads, WhatFailsIsTheSame) {
-  Task task = step_task();
-  BoundaryCondition& start = task.problem.boundary_conditions.front();
-  start.velocity_lower(0) = start.velocity_upper(0) = 1e200;  // squared it is not finite
-  std::string message;
-  for (const int threads : {1, 2}) {
+  const Task task = step_task();
+  const Mesh mesh = make_mesh(task.problem);
+  const Trajectory guess = initial_guess(task.problem, mesh);
+  const auto failure = [&](int threads, std::vector<double> places) {
+    Transcription nlp(task.problem, mesh, guess);
+    Eigen::VectorXd start = nlp.pack(guess);
+    for (const double place : places) {
+      start(static_cast<Eigen::Index>(place * static_cast<double>(start.size()))) = std::numeric_limits<double>::quiet_NaN();
+    }
     SolverOptions options = task.solver;
     options.threads = threads;
-    try {
-      const SolveResult result = make_plan(task.problem, RiccatiSolver(), {.solver = options}).result;
-      EXPECT_EQ(result.status, SolveStatus::evaluation_failed);
-      if (threads == 1) message = result.message;
-      EXPECT_EQ(result.message, message);
-    } catch (const std::exception& error) {
-      if (threads == 1) message = error.what();
-      EXPECT_EQ(error.what(), message);
-    }
-  }
-  EXPECT_FALSE(message.empty());
+    const SolveResult result = RiccatiSolver().solve(nlp, start, options);
+    EXPECT_EQ(result.status, SolveStatus::evaluation_failed);
+    return result.message;
+  };
+  const std::string one = failure(1, {0.3, 0.8});
+  EXPECT_EQ(one, failure(1, {0.3}));
+  EXPECT_NE(one, failure(1, {0.8})) << "the message does not say where";
+  for (const int threads : {2, 3}) EXPECT_EQ(failure(threads, {0.3, 0.8}), one) << threads << " threads";
 }
 
 }  // namespace

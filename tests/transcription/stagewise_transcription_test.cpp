@@ -193,7 +193,7 @@ TEST(StagewiseTranscription, FirstOrderIsTheSameWithoutTheHessian) {
     const std::vector<VectorXd> here = forms.random_stages(rng, 0.05), there = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const StageMultipliers at = random_multipliers(rng, StageDerivatives(forms.stages.derivatives(k, here[i])));
+      const StageMultipliers at = random_multipliers(rng, StageDerivatives(other.stages.derivatives(k, there[i])));
       const MatrixXd next_hessian = random_form(rng, at.next.size());
       const VectorXd weights = test::random_vector(rng, at.inequalities.size(), 1.0).cwiseAbs();
       const VectorXd step = test::random_vector(rng, here[i].size(), 1.0);
@@ -224,6 +224,12 @@ TEST(StagewiseTranscription, TheHessianOfTheCostAloneKnowsNoMultipliers) {
       const MatrixXd of_cost = forms.stages.hessian(k, ux, 1.7, at);
       EXPECT_EQ(of_cost, forms.stages.hessian(k, ux, 1.7, none)) << forms.stages.describe_stage(k);
       EXPECT_EQ(forms.stages.hessian(k, ux, 0.0, at).norm(), 0.0) << forms.stages.describe_stage(k);
+      forms.nlp.use_hessian(HessianKind::exact);
+      const MatrixXd unbent = forms.stages.hessian(k, ux, 1.7, none);
+      const Eigen::Index nv = problem.robot.nv(), nu = problem.robot.nu();  // torques come after accelerations
+      EXPECT_LT(test::relative_error(of_cost.block(nv, nv, nu, nu), unbent.block(nv, nv, nu, nu)), 1e-10)
+          << forms.stages.describe_stage(k) << ": forces are linear in torques, so that nothing bends";
+      EXPECT_GT(of_cost.block(nv, nv, nu, nu).norm(), 0.0) << forms.stages.describe_stage(k);
       EXPECT_GT((exact - of_cost).norm(), 1e-3 * exact.norm()) << forms.stages.describe_stage(k);
     }
   }
