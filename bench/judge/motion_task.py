@@ -45,6 +45,7 @@ class Cost:
     acceleration: np.ndarray
     torque: np.ndarray
     torque_reference: np.ndarray
+    force: np.ndarray  # of each contact, world x y z
     time: float
 
 
@@ -154,7 +155,7 @@ def _read_goal(table: dict, phases: list[Phase], start: np.ndarray, where: str) 
 def _read_cost(table: dict, robot: Robot, start: np.ndarray, first_contacts: frozenset[str], where: str) -> Cost:
     scalars = {f"{body}_{what}" for body in ("base_linear", "base_angular", "joint") for what in ("velocity", "acceleration")}
     scalars |= {"base_position", "base_orientation", "joint_position", "torque"}
-    _known(table, scalars | {"time", "torque_reference"}, where)
+    _known(table, scalars | {"time", "torque_reference", "force"}, where)
     n = len(robot.joints)
 
     def weights(linear: str, angular: str, joint: str) -> np.ndarray:
@@ -167,13 +168,14 @@ def _read_cost(table: dict, robot: Robot, start: np.ndarray, first_contacts: fro
                 acceleration=weights("base_linear_acceleration", "base_angular_acceleration", "joint_acceleration"),
                 torque=np.full(n, table.get("torque", 0.0)),
                 torque_reference=standing_torques(robot, start, first_contacts) if static else np.zeros(n),
+                force=np.broadcast_to(np.array(table.get("force", 0.0), dtype=float), 3),
                 time=table.get("time", 0.0))
 
 
 def read_task(task_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> MotionTask:
     table = tomllib.loads(task_file.read_text())
     where = str(task_file)
-    _known(table, {"name", "robot", "surface", "phase", "goal", "cost", "swing_clearance_m"}, where)
+    _known(table, {"name", "robot", "surface", "phase", "goal", "cost", "swing_clearance_m", "tracking", "simulation"}, where)
     robot = read_robot(task_file.parent / table["robot"], package_dirs)
     surfaces = table.get("surface", [{"name": "floor"}])
     if len(surfaces) > 1 or surfaces[0].get("normal", [0, 0, 1]) != [0, 0, 1] or "patch_m" in surfaces[0]:

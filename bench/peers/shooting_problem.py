@@ -96,7 +96,7 @@ class ShootingProblem:
             contacts.addContact(contact.name, crocoddyl.ContactModel3D(
                 self.state, contact.frame, np.zeros(3), WORLD, nu, gains))
         if node.step:
-            self._add_running_cost(costs, nu, len(held))
+            self._add_running_cost(costs, nu, held)
             self._add_limits(node, held, costs, constraints, nu)
         self._add_events(node, costs, nu)
 
@@ -118,18 +118,22 @@ class ShootingProblem:
         activation = crocoddyl.ActivationModelWeightedQuad(np.array(weights, dtype=float))
         costs.addCost(name, crocoddyl.CostModelResidual(self.state, activation, residual), scale)
 
-    def _add_running_cost(self, costs, nu: int, contacts: int) -> None:
+    def _add_running_cost(self, costs, nu: int, held) -> None:
         cost = self.task.cost
         self._add(costs, "state", crocoddyl.ResidualModelState(self.state, self.start, nu),
                   np.concatenate([cost.configuration, cost.velocity]))
         if self.inverse:
             self._add(costs, "acceleration", crocoddyl.ResidualModelControl(self.state, nu),
-                      np.concatenate([cost.acceleration, np.full(3 * contacts, FORCE_WEIGHT)]))
+                      np.concatenate([cost.acceleration, np.full(3 * len(held), FORCE_WEIGHT)]))
             self._add(costs, "torque", crocoddyl.ResidualModelJointEffort(
                 self.state, self.actuation, cost.torque_reference, nu), cost.torque)
         else:
             self._add(costs, "acceleration", crocoddyl.ResidualModelJointAcceleration(self.state, nu), cost.acceleration)
             self._add(costs, "torque", crocoddyl.ResidualModelControl(self.state, cost.torque_reference), cost.torque)
+
+        for contact in held if cost.force.any() else ():
+            self._add(costs, f"force {contact.name}", crocoddyl.ResidualModelContactForce(
+                self.state, contact.frame, pin.Force.Zero(), 3, nu, not self.inverse), cost.force)
 
     def _bound(self, costs, constraints, name: str, residual, low, high, weight: float, at_states: bool) -> None:
         """low <= residual <= high, as a constraint or as a penalty."""
