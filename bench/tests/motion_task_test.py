@@ -45,10 +45,19 @@ def test_nodes_of_the_peers_meet_goals_and_the_duration(name):
                 assert any(node.phase == goal.phase and abs(node.share - goal.fraction) < 1e-9 for node in nodes)
 
 
+def test_weights_on_forces_are_of_each_axis(tmp_path: pathlib.Path):
+    text = (ROOT / "tasks/hyq/crouch.toml").read_text().replace("../../robots", str(ROOT / "robots"))
+    for value, expected in (("1e-4", [1e-4, 1e-4, 1e-4]), ("[1e-4, 2e-4, 0]", [1e-4, 2e-4, 0.0])):
+        task_file = tmp_path / "task.toml"
+        task_file.write_text(text.replace("torque = 1e-5", f"torque = 1e-5\nforce = {value}", 1))
+        assert read_task(task_file, PACKAGES).cost.force.tolist() == expected
+    assert not read_task(ROOT / "tasks/hyq/crouch.toml", PACKAGES).cost.force.any()
+
+
 @pytest.mark.parametrize(("old", "new", "word"), [
     ("duration_s = 2.0", 'duration_s = 2.0\nsteps = "free"', "steps"),
     ("friction = 0.5", "friction = 0.5\nnormal = [0, 1, 1]", "level floor"),
-    ("torque = 1e-5", "force = 1e-5", "force"),
+    ("torque = 1e-5", "effort = 1e-5", "effort"),
     ("base_rpy_rad = [0, 0, 0]", "joints = { lf_haa_joint = 0 }", "joints"),
 ])
 def test_what_is_not_translated_is_an_error(tmp_path: pathlib.Path, old: str, new: str, word: str):
