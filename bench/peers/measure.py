@@ -70,11 +70,12 @@ def measure_peer(kind: str, task: MotionTask, solver: str, step: float, repetiti
 
 
 def measure_prowl(kind: str, command: ProwlCommand, task: MotionTask, task_file: pathlib.Path, solver: str,
-                  intervals: int | None = None, one_mesh: bool = False, repetitions: int = 1, patience: float = 0.0) -> dict:
+                  intervals: int | None = None, one_mesh: bool = False, repetitions: int = 1, patience: float = 0.0,
+                  threads: int = 1, cores: frozenset[int] = frozenset()) -> dict:
     """`one_mesh`: iterations and time of the task's own mesh alone: from the task if the command can, else after coarser ones."""
     label = f"Prowl {solver}"
     try:
-        run = command.plan(task_file, solver, intervals, one_mesh and command.has_one_mesh, repetitions, patience)
+        run = command.plan(task_file, solver, intervals, one_mesh and command.has_one_mesh, repetitions, patience, threads, cores)
     except ProwlError as error:
         return failure(kind, task.name, solver, label, str(error), intervals=intervals)
     phases = len(run.durations)
@@ -87,4 +88,5 @@ def measure_prowl(kind: str, command: ProwlCommand, task: MotionTask, task_file:
             "iterations_by_mesh": [level["iterations"] for level in run.levels],
             "after_coarser_meshes": len(run.levels) > 1, "converged": run.converged, "clock": run.clock, "split_s": run.split,
             **_timed(seconds, float(np.sum(run.durations)), node_iterations), **_judged(verdict),
-            "grade": run.grade, "certificate_reintegration": run.reintegration}
+            "threads": threads, "wall_seconds": statistics.median(run.wall_seconds), "wall_seconds_min": min(run.wall_seconds),
+            "wall_seconds_max": max(run.wall_seconds), "grade": run.grade, "certificate_reintegration": run.reintegration}

@@ -40,6 +40,8 @@ def make_parser() -> argparse.ArgumentParser:
                         help="tasks that are measured over the number of intervals; default stand,crouch; none: --growth-tasks=")
     parser.add_argument("--growth", type=_counts, default=[10, 20, 40, 80, 160, 320], metavar="N,...",
                         help="these numbers of intervals; default 10,20,40,80,160,320")
+    parser.add_argument("--threads", type=_counts, default=[1, 2], metavar="N,...",
+                        help="Prowl on each task's own mesh with so many threads, by the wall clock; default 1,2; none: --threads 1")
     parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="of each solve, for the clock; default 5")
     parser.add_argument("--patience", type=float, default=15.0, metavar="S",
                         help="no more repetitions, and no other steps, once they took so long together; default 15 s")
@@ -66,5 +68,5 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
         parser.error(f"--repetitions {options.repetitions}: need 1 or more")
     if options.quick:
         options.tasks, options.growth_tasks, options.growth = ["stand"], ["stand"], [10, 20, 40]
-        options.steps, options.repetitions = options.steps[:1], 1
+        options.steps, options.repetitions, options.threads = options.steps[:1], 1, [1]
     return options

@@ -31,6 +31,11 @@ def clock(record: dict) -> str:
     return f"{number(1e3 * record['seconds'])}{mark}{spread}"
 
 
+def wall_clock(record: dict) -> str:
+    return (f"{number(1e3 * record['wall_seconds'])} [{number(1e3 * record['wall_seconds_min'])}, "
+            f"{number(1e3 * record['wall_seconds_max'])}]")
+
+
 def worst(record: dict) -> str:
     found = record["worst"]
     if record["keeps_task"]:
@@ -64,6 +69,11 @@ GROWTH: list[Column] = [
     ("iterations", iterations), ("CPU time [ms]", clock),
     ("time per node and iteration [us]", lambda r: number(r["us_per_node_iteration"])),
     ("error of an interval", lambda r: number(r["error"])), ("error in a second", lambda r: number(r["error_per_second"])),
+]
+
+THREADS: list[Column] = [
+    ("task", lambda r: r["task"]), ("solver", lambda r: r["label"]), ("threads", lambda r: str(r["threads"])),
+    ("iterations", iterations), ("wall clock [ms]", wall_clock), ("CPU time [ms]", clock), ("of one thread's", lambda r: r["to_one"]),
 ]
 
 
@@ -112,6 +122,11 @@ def with_ratios(record: dict, records: list[dict], step: float) -> dict:
             "box_error_per_second": number(box["error_per_second"])}
 
 
+def to_one_thread(record: dict, records: list[dict]) -> dict:
+    one = next((r for r in records if r["task"] == record["task"] and r["solver"] == record["solver"] and r["threads"] == 1), None)
+    return {**record, "to_one": number(record["wall_seconds"] / one["wall_seconds"], 2) if one else "-"}
+
+
 def write_report(records: list[dict], path: pathlib.Path) -> None:
     about = next(r for r in records if r["kind"] == "about")
     end = next(r for r in records if r["kind"] == "end")
@@ -140,4 +155,8 @@ def write_report(records: list[dict], path: pathlib.Path) -> None:
             lines += ["This Prowl cannot leave out its coarser meshes: iterations and time are those of the last mesh, which starts from "
                       "the one before it.", ""]
         lines += [*table(GROWTH, [r for r in found if "failed" not in r]), "", *failures(found), ""]
+    if threads := [r for r in records if r["kind"] == "threads"]:
+        good = [r for r in threads if "failed" not in r]
+        lines += ["## Threads: each task on its own mesh, on all cores", "",
+                  *table(THREADS, [to_one_thread(r, good) for r in good]), "", *failures(threads), ""]
     path.write_text("\n".join(lines))

@@ -31,8 +31,8 @@ def finite(value):
 
 
 class Benchmark:
-    def __init__(self, options):
-        self.options, self.records = options, []
+    def __init__(self, options, cores: frozenset[int]):
+        self.options, self.records, self.cores = options, [], cores
         wheels = [ROOT / ".venv", options.environment]
         self.packages = [*options.package_dir,
                          *(path for folder in wheels for path in folder.glob("lib/python3*/site-packages/cmeel.prefix/share"))]
@@ -114,6 +114,12 @@ class Benchmark:
             for solver in self.solvers:
                 self.keep(self.run_prowl("growth", task, solver, intervals=intervals, one_mesh=True, **repetitions))
 
+    def run_threads(self, name: str) -> None:
+        task = read_task(self.task_file(name), self.packages)
+        for solver in self.solvers:
+            for threads in self.options.threads:
+                self.keep(self.run_prowl("threads", task, solver, threads=threads, cores=self.cores, **self.clock))
+
     def about(self) -> dict:
         processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "")
         versions = {name: importlib.metadata.version(name) for name in ("crocoddyl", "mim-solvers", "pin")}
@@ -128,6 +134,9 @@ class Benchmark:
             self.run_task(name)
         for name in self.options.growth_tasks:
             self.run_growth(name)
+        if self.options.threads != [1]:
+            for name in self.options.tasks:
+                self.run_threads(name)
         self.keep({"kind": "end", "load": os.getloadavg()[0]})
         write_report(self.records, self.options.out / "report.md")
         plot_all(self.records, self.options.out)
@@ -146,7 +155,7 @@ def main() -> None:
         old = options.out / name
         if old.exists():
             shutil.move(old, old.with_name(f"{old.name}.old"))
-    Benchmark(options).run()
+    Benchmark(options, frozenset(allowed)).run()
 
 
 if __name__ == "__main__":
