@@ -1,0 +1,35 @@
+"""What the benchmarks of the shipped tasks share: the list of tasks, and a run of `prowl plan`."""
+
+import argparse
+import csv
+import json
+import subprocess
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+STATE = ("time_s", "base_p", "base_q", "base_v", "base_w", "q_", "v_")  # columns of trajectory.csv
+
+
+def plan(task: str, solver: str, *options: str) -> tuple[dict, list[list[float]]]:
+    """plan.json, and the state at each node: time [s], configuration [m, rad, quaternion], velocity [m/s, rad/s]."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "out"
+        run = subprocess.run([ROOT / "build/bin/prowl", "plan", ROOT / "tasks" / f"{task}.toml", "--solver", solver,
+                              "--no-gains", "--out", out, *options],
+                             capture_output=True, text=True)
+        if not (out / "plan.json").exists():
+            raise SystemExit(f"{task}: {run.stderr.strip()}")
+        with (out / "trajectory.csv").open() as file:
+            rows = list(csv.reader(line for line in file if not line.startswith("#")))
+        state = [i for i, name in enumerate(rows[0]) if name.startswith(STATE)]
+        return json.loads((out / "plan.json").read_text()), [[float(row[i]) for i in state] for row in rows[1:]]
+
+
+def read_arguments(parser: argparse.ArgumentParser) -> argparse.Namespace:
+    """With `task`: those named, or all."""
+    parser.add_argument("task", nargs="*", help="e.g. hyq/step talos/squat; without, all of tasks/")
+    arguments = parser.parse_args()
+    if not arguments.task:
+        arguments.task = sorted(str(path.relative_to(ROOT / "tasks").with_suffix("")) for path in ROOT.glob("tasks/*/*.toml"))
+    return arguments
