@@ -3,35 +3,12 @@
 #include <algorithm>
 
 #include "prowl/dynamics/static_equilibrium.hpp"
+#include "prowl/io/toml_vectors.hpp"
 
 namespace prowl {
 namespace {
 
-void read_weight3(const TomlTable& table, const std::string& key, Eigen::Ref<Eigen::VectorXd> weight) {
-  const auto value = table.find(key);
-  if (!value) return;
-  const NumberRange range = NumberRange::nonnegative();
-  if (value->is_list()) {
-    weight = value->as_vector3(range);
-  } else {
-    weight.setConstant(value->as_number(range));
-  }
-}
-
-void read_joint_weight(const TomlTable& table, const std::string& key, const RobotModel& robot,
-                       Eigen::Ref<Eigen::VectorXd> weight) {
-  const auto value = table.find(key);
-  if (!value) return;
-  const NumberRange range = NumberRange::nonnegative();
-  if (!value->is_table()) {
-    weight.setConstant(value->as_number(range));
-    return;
-  }
-  const std::vector<std::string>& names = robot.joint_names();
-  for (const auto& [name, entry] : value->as_named_values(names, "joint")) {
-    weight(std::find(names.begin(), names.end(), name) - names.begin()) = entry.as_number(range);
-  }
-}
+const NumberRange kWeight = NumberRange::nonnegative();
 
 ContactPositionCost read_contact_position(const TomlTable& table, const RobotModel& robot) {
   std::vector<std::string> names;
@@ -44,7 +21,7 @@ ContactPositionCost read_contact_position(const TomlTable& table, const RobotMod
   cost.reference = table.need("reference_m").as_vector3();
   table.need("weight");
   Eigen::VectorXd weight(3);
-  read_weight3(table, "weight", weight);
+  read_axes(table, "weight", kWeight, weight);
   cost.weight = weight;
   return cost;
 }
@@ -73,12 +50,12 @@ void read_state_cost(const TomlTable& table, const MotionProblem& problem, Quadr
       cost.q_ref = problem.boundary_conditions.back().q_ref;
     }
   }
-  read_weight3(table, "base_position", cost.configuration_weight.segment(0, 3));
-  read_weight3(table, "base_orientation", cost.configuration_weight.segment(3, 3));
-  read_joint_weight(table, "joint_position", robot, cost.configuration_weight.tail(robot.nu()));
-  read_weight3(table, "base_linear_velocity", cost.velocity_weight.segment(0, 3));
-  read_weight3(table, "base_angular_velocity", cost.velocity_weight.segment(3, 3));
-  read_joint_weight(table, "joint_velocity", robot, cost.velocity_weight.tail(robot.nu()));
+  read_axes(table, "base_position", kWeight, cost.configuration_weight.segment(0, 3));
+  read_axes(table, "base_orientation", kWeight, cost.configuration_weight.segment(3, 3));
+  read_joints(table, "joint_position", robot, kWeight, cost.configuration_weight.tail(robot.nu()));
+  read_axes(table, "base_linear_velocity", kWeight, cost.velocity_weight.segment(0, 3));
+  read_axes(table, "base_angular_velocity", kWeight, cost.velocity_weight.segment(3, 3));
+  read_joints(table, "joint_velocity", robot, kWeight, cost.velocity_weight.tail(robot.nu()));
   for (const TomlTable& place : table.find_tables("contact_position")) {
     cost.contact_positions.push_back(read_contact_position(place, robot));
   }
@@ -94,13 +71,13 @@ Eigen::VectorXd static_torque(const MotionProblem& problem) {
 void read_running_cost(const TomlTable& table, const MotionProblem& problem, QuadraticCost& cost) {
   const RobotModel& robot = problem.robot;
   read_state_cost(table, problem, cost);
-  read_weight3(table, "base_linear_acceleration", cost.acceleration_weight.segment(0, 3));
-  read_weight3(table, "base_angular_acceleration", cost.acceleration_weight.segment(3, 3));
-  read_joint_weight(table, "joint_acceleration", robot, cost.acceleration_weight.tail(robot.nu()));
-  read_joint_weight(table, "torque", robot, cost.torque_weight);
-  if (const auto time = table.find("time")) cost.time_weight = time->as_number(NumberRange::nonnegative());
+  read_axes(table, "base_linear_acceleration", kWeight, cost.acceleration_weight.segment(0, 3));
+  read_axes(table, "base_angular_acceleration", kWeight, cost.acceleration_weight.segment(3, 3));
+  read_joints(table, "joint_acceleration", robot, kWeight, cost.acceleration_weight.tail(robot.nu()));
+  read_joints(table, "torque", robot, kWeight, cost.torque_weight);
+  if (const auto time = table.find("time")) cost.time_weight = time->as_number(kWeight);
   Eigen::VectorXd force = cost.force_weight;
-  read_weight3(table, "force", force);
+  read_axes(table, "force", kWeight, force);
   cost.force_weight = force;
 
   const auto reference = table.find("torque_reference");

@@ -13,6 +13,7 @@
 #include "prowl/io/task_cost.hpp"
 #include "prowl/io/task_gait.hpp"
 #include "prowl/io/task_goals.hpp"
+#include "prowl/io/task_simulation.hpp"
 #include "prowl/io/task_tracking.hpp"
 #include "prowl/io/toml_value.hpp"
 #include "prowl/model/configuration.hpp"
@@ -245,26 +246,6 @@ SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides)
   return options;
 }
 
-SuccessCriteria read_success(const TomlTable& root) {
-  SuccessCriteria criteria;
-  const auto table = root.find_table("simulation");
-  if (!table) return criteria;
-  const auto read = [&](const char* name, double& value) {
-    if (const auto number = table->find(name)) value = number->as_number(NumberRange::positive());
-  };
-  read("base_position_m", criteria.position);
-  read("base_angle_rad", criteria.angle);
-  read("slip_m", criteria.slip);
-  read("rest_s", criteria.rest);
-  return criteria;
-}
-
-std::optional<double> read_simulated_friction(const TomlTable& root) {
-  const auto table = root.find_table("simulation");
-  const auto friction = table ? table->find("friction") : std::nullopt;
-  return friction ? std::optional(friction->as_number(NumberRange::positive())) : std::nullopt;
-}
-
 MotionProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
                            const TaskOverrides& overrides, std::vector<int>& file_intervals) {
   std::vector<Surface> surfaces = read_surfaces(root);
@@ -332,7 +313,7 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   const TomlTable root = task_root(document);
   root.need("robot").as_text();
   const SolverOptions solver = read_solver(root, overrides);
-  const SuccessCriteria success = read_success(root);
+  const TaskSimulation simulation = read_simulation(root);
   std::vector<int> file_intervals;
   MotionProblem problem =
       read_problem(root, load_robot(robot_file, search, {.urdf_copy = urdf}), robot_file, overrides, file_intervals);
@@ -347,8 +328,8 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   return {.problem = std::move(problem),
           .solver = solver,
           .tracking = std::move(tracking),
-          .success = success,
-          .simulated_friction = read_simulated_friction(root),
+          .success = simulation.success,
+          .simulated_friction = simulation.friction,
           .task_file = task_file,
           .robot_file = robot_file,
           .overrides = overrides,
