@@ -67,10 +67,10 @@ Eigen::Map<const Eigen::MatrixXd> Tracker::gain(Eigen::Index sample) const noexc
 
 void Tracker::reference(double t, Vector q, Vector v) const noexcept {
   assert(q.size() == plan_.nq() && v.size() == plan_.nv());
-  const auto [first, second, share] = find(t);
-  q = (1.0 - share) * plan_.q.col(first) + share * plan_.q.col(second);
-  v = (1.0 - share) * plan_.v.col(first) + share * plan_.v.col(second);
-  q.segment<4>(3) = quaternion(plan_.q.col(first)).slerp(share, quaternion(plan_.q.col(second))).coeffs();
+  const Place place = find(t);
+  q = between(place, plan_.q);
+  v = between(place, plan_.v);
+  q.segment<4>(3) = quaternion(plan_.q.col(place.first)).slerp(place.share, quaternion(plan_.q.col(place.second))).coeffs();
 }
 
 void Tracker::gains(double t, Eigen::Ref<Eigen::MatrixXd> K) const noexcept {
@@ -79,8 +79,7 @@ void Tracker::gains(double t, Eigen::Ref<Eigen::MatrixXd> K) const noexcept {
 }
 
 void Tracker::feedforward(double t, Vector tau) const noexcept {
-  const auto [first, second, share] = find(t);
-  tau = (1.0 - share) * plan_.tau.col(first) + share * plan_.tau.col(second);
+  tau = between(find(t), plan_.tau);
 }
 
 void Tracker::feedback(double t, const ConstVector& q, const ConstVector& v, Vector tau) const noexcept {
@@ -113,8 +112,7 @@ void Tracker::limit(const ConstVector& q, const ConstVector& v, Vector tau) cons
 
 void Tracker::torque(double t, const ConstVector& q, const ConstVector& v, Vector tau) const noexcept {
   feedback(t, q, v, tau);
-  const auto [first, second, share] = find(t);
-  tau += (1.0 - share) * plan_.tau.col(first) + share * plan_.tau.col(second);
+  tau += between(find(t), plan_.tau);
   limit(q, v, tau);
 }
 

@@ -69,6 +69,10 @@ class Tracker {
     double share;
   };
   Place find(double t) const noexcept;
+  /// An expression: no copy.
+  static auto between(const Place& place, const Eigen::MatrixXd& samples) {
+    return (1.0 - place.share) * samples.col(place.first) + place.share * samples.col(place.second);
+  }
   Eigen::Map<const Eigen::MatrixXd> gain(Eigen::Index sample) const noexcept;
 
   TrackingPlan plan_;
