@@ -69,6 +69,7 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
   validate(problem);
   Plan plan;
   plan.solver = solver.name();
+  plan.hessian = options.hessian;
   plan.reasons = proofs_of_infeasibility(problem);
   plan.trajectory = options.start_from;
   const bool one_level = !options.coarse_first || !plan.trajectory.empty() || !plan.reasons.empty();

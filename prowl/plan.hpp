@@ -24,6 +24,7 @@ struct LevelResult {
 struct Plan {
   Trajectory trajectory;
   std::string solver;  ///< its name
+  HessianKind hessian = HessianKind::exact;  ///< second derivatives that it was given
   SolveResult result;  ///< of the last level; iterations and seconds of all levels together
   std::vector<LevelResult> levels;
   Certificate certificate;

@@ -63,6 +63,7 @@ Json solver_to_json(const PlanRecord& record) {
                       {"cpu_seconds", level.cpu_seconds}});
   }
   return {{"name", record.plan.solver},
+          {"hessian", to_string(record.plan.hessian)},
           {"message", result.message},
           {"cost", result.cost},
           {"constraint_violation", result.constraint_violation},
@@ -241,6 +242,15 @@ std::vector<LevelResult> read_levels(const Reader& solver) {
   return levels;
 }
 
+HessianKind read_hessian(const Reader& solver) {
+  if (!solver.has("hessian")) return HessianKind::exact;  // plans of before 2026-11-22 do not tell
+  const std::string name = solver.text("hessian");
+  for (const HessianKind kind : {HessianKind::exact, HessianKind::gauss_newton}) {
+    if (name == to_string(kind)) return kind;
+  }
+  solver.fail("hessian", fmt::format("{} or {}", to_string(HessianKind::exact), to_string(HessianKind::gauss_newton)));
+}
+
 Json decay_to_json(const PhaseDecay& decay) {
   return {{"phase", decay.name},
           {"start_s", decay.start},
@@ -350,6 +360,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   record.plan.result = read_result(plan);
   record.plan.solver = plan.object("solver").text("name");
   record.plan.levels = read_levels(plan.object("solver"));
+  record.plan.hessian = read_hessian(plan.object("solver"));
   record.warm_start = plan.object("solver").text("warm_start");
   record.plan.certificate = read_certificate(plan.object("certificate"));
   record.plan.reasons = plan.texts("reasons");

@@ -43,9 +43,9 @@ class Nlp {
   virtual std::string describe_constraint(int row) const = 0;
   virtual std::string describe_variable(int index) const = 0;
 
-  /// How many threads an evaluation may use, and how many of a ThreadTeam may evaluate different stages at once. Does not change
-  /// what comes out.
-  virtual void use_threads(int /*count*/) {}
+  /// Lets an evaluation use so many threads, and as many of a ThreadTeam evaluate different stages at once. Returns how many it
+  /// stands, 1 to `count`. Does not change what comes out.
+  virtual int use_threads(int /*count*/) { return 1; }
 
   /// The same program as a chain of stages, if it is one; valid as long as the Nlp is.
   virtual StagewiseNlp* stagewise() { return nullptr; }

@@ -60,10 +60,10 @@ double sum_of_sizes(const StageVectors& vectors) {
 
 }  // namespace
 
-InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options)
+InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options, int threads)
     : nlp_(nlp),
       options_(options),
-      threads_(options.threads),
+      threads_(threads),
       num_stages_(nlp.num_stages()),
       rows_(first_rows(nlp)),
       kkt_(nlp),

@@ -21,8 +21,8 @@ namespace prowl {
 /// for a sequence of mu that goes to zero, each step by StageKkt with the exact Hessian. Docs: docs/solvers.md.
 class InteriorPoint {
  public:
-  /// Evaluates stages on options.threads threads, which `nlp` must be ready for (Nlp::use_threads).
-  InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options);
+  /// Evaluates stages on so many threads, which `nlp` must be ready for (Nlp::use_threads).
+  InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options, int threads);
 
   struct Ending {
     SolveStatus status;

@@ -27,9 +27,9 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     result.message = *reason;
     return result;
   }
-  nlp.use_threads(options.threads);
+  const int threads = nlp.use_threads(options.threads);
   StagewiseNlp& stages = *nlp.stagewise();
-  InteriorPoint method(stages, options);
+  InteriorPoint method(stages, options, threads);
   IterateFigures best;
   StageVectors best_stages;
   const auto watch = [&](int iteration, const IterateFigures& figures) -> std::optional<InteriorPoint::Ending> {

@@ -131,7 +131,8 @@ StagewiseNlp* Transcription::stagewise() {
   return stagewise_.get();
 }
 
-void Transcription::use_threads(int count) {
+int Transcription::use_threads(int count) {
+  count = std::min(count, layout_.num_nodes());  // more would have nothing to do
   const HessianKind hessian = phases_.front().front().hessian_kind();
   phases_.resize(static_cast<std::size_t>(std::min(count, static_cast<int>(phases_.size()))));
   while (static_cast<int>(phases_.size()) < count) {
@@ -140,6 +141,7 @@ void Transcription::use_threads(int count) {
   use_hessian(hessian);
   if (stagewise_) stagewise_->use_threads(count);
   threads_ = ThreadTeam(count);
+  return count;
 }
 
 void Transcription::use_hessian(HessianKind kind) {

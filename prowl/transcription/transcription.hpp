@@ -59,7 +59,7 @@ class Transcription : public Nlp {
   std::string describe_constraint(int row) const override;
   std::string describe_variable(int index) const override;
 
-  void use_threads(int count) override;
+  int use_threads(int count) override;
   void use_hessian(HessianKind kind);  ///< exact, if not said otherwise
   StagewiseNlp* stagewise() override;
 

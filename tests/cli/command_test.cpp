@@ -298,6 +298,7 @@ TEST_F(Command, TakesThreadsHessianAndTolerance) {
   const Outcome result = run("$prowl plan hold.toml $dirs --out out --threads 2 --hessian gauss-newton --tolerance 1e-7");
   EXPECT_EQ(result.status, 0) << result.error;
   EXPECT_EQ(plan().at("solver").at("tolerance"), 1e-7);
+  EXPECT_EQ(plan().at("solver").at("hessian"), "gauss-newton");
   const Outcome refused = run("$prowl plan hold.toml $dirs --out out2 --threads 2 --solver fatrop");
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.error, HasSubstr("--threads: Fatrop evaluates one stage at a time"));

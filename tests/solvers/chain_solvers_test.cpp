@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <set>
+#include <thread>
+
 #include "prowl/error.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
@@ -54,6 +57,24 @@ TYPED_TEST(ChainSolvers, FindTheSameFromNear) {
   ASSERT_EQ(again.status, SolveStatus::converged) << again.message;
   EXPECT_LT(again.iterations, first.iterations);
   EXPECT_NEAR(again.cost, first.cost, 1e-5);
+}
+
+/// Tells who evaluates it; stands one thread, as an Nlp that says nothing of threads.
+class WatchedCart : public Cart {
+ public:
+  using Cart::Cart;
+  std::set<std::thread::id> seen;  // without a lock: all this is about one thread
+  const StageValues& values(int k, const Eigen::VectorXd& ux) override {
+    seen.insert(std::this_thread::get_id());
+    return Cart::values(k, ux);
+  }
+};
+
+TEST(RiccatiSolver, GivesNoMoreThreadsThanAProgramStands) {
+  WatchedCart cart;
+  const SolveResult result = RiccatiSolver().solve(cart, Cart::zeros(), {.threads = 4});
+  EXPECT_EQ(result.status, SolveStatus::converged) << result.message;
+  EXPECT_EQ(cart.seen, std::set{std::this_thread::get_id()});
 }
 
 TYPED_TEST(ChainSolvers, DoTheSameTwice) {
