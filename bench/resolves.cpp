@@ -1,4 +1,5 @@
-// In how many iterations a task is solved again from its own plan, once the goal or the start has moved a little.
+// In how many iterations a task is solved again from its own plan, once the goal or the start has moved a little, or the horizon
+// has, interval by interval.
 // docs/benchmarks.md says how to run it and what it prints.
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include "prowl/model/so3.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/transcription/shift_horizon.hpp"
 
 namespace {
 
@@ -26,6 +28,7 @@ using prowl::MotionProblem;
 constexpr double kGoalMoves = 0.02;                            // [m]
 constexpr double kStartTurns = std::numbers::pi / 180.0;       // [rad]
 constexpr int kDisturbances = 50;
+constexpr int kMostShifts = 20;
 
 /// Not std::uniform_real_distribution: its numbers differ from one standard library to another.
 Vector3d random_direction(std::mt19937& random) {
@@ -65,6 +68,13 @@ MotionProblem with_start_turned(const MotionProblem& task, const Vector3d& by) {
 struct Tally {
   std::vector<int> iterations;
   int failed = 0;
+  void add(const prowl::Plan& plan) {
+    if (plan.result.status == prowl::SolveStatus::converged) {
+      iterations.push_back(plan.result.iterations);
+    } else {
+      ++failed;
+    }
+  }
   void print(const char* what) {
     std::sort(iterations.begin(), iterations.end());
     if (iterations.empty()) iterations = {-1};
@@ -80,12 +90,24 @@ Tally resolve(const prowl::Task& task, const prowl::Plan& plan, auto disturbed) 
   for (int i = 0; i < kDisturbances; ++i) {
     prowl::PlanOptions options{.solver = task.solver, .start_from = plan.trajectory,
                                 .start_multipliers = plan.result.stage_multipliers};
-    const prowl::Plan again = prowl::make_plan(disturbed(random_direction(random)), prowl::RiccatiSolver(), options);
-    if (again.result.status == prowl::SolveStatus::converged) {
-      tally.iterations.push_back(again.result.iterations);
-    } else {
-      ++tally.failed;
-    }
+    tally.add(prowl::make_plan(disturbed(random_direction(random)), prowl::RiccatiSolver(), options));
+  }
+  return tally;
+}
+
+/// Each from the plan before it, as a receding horizon does.
+Tally shift(const prowl::Task& task, const prowl::Plan& first) {
+  Tally tally;
+  MotionProblem problem = task.problem;
+  prowl::Plan plan = first;
+  for (int i = 0; i < kMostShifts && problem.phases.front().intervals > 1; ++i) {
+    prowl::ShiftedHorizon next = prowl::shift_horizon(problem, plan.trajectory, plan.result.stage_multipliers);
+    problem = std::move(next.problem);
+    plan = prowl::make_plan(problem, prowl::RiccatiSolver(),
+                            {.solver = task.solver, .start_from = std::move(next.start_from),
+                             .start_multipliers = std::move(next.start_multipliers)});
+    tally.add(plan);
+    if (plan.result.status != prowl::SolveStatus::converged) break;
   }
   return tally;
 }
@@ -109,6 +131,7 @@ int main(int argc, char** argv) try {
     resolve(task, plan, [&](const Vector3d& about) {
       return with_start_turned(task.problem, kStartTurns * about);
     }).print("start turned by 1 deg");
+    shift(task, plan).print("horizon shifted");
   }
   return 0;
 } catch (const std::exception& error) {

@@ -19,6 +19,11 @@ constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1.0, kSTheta = 1
 constexpr int kMostCorrections = 4;
 constexpr double kShortestStep = 1e-12;  ///< part of a direction; below it is rounding
 constexpr int kMostRestorations = 100;
+/// From a neighbour's solution with its multipliers Newton's first steps go as far as bounds allow, whatever the filter says. Such a
+/// start violates one condition (the goal that moved), and the step spreads its curvature over all stages, so that the sum
+/// of violations rises although it falls by orders with the next step. Halved steps then creep: HyQ balance, goal moved by 2 cm,
+/// worst of 50: 13 iterations, with one whole step 3; step: 72, with one 16, with two 12, with four 13.
+constexpr int kWholeSteps = 2;
 
 }  // namespace
 
@@ -88,8 +93,13 @@ bool InteriorPoint::search_line() {
   least = std::max(kGammaAlpha * least, kShortestStep);
   step_on_equalities_ = kkt_.on_equalities();
   step_on_next_ = kkt_.on_next();
+  const bool takes_it_whole = iterations_ < kWholeSteps && has_start_multipliers();
   for (double alpha = longest; alpha > least; alpha *= 0.5) {
     const bool is_good = try_step(alpha, step_, ds_);
+    if (is_good && takes_it_whole) {
+      accept(alpha, longest_dual);
+      return true;
+    }
     const double theta = is_good ? violation(trial_, slacks_.s) : 0.0;
     bool is_phi_step = false;
     if (is_good && is_acceptable(alpha, theta, barrier_function(trial_, slacks_), is_phi_step)) {
