@@ -49,8 +49,8 @@ class Bar {
 int run_sweep(const SweepArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
-  const Tracker tracker = read_tracker(arguments.directory);
   const MotionProblem& problem = plan.task.problem;
+  const Tracker tracker = read_tracker(arguments.directory, problem);
   SweepRecord record{arguments.seed, arguments.ranges, {}, {}};
   std::vector<SimulationOptions> options;
   for (int i = 0; i < arguments.cases; ++i) {
