@@ -59,7 +59,7 @@ int run_sweep(const SweepArguments& arguments) {
       return find_breakdowns(problem, tracker, plan.task.success, alone, arguments.seed, arguments.breakdown_cases, on_done, &interrupted);
     });
   }
-  record.interrupted = interrupted;
+  record.interrupted = interrupted && (std::ssize(record.cases) < arguments.cases || arguments.breakdown_cases > 0);
   if (record.cases.empty()) {
     print_message("interrupted before the first simulation was finished; nothing written\n");
     return kInterrupted;
@@ -87,7 +87,9 @@ void add_sweep_command(CLI::App& app, int& status) {
   verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Example:\n  prowl sweep out/hyq_crouch --n 200 --seed 1\n\nExit status: 0 if all were simulated, whatever came of them;\n130 interrupted (Ctrl-C keeps the simulations that have finished).");
+  verb->footer("Example:\n  prowl sweep out/hyq_crouch --n 200 --seed 1\n\n"
+               "Exit status: 0 if all were simulated, whatever came of them;\n"
+               "130 interrupted (Ctrl-C keeps the simulations that have finished).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });
 }
 

@@ -88,7 +88,9 @@ class Run {
       sample_.contacts = physics_.contacts();
       if (end == SimulationResult::End::finished) measures_.add(sample_, slip_);
       if (record_each > 0 && tick % record_each == 0) samples.push_back(sample_);
-      if (end == SimulationResult::End::finished && has_fallen(problem_.robot, sample_.q_ref, physics_.q())) end = SimulationResult::End::fell;
+      if (end == SimulationResult::End::finished && has_fallen(problem_.robot, sample_.q_ref, physics_.q())) {
+        end = SimulationResult::End::fell;
+      }
     }
     SimulationResult result = measures_.result();
     result.end = end;

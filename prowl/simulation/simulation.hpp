@@ -53,7 +53,8 @@ struct SimulationResult {
 
 /// Runs a plan with its tracker in MuJoCo (docs/simulation.md). `tracker` has one segment for each phase of the problem, and may have
 /// another one to stand on after the end.
-/// Ends early if the robot falls, by has_fallen(). Same arguments, same result, bit for bit. Throws InputError if the parts do not fit each other or an option makes no sense.
+/// Ends early if the robot falls, by has_fallen(). Same arguments, same result, bit for bit. Throws InputError if the parts
+/// do not fit each other or an option makes no sense.
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                           const SimulationOptions& options);
 

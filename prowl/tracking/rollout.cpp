@@ -32,7 +32,8 @@ class Motion {
  public:
   Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, int segment)
       : tracker_(tracker), options_(options), segment_(segment),
-        contacts_(contacts_of(tracker.plan().segments[static_cast<std::size_t>(segment)])), dynamics_(robot, contacts_, kContactRankThreshold),
+        contacts_(contacts_of(tracker.plan().segments[static_cast<std::size_t>(segment)])),
+        dynamics_(robot, contacts_, kContactRankThreshold),
         held_(VectorXd::Zero(robot.nu())), force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
 
   /// The torque that is held until the next tick.
