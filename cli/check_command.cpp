@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
+#include "shared_options.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -38,10 +39,9 @@ int run_check(const CheckArguments& arguments) {
 void add_check_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* const verb = app.add_subcommand("check", "Check a finished plan again, from its files alone");
-  verb->add_option("directory", arguments->directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
-  verb->add_flag("--json", arguments->json, "Print the result as JSON");
-  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
-      ->type_name("DIR")->expected(1)->take_all();
+  add_plan_directory(*verb, arguments->directory);
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
   verb->footer("Example:\n  prowl check out/hyq_crouch\n\nExit status: as prowl plan.");
   verb->callback([arguments, &status] { status = run_check(*arguments); });
 }

@@ -14,6 +14,7 @@
 #include "prowl/io/figure_data.hpp"
 #include "prowl/io/figure_files.hpp"
 #include "prowl/io/plan_directory.hpp"
+#include "shared_options.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -90,7 +91,7 @@ int run_figures(const FiguresArguments& arguments) {
   write_file_atomically(work.path() / "legs.csv", legs_csv(problem.robot));
   std::error_code ignored;
   if (fs::exists(directory / "tracker.bin", ignored)) {
-    write_file_atomically(work.path() / "gains.csv", gains_csv(problem.robot, read_tracker(directory), joint));
+    write_file_atomically(work.path() / "gains.csv", gains_csv(problem.robot, read_tracker(directory, problem), joint));
   } else {
     print_message(fmt::format("no gains in {}: without figure gains; prowl plan writes them (tracker.bin)\n", arguments.directory));
   }
@@ -117,13 +118,12 @@ int run_figures(const FiguresArguments& arguments) {
 void add_figures_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<FiguresArguments>();
   CLI::App* const verb = app.add_subcommand("figures", "Draw a plan, its gains and its simulation");
-  verb->add_option("directory", arguments->directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
+  add_plan_directory(*verb, arguments->directory);
   verb->add_option("--out", arguments->out, "Folder for the figures; default: DIR/figures")->type_name("DIR");
   verb->add_option("--joint", arguments->joint, "Whose gains to draw; default: the first knee, or else the first leg's last joint")
       ->type_name("NAME");
   verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " PROWL_PYTHON)->type_name("PATH");
-  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
-      ->type_name("DIR")->expected(1)->take_all();
+  add_package_dirs(*verb, arguments->package_dirs);
   verb->footer("Example:\n  prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch\n\nExit status: 0 if they are drawn.");
   verb->callback([arguments, &status] { status = run_figures(*arguments); });
 }

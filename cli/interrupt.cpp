@@ -14,7 +14,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 
 extern "C" void on_interrupt(int) {
   if (interrupted.exchange(true)) ::_exit(kInterrupted);
-  constexpr char kNotice[] = "\nstopping after this iteration; once more to end at once\n";
+  constexpr char kNotice[] = "\nstopping as soon as what is running allows; once more to end at once\n";
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kNotice, sizeof(kNotice) - 1);
 }
 

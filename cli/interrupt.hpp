@@ -4,7 +4,8 @@
 
 namespace prowl::cli {
 
-/// From now on the first Ctrl-C (or SIGTERM) sets the flag, which stops a solver within an iteration; the second ends
+/// From now on the first Ctrl-C (or SIGTERM) sets the flag, which stops a solver within an iteration and a sweep after
+/// the simulations that are running; the second ends
 /// the process at once with status 130. A pipe that nobody reads any more ends nothing.
 const std::atomic<bool>& catch_interrupts();
 

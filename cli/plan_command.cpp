@@ -21,6 +21,7 @@
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
 #include "prowl/transcription/resample.hpp"
+#include "shared_options.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -146,7 +147,7 @@ void add_plan_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("plan", "Plan the motion of a task file and check it");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   verb->add_option("--out", arguments->out, "Folder for the result; default out/FOLDER_TASK")->type_name("DIR");
-  verb->add_flag("--json", arguments->json, "Print the result as JSON");
+  add_json(*verb, arguments->json);
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
       ->check(kPositive)->type_name("S");
   verb->add_option("--solver", arguments->solver, "Who solves it; default riccati")
@@ -173,8 +174,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--warm-start", arguments->warm_start,
                    "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ")
       ->type_name("DIR");
-  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
-      ->type_name("DIR")->expected(1)->take_all();
+  add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
   for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--no-gains"}) phases->excludes(unused);

@@ -6,6 +6,7 @@
 #include "output.hpp"
 #include "prowl/io/robot_file.hpp"
 #include "prowl/io/robot_summary.hpp"
+#include "shared_options.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -33,9 +34,8 @@ void add_robot_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("robot", "Show what Prowl understands of a robot, and what looks wrong");
   verb->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
   verb->add_flag("--frames", arguments->frames, "List also the frames that contacts may be fixed to");
-  verb->add_flag("--json", arguments->json, "Print the result as JSON");
-  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
-      ->type_name("DIR")->expected(1)->take_all();
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
   verb->footer(
       "Examples:\n  prowl robot robots/hyq.toml\n"
       "  prowl robot new.toml --frames     of a file that has no contacts yet\n\n"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "environment.hpp"
@@ -9,8 +9,10 @@
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "plan_tracker.hpp"
+#include "progress_bar.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/sweep_files.hpp"
+#include "shared_options.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -26,49 +28,46 @@ struct SweepArguments {
   bool json = false;
 };
 
-/// One line that is written over and over in a terminal; elsewhere a line for every tenth.
-class Bar {
- public:
-  explicit Bar(int total) : total_(total), in_terminal_(::isatty(STDERR_FILENO) == 1) {}
-  void show(int done) const {
-    constexpr int kWidth = 40;
-    const int filled = kWidth * done / total_;
-    if (in_terminal_) {
-      print_message(fmt::format("\r[{:#<{}}{:.<{}}] {}/{}{}", "", filled, "", kWidth - filled, done, total_,
-                                done == total_ ? "\n" : ""));
-    } else if (done == total_ || done % std::max(1, total_ / 10) == 0) {
-      print_message(fmt::format("{} of {} simulations\n", done, total_));
-    }
-  }
-
- private:
-  int total_;
-  bool in_terminal_;
-};
+/// Calls `run` with something that shows its progress; silent once `interrupted`, when what runs is still being finished.
+template <typename Run>
+auto with_bar(const char* what, const std::atomic<bool>& interrupted, const Run& run) {
+  std::optional<ProgressBar> bar;  // its length comes with the first call
+  return run([&](int done, int total) {
+    if (interrupted) return;
+    if (!bar) bar.emplace(what, total);
+    bar->show(done);
+  });
+}
 
 int run_sweep(const SweepArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
-  const Tracker tracker = read_tracker(arguments.directory);
   const MotionProblem& problem = plan.task.problem;
-  SweepRecord record{arguments.seed, arguments.ranges, {}, {}};
+  const Tracker tracker = read_tracker(arguments.directory, problem);
+  SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = arguments.ranges};
   std::vector<SimulationOptions> options;
   for (int i = 0; i < arguments.cases; ++i) {
     options.push_back(perturbed(tracker, arguments.options, arguments.ranges, arguments.seed + static_cast<std::uint64_t>(i)));
   }
-  const Bar bar(arguments.cases);
-  record.cases = run_cases(problem, tracker, plan.task.success, options, [&](int done) { bar.show(done); }, &interrupted);
-  if (arguments.breakdown_cases > 0) {
+  record.cases = with_bar("simulations", interrupted, [&](const SweepProgress& on_done) {
+    return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
+  });
+  if (arguments.breakdown_cases > 0 && !interrupted) {
     SimulationOptions alone = arguments.options;
     alone.physics.friction = plan.task.simulated_friction;
-    record.breakdowns = find_breakdowns(problem, tracker, plan.task.success, alone, arguments.seed, arguments.breakdown_cases,
-                                        [](const std::string& kind) { print_message("alone: " + kind + " ...\n"); }, &interrupted);
+    record.breakdowns = with_bar("simulations of one perturbation alone", interrupted, [&](const SweepProgress& on_done) {
+      return find_breakdowns(problem, tracker, plan.task.success, alone, arguments.seed, arguments.breakdown_cases, on_done, &interrupted);
+    });
   }
-  if (interrupted) return kInterrupted;
+  record.interrupted = interrupted && (std::ssize(record.cases) < arguments.cases || arguments.breakdown_cases > 0);
+  if (record.cases.empty()) {
+    print_message("interrupted before the first simulation was finished; nothing written\n");
+    return kInterrupted;
+  }
   write_file_atomically(std::filesystem::path(arguments.directory) / "sweep.json", sweep_json(plan, tracker, record));
   print_result(arguments.json ? sweep_json(plan, tracker, record)
                               : sweep_summary(plan, tracker, record) + fmt::format("written to {}/sweep.json\n", arguments.directory));
-  return kPassed;
+  return record.interrupted ? kInterrupted : kPassed;
 }
 
 }  // namespace
@@ -77,7 +76,7 @@ void add_sweep_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<SweepArguments>();
   PerturbationRanges& ranges = arguments->ranges;
   CLI::App* const verb = app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each perturbed in another way");
-  verb->add_option("directory", arguments->directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
+  add_plan_directory(*verb, arguments->directory);
   verb->add_option("--n", arguments->cases, "How many; default 200")->type_name("N")->check(CLI::Range(1, 1000000));
   verb->add_option("--seed", arguments->seed, "Of the first case, the others count on; default 1")->type_name("SEED");
   verb->add_option("--mass", ranges.mass, "Masses are off by up to this share; default 0.1")->type_name("X")->check(CLI::Range(0.0, 0.9));
@@ -86,10 +85,11 @@ void add_sweep_command(CLI::App& app, int& status) {
   verb->add_option("--breakdown", arguments->breakdown_cases,
                    "Simulations for each size of a perturbation alone; default 20, 0: do not look for it")->type_name("N")->check(CLI::Range(0, 100000));
   verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");
-  verb->add_flag("--json", arguments->json, "Print the result as JSON");
-  verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
-      ->type_name("DIR")->expected(1)->take_all();
-  verb->footer("Example:\n  prowl sweep out/hyq_crouch --n 200 --seed 1\n\nExit status: 0 if all were simulated, whatever came of them.");
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
+  verb->footer("Example:\n  prowl sweep out/hyq_crouch --n 200 --seed 1\n\n"
+               "Exit status: 0 if all were simulated, whatever came of them;\n"
+               "130 interrupted (Ctrl-C keeps the simulations that have finished).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });
 }
 

@@ -65,7 +65,14 @@ class Plan:
         if not self.simulation:
             return "planned motion only: not simulated yet"
         options = self.simulation["options"]
-        parts = [f"MuJoCo, {'open' if options['open_loop'] else 'closed'} loop",
+        result = "success" if self.simulation["success"] else "FAILED"
+        loop = f"{'open' if options['open_loop'] else 'closed'} loop"
+        if self.simulation["engine"] == "rollout":
+            rate = options["control_rate_Hz"]
+            offset = any(options["base_offset_m"] + options["base_offset_rad"])
+            return ", ".join(["rollout of the projected dynamics", loop, f"control at {rate:g} Hz" if rate else "continuous control",
+                              *(["base off at the start"] if offset else []), result])
+        parts = [f"MuJoCo, {loop}",
                  "true state" if options["perfect_state"] else f"estimated state, sensor noise × {options['noise']['scale']:g}",
                  f"delay {1e3 * options['delay_s']:g} ms", f"seed {options['seed']}"]
         if options["mass_scale"] != 1:
@@ -74,7 +81,7 @@ class Plan:
             parts.append(f"friction {options['friction']:g}")
         if options["pushes"]:
             parts.append(f"{len(options['pushes'])} push(es)")
-        parts.append("success" if self.simulation["success"] else "FAILED")
+        parts.append(result)
         return ", ".join(parts)
 
 
@@ -89,7 +96,7 @@ def torques(plan: Plan) -> Table:
                       **{f"{side}_{joint}_Nm": plan.limits[f"{side}_{joint}_Nm"] for side in ("lower", "upper")}}
         return table
     time = sim["time_s"]
-    delay = plan.simulation["options"]["delay_s"]
+    delay = plan.simulation["options"].get("delay_s", 0.0)  # a rollout has none
     planned = lambda t, column: np.interp(time, t, column, right=np.nan)  # noqa: E731
     acting = lambda column: np.interp(time, time + delay, column)  # noqa: E731
     table = {"time_s": time}

@@ -6,17 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
-#include "prowl/io/atomic_folder.hpp"
-#include "prowl/io/json_text.hpp"
+#include "prowl/io/simulation_parts.hpp"
 
 namespace prowl {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr const char* kEngine = "mujoco";
 
 const char* to_text(SimulationResult::End end) {
   switch (end) {
@@ -25,12 +23,6 @@ const char* to_text(SimulationResult::End end) {
     case SimulationResult::End::diverged: return "diverged";
   }
   return "unknown";
-}
-
-Json vector_json(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
-
-Json error_json(const ErrorMeasure& error) {
-  return {{"largest", error.largest}, {"rms", error.rms}, {"rest", error.rest}};
 }
 
 Json options_json(const SimulationOptions& options) {
@@ -55,6 +47,10 @@ Json options_json(const SimulationOptions& options) {
         {{"impulse_Ns", vector_json(push.impulse)}, {"time_s", push.time}, {"duration_s", push.duration}});
   }
   return json;
+}
+
+TorqueUse torque_use(const SimulationResult& result) {
+  return {result.largest_torque_share, result.largest_torque_joint, result.saturated, result.positive_work};
 }
 
 std::vector<std::string> csv_columns(const RobotModel& robot) {
@@ -90,26 +86,21 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
                       options.physics.mass_scale != 1.0 ? fmt::format(", masses x {:g}", options.physics.mass_scale) : "",
                       options.physics.friction ? fmt::format(", friction {:g}", *options.physics.friction) : "");
   for (const std::string& failure : result.failures) text += fmt::format("  failed: {}\n", failure);
-  text += fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "in rest");
-  const auto line = [&](const char* name, const ErrorMeasure& error, double unit, const char* unit_name) {
-    text += fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", name, fmt::format("{:.2f} {}", error.largest / unit, unit_name),
-                        fmt::format("{:.2f} {}", error.rms / unit, unit_name), fmt::format("{:.2f} {}", error.rest / unit, unit_name));
-  };
-  line("base position", result.base_position, 0.01, "cm ");
-  line("base orientation", result.base_angle, kDegree, "deg");
-  line("worst joint", result.joints, kDegree, "deg");
+  text += error_heading();
+  text += error_line("base position", result.base_position, 0.01, "cm ");
+  text += error_line("base orientation", result.base_angle, kDegree, "deg");
+  text += error_line("worst joint", result.joints, kDegree, "deg");
   if (!options.perfect_state) {
-    line("estimate of position", result.estimated_position, 0.01, "cm ");
-    line("estimate of orientation", result.estimated_angle, kDegree, "deg");
-    line("estimate of velocity", result.estimated_velocity, 0.01, "cm/s");
+    text += error_line("estimate of position", result.estimated_position, 0.01, "cm ");
+    text += error_line("estimate of orientation", result.estimated_angle, kDegree, "deg");
+    text += error_line("estimate of velocity", result.estimated_velocity, 0.01, "cm/s");
   }
   text += "  slip        ";
   for (std::size_t c = 0; c < result.slip.size(); ++c) {
     text += fmt::format("{}{} {:.1f} mm", c > 0 ? ", " : "", problem.robot.contacts()[c].name, 1e3 * result.slip[c]);
   }
-  text += fmt::format("\n  torque      {:.0f} % of the limit at most ({}), at a limit {:.1f} % of the time, {:.0f} J of work\n",
-                      100 * result.largest_torque_share, result.largest_torque_joint, 100 * result.saturated,
-                      result.positive_work);
+  text += '\n';
+  text += torque_line(torque_use(result));
   double late = 0.0;
   int missing = 0;
   for (const ContactSwitch& change : result.switches) {
@@ -126,32 +117,16 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
 std::string simulation_json(const PlanRecord& plan, const SimulationRecord& record) {
   const SimulationResult& result = record.result;
   const RobotModel& robot = plan.task.problem.robot;
-  const SuccessCriteria& criteria = plan.task.success;
-  Json json = {{"schema_version", 1},
-               {"name", plan.task.problem.name},
-               {"robot", robot.name()},
-               {"success", result.success()},
-               {"failures", result.failures},
-               {"end", to_text(result.end)},
-               {"end_time_s", result.end_time},
-               {"phase", result.phase},
-               {"criteria",
-                {{"base_position_m", criteria.position},
-                 {"base_angle_rad", criteria.angle},
-                 {"slip_m", criteria.slip},
-                 {"rest_s", criteria.rest}}},
-               {"base_position_m", error_json(result.base_position)},
+  Json json = verdict_json(plan, {kEngine, result.failures, to_text(result.end), result.end_time, result.phase});
+  json["criteria"]["slip_m"] = plan.task.success.slip;
+  json.update({{"base_position_m", error_json(result.base_position)},
                {"base_angle_rad", error_json(result.base_angle)},
                {"joints_rad", error_json(result.joints)},
                {"estimated_position_m", error_json(result.estimated_position)},
                {"estimated_angle_rad", error_json(result.estimated_angle)},
                {"estimated_velocity_mps", error_json(result.estimated_velocity)},
                {"estimated_joint_rate_radps_rms", result.estimated_joint_rate},
-               {"torque",
-                {{"largest_share", result.largest_torque_share},
-                 {"joint", result.largest_torque_joint},
-                 {"saturated_share_of_time", result.saturated},
-                 {"positive_work_J", result.positive_work}}}};
+               {"torque", torque_json(torque_use(result))}});
   for (std::size_t c = 0; c < result.slip.size(); ++c) json["slip_m"][robot.contacts()[c].name] = result.slip[c];
   json["switches"] = Json::array();
   for (const ContactSwitch& change : result.switches) {
@@ -167,11 +142,11 @@ std::string simulation_json(const PlanRecord& plan, const SimulationRecord& reco
   return json_text(json);
 }
 
-std::string simulation_csv(const RobotModel& robot, const SimulationResult& result) {
+std::string simulation_csv(const RobotModel& robot, const std::vector<SimulationSample>& samples) {
   std::string text = fmt::format("{}\n", fmt::join(csv_columns(robot), ","));
   std::vector<double> row;
   const auto append = [&row](const Eigen::VectorXd& values) { row.insert(row.end(), values.begin(), values.end()); };
-  for (const SimulationSample& sample : result.samples) {
+  for (const SimulationSample& sample : samples) {
     row = {sample.time};
     for (const Eigen::VectorXd* part : {&sample.q_ref, &sample.v_ref, &sample.q, &sample.v, &sample.q_seen, &sample.v_seen,
                                         &sample.feedforward, &sample.feedback, &sample.tau}) {
@@ -187,8 +162,7 @@ std::string simulation_csv(const RobotModel& robot, const SimulationResult& resu
 }
 
 void write_simulation(const std::filesystem::path& directory, const PlanRecord& plan, const SimulationRecord& record) {
-  write_file_atomically(directory / "simulate.csv", simulation_csv(plan.task.problem.robot, record.result));
-  write_file_atomically(directory / "simulate.json", simulation_json(plan, record));
+  write_simulation_files(directory, simulation_json(plan, record), simulation_csv(plan.task.problem.robot, record.result.samples));
 }
 
 }  // namespace prowl

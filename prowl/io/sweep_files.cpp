@@ -64,6 +64,10 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
   std::string text = fmt::format("{} {} in MuJoCo, perturbed: {} of {} succeed, {:.1f} % (95 % interval: {:.1f} to {:.1f} %)\n",
                                  plan.task.problem.robot.name(), plan.task.problem.name, rate.successes, rate.cases,
                                  100 * rate.rate(), 100 * rate.lower, 100 * rate.upper);
+  if (record.interrupted) {
+    text += rate.cases < record.asked ? fmt::format("  interrupted: {} of {} simulations were finished\n", rate.cases, record.asked)
+                                      : "  interrupted while looking at one perturbation alone\n";
+  }
   text += "  pushed in phase                             success\n";
   for (const Count& count : by_phase(tracker, record)) {
     text += fmt::format("    {:<40}  {} of {}\n", count.phase, count.successes, count.cases);
@@ -93,7 +97,9 @@ std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const Swe
   Json json = {{"schema_version", 1},
                {"name", plan.task.problem.name},
                {"robot", plan.task.problem.robot.name()},
+               {"interrupted", record.interrupted},
                {"first_seed", record.first_seed},
+               {"cases_asked", record.asked},
                {"cases", rate.cases},
                {"successes", rate.successes},
                {"success_rate", rate.rate()},

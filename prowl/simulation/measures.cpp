@@ -7,17 +7,6 @@
 
 namespace prowl {
 
-void Measures::Sum::add(double value, bool at_rest) {
-  largest = std::max(largest, value);
-  squares += value * value;
-  ++count;
-  if (at_rest) rest = std::max(rest, value);
-}
-
-ErrorMeasure Measures::Sum::measure() const {
-  return {largest, count > 0 ? std::sqrt(squares / static_cast<double>(count)) : 0.0, rest};
-}
-
 Measures::Measures(const MotionProblem& problem, const Tracker& tracker, double end)
     : problem_(problem), tracker_(tracker), end_(end),
       slip_now_(problem.robot.contacts().size(), Eigen::Vector3d::Zero()),
@@ -27,11 +16,8 @@ Measures::Measures(const MotionProblem& problem, const Tracker& tracker, double 
 void Measures::add(const SimulationSample& sample, const std::vector<Eigen::Vector3d>& slip) {
   const RobotModel& robot = problem_.robot;
   const bool at_rest = sample.time >= end_ - kRestWindow;
-  const Eigen::VectorXd error = difference(sample.q_ref, sample.q), seen = difference(sample.q, sample.q_seen);
-  position_.add(error.head<3>().norm(), at_rest);
-  angle_.add(error.segment<3>(3).norm(), at_rest);
-  joints_.add(error.tail(robot.nu()).lpNorm<Eigen::Infinity>(), at_rest);
-  joint_squares_ += error.tail(robot.nu()).squaredNorm() / robot.nu();
+  const Eigen::VectorXd seen = difference(sample.q, sample.q_seen);
+  error_.add(sample.q_ref, sample.q, at_rest);
   estimated_position_.add(seen.head<3>().norm(), at_rest);
   estimated_angle_.add(seen.segment<3>(3).norm(), at_rest);
   estimated_velocity_.add((sample.v_seen - sample.v).head<3>().norm(), at_rest);
@@ -70,10 +56,9 @@ double Measures::touch_near(int contact, double from, double to, bool lands) con
 
 SimulationResult Measures::result() const {
   SimulationResult result = result_;
-  result.base_position = position_.measure();
-  result.base_angle = angle_.measure();
-  result.joints = joints_.measure();
-  result.joints.rms = joints_.count > 0 ? std::sqrt(joint_squares_ / static_cast<double>(joints_.count)) : 0.0;
+  result.base_position = error_.base_position();
+  result.base_angle = error_.base_angle();
+  result.joints = error_.joints();
   result.estimated_position = estimated_position_.measure();
   result.estimated_angle = estimated_angle_.measure();
   result.estimated_velocity = estimated_velocity_.measure();

@@ -21,20 +21,13 @@ class Measures {
   SimulationResult result() const;
 
  private:
-  struct Sum {
-    double largest = 0.0, squares = 0.0, rest = 0.0;
-    long count = 0;
-    void add(double value, bool at_rest);
-    ErrorMeasure measure() const;
-  };
-
   double touch_near(int contact, double from, double to, bool lands) const;
 
   const MotionProblem& problem_;
   const Tracker& tracker_;
   double end_;
-  Sum position_, angle_, joints_, estimated_position_, estimated_angle_, estimated_velocity_, estimated_rates_;
-  double joint_squares_ = 0.0;
+  TrackingError error_;
+  ErrorSum estimated_position_, estimated_angle_, estimated_velocity_, estimated_rates_;
   std::vector<Eigen::Vector3d> slip_now_;
   std::vector<double> slip_;
   std::vector<double> times_;

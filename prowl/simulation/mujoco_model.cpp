@@ -22,7 +22,6 @@ constexpr double kPatchDepth = 0.2;     // [m] of the block under a patch
 constexpr double kTimeConstant = 2e-3;  // [s]
 constexpr double kImpedance[mjNIMP] = {0.99, 0.999, 1e-4, 0.5, 2.0};
 constexpr double kFrictionToNormal = 10.0;  // impedance ratio: sticking feet creep ten times less
-constexpr int kNoSlipIterations = 0;
 
 /// Of every body in the nominal posture, to the world.
 std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const BodyTree& tree) {
@@ -127,7 +126,6 @@ void set_options(const PhysicsOptions& options, mjSpec* spec) {
   option.solver = mjSOL_NEWTON;
   option.cone = mjCONE_ELLIPTIC;
   option.impratio = kFrictionToNormal;
-  option.noslip_iterations = kNoSlipIterations;
   option.tolerance = 1e-10;
   option.disableflags |= mjDSBL_AUTORESET;
 }

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "prowl/error.hpp"
-#include "prowl/model/configuration.hpp"
 #include "prowl/simulation/actuators.hpp"
 #include "prowl/simulation/measures.hpp"
 #include "prowl/simulation/onboard.hpp"
@@ -15,15 +14,7 @@
 namespace prowl {
 namespace {
 
-constexpr double kFallenAngle = 0.5;         // [rad] off the plan
-constexpr double kFallenShare = 1.0 / 3.0;   // of the standing height off the plan
-
-void check_fit(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options) {
-  const TrackingPlan& plan = tracker.plan();
-  if (plan.joint_names != problem.robot.joint_names() || plan.contact_names.size() != problem.robot.contacts().size() ||
-      (plan.segments.size() != problem.phases.size() && plan.segments.size() != problem.phases.size() + 1)) {
-    throw InputError("the tracker is of another robot or of other phases than the plan");
-  }
+void check(const SimulationOptions& options) {
   const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {
     if (!ok) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, range));
   };
@@ -52,16 +43,8 @@ std::vector<std::string> failures(const SimulationResult& result, const MotionPr
   std::vector<std::string> texts;
   if (result.end == SimulationResult::End::fell) texts.push_back(fmt::format("fell at {:.3f} s, in phase '{}'", result.end_time, result.phase));
   if (result.end == SimulationResult::End::diverged) texts.push_back(fmt::format("the simulation diverged at {:.3f} s", result.end_time));
-  constexpr double kDegree = std::numbers::pi / 180.0;
   if (result.end == SimulationResult::End::finished) {
-    if (!(result.base_position.rest <= criteria.position)) {
-      texts.push_back(fmt::format("base {:.1f} cm from where the plan ends; {:.1f} cm allowed", 100 * result.base_position.rest,
-                                  100 * criteria.position));
-    }
-    if (!(result.base_angle.rest <= criteria.angle)) {
-      texts.push_back(fmt::format("base turned {:.1f} degrees from where the plan ends; {:.1f} allowed",
-                                  result.base_angle.rest / kDegree, criteria.angle / kDegree));
-    }
+    for (std::string& text : failures_in_rest(result.base_position, result.base_angle, criteria)) texts.push_back(std::move(text));
   }
   for (std::size_t c = 0; c < result.slip.size(); ++c) {
     if (result.slip[c] <= criteria.slip) continue;
@@ -105,7 +88,9 @@ class Run {
       sample_.contacts = physics_.contacts();
       if (end == SimulationResult::End::finished) measures_.add(sample_, slip_);
       if (record_each > 0 && tick % record_each == 0) samples.push_back(sample_);
-      if (end == SimulationResult::End::finished && fallen()) end = SimulationResult::End::fell;
+      if (end == SimulationResult::End::finished && has_fallen(problem_.robot, sample_.q_ref, physics_.q())) {
+        end = SimulationResult::End::fell;
+      }
     }
     SimulationResult result = measures_.result();
     result.end = end;
@@ -164,12 +149,6 @@ class Run {
     return true;
   }
 
-  bool fallen() const {
-    const Eigen::VectorXd error = difference(sample_.q_ref, physics_.q());
-    const double height = problem_.robot.nominal_configuration()(2);
-    return error.head<3>().norm() > kFallenShare * height || error.segment<3>(3).norm() > kFallenAngle;
-  }
-
   const MotionProblem& problem_;
   const Tracker& tracker_;
   const SimulationOptions& options_;
@@ -190,10 +169,34 @@ class Run {
 
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                           const SimulationOptions& options) {
-  check_fit(problem, tracker, options);
+  check_fit(problem, tracker);
+  check(options);
   SimulationResult result = Run(problem, tracker, criteria, options)();
   result.failures = failures(result, problem, criteria);
   return result;
+}
+
+void check_fit(const MotionProblem& problem, const Tracker& tracker) {
+  const TrackingPlan& plan = tracker.plan();
+  if (plan.joint_names != problem.robot.joint_names() || plan.contact_names.size() != problem.robot.contacts().size() ||
+      (plan.segments.size() != problem.phases.size() && plan.segments.size() != problem.phases.size() + 1)) {
+    throw InputError("the tracker is of another robot or of other phases than the plan");
+  }
+}
+
+std::vector<std::string> failures_in_rest(const ErrorMeasure& base_position, const ErrorMeasure& base_angle,
+                                          const SuccessCriteria& criteria) {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  std::vector<std::string> texts;
+  if (!(base_position.rest <= criteria.position)) {
+    texts.push_back(fmt::format("base {:.1f} cm from where the plan ends; {:.1f} cm allowed", 100 * base_position.rest,
+                                100 * criteria.position));
+  }
+  if (!(base_angle.rest <= criteria.angle)) {
+    texts.push_back(fmt::format("base turned {:.1f} degrees from where the plan ends; {:.1f} allowed",
+                                base_angle.rest / kDegree, criteria.angle / kDegree));
+  }
+  return texts;
 }
 
 }  // namespace prowl

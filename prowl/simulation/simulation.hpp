@@ -7,6 +7,7 @@
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/simulation/simulation_options.hpp"
 #include "prowl/tracker/tracker.hpp"
+#include "prowl/trajectory/tracking_error.hpp"
 
 namespace prowl {
 
@@ -18,11 +19,6 @@ struct SimulationSample {
   Eigen::VectorXd q_seen, v_seen;   ///< what the controller is given
   Eigen::VectorXd feedforward, feedback, tau;  ///< nu [N m]; tau at the joints, the others as commanded
   std::vector<ContactReading> contacts;        ///< during the last physics step
-};
-
-/// Size of an error over the whole simulation, and over the last `kRestWindow` of it.
-struct ErrorMeasure {
-  double largest = 0.0, rms = 0.0, rest = 0.0;
 };
 
 /// A planned change of contact, and when it happened.
@@ -55,13 +51,18 @@ struct SimulationResult {
   std::vector<SimulationSample> samples;
 };
 
-constexpr double kRestWindow = 0.2;  ///< [s]
-
 /// Runs a plan with its tracker in MuJoCo (docs/simulation.md). `tracker` has one segment for each phase of the problem, and may have
 /// another one to stand on after the end.
-/// Ends early if the robot falls: base more than 0.5 rad or a third of its standing height off the plan. Same arguments,
-/// same result, bit for bit. Throws InputError if the parts do not fit each other or an option makes no sense.
+/// Ends early if the robot falls, by has_fallen(). Same arguments, same result, bit for bit. Throws InputError if the parts
+/// do not fit each other or an option makes no sense.
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                           const SimulationOptions& options);
+
+/// Throws InputError if the tracker is of another robot or of other phases than the problem.
+void check_fit(const MotionProblem& problem, const Tracker& tracker);
+
+/// In words, which of the criteria the base in rest at the end does not meet.
+std::vector<std::string> failures_in_rest(const ErrorMeasure& base_position, const ErrorMeasure& base_angle,
+                                          const SuccessCriteria& criteria);
 
 }  // namespace prowl

@@ -35,6 +35,39 @@ Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, doubl
   return {size * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0), time, duration};
 }
 
+/// A perturbation of one kind, of any size.
+struct Kind {
+  static constexpr int kHalvings = 3;
+  const char* name;
+  const char* unit;
+  double first, most;  ///< sizes to try: first, doubled up to most
+  std::function<void(SimulationOptions&, double, std::mt19937_64&)> apply;
+
+  /// That may have to be tried.
+  int most_sizes() const {
+    int sizes = kHalvings;
+    for (double size = first; size <= most; size *= 2.0) ++sizes;
+    return sizes;
+  }
+};
+
+/// On top of `options`.
+std::vector<Kind> kinds_of_perturbation(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options) {
+  const double planned = problem.surfaces.empty() ? 0.5 : problem.surfaces.front().friction;
+  const double friction = options.physics.friction.value_or(planned);
+  return {
+      {"masses larger by", "%", 10.0, 320.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 + 0.01 * x; }},
+      {"masses smaller by", "%", 10.0, 80.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 - 0.01 * x; }},
+      {"friction lower by", "%", 10.0, 80.0, [friction](auto& o, double x, auto&) { o.physics.friction = (1.0 - 0.01 * x) * friction; }},
+      {"push of", "N s", 5.0, 160.0,
+       [&tracker](auto& o, double x, auto& random) {
+         o.pushes = {draw_push(tracker, x, x, PerturbationRanges{}.push_duration, random)};
+       }},
+      {"sensor noise times", "", 2.0, 64.0, [](auto& o, double x, auto&) { o.noise_scale = x; }},
+      {"unknown delay of", "ms", 1.0, 32.0, [](auto& o, double x, auto&) { o.unknown_delay = 1e-3 * x; }},
+  };
+}
+
 }  // namespace
 
 SimulationOptions perturbed(const Tracker& tracker, const SimulationOptions& options, const PerturbationRanges& ranges, std::uint64_t seed) {
@@ -53,19 +86,24 @@ std::string pushed_phase(const Tracker& tracker, const SimulationOptions& option
 }
 
 std::vector<SweepCase> run_cases(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
-                                 const std::vector<SimulationOptions>& options, const std::function<void(int)>& on_done,
+                                 const std::vector<SimulationOptions>& options, const SweepProgress& on_done,
                                  const std::atomic<bool>* interrupt) {
   std::vector<std::optional<SweepCase>> cases(options.size());
   std::atomic<std::size_t> next = 0;
   std::mutex report;
   int done = 0;
+  const auto tell = [&] {
+    if (on_done) on_done(done, static_cast<int>(options.size()));
+  };
+  tell();
   const auto work = [&] {
-    for (std::size_t i = next++; i < options.size(); i = next++) {
-      if (interrupt && *interrupt) return;
+    while (!(interrupt && *interrupt)) {  // looked at before a case is taken, so that those taken have no gaps
+      const std::size_t i = next++;
+      if (i >= options.size()) return;
       cases[i] = SweepCase{options[i], simulate(problem, tracker, criteria, options[i])};
       const std::lock_guard lock(report);
       ++done;
-      if (on_done) on_done(done);
+      tell();
     }
   };
   std::vector<std::future<void>> workers;
@@ -93,27 +131,11 @@ SuccessRate success_rate(int successes, int cases) {
 
 std::vector<Breakdown> find_breakdowns(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                                        const SimulationOptions& options, std::uint64_t seed, int cases,
-                                       const std::function<void(const std::string&)>& on_kind,
-                                       const std::atomic<bool>* interrupt) {
-  struct Kind {
-    const char* name;
-    const char* unit;
-    double first, most;  ///< sizes to try: first, doubled up to most
-    std::function<void(SimulationOptions&, double, std::mt19937_64&)> apply;
-  };
-  const std::vector<Kind> kinds = {
-      {"masses larger by", "%", 10.0, 320.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 + 0.01 * x; }},
-      {"masses smaller by", "%", 10.0, 80.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 - 0.01 * x; }},
-      {"friction lower by", "%", 10.0, 80.0,
-       [&](auto& o, double x, auto&) {
-         const double planned = problem.surfaces.empty() ? 0.5 : problem.surfaces.front().friction;
-         o.physics.friction = (1.0 - 0.01 * x) * options.physics.friction.value_or(planned);
-       }},
-      {"push of", "N s", 5.0, 160.0,
-       [&](auto& o, double x, auto& random) { o.pushes = {draw_push(tracker, x, x, PerturbationRanges{}.push_duration, random)}; }},
-      {"sensor noise times", "", 2.0, 64.0, [](auto& o, double x, auto&) { o.noise_scale = x; }},
-      {"unknown delay of", "ms", 1.0, 32.0, [](auto& o, double x, auto&) { o.unknown_delay = 1e-3 * x; }},
-  };
+                                       const SweepProgress& on_done, const std::atomic<bool>* interrupt) {
+  const std::vector<Kind> kinds = kinds_of_perturbation(problem, tracker, options);
+  int most = 0, done = 0;
+  for (const Kind& kind : kinds) most += cases * kind.most_sizes();
+  const auto interrupted = [&] { return interrupt && *interrupt; };
   const auto survives = [&](const Kind& kind, double size) {
     std::vector<SimulationOptions> all(static_cast<std::size_t>(cases), options);
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -121,28 +143,34 @@ std::vector<Breakdown> find_breakdowns(const MotionProblem& problem, const Track
       all[i].seed = random();
       kind.apply(all[i], size, random);
     }
-    const auto done = run_cases(problem, tracker, criteria, all, {}, interrupt);
-    return 2 * std::ranges::count_if(done, [](const SweepCase& one) { return one.result.success(); }) >= std::ssize(done);
+    const int before = done;
+    const auto count = [&](int now, int) {
+      done = before + now;
+      if (on_done) on_done(done, most);
+    };
+    const auto finished = run_cases(problem, tracker, criteria, all, count, interrupt);
+    return 2 * std::ranges::count_if(finished, [](const SweepCase& one) { return one.result.success(); }) >= std::ssize(finished);
   };
 
   std::vector<Breakdown> breakdowns;
+  int counted = 0;
   for (const Kind& kind : kinds) {
-    if (interrupt && *interrupt) break;
-    if (on_kind) on_kind(kind.name);
     Breakdown found{kind.name, kind.unit, 0.0, std::numeric_limits<double>::infinity()};
-    for (double size = kind.first; size <= kind.most; size *= 2.0) {
+    for (double size = kind.first; size <= kind.most && !interrupted(); size *= 2.0) {
       if (!survives(kind, size)) {
         found.fails = size;
         break;
       }
       found.holds = size;
     }
-    constexpr int kHalvings = 3;
-    for (int i = 0; i < kHalvings && std::isfinite(found.fails); ++i) {
+    for (int i = 0; i < Kind::kHalvings && std::isfinite(found.fails) && !interrupted(); ++i) {
       const double middle = 0.5 * (found.holds + found.fails);
       (survives(kind, middle) ? found.holds : found.fails) = middle;
     }
+    if (interrupted()) break;
     breakdowns.push_back(found);
+    done = counted += cases * kind.most_sizes();
+    if (on_done) on_done(done, most);
   }
   return breakdowns;
 }

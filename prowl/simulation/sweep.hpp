@@ -27,11 +27,14 @@ struct SweepCase {
   SimulationResult result;  ///< without samples
 };
 
+/// Told of progress, from 0 on: how many simulations are done, of how many. May be empty.
+using SweepProgress = std::function<void(int done, int total)>;
+
 /// Runs `simulate` on all of `options`, on as many threads as there are cores. The result does not depend on their number.
-/// `on_done` is called from any of them, one at a time, with the number of finished cases; it may be empty. Cases not begun
-/// when `interrupt` (may be null) turns true are left out: the result ends before the first of them.
+/// `on_done` is called from any of them, one at a time. Once `interrupt` (may be null) is true no further case is begun: the
+/// result has those that were, the first of `options`.
 std::vector<SweepCase> run_cases(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
-                                 const std::vector<SimulationOptions>& options, const std::function<void(int)>& on_done,
+                                 const std::vector<SimulationOptions>& options, const SweepProgress& on_done,
                                  const std::atomic<bool>* interrupt);
 
 /// Share of successes, and the interval that holds the true rate with 95 % (Clopper and Pearson, Biometrika 1934: exact, so
@@ -52,9 +55,11 @@ struct Breakdown {
 };
 
 /// Looks for it by bisection, `cases` simulations at a time: heavier, lighter, smoother ground, pushes, noise, delay.
+/// `on_done`: of as many simulations as it may take; those that a kind does not need count as done when it is found. Kinds
+/// that are not found when `interrupt` (may be null) turns true are left out.
 std::vector<Breakdown> find_breakdowns(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                                        const SimulationOptions& options, std::uint64_t seed, int cases,
-                                       const std::function<void(const std::string&)>& on_kind,
+                                       const SweepProgress& on_done,
                                        const std::atomic<bool>* interrupt);
 
 }  // namespace prowl

@@ -11,6 +11,8 @@
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/tracking/linearised_dynamics.hpp"
+#include "prowl/tracking/segment_contacts.hpp"
+#include "prowl/trajectory/tracking_error.hpp"
 
 namespace prowl {
 namespace {
@@ -28,8 +30,10 @@ struct State {
 /// The robot with the contacts of one segment, and the torque that drives it.
 class Motion {
  public:
-  Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, std::vector<int> contacts)
-      : tracker_(tracker), options_(options), contacts_(std::move(contacts)), dynamics_(robot, contacts_, kContactRankThreshold),
+  Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, int segment)
+      : tracker_(tracker), options_(options), segment_(segment),
+        contacts_(contacts_of(tracker.plan().segments[static_cast<std::size_t>(segment)])),
+        dynamics_(robot, contacts_, kContactRankThreshold),
         held_(VectorXd::Zero(robot.nu())), force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
 
   /// The torque that is held until the next tick.
@@ -45,7 +49,7 @@ class Motion {
   RolloutSample sample(double t, const State& x) {
     const VectorXd tau = torque(t, x);
     dynamics_.evaluate(x.q, x.v, tau);
-    RolloutSample result{t, x.q, x.v, tau, VectorXd::Zero(force_size_)};
+    RolloutSample result{t, x.q, x.v, tau, VectorXd::Zero(force_size_), segment_};
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       result.force.segment<3>(3 * contacts_[i]) = dynamics_.forces().segment<3>(3 * static_cast<Eigen::Index>(i));
     }
@@ -68,6 +72,7 @@ class Motion {
 
   const Tracker& tracker_;
   const RolloutOptions& options_;
+  int segment_;
   std::vector<int> contacts_;
   ForwardDynamics dynamics_;
   VectorXd held_;
@@ -123,20 +128,11 @@ class Integrator {
   double step_ = 1e-3;
 };
 
-bool is_far(const Tracker& tracker, double t, const State& x) {
+bool is_far(const RobotModel& robot, const Tracker& tracker, double t, const State& x) {
   if (!x.q.allFinite() || !x.v.allFinite()) return true;
-  VectorXd q_reference(x.q.size()), v_reference(x.v.size()), tangent(x.v.size());
+  VectorXd q_reference(x.q.size()), v_reference(x.v.size());
   tracker.reference(t, q_reference, v_reference);
-  configuration_difference(x.q, q_reference, tangent);
-  return tangent.head<3>().norm() > kFallen || tangent.segment<3>(3).norm() > kFallen;
-}
-
-std::vector<int> contacts_of(const TrackingPlan::Segment& segment) {
-  std::vector<int> contacts;
-  for (std::size_t c = 0; c < segment.in_contact.size(); ++c) {
-    if (segment.in_contact[c]) contacts.push_back(static_cast<int>(c));
-  }
-  return contacts;
+  return has_fallen(robot, q_reference, x.q);
 }
 
 }  // namespace
@@ -152,7 +148,7 @@ Rollout rollout(const RobotModel& robot, const Tracker& tracker, const VectorXd&
   long ticks = 0;
   try {
     for (std::size_t s = 0; s < segments.size(); ++s) {
-      Motion motion(robot, tracker, options, contacts_of(segments[s]));
+      Motion motion(robot, tracker, options, static_cast<int>(s));
       if (s > 0) x.v = velocity_after_landing(robot, motion.contacts(), x.q, x.v);
       const double end = segments[s].end + (s + 1 == segments.size() ? options.stand_on : 0.0);
       motion.tick(t, x);
@@ -163,7 +159,8 @@ Rollout rollout(const RobotModel& robot, const Tracker& tracker, const VectorXd&
         }
         const double tick = tracker.start() + static_cast<double>(ticks + 1) * step;
         const bool reaches_tick = tick <= end;
-        result.fell = !integrator.integrate_to(reaches_tick ? tick : end, t, x, motion) || is_far(tracker, t, x);
+        result.fell = !integrator.integrate_to(reaches_tick ? tick : end, t, x, motion) || is_far(robot, tracker, t, x);
+        result.end_time = t;
         if (result.fell) return result;
         if (!reaches_tick) continue;
         ++ticks;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <vector>
 
 #include "prowl/motion/motion_problem.hpp"
@@ -14,6 +13,7 @@ struct RolloutSample {
   double time = 0.0;
   Eigen::VectorXd q, v, tau;
   Eigen::VectorXd force;  ///< 3 per contact of the ROBOT, world frame [N]; zero where the schedule has none
+  int segment = 0;        ///< of the tracking plan
 };
 
 struct RolloutOptions {
@@ -25,18 +25,17 @@ struct RolloutOptions {
 };
 
 struct Rollout {
-  std::vector<RolloutSample> samples;  ///< from the start on; the last is the end, or where it fell
+  std::vector<RolloutSample> samples;  ///< from the start on; the last is the end, or the last before it fell
   bool fell = false;                   ///< it came so far from the reference that going on means nothing, see rollout()
+  double end_time = 0.0;               ///< when it ended, or fell [s]
 };
 
 /// Integrates the projected dynamics forward from (q, v) at the start of a tracking plan (Dormand-Prince 5(4), adaptive,
 /// Boost.Odeint; orientations in a chart about the last state). The contacts are those of the schedule, at their times:
 /// they pull too, and where one closes the velocity changes by velocity_after_landing(). So this is the model that the
-/// gains were made for, not a judge: that is the simulation. Ends early, fell, when the base is kFallen from its
-/// reference, in metres or radians, or the dynamics are no longer finite.
+/// gains were made for, not a judge: that is the simulation. Joints turn beyond their limits. Ends early, fell, by
+/// has_fallen(), or when the dynamics are no longer finite.
 Rollout rollout(const RobotModel& robot, const Tracker& tracker, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 const RolloutOptions& options);
-
-inline constexpr double kFallen = 0.5;  ///< [m, rad]
 
 }  // namespace prowl

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "prowl/trajectory/ground_distance.hpp"
+#include "prowl/trajectory/torque_share.hpp"
 #include "prowl/trajectory/true_motion.hpp"
 #include "prowl/trajectory/worst_case.hpp"
 
@@ -140,7 +141,7 @@ class JointChecks {
       const std::string& name = robot_.joint_names()[i];
       if (outside > -std::numeric_limits<double>::infinity()) position_.record(outside, point.time, name);
       velocity_.record(std::abs(point.v(6 + i)) / robot_.velocity_limit()(i), point.time, name);
-      torque_.record(torque_ratio(i, position, point.v(6 + i), point.tau(i)), point.time, name);
+      torque_.record(torque_share(robot_, i, position, point.v(6 + i), point.tau(i)), point.time, name);
     }
   }
 
@@ -149,14 +150,6 @@ class JointChecks {
   }
 
  private:
-  /// Of what the joint can give in that direction at this position and velocity; infinity if that is nothing.
-  double torque_ratio(int joint, double position, double velocity, double torque) const {
-    const double most = torque > 0.0 ? robot_.torque_upper(joint, position, velocity)
-                                     : -robot_.torque_lower(joint, position, velocity);
-    if (most > 0.0) return std::abs(torque) / most;
-    return torque == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
-  }
-
   const RobotModel& robot_;
   WorstCase position_{"joint position beyond limit", "SI", Limits::joint_position};
   WorstCase velocity_{"joint velocity", "of limit", Limits::velocity_ratio};

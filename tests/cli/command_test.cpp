@@ -1,11 +1,7 @@
 // The command as a user meets it: the real binary, its exit status, what it prints and what it writes.
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <nlohmann/json.hpp>
-
-#include "../io/test_files.hpp"
+#include "command.hpp"
 #include "prowl/tracker/tracker.hpp"
 
 namespace prowl {
@@ -16,43 +12,10 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-const std::string kPhase = R"(robot = "hyq.toml"
-[[phase]]
-contacts = "all"
-duration_s = 2.0
-intervals = 5
-)";
-
-/// HyQ stands still, by cost alone: a second of solving.
-const std::string kHold = kPhase + R"([cost]
-joint_position = 1.0
-joint_velocity = 0.1
-torque = 1e-3
-)";
-
-struct Outcome {
-  int status = -1;
-  std::string out, error;
-};
-
-class Command : public testing::Test {
- protected:
-  Command() {
-    folder_.write("hyq.toml", test::kHyqFile);
-    folder_.write("hold.toml", kHold);
-  }
-  /// Runs a shell script in the test's folder, in which $prowl is the command and $dirs finds the robots.
-  Outcome run(const std::string& script) const {
-    const std::string setup = "cd '" + folder_.path().string() + "'; prowl='" PROWL_COMMAND
-                              "'; dirs='--package-dir " PROWL_ROBOTS_DATA "'; (" + script + ") >.out 2>.err";
-    const int status = std::system(setup.c_str());
-    return {WEXITSTATUS(status), test::read_file(folder_.path() / ".out"), test::read_file(folder_.path() / ".err")};
-  }
-  bool written() const { return std::filesystem::exists(folder_.path() / "out"); }
-  nlohmann::json plan() const { return nlohmann::json::parse(test::read_file(folder_.path() / "out/plan.json")); }
-
-  test::TempFolder folder_;
-};
+using test::Command;
+using test::kHold;
+using test::kPhase;
+using test::Outcome;
 
 TEST_F(Command, TellsVersionsAndHelp) {
   const Outcome version = run("$prowl --version");

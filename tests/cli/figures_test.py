@@ -183,6 +183,27 @@ class Figures(unittest.TestCase):
         self.assertGreater(np.abs(feedback[during]).max(), 5.0, "the push did nothing")
         np.testing.assert_allclose(feedback[during], sim[f"feedback_{joint}_Nm"][during], atol=1e-3)
 
+    def test_draws_a_rollout(self):
+        """Of the other engine: the same tables, no delay, and the feedback is K(t) (x* ⊖ x) of its own series."""
+        plan, out = self.plan.with_name("rolled out"), self.plan.with_name("rollout figures")
+        plan.mkdir()
+        for name in ("plan.json", "trajectory.csv", "tracker.bin"):
+            (plan / name).write_bytes((self.plan / name).read_bytes())
+        self.run_or_fail("simulate", plan, "--engine", "rollout", "--base-offset-m", 0, 0.02, 0.03, "--record-rate", 500)
+        self.run_or_fail("figures", plan, "--joint", "lh_kfe_joint", "--out", out)
+        self.assertIn("rollout of the projected dynamics, closed loop, continuous control, base off at the start, success",
+                      (out / "torques.svg").read_text(encoding="utf-8"))
+        sim, gains, torques = read(plan / "simulate.csv"), read(out / "gains.csv"), read(out / "torques.csv")
+        self.assertEqual(list(sim), list(self.sim), "columns of both engines")
+        for joint in self.joints:
+            np.testing.assert_allclose(torques[f"feedforward_{joint}_Nm"] + torques[f"feedback_{joint}_Nm"], sim[f"tau_{joint}_Nm"], atol=1e-4)
+        during = sim["time_s"] < self.nodes["time_s"][-1] - 1e-9
+        names = [n for n in gains if n not in ("time_s", "segment")]
+        K = np.column_stack([np.interp(sim["time_s"], gains["time_s"], gains[n]) for n in names])
+        feedback = np.sum(K * state_difference(sim, self.joints), axis=1)
+        self.assertGreater(np.abs(feedback[during]).max(), 5.0, "the offset did nothing")
+        np.testing.assert_allclose(feedback[during], sim["feedback_lh_kfe_joint_Nm"][during], atol=1e-3)
+
     def test_knees_keep_to_their_curve(self):
         loader = importlib.machinery.SourceFileLoader("plot_knee", str(ROOT / "scripts/plot_knee"))
         plot_knee = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot_knee", loader))

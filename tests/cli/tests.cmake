@@ -1,7 +1,9 @@
 if(PROWL_BUILD_CLI)
-  prowl_test(cli/command prowl::io nlohmann_json::nlohmann_json)
-  target_compile_definitions(cli_command_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
-  add_dependencies(cli_command_test prowl_cli)
+  foreach(name command simulate sweep)
+    prowl_test(cli/${name} prowl::io nlohmann_json::nlohmann_json)
+    target_compile_definitions(cli_${name}_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
+    add_dependencies(cli_${name}_test prowl_cli)
+  endforeach()
 
   add_test(NAME cli/figures
     COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/figures_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)

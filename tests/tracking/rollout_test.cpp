@@ -5,9 +5,9 @@
 
 #include <numbers>
 
-#include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/tracking/displaced_start.hpp"
 #include "prowl/tracking/linearised_dynamics.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
 #include "tests/support/random_vector.hpp"
@@ -34,17 +34,7 @@ Tracked track(const std::string& name) {
 
 /// The start with its base moved, the feet where they are.
 VectorXd moved_start(const Tracked& tracked, const VectorXd& base_move) {
-  const RobotModel& robot = tracked.robot();
-  const VectorXd& q = tracked.solved.trajectory.nodes.front().q;
-  RigidBodyTerms terms(robot);
-  terms.update_kinematics(q);
-  std::vector<ContactTarget> feet;
-  for (const int c : tracked.design.phases.front().contacts) feet.push_back({c, terms.contact_position(c)});
-  VectorXd move = VectorXd::Zero(robot.nv());
-  move.head<6>() = base_move;
-  const InverseKinematics found = inverse_kinematics(robot, integrate(q, move), feet);
-  EXPECT_TRUE(found.converged);
-  return found.q;
+  return displaced_start(tracked.robot(), tracked.tracker, base_move).q;
 }
 
 /// Base position [m] and orientation [rad] off the reference, and the velocity.

@@ -3,6 +3,8 @@ prowl_test(tracking/linearised_dynamics prowl::tracking pinocchio::pinocchio_def
 target_sources(tracking_linearised_dynamics_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support/null_space_dynamics.cpp)
 prowl_test(tracking/feedback_design prowl::prowl)
 prowl_test(tracking/rollout prowl::prowl)
+prowl_test(tracking/rollout_measures prowl::tracking)
+prowl_test(tracking/displaced_start prowl::tracking)
 
 # The Riccati solution against SciPy: a program writes what the backward pass sees, a script solves it in its own way.
 add_executable(tracking_print_design ${CMAKE_CURRENT_LIST_DIR}/print_design.cpp)

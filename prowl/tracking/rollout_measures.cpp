@@ -1,0 +1,91 @@
+#include "prowl/tracking/rollout_measures.hpp"
+
+#include <algorithm>
+
+#include "prowl/trajectory/torque_share.hpp"
+#include "prowl/trajectory/worst_case.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::VectorXd;
+
+/// The load of each contact, sample by sample.
+class ContactLoads {
+ public:
+  ContactLoads(const MotionProblem& problem, std::optional<double> friction)
+      : problem_(problem), friction_(friction), worst_(problem.robot.contacts().size()) {}
+
+  void record(const RolloutSample& sample) {
+    // What comes after the end stands as the last phase does.
+    const std::size_t phase = std::min(static_cast<std::size_t>(sample.segment), problem_.phases.size() - 1);
+    for (const PhaseContact& held : problem_.phases[phase].contacts) {
+      const Surface& surface = problem_.surfaces[static_cast<std::size_t>(held.surface)];
+      const Eigen::Vector3d force = sample.force.segment<3>(3 * held.contact);
+      const double normal = surface.normal.dot(force);
+      const double tangential = (force - normal * surface.normal).norm();
+      Worst& worst = worst_[static_cast<std::size_t>(held.contact)];
+      worst.stood = true;
+      worst.pull.record(-normal, sample.time, "");
+      worst.beyond.record(tangential - friction_.value_or(surface.friction) * std::max(normal, 0.0), sample.time, "");
+    }
+  }
+
+  std::vector<ContactLoad> loads() const {
+    std::vector<ContactLoad> loads;
+    for (const Worst& worst : worst_) {
+      const CertificateCheck pull = worst.pull.check(), beyond = worst.beyond.check();
+      loads.push_back({worst.stood, -pull.worst, pull.time, beyond.worst, beyond.time});
+    }
+    return loads;
+  }
+
+ private:
+  struct Worst {
+    bool stood = false;
+    WorstCase pull{"pull", "N", 0.0}, beyond{"friction cone", "N", 0.0};
+  };
+  const MotionProblem& problem_;
+  std::optional<double> friction_;
+  std::vector<Worst> worst_;
+};
+
+}  // namespace
+
+RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tracker, const Rollout& rollout, double end,
+                                std::optional<double> friction) {
+  constexpr double kAtLimit = 0.999;  // of a curve: the tracker's is a table
+  const RobotModel& robot = problem.robot;
+  TrackingError error;
+  WorstCase torque("joint torque", "of limit", 1.0);
+  ContactLoads loads(problem, friction);
+  RolloutMeasures measures;
+  long saturated = 0;
+  VectorXd q_ref(robot.nq()), v_ref(robot.nv());
+  for (std::size_t i = 0; i < rollout.samples.size(); ++i) {
+    const RolloutSample& at = rollout.samples[i];
+    tracker.reference(at.time, q_ref, v_ref);
+    error.add(q_ref, at.q, at.time >= end - kRestWindow);
+    double largest = 0.0;
+    for (int j = 0; j < robot.nu(); ++j) {
+      const double share = torque_share(robot, j, at.q(7 + j), at.v(6 + j), at.tau(j));
+      torque.record(share, at.time, robot.joint_names()[static_cast<std::size_t>(j)]);
+      largest = std::max(largest, share);
+    }
+    if (largest >= kAtLimit) ++saturated;
+    if (i + 1 < rollout.samples.size()) {
+      measures.positive_work += (rollout.samples[i + 1].time - at.time) * at.tau.cwiseProduct(at.v.tail(robot.nu())).cwiseMax(0.0).sum();
+    }
+    loads.record(at);
+  }
+  measures.base_position = error.base_position();
+  measures.base_angle = error.base_angle();
+  measures.joints = error.joints();
+  measures.largest_torque_share = torque.check().worst;
+  measures.largest_torque_joint = torque.check().where;
+  measures.saturated = rollout.samples.empty() ? 0.0 : static_cast<double>(saturated) / static_cast<double>(rollout.samples.size());
+  measures.contacts = loads.loads();
+  return measures;
+}
+
+}  // namespace prowl

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Size of an error over a whole run, and over the last kRestWindow of it.
+struct ErrorMeasure {
+  double largest = 0.0, rms = 0.0, rest = 0.0;
+};
+
+inline constexpr double kRestWindow = 0.2;  ///< [s]
+
+/// Collects an ErrorMeasure, value by value.
+class ErrorSum {
+ public:
+  void add(double value, bool at_rest);
+  ErrorMeasure measure() const;
+
+ private:
+  double largest_ = 0.0, squares_ = 0.0, rest_ = 0.0;
+  long count_ = 0;
+};
+
+/// How far a robot is from the plan that it follows, sample by sample.
+class TrackingError {
+ public:
+  void add(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& q, bool at_rest);
+
+  ErrorMeasure base_position() const { return position_.measure(); }  ///< distance [m]
+  ErrorMeasure base_angle() const { return angle_.measure(); }        ///< [rad]
+  ErrorMeasure joints() const;                                        ///< of the worst joint; rms of all [rad]
+
+ private:
+  ErrorSum position_, angle_, worst_joint_, joints_;
+};
+
+/// Whether the base is so far from the plan's, more than 0.5 rad or a third of its nominal height, that the robot lies, or
+/// soon will.
+bool has_fallen(const RobotModel& robot, const Eigen::VectorXd& q_ref, const Eigen::VectorXd& q);
+
+}  // namespace prowl

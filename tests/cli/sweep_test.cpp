@@ -1,0 +1,76 @@
+// `prowl sweep`: its progress, and what is left of it after Ctrl-C.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "command.hpp"
+
+namespace prowl {
+namespace {
+
+using test::Outcome;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class Sweep : public test::Command {
+ protected:
+  void SetUp() override { ASSERT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 0); }
+  nlohmann::json result() const { return nlohmann::json::parse(test::read_file(folder_.path() / "out/sweep.json")); }
+
+  /// Ctrl-C once `text` is on stderr.
+  Outcome interrupted_at(const std::string& text, const std::string& options) const {
+    return run("$prowl sweep out $dirs " + options + " 2>progress & pid=$!; "
+               "for i in $(seq 600); do grep -q '" + text + "' progress && break; sleep 0.05; done; kill -INT $pid; wait $pid");
+  }
+};
+
+TEST_F(Sweep, KeepsFinishedCasesOnInterrupt) {
+  const Outcome stopped = interrupted_at(" of 100 simulations", "--n 100 --seed 5");
+  EXPECT_EQ(stopped.status, 130) << stopped.error;
+  const nlohmann::json left = result();
+  const int finished = left.at("cases");
+  EXPECT_EQ(left.at("interrupted"), true);
+  EXPECT_EQ(left.at("cases_asked"), 100);
+  EXPECT_GE(finished, 10);
+  EXPECT_LT(finished, 100);
+  EXPECT_TRUE(left.at("breakdowns").empty());
+  EXPECT_THAT(stopped.out, HasSubstr("interrupted: " + std::to_string(finished) + " of 100 simulations were finished"));
+
+  // They are those of a sweep that has no more of them.
+  ASSERT_EQ(run("$prowl sweep out $dirs --breakdown 0 --seed 5 --n " + std::to_string(finished)).status, 0);
+  nlohmann::json whole = result();
+  EXPECT_EQ(whole.at("interrupted"), false);
+  EXPECT_EQ(whole.at("worst"), left.at("worst"));
+  EXPECT_EQ(whole.at("worst").size(), static_cast<std::size_t>(finished));
+}
+
+TEST_F(Sweep, LeavesOutBreakdownsThatAreNotFoundOnInterrupt) {
+  const Outcome stopped = interrupted_at("of one perturbation alone", "--n 2 --breakdown 1");
+  EXPECT_EQ(stopped.status, 130) << stopped.error;
+  EXPECT_EQ(result().at("interrupted"), true);
+  EXPECT_EQ(result().at("cases"), 2);
+  EXPECT_LT(result().at("breakdowns").size(), 6u);
+  EXPECT_THAT(stopped.out, HasSubstr("interrupted while looking at one perturbation alone"));
+}
+
+TEST_F(Sweep, TellsEveryTenthInAPipe) {
+  const Outcome sweep = run("$prowl sweep out $dirs --n 10 --breakdown 0");
+  EXPECT_EQ(sweep.status, 0);
+  EXPECT_EQ(std::ranges::count(sweep.error, '\n'), 10) << sweep.error;
+  EXPECT_THAT(sweep.error, AllOf(HasSubstr("2 of 10 simulations: 00:"), HasSubstr(" left\n"), HasSubstr("10 of 10 simulations: 00:")));
+  for (const char* control : {"\r", "\b", "\x1b"}) EXPECT_THAT(sweep.error, Not(HasSubstr(control)));
+}
+
+TEST_F(Sweep, ShowsABarInATerminal) {
+  const std::string sweep = "$prowl sweep out $dirs --n 4 --breakdown 0";
+  const std::string wide = run("NO_COLOR=1 script -qec \"stty cols 100; " + sweep + "\" /dev/null").out;
+  EXPECT_THAT(wide, AllOf(HasSubstr("4 simulations\r\n0%   10"), HasSubstr("|----|"), HasSubstr(" left"), HasSubstr("\n4 simulations: 00:")));
+  EXPECT_EQ(std::ranges::count(wide, '*'), 51) << "not full";
+  EXPECT_THAT(wide, Not(HasSubstr("\x1b"))) << "colours";
+  const std::string narrow = run("script -qec \"stty cols 60; " + sweep + "\" /dev/null").out;
+  EXPECT_THAT(narrow, AllOf(HasSubstr("2 of 4 simulations"), Not(HasSubstr("|----|")), Not(HasSubstr("\b"))));
+}
+
+}  // namespace
+}  // namespace prowl
