@@ -38,7 +38,7 @@ struct SolverOptions {
   int threads = 1;             ///< for evaluations; results do not depend on it
   bool start_is_near = false;  ///< a solution of a neighbouring problem: stay near it
   /// Those of that solution (SolveResult::stage_multipliers), if its stages have the same sizes; empty: none. For solvers that
-  /// go by stages.
+  /// go by stages. Riccati then takes its first steps whole, without asking a filter, and takes them back if they lead away.
   std::vector<StageMultipliers> start_multipliers = {};
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
   const std::atomic<bool>* interrupt = nullptr;            ///< looked at once an iteration; true stops

@@ -343,7 +343,9 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
     least_theta_ = 1e-4 * std::max(1.0, theta_);
     const double largest_theta = 1e4 * std::max(1.0, theta_);
     filter_.reset(largest_theta);
+    if (has_start_multipliers()) keep_start();
     for (iterations_ = 0;; ++iterations_) {
+      end_whole_steps();
       update_dual_violation();
       update_figures();
       if (!std::isfinite(figures_.dual_violation)) return {evaluation_failed, "the iterate is not finite"};

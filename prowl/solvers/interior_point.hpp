@@ -70,6 +70,8 @@ class InteriorPoint {
   void set_gradient(double cost_scale, const Eigen::VectorXd& lambda);
   void set_weights();
   void solve_direction(double cost_scale, const Eigen::VectorXd& residual);
+  void keep_start();
+  void end_whole_steps();
   bool search_line();
   bool try_step(double alpha, const StageVectors& steps, const Eigen::VectorXd& ds);
   bool is_acceptable(double alpha, double theta, double phi, bool& is_phi_step) const;
@@ -103,6 +105,15 @@ class InteriorPoint {
   double theta_ = 0.0, phi_ = 0.0, slope_ = 0.0, largest_dual_violation_ = 0.0;
   double least_theta_ = 0.0;  ///< below it steps are judged by the barrier function alone
   Filter filter_;
+  /// The point that steps without a filter have begun at, while they are taken.
+  struct Start {
+    StageVectors ux;
+    Slacks slacks;
+    Eigen::VectorXd lambda;
+    std::vector<StageMultipliers> on;
+    double mu, theta;
+  };
+  std::optional<Start> whole_steps_from_;
   IterateFigures figures_;
   int iterations_ = 0;
   std::string failure_;

@@ -76,6 +76,18 @@ TEST(SolveAgain, TakesFewIterationsWithTheGoalElsewhere) {
   }
 }
 
+/// So far that Newton's first steps lead nowhere.
+TEST(SolveAgain, FindsAGoalThatIsFarFromTheOldOne) {
+  const Task task = read("crouch", 40);
+  const Plan plan = solve(task.problem, task);
+  const MotionProblem problem = with_goal_moved(task, 0, -0.2);
+  const Plan again =
+      solve(problem, task, {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
+  const Plan alone = solve(problem, task);
+  EXPECT_EQ(alone.result.status, SolveStatus::converged) << alone.result.message;
+  EXPECT_EQ(again.result.status, SolveStatus::converged) << again.result.message;
+}
+
 TEST(SolveAgain, FindsWhatTheTaskAloneFinds) {
   Task task = read("balance", 60);
   task.solver.tolerance = 1e-9;  // the barrier's part of the cost goes with it
