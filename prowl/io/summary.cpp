@@ -128,7 +128,11 @@ std::string feedback_summary(const FeedbackDesign& feedback, double step) {
     text += fmt::format("  it grows at most in phase '{}', {:.1f} times ({})\n", worst->name, worst->worst,
                         worst->worst_direction);
   }
-  if (!feedback.stands_on) text += "  no gains to stand on with after the end: its contacts do not hold the robot\n";
+  if (!feedback.stands_on) {
+    text += feedback.slowest_rate < 0.0
+                ? "  WARNING: the gains do not hold the robot after the end; tracking.bandwidth_radps leaves too little of them\n"
+                : "  no gains to stand on with after the end: its contacts do not hold the robot\n";
+  }
   return text;
 }
 

@@ -161,8 +161,10 @@ class BackwardPass {
     set_gain();
     if (stationary) {
       const Eigen::VectorXcd poles = (now_.A - now_.B * gain_).eigenvalues();
-      design_.slowest_rate = poles.real().cwiseAbs().minCoeff();
+      design_.slowest_rate = -poles.real().maxCoeff();
       design_.fastest_rate = poles.cwiseAbs().maxCoeff();
+      // The limit on the bandwidth may have taken so much of the gains that they hold it no more.
+      design_.stands_on = design_.stands_on && design_.slowest_rate > 0.0;
     }
     return MatrixXd::Identity(n, n);
   }

@@ -30,7 +30,7 @@ struct FeedbackDesign {
   PhaseDecay whole;                                 ///< of the whole motion
   /// The gains at the end are for ever: S there is that of standing on. Else S is that of one more second.
   bool stands_on = false;
-  double slowest_rate = 0.0, fastest_rate = 0.0;    ///< of standing on: |Re| and modulus of closed-loop poles [1/s]
+  double slowest_rate = 0.0, fastest_rate = 0.0;    ///< of standing on: least -Re (< 0: it falls) and modulus of closed-loop poles [1/s]
   double seconds = 0.0;                             ///< that the design took
 
   int num_samples() const;

@@ -110,6 +110,15 @@ TEST(FeedbackDesign, HasNoGainsToStandOnWithInTheAir) {
   EXPECT_TRUE(found.gains.front().front().allFinite());
 }
 
+TEST(FeedbackDesign, DoesNotStandOnWithGainsThatTheBandwidthCuts) {
+  const test::SolvedTask& task = solved("hyq/stand");
+  TrackingOptions options = task.task.tracking;
+  options.largest_bandwidth = 2.0;
+  const FeedbackDesign found = design(task, options);
+  EXPECT_FALSE(found.stands_on);
+  EXPECT_LT(found.slowest_rate, 0.0) << "a deviation grows";
+}
+
 // Halving the step of the grid brings the gains nearer to their limit by the square of it.
 TEST(FeedbackDesign, ConvergesWithTheGrid) {
   const test::SolvedTask& task = solved("hyq/crouch");
