@@ -55,4 +55,8 @@ class ForwardDynamics {
   Derivatives da_, df_;
 };
 
+/// Contacts count as dependent where Projector would find it but for such a distance [m]: for states a little off their
+/// contacts, as those of a motion between its nodes, of a rollout and of an estimator are.
+inline constexpr double kContactRankThreshold = 1e-4;
+
 }  // namespace prowl

@@ -46,14 +46,25 @@ Eigen::VectorXd StateEstimator::acceleration(const Eigen::VectorXd& q, const Eig
     for (std::size_t c = 0; c < stand.in_contact.size(); ++c) {
       if (stand.in_contact[c]) contacts.push_back(static_cast<int>(c));
     }
-    dynamics = std::make_unique<ForwardDynamics>(robot_, contacts);
+    dynamics = std::make_unique<ForwardDynamics>(robot_, contacts, kContactRankThreshold);
   }
+  // A robot that has fallen apart in its own eyes still has to go on. Where rates are absurd their squares in the dynamics would
+  // drive them further, sample by sample, whatever the encoders say.
+  if (!has_plausible_rates(v)) return Eigen::VectorXd::Zero(robot_.nv());
   try {
     dynamics->evaluate(q, v, tau);
     return dynamics->acceleration();
   } catch (const NumericalError&) {
-    return Eigen::VectorXd::Zero(robot_.nv());  // a robot that has fallen apart in its own eyes still has to go on
+    return Eigen::VectorXd::Zero(robot_.nv());
   }
+}
+
+bool StateEstimator::has_plausible_rates(const Eigen::VectorXd& v) const {
+  constexpr double kBeyondLimit = 2.0;   // of the joint's own limit
+  constexpr double kFastestTurn = 20.0;  // of the base [rad/s]: three turns a second
+  const auto rates = v.tail(robot_.nu()).cwiseAbs().array();
+  return v.allFinite() && (rates <= kBeyondLimit * robot_.velocity_limit().array()).all() &&
+         v.segment<3>(3).lpNorm<Eigen::Infinity>() <= kFastestTurn;
 }
 
 }  // namespace prowl

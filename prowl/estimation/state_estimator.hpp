@@ -45,6 +45,7 @@ class StateEstimator {
  private:
   Eigen::VectorXd acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau,
                                const Stand& stand);
+  bool has_plausible_rates(const Eigen::VectorXd& v) const;
 
   const RobotModel& robot_;
   JointFilter joints_;

@@ -45,10 +45,6 @@ class LinearisedDynamics {
   Eigen::MatrixXd A_, B_, C_;
 };
 
-/// Contacts count as dependent where Projector would find it but for such a distance [m]: a motion between its nodes, and
-/// a robot in a rollout, are a little off their contacts.
-inline constexpr double kContactRankThreshold = 1e-4;
-
 /// The impact of landing itself: the velocity after contacts have closed at (q, v), without rebound. It minimises the
 /// kinetic energy of the change.
 Eigen::VectorXd velocity_after_landing(const RobotModel& robot, const std::vector<int>& contacts, const Eigen::VectorXd& q,
