@@ -135,6 +135,7 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
       verb.add_option("--case", arguments.sweep_case, "Perturbed as the case of that seed in prowl sweep without options")
           ->type_name("SEED")};
   for (CLI::Option* const option : all) option->group(kMujocoOptions);
+  for (const char* drawn : {"--mass", "--friction", "--push", "--push-duration", "--seed"}) all.back()->excludes(verb.get_option(drawn));
 }
 
 void add_rollout_options(CLI::App& verb, SimulateArguments& arguments) {

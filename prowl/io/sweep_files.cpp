@@ -43,7 +43,7 @@ std::vector<std::size_t> worst_first(const SweepRecord& record) {
   std::ranges::stable_sort(order, {}, [&](std::size_t i) {
     const SimulationResult& result = record.cases[i].result;
     return std::tuple(result.success(), result.end == SimulationResult::End::finished, result.end_time,
-                      -result.base_position.rest);
+                      result.end == SimulationResult::End::finished ? -result.base_position.rest : 0.0);
   });
   return order;
 }
@@ -72,7 +72,8 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
   for (const Count& count : by_phase(tracker, record)) {
     text += fmt::format("    {:<40}  {} of {}\n", count.phase, count.successes, count.cases);
   }
-  text += "  worst cases (prowl simulate DIR --case SEED)\n";
+  const bool as_default = record.ranges == PerturbationRanges{} && !record.cases.front().options.open_loop;
+  text += as_default ? "  worst cases (prowl simulate DIR --case SEED)\n" : "  worst cases (options of each: sweep.json)\n";
   const std::vector<std::size_t> order = worst_first(record);
   constexpr std::size_t kWorst = 5;
   for (std::size_t i = 0; i < std::min(kWorst, order.size()); ++i) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "prowl/trajectory/torque_share.hpp"
+
 namespace prowl {
 
 Actuators::Actuators(const RobotModel& robot, double dt, double delay, double bandwidth, const Eigen::VectorXd& initial)
@@ -27,7 +29,7 @@ const Eigen::VectorXd& Actuators::step(const Eigen::VectorXd& q, const Eigen::Ve
   for (int j = 0; j < robot_.nu(); ++j) {
     const double lower = robot_.torque_lower(j, q(7 + j), v(6 + j)), upper = robot_.torque_upper(j, q(7 + j), v(6 + j));
     torque_(j) = std::clamp(filtered_(j), lower, upper);
-    const double share = torque_(j) / (torque_(j) > 0.0 ? upper : lower);
+    const double share = torque_share(robot_, j, q(7 + j), v(6 + j), torque_(j));
     if (share <= largest_share_) continue;
     largest_share_ = share;
     most_used_ = j;

@@ -14,6 +14,7 @@ struct PerturbationRanges {
   double push = 10.0;                          ///< impulse on the base, random horizontal direction [N s]
   double push_on_two_feet = 2.0;               ///< the same while two feet or fewer are down [N s]
   double push_duration = 0.1;                  ///< it starts at a random moment of the motion [s]
+  bool operator==(const PerturbationRanges&) const = default;
 };
 
 /// Options of case `seed`: those given, with mass, friction, a push and the sensors' noise drawn from `seed` alone.

@@ -112,6 +112,7 @@ void Tracker::limit(const ConstVector& q, const ConstVector& v, Vector tau) cons
 
 void Tracker::torque(double t, const ConstVector& q, const ConstVector& v, Vector tau) const noexcept {
   feedback(t, q, v, tau);
+  if (!tau.allFinite()) tau.setZero();  // a state so absurd that the sum overflows
   tau += between(find(t), plan_.tau);
   limit(q, v, tau);
 }

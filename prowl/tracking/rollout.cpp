@@ -5,6 +5,7 @@
 #include <boost/numeric/odeint/stepper/generation.hpp>
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
+#include <limits>
 
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/error.hpp"
@@ -34,6 +35,9 @@ class Motion {
       : tracker_(tracker), options_(options), segment_(segment),
         contacts_(contacts_of(tracker.plan().segments[static_cast<std::size_t>(segment)])),
         dynamics_(robot, contacts_, kContactRankThreshold),
+        last_moment_(segment + 1 < static_cast<int>(tracker.plan().segments.size())
+                         ? std::nextafter(tracker.plan().segments[static_cast<std::size_t>(segment)].end, tracker.start())
+                         : std::numeric_limits<double>::infinity()),
         held_(VectorXd::Zero(robot.nu())), force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
 
   /// The torque that is held until the next tick.
@@ -60,6 +64,7 @@ class Motion {
 
  private:
   VectorXd torque_now(double t, const State& x) const {
+    t = std::min(t, last_moment_);  // at the end itself the tracker is in the next segment already
     VectorXd tau(held_.size());
     if (options_.closed_loop) {
       tracker_.torque(t, x.q, x.v, tau);
@@ -75,6 +80,7 @@ class Motion {
   int segment_;
   std::vector<int> contacts_;
   ForwardDynamics dynamics_;
+  double last_moment_;
   VectorXd held_;
   Eigen::Index force_size_;
 };

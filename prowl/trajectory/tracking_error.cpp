@@ -1,6 +1,5 @@
 #include "prowl/trajectory/tracking_error.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "prowl/model/configuration.hpp"
@@ -8,10 +7,10 @@
 namespace prowl {
 
 void ErrorSum::add(double value, bool at_rest) {
-  largest_ = std::max(largest_, value);
+  if (!(value <= largest_)) largest_ = value;  // NaN stays
   squares_ += value * value;
   ++count_;
-  if (at_rest) rest_ = std::max(rest_, value);
+  if (at_rest && !(value <= rest_)) rest_ = value;
 }
 
 ErrorMeasure ErrorSum::measure() const {

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "prowl/model/robot_model.hpp"
 
 namespace prowl {
 
-/// Size of an error over a whole run, and over the last kRestWindow of it.
+/// Size of an error over a whole run, and over the last kRestWindow of it: NaN if the run ended before. NaN if a value was.
 struct ErrorMeasure {
-  double largest = 0.0, rms = 0.0, rest = 0.0;
+  double largest = 0.0, rms = 0.0, rest = std::numeric_limits<double>::quiet_NaN();
 };
 
 inline constexpr double kRestWindow = 0.2;  ///< [s]
@@ -20,7 +21,7 @@ class ErrorSum {
   ErrorMeasure measure() const;
 
  private:
-  double largest_ = 0.0, squares_ = 0.0, rest_ = 0.0;
+  double largest_ = 0.0, squares_ = 0.0, rest_ = ErrorMeasure{}.rest;
   long count_ = 0;
 };
 
