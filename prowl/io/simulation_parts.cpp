@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "prowl/io/atomic_folder.hpp"
 
 namespace prowl {
@@ -44,7 +46,9 @@ std::string torque_line(const TorqueUse& use) {
 std::string error_heading() { return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "in rest"); }
 
 std::string error_line(const std::string& name, const ErrorMeasure& error, double unit, const std::string& unit_name) {
-  const auto value = [&](double size) { return fmt::format("{:.2f} {}", size / unit, unit_name); };
+  const auto value = [&](double size) -> std::string {
+    return std::isnan(size) ? "-" : fmt::format("{:.2f} {}", size / unit, unit_name);  // it ended before its rest
+  };
   return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", name, value(error.largest), value(error.rms), value(error.rest));
 }
 

@@ -69,6 +69,8 @@ TEST_F(Simulate, RolloutReturnsInClosedLoopAndFallsInOpenLoop) {
   EXPECT_THAT(open.out, HasSubstr("failed: fell at "));
   EXPECT_EQ(result().at("end"), "fell");
   EXPECT_LT(result().at("end_time_s"), 3.0);
+  EXPECT_TRUE(result().at("base_position_m").at("rest").is_null()) << "it never rested";
+  EXPECT_THAT(open.out, ::testing::Not(HasSubstr("nan")));
   for (const Row& row : rows()) EXPECT_EQ(row.at("feedback_lf_kfe_joint_Nm"), 0.0);
 }
 
