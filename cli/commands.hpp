@@ -11,5 +11,6 @@ void add_robot_command(CLI::App& app, int& status);
 void add_simulate_command(CLI::App& app, int& status);
 void add_sweep_command(CLI::App& app, int& status);
 void add_figures_command(CLI::App& app, int& status);
+void add_report_command(CLI::App& app, int& status);
 
 }  // namespace prowl::cli
