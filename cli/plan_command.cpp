@@ -111,21 +111,29 @@ int run_plan(const PlanArguments& arguments) {
 
   ProgressPrinter progress;
   PlanOptions options{.solver = task.solver};
-  options.solver.on_iteration = [&](const SolveProgress& iteration) { progress.print(iteration); };
+  std::vector<MeshIteration> iterations;
+  int level = -1;
+  options.solver.on_iteration = [&](const SolveProgress& iteration) {
+    progress.print(iteration);
+    iterations.push_back({std::max(level, 0), iteration});
+  };
   options.solver.interrupt = &interrupted;
   const IpoptSolver hint_solver;
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
   options.solver.threads = arguments.threads;
   options.hessian = arguments.hessian == "exact" ? HessianKind::exact : HessianKind::gauss_newton;
-  options.on_level = [&](int intervals) { progress.begin_level(intervals); };
+  options.on_level = [&](int intervals) {
+    ++level;
+    progress.begin_level(intervals);
+  };
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
   Plan plan = make_plan(task.problem, *make_solver(arguments.solver), options);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
-                    .feedback = {}, .warm_start = arguments.warm_start};
+                    .feedback = {}, .iterations = std::move(iterations), .warm_start = arguments.warm_start};
   if (!arguments.no_gains) add_feedback(record);
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
