@@ -41,13 +41,11 @@ std::optional<SourceText> read_if_there(const fs::path& file) {
   return read_text_file(file, kLongestSimulation);
 }
 
-int run_report(const ReportArguments& arguments) {
-  const fs::path directory = arguments.directory;
-  const fs::path out = arguments.out.empty() ? directory / kReportFile : fs::path(arguments.out);
-  const PackageSearch search = package_search(arguments.package_dirs);
-  const PlanRecord plan = read_plan(directory, search);
+}  // namespace
+
+void write_report(const PlanRecord& plan, const fs::path& directory, const fs::path& out, const PackageSearch& search) {
   ReportInputs inputs{.plan = plan,
-                      .directory = arguments.directory,
+                      .directory = directory.string(),
                       .simulation = read_if_there(directory / "simulate.csv"),
                       .simulation_json = read_if_there(directory / "simulate.json"),
                       .tracking = {},
@@ -56,16 +54,10 @@ int run_report(const ReportArguments& arguments) {
   if (fs::exists(directory / "tracker.bin", ignored)) inputs.tracking = read_tracker(directory).plan();
   const Report report = make_report(inputs, search);
   for (const std::string& warning : report.warnings) print_message(fmt::format("warning: {}\n", warning));
-  if (!inputs.simulation) {
-    print_message(fmt::format("no simulation in {}: the plan alone; for both first\n  prowl simulate {}\n", arguments.directory,
-                              arguments.directory));
-  }
   write_file_atomically(out, report.html);
-  print_result(fmt::format("written to {}, {:.1f} MB: open it in a browser\n", out.string(), 1e-6 * static_cast<double>(report.html.size())));
-  return kPassed;
+  print_message(fmt::format("report: {}, {:.1f} MB{}\n", out.string(), 1e-6 * static_cast<double>(report.html.size()),
+                            inputs.simulation ? "" : ", of the plan alone: there is no simulation"));
 }
-
-}  // namespace
 
 void add_report_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<ReportArguments>();
@@ -76,7 +68,13 @@ void add_report_command(CLI::App& app, int& status) {
       ->type_name("DIR")->expected(1)->take_all();
   verb->footer("Example:\n  prowl simulate out/hyq_crouch && prowl report out/hyq_crouch\n\n"
                "One file that needs no network and no other file. Exit status: 0 if it is written.");
-  verb->callback([arguments, &status] { status = run_report(*arguments); });
+  verb->callback([arguments, &status] {
+    const fs::path directory = arguments->directory;
+    const PackageSearch search = package_search(arguments->package_dirs);
+    write_report(read_plan(directory, search), directory,
+                 arguments->out.empty() ? directory / kReportFile : fs::path(arguments->out), search);
+    status = kPassed;
+  });
 }
 
 }  // namespace prowl::cli

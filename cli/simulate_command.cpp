@@ -8,6 +8,7 @@
 #include "output.hpp"
 #include "plan_tracker.hpp"
 #include "prowl/io/plan_directory.hpp"
+#include "prowl/io/report_file.hpp"
 #include "prowl/io/simulation_files.hpp"
 #include "prowl/simulation/sweep.hpp"
 
@@ -24,6 +25,7 @@ struct SimulateArguments {
   double push_duration = 0.1;
   std::optional<std::uint64_t> sweep_case;
   bool json = false;
+  bool report = false;
 };
 
 int run_simulate(SimulateArguments arguments) {
@@ -42,6 +44,10 @@ int run_simulate(SimulateArguments arguments) {
   print_result(arguments.json ? simulation_json(plan, record)
                               : simulation_summary(plan, record) +
                                     fmt::format("written to {}/simulate.json, simulate.csv\n", arguments.directory));
+  if (arguments.report) {
+    const std::filesystem::path directory = arguments.directory;
+    write_report(plan, directory, directory / kReportFile, package_search(arguments.package_dirs));
+  }
   return record.result.success() ? kPassed : kSimulationFailed;
 }
 
@@ -68,6 +74,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   verb->add_option("--seed", options.seed, "Of all random numbers; default 1")->type_name("N");
   verb->add_option("--case", arguments->sweep_case, "Perturbed as the case of that seed in prowl sweep without options")->type_name("SEED");
   verb->add_option("--record-rate", options.record_rate, "Rows a second in simulate.csv; default 200")->type_name("HZ");
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   verb->add_flag("--json", arguments->json, "Print the result as JSON");
   verb->add_option("--package-dir", arguments->package_dirs, "Where to look for package://; may be given again")
       ->type_name("DIR")->expected(1)->take_all();

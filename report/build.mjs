@@ -10,6 +10,12 @@ const folder = path.dirname(fileURLToPath(import.meta.url));
 const out = process.argv[2];
 if (!out) throw new Error("usage: build.mjs OUT");
 
+/// The licences of what goes into the page, as its first comment.
+async function licences(packages) {
+  const texts = await Promise.all(packages.map(async (name) => `${name}\n\n${await readFile(path.join(folder, "node_modules", name, "LICENSE"), "utf8")}`));
+  return `/*!\n${texts.join("\n").replaceAll("*/", "* /")}*/`;
+}
+
 const result = await build({
   entryPoints: [path.join(folder, "src/main.ts")],
   bundle: true,
@@ -17,7 +23,8 @@ const result = await build({
   format: "iife",
   target: "es2022",
   charset: "utf8",
-  legalComments: "eof",
+  legalComments: "none", // all of it is in the banner
+  banner: { js: await licences(["three", "uplot"]) },
   outdir: "out",
   write: false,
 });

@@ -17,6 +17,7 @@ using Points = std::vector<TrajectoryPoint>;
 using Value = std::function<double(const TrajectoryPoint&)>;
 
 const char* const kAxes[] = {"x", "y", "z"};
+constexpr double kLeastLoad = 1e-3;  ///< of the weight: below it the ratio of two forces means nothing
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 Json series(const char* label, const char* style, const char* time, const Points& points, const Value& value) {
@@ -153,13 +154,14 @@ class Charts {
   }
   double velocity_share(const TrajectoryPoint& p, int j) const { return std::abs(p.v(6 + j)) / robot_.velocity_limit()(j); }
 
-  /// Tangential force over what friction can hold; nothing while the contact is open.
+  /// Tangential force over what friction can hold; nothing while the contact is open or bears next to nothing.
   double friction_share(const TrajectoryPoint& p, int c) const {
     for (const PhaseContact& held : problem_.phases[static_cast<std::size_t>(p.phase)].contacts) {
       if (held.contact != c) continue;
       const Surface& surface = problem_.surfaces[static_cast<std::size_t>(held.surface)];
       const Eigen::Vector3d f = p.force.segment<3>(3 * c);
       const double normal = surface.normal.dot(f);
+      if (normal < kLeastLoad * robot_.weight()) return kNothing;
       return (f - normal * surface.normal).norm() / (surface.friction * normal);
     }
     return kNothing;

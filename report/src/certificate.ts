@@ -13,7 +13,7 @@ export function certificate(data: ReportData, clock: Clock, goTo: (time: number)
   const table = el(
     "table",
     { class: "checks" },
-    el("thead", {}, el("tr", {}, ...["check", "worst", "limit", "used", "time", "where", "verdict"].map((name) =>
+    el("thead", {}, el("tr", {}, ...["verdict", "check", "worst", "limit", "used", "time", "where"].map((name) =>
       el("th", { scope: "col", class: ["worst", "limit", "time"].includes(name) ? "number" : "" }, name)))),
     el("tbody", {}, ...rows),
   );
@@ -60,7 +60,7 @@ export function certificate(data: ReportData, clock: Clock, goTo: (time: number)
 }
 
 function row(check: Check, goTo: (time: number) => void): HTMLElement {
-  const unit = check.unit === "-" || check.unit === "" ? "" : ` ${check.unit}`;
+  const unit = check.unit === "-" || check.unit === "" ? "" : ` ${check.unit.replace("^2", "²")}`;
   const share = check.worst === null || check.limit === null || check.limit === 0 ? null : check.worst / check.limit;
   const bar = el("span", { class: check.passed ? "used" : "used over" });
   bar.style.setProperty("--share", String(Math.min(Math.max(share ?? (check.passed ? 0 : 1), 0), 1)));
@@ -69,13 +69,13 @@ function row(check: Check, goTo: (time: number) => void): HTMLElement {
   const line = el(
     "tr",
     { class: check.passed ? "" : "failed", "data-check": check.name },
+    el("td", { class: "verdict" }, verdict(check)),
     el("th", { scope: "row" }, check.name),
     el("td", { class: "number worst" }, `${short(check.worst)}${unit}`),
     el("td", { class: "number limit" }, `${short(check.limit)}${unit}`),
     el("td", { class: "share", title: share === null ? false : `${short(100 * share)} % of the limit` }, bar),
     el("td", { class: "number time" }, seek),
     el("td", { class: "where" }, check.where),
-    el("td", { class: "verdict" }, verdict(check)),
   );
   if (time !== null) line.addEventListener("click", () => goTo(time));
   return line;

@@ -12,6 +12,7 @@ export interface Line {
   dash?: number[];
   width?: number;
   limit?: boolean; // not in the readout, and to be switched off
+  quiet?: boolean; // not in the readout
   steps?: boolean; // holds its value up to the next
 }
 
@@ -76,13 +77,14 @@ export class Chart {
       {
         width,
         height: options.height ?? 112,
-        padding: [4, 6, 0, 0],
+        padding: [4, 12, 0, 0],
+        pxAlign: 0, // whole pixels would make steps of slow changes
         legend: { show: false },
         cursor: { sync: { key: options.group }, drag: { x: true, y: false }, points: { size: 5 } },
         scales: { x: { time: false }, y: options.logarithmic ? { distr: 3 } : { range: (_u, low, high) => padded(low, high) } },
         axes: [
           { ...axis, size: 22, gap: 2, space: 38, values: (_u, ticks) => ticks.map((tick) => (options.xLabel ? String(tick) : `${short(tick, 4)} s`)) },
-          { ...axis, size: 42, gap: 3, space: 22, values: (_u, ticks) => ticks.map((tick) => (tick == null ? "" : short(tick, 4))) },
+          { ...axis, grid: options.logarithmic ? { ...grid, filter: powersOfTen } : grid, ticks: { show: false }, size: 42, gap: 3, space: 22, values: (_u, ticks) => ticks.map((tick) => (tick == null ? "" : short(tick, 4))) },
         ],
         series: [
           {},
@@ -124,7 +126,7 @@ export class Chart {
     this.head.hidden = !(x >= 0 && x <= this.plot.over.clientWidth);
     const values: Node[] = [];
     for (const line of this.options.lines) {
-      if (line.limit || values.length >= 3) continue;
+      if (line.limit || line.quiet) continue;
       const value = at(line, t);
       const text = el("span", {}, short(value));
       text.style.color = colour(line.colour);
@@ -164,6 +166,10 @@ function at(line: Line, t: number): number {
   if (line.steps || share === 0) return values[index];
   return values[index] + share * (values[index + 1] - values[index]);
 }
+
+/// Of the ticks of a logarithmic axis.
+const powersOfTen = (_u: uPlot, ticks: number[]): (number | null)[] =>
+  ticks.map((tick) => (Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) < 1e-6 ? tick : null));
 
 /// A range with some air, and not one that makes rounding look like a motion.
 function padded(low: number, high: number): [number, number] {

@@ -126,7 +126,19 @@ export interface SimulationJson {
   joints_rad: { largest: number; rms: number; rest: number };
   torque: { largest_share: number; joint: string; saturated_share_of_time: number; positive_work_J: number };
   slip_m: Record<string, number>;
-  options: Record<string, unknown>;
+  options: {
+    seed: number;
+    control_rate_Hz: number;
+    step_s: number;
+    noise: { scale: number };
+    delay_s: number;
+    bandwidth_Hz: number;
+    perfect_state: boolean;
+    open_loop: boolean;
+    mass_scale: number;
+    friction: number | null;
+    pushes: { impulse_Ns: number[]; time_s: number; duration_s: number }[];
+  };
   versions: Record<string, string>;
 }
 

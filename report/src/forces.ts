@@ -8,6 +8,15 @@ import type { Motion } from "./motion";
 const kUp = new Vector3(0, 0, 1);
 const kSeen = 1e-3; // of the weight: smaller forces are not drawn
 
+/// As seen in the scene: where the arrow begins [m], the force that its length stands for [N], the cone's friction coefficient.
+export interface DrawnForce {
+  name: string;
+  visible: boolean;
+  from: number[];
+  vector: number[];
+  cone: { slope: number };
+}
+
 interface Contact {
   arrow: Group;
   shaft: Mesh;
@@ -56,6 +65,21 @@ export class Forces {
       contact.cone.position.copy(touch);
       contact.cone.quaternion.copy(new Quaternion().setFromUnitVectors(kUp, normal));
       contact.cone.scale.set(height * surface.friction, height * surface.friction, height);
+    });
+  }
+
+  drawn(): DrawnForce[] {
+    return this.contacts.map(({ arrow, head, cone }, c) => {
+      arrow.updateWorldMatrix(true, true);
+      const from = new Vector3().setFromMatrixPosition(arrow.matrixWorld);
+      const tip = new Vector3(0, 0, 1).applyMatrix4(head.matrixWorld);
+      return {
+        name: this.data.scene.contacts[c].name,
+        visible: arrow.visible,
+        from: from.toArray(),
+        vector: tip.sub(from).divideScalar(this.perNewton).toArray(),
+        cone: { slope: cone.scale.x / cone.scale.z },
+      };
     });
   }
 

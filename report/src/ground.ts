@@ -1,10 +1,10 @@
 import {
-  BufferGeometry, type Color, DoubleSide, Group, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshStandardMaterial, PlaneGeometry,
+  BufferGeometry, type Color, Group, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshStandardMaterial, PlaneGeometry,
   Quaternion, ShapeGeometry, Shape, Vector2, Vector3,
 } from "three";
 import type { Surface } from "./data";
 
-/// Planes as a grid around the motion, patches as they are.
+/// Planes as a grid around the motion, patches as they are; from behind a wall or from below one sees through.
 export class Ground {
   readonly group = new Group();
   private readonly faces: MeshStandardMaterial[] = [];
@@ -22,7 +22,7 @@ export class Ground {
 
   private face(opacity: number): MeshStandardMaterial {
     const material = new MeshStandardMaterial({
-      roughness: 1, side: DoubleSide, transparent: opacity < 1, opacity, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      roughness: 1, transparent: opacity < 1, opacity, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     });
     this.faces.push(material);
     return material;

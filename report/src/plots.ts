@@ -9,6 +9,7 @@ interface Tab {
   limits: boolean;
   charts: (options: { limits: boolean; group: string }) => Chart[];
   head?: HTMLElement;
+  wide?: boolean; // charts with long titles or many values
 }
 
 const kAxes = ["x", "y", "z"];
@@ -61,6 +62,8 @@ export class Plots {
     });
     this.panel.setAttribute("aria-labelledby", `tab-${index}`);
     this.limits.checked = tab.limits;
+    this.limits.parentElement!.hidden = !tab.legend.some(([text]) => text === "limit");
+    this.panel.classList.toggle("two", tab.wide === true);
     this.legend.replaceChildren(...tab.legend.map(([text, name, dashed]) => el("span", { class: `key ${name}${dashed ? " dashed" : ""}` }, text)));
     this.charts = tab.charts({ limits: tab.limits, group: tab.name });
     this.panel.replaceChildren(...(tab.head ? [tab.head] : []), ...this.charts.map((chart) => chart.element));
@@ -102,6 +105,7 @@ export class Plots {
     return {
       name: tab.name,
       legend,
+      wide: tab.name === "Margins",
       limits: tab.name !== "Rates",
       charts: (options) => tab.charts.map((chart) => new Chart({ ...options, title: chart.title, unit: chart.unit, lines: lines(chart.series) }, this.clock, this.data.phases)),
     };
@@ -125,7 +129,8 @@ export class Plots {
       width: 1.3,
     });
     const axes = (first: number) => kAxes.map((axis, i) => line(first + i, axis, kAxisColours[i]));
-    const own = (first: number) => joints.map((name, j) => line(first + j, name, j === Number(select.value) ? "plan" : "other"));
+    const own = (first: number): Line[] =>
+      joints.map((name, j) => (j === Number(select.value) ? line(first + j, name, "head") : { ...line(first + j, name, "other"), quiet: true }));
     const groups = (): [string, string, Line[]][] => [
       ["on base position", "N m/m", axes(0)],
       ["on base orientation", "N m/rad", axes(3)],
@@ -136,15 +141,11 @@ export class Plots {
     ];
     return {
       name: "Gains",
+      wide: true,
       limits: false,
-      legend: [["x", "axis-x", false], ["y", "axis-y", false], ["z", "axis-z", false], ["the joint itself", "plan", false], ["other joints", "other", false]],
+      legend: [["x", "axis-x", false], ["y", "axis-y", false], ["z", "axis-z", false], ["the joint itself", "head", false], ["other joints", "other", false]],
       head: el("label", { class: "choice", for: "gains-joint" }, "Feedback on the torque of ", select),
-      charts: (options) => groups().map(([title, unit, lines]) => new Chart({ ...options, title, unit, lines: own_last(lines) }, this.clock, this.data.phases)),
+      charts: (options) => groups().map(([title, unit, lines]) => new Chart({ ...options, title, unit, lines: [...lines].sort((a, b) => Number(b.quiet ?? false) - Number(a.quiet ?? false)) }, this.clock, this.data.phases)),
     };
   }
-}
-
-/// The coloured line is drawn over the grey ones, and read first.
-function own_last(lines: Line[]): Line[] {
-  return [...lines].sort((a, b) => Number(b.colour === "other") - Number(a.colour === "other")).map((line) => (line.colour === "other" ? { ...line, limit: false } : line));
 }

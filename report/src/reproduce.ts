@@ -1,4 +1,4 @@
-import type { ReportData, TextFile } from "./data";
+import type { ReportData, SimulationJson, TextFile } from "./data";
 import { el, short } from "./dom";
 
 /// How the simulation went, in words and figures; nothing if there was none.
@@ -29,11 +29,34 @@ export function simulation(data: ReportData): HTMLElement | null {
   );
 }
 
+/// The command with what is not as it would be anyhow.
+function simulateCommand(directory: string, found: SimulationJson): string {
+  const { options } = found;
+  const words = ["prowl simulate", /^[\w./-]+$/.test(directory) ? directory : `'${directory.replaceAll("'", "'\\''")}'`];
+  const add = (flag: string, value: unknown, usual: unknown) => {
+    if (value !== usual && value !== undefined && value !== null) words.push(value === true ? flag : `${flag} ${value}`);
+  };
+  add("--open-loop", options.open_loop, false);
+  add("--perfect-state", options.perfect_state, false);
+  add("--noise", options.noise.scale, 1);
+  add("--delay", Number((1000 * options.delay_s).toPrecision(6)), 2);
+  add("--bandwidth", options.bandwidth_Hz, 0);
+  add("--control-rate", options.control_rate_Hz, 1000);
+  add("--mass", options.mass_scale, 1);
+  add("--friction", options.friction, null);
+  for (const push of options.pushes) words.push(`--push ${push.time_s} ${push.impulse_Ns.join(" ")}`);
+  const duration = options.pushes[0]?.duration_s;
+  add("--push-duration", duration, 0.1);
+  add("--step", options.step_s, 0.0005);
+  add("--seed", options.seed, 1);
+  return words.join(" ");
+}
+
 /// Everything that it takes to make the plan again.
 export function reproduce(data: ReportData): HTMLElement {
   const { versions, task_file, robot_file, urdf, overrides } = data.plan_json;
   const commands = [data.command];
-  if (data.simulation_json) commands.push(`prowl simulate DIR  # seed ${data.simulation_json.options["seed"] ?? "1"}`);
+  if (data.simulation_json) commands.push(simulateCommand(data.directory, data.simulation_json));
   const options = data.simulation_json ? file({ path: "options of the simulation", text: JSON.stringify(data.simulation_json.options, null, 2) }) : null;
   return el(
     "section",

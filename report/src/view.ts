@@ -6,7 +6,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Clock } from "./clock";
 import { type Phase, type ReportData } from "./data";
 import { colour } from "./dom";
-import { Forces, Trails } from "./forces";
+import { type DrawnForce, Forces, Trails } from "./forces";
 import { Ground } from "./ground";
 import { Motion } from "./motion";
 import { Robot, Shapes } from "./robot";
@@ -107,6 +107,11 @@ export class View {
     const group = this.robot.bodies[body];
     group.updateWorldMatrix(true, false);
     return new Vector3(...point).applyMatrix4(group.matrixWorld);
+  }
+
+  /// Arrows and cones of the contacts as they are drawn.
+  arrows(): DrawnForce[] {
+    return this.forces.drawn();
   }
 
   setTheme(): void {
