@@ -4,6 +4,7 @@ import { el } from "./dom";
 import { phaseAt } from "./view";
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2];
+const kNarrow = 0.07; // of the time line: a name would be a letter and dots
 const kFrame = 0.01; // one step of an arrow key [s]
 
 const icon = (path: string): SVGSVGElement => {
@@ -70,7 +71,8 @@ export class Timeline {
     const { phases, scene } = this.data;
     const last = phases[phases.length - 1]?.end ?? 0;
     const bar = (start: number, stop: number, name: string, text = "") => {
-      const element = el("div", { class: name, title: text || false }, text);
+      const legible = (stop - start) / end > kNarrow;
+      const element = el("div", { class: name, title: text || false }, legible ? text : "");
       element.style.left = `${(100 * start) / end}%`;
       element.style.width = `${(100 * (stop - start)) / end}%`;
       return element;

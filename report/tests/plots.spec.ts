@@ -1,7 +1,8 @@
 // What the plots and the forces show, against the plan's own files.
 import { readFileSync } from "node:fs";
+import path from "node:path";
 import { expect, test, type Page } from "@playwright/test";
-import { folder, open, readTable, seek, timeOf } from "./reports";
+import { folder, open, readTable, root, seek, timeOf } from "./reports";
 
 const number = (text: string) => Number(text.replaceAll("−", "-"));
 const chart = (page: Page, title: string) => page.locator("figure.chart", { has: page.locator(".title", { hasText: new RegExp(`^${title}$`) }) });
@@ -81,6 +82,7 @@ test("gains are those of the tracker, as prowl figures reads them", async ({ pag
 test("arrows are the planned forces, inside the cones of their surfaces", async ({ page }) => {
   await open(page, "walk");
   const nodes = readTable(`${folder("walk")}/trajectory.csv`);
+  const friction = Number(/^friction = ([\d.]+)/m.exec(readFileSync(path.join(root, "tasks/hyq/walk.toml"), "utf8"))![1]);
   const weight = await page.evaluate(() => window.prowl!.data.weight_N);
   let drawn = 0;
   for (const share of [0.1, 0.45, 0.8]) {
@@ -96,7 +98,7 @@ test("arrows are the planned forces, inside the cones of their surfaces", async 
       vector.forEach((value, i) => expect(Math.abs(value - force[i])).toBeLessThan(1e-3 * weight));
       expect(Math.abs(from[2])).toBeLessThan(1e-3); // on the floor
       expect(Math.hypot(vector[0], vector[1]) / vector[2]).toBeLessThanOrEqual(cone.slope * 1.001);
-      expect(cone.slope).toBeCloseTo(0.5, 6); // of the floor, as in the task file
+      expect(cone.slope).toBeCloseTo(friction, 6);
     }
   }
   expect(drawn).toBeGreaterThan(5);
