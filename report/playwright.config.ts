@@ -1,4 +1,5 @@
 import { existsSync } from "node:fs";
+import { join } from "node:path";
 import { defineConfig } from "@playwright/test";
 
 // The browser is the system's: PROWL_CHROMIUM, or where distributions put it.
@@ -9,7 +10,7 @@ if (!browser) throw new Error("no Chromium here: apt-get install chromium, or se
 export default defineConfig({
   testDir: "tests",
   globalSetup: "./tests/make_reports.ts",
-  outputDir: "artefacts/results",
+  outputDir: join(process.env.PROWL_REPORT_WORK ?? "artefacts", "results"),
   reporter: [["list"]],
   workers: 1, // the view is drawn by the processor
   timeout: 120_000,

@@ -1,3 +1,6 @@
+/// One step of an arrow key [s].
+export const kFrame = 0.01;
+
 /// The one time that scene, time line and charts show. Plays in real time times `speed`, stops at the end.
 export class Clock {
   time = 0;

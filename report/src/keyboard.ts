@@ -1,9 +1,7 @@
-import type { Clock } from "./clock";
+import { type Clock, kFrame } from "./clock";
 import type { ReportData } from "./data";
 import type { Timeline } from "./timeline";
 import type { Layers, View } from "./view";
-
-const kFrame = 0.01; // [s]
 
 export const kKeys: [string, string][] = [
   ["space", "play, pause"],

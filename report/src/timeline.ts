@@ -1,11 +1,10 @@
-import type { Clock } from "./clock";
+import { type Clock, kFrame } from "./clock";
 import type { ReportData } from "./data";
 import { el } from "./dom";
 import { phaseAt } from "./view";
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2];
 const kNarrow = 0.07; // of the time line: a name would be a letter and dots
-const kFrame = 0.01; // one step of an arrow key [s]
 
 const icon = (path: string): SVGSVGElement => {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");

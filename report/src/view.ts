@@ -164,7 +164,7 @@ export class View {
   }
   private setUpShadow(size: number): void {
     this.sun.castShadow = true;
-    this.sun.shadow.mapSize.set(2048, 2048);
+    this.sun.shadow.mapSize.set(1024, 1024);
     this.sun.shadow.intensity = 0.55;
     this.sun.shadow.bias = -0.0005;
     this.sun.shadow.normalBias = 0.004;

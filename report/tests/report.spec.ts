@@ -1,5 +1,6 @@
 // The page in a browser, as a reader uses it.
 import { readFileSync, statSync } from "node:fs";
+import { pathToFileURL } from "node:url";
 import { expect, test } from "@playwright/test";
 import { kOddName, kOddText } from "./make_reports";
 import { folder, open, report, seek, timeOf } from "./reports";
@@ -111,6 +112,26 @@ test("a row of the certificate goes to its worst moment", async ({ page }) => {
     await expect(row).toContainText(check.where);
   }
   await expect(page.locator("tr[data-check]")).toHaveCount(checks.length);
+});
+
+test("without WebGL there is a word about it, and all the rest", async ({ page }) => {
+  await page.addInitScript(() => {
+    const getContext = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...parameters: unknown[]) {
+      return String(parameters[0]).startsWith("webgl") ? null : Reflect.apply(getContext, this, parameters);
+    } as typeof getContext;
+  });
+  await open(page, "crouch");
+  await expect(page.locator(".no-view")).toContainText("No 3D view");
+  await expect(page.locator(".plots figure.chart canvas")).toHaveCount(12);
+  await page.keyboard.press("End");
+  expect(await timeOf(page)).toBe(await page.evaluate(() => window.prowl!.clock.end));
+});
+
+test("a link may name a time", async ({ page }) => {
+  await page.goto(`${pathToFileURL(report("crouch")).href}#t=0.42`);
+  await page.waitForFunction(() => window.prowl !== undefined);
+  expect(await timeOf(page)).toBe(0.42);
 });
 
 test("names are text, whatever they look like", async ({ page }) => {
