@@ -1,6 +1,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "prowl/io/plan_directory.hpp"
 
 namespace prowl::cli {
 
@@ -11,5 +14,10 @@ void add_robot_command(CLI::App& app, int& status);
 void add_simulate_command(CLI::App& app, int& status);
 void add_sweep_command(CLI::App& app, int& status);
 void add_figures_command(CLI::App& app, int& status);
+void add_report_command(CLI::App& app, int& status);
+
+/// Writes `out`, the report of a plan and of what else is in its folder (see prowl report), and says so.
+void write_report(const PlanRecord& plan, const std::filesystem::path& directory, const std::filesystem::path& out,
+                  const PackageSearch& search);
 
 }  // namespace prowl::cli

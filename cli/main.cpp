@@ -52,13 +52,15 @@ int run(int argc, char** argv) {
              "  prowl plan tasks/hyq/crouch.toml     plan a motion into out/hyq_crouch\n"
              "  prowl check out/hyq_crouch           check it again\n"
              "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
-             "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n\nMore with prowl VERB --help.");
+             "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
+             "  prowl report out/hyq_crouch          replay it in a browser\n\nMore with prowl VERB --help.");
   add_plan_command(app, status);
   add_check_command(app, status);
   add_robot_command(app, status);
   add_simulate_command(app, status);
   add_sweep_command(app, status);
   add_figures_command(app, status);
+  add_report_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

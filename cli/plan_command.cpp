@@ -16,6 +16,7 @@
 #include "prowl/io/file_keys.hpp"
 #include "prowl/io/phase_table.hpp"
 #include "prowl/io/plan_directory.hpp"
+#include "prowl/io/report_file.hpp"
 #include "prowl/io/summary.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
@@ -40,6 +41,7 @@ struct PlanArguments {
   int threads = 1;
   std::string hessian = "exact";
   bool no_gains = false;
+  bool report = false;
 };
 
 constexpr int kMostThreads = 256;
@@ -112,21 +114,29 @@ int run_plan(const PlanArguments& arguments) {
 
   ProgressPrinter progress;
   PlanOptions options{.solver = task.solver};
-  options.solver.on_iteration = [&](const SolveProgress& iteration) { progress.print(iteration); };
+  std::vector<MeshIteration> iterations;
+  int level = -1;
+  options.solver.on_iteration = [&](const SolveProgress& iteration) {
+    progress.print(iteration);
+    iterations.push_back({std::max(level, 0), iteration});
+  };
   options.solver.interrupt = &interrupted;
   const IpoptSolver hint_solver;
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
   options.solver.threads = arguments.threads;
   options.hessian = arguments.hessian == "exact" ? HessianKind::exact : HessianKind::gauss_newton;
-  options.on_level = [&](int intervals) { progress.begin_level(intervals); };
+  options.on_level = [&](int intervals) {
+    ++level;
+    progress.begin_level(intervals);
+  };
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
   Plan plan = make_plan(task.problem, *make_solver(arguments.solver), options);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
-                    .feedback = {}, .warm_start = arguments.warm_start};
+                    .feedback = {}, .iterations = std::move(iterations), .warm_start = arguments.warm_start};
   if (!arguments.no_gains) add_feedback(record);
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
@@ -136,6 +146,7 @@ int run_plan(const PlanArguments& arguments) {
   } else {
     print_result(plan_report(record) + fmt::format("written to {}\n", out.string()));
   }
+  if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
   return exit_status(record.plan.result.status, record.plan.certificate);
 }
 
@@ -170,6 +181,7 @@ void add_plan_command(CLI::App& app, int& status) {
                    "Mesh intervals in all, shared out over the phases as in the task file")
       ->check(CLI::Range(1, 10000))->type_name("N");
   verb->add_flag("--no-gains", arguments->no_gains, "Leave out the feedback gains, tracker.bin");
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
   verb->add_option("--warm-start", arguments->warm_start,
                    "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ")
@@ -177,7 +189,7 @@ void add_plan_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
-  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--no-gains"}) phases->excludes(unused);
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--no-gains", "--report"}) phases->excludes(unused);
   verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"
                "  prowl plan tasks/hyq/balance.toml --print-phases\n"
                "  prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out stand\n\n"

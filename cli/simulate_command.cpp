@@ -10,6 +10,7 @@
 #include "plan_tracker.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/plan_directory.hpp"
+#include "prowl/io/report_file.hpp"
 #include "prowl/io/rollout_files.hpp"
 #include "prowl/io/simulation_files.hpp"
 #include "prowl/model/configuration.hpp"
@@ -28,6 +29,7 @@ struct SimulateArguments {
   std::string directory;
   std::vector<std::string> package_dirs;
   bool json = false;
+  bool report = false;
   std::string engine = "mujoco";
   bool open_loop = false;
   std::optional<double> control_rate;  ///< [Hz]
@@ -113,7 +115,13 @@ int run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, cons
 int run_simulate(const SimulateArguments& arguments) {
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
   const Tracker tracker = read_tracker(arguments.directory, plan.task.problem);
-  return arguments.engine == "rollout" ? run_rollout(arguments, plan, tracker) : run_mujoco(arguments, plan, tracker);
+  const int status =
+      arguments.engine == "rollout" ? run_rollout(arguments, plan, tracker) : run_mujoco(arguments, plan, tracker);
+  if (arguments.report) {
+    const std::filesystem::path directory = arguments.directory;
+    write_report(plan, directory, directory / kReportFile, package_search(arguments.package_dirs));
+  }
+  return status;
 }
 
 void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
@@ -161,6 +169,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   verb->add_flag("--open-loop", arguments->open_loop, "Feedforward torques only");
   verb->add_option("--control-rate", arguments->control_rate, "Default 1000; with --engine rollout 0: at every moment")->type_name("HZ");
   verb->add_option("--record-rate", arguments->record_rate, "Rows a second in simulate.csv; default 200")->type_name("HZ");
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   add_mujoco_options(*verb, *arguments);

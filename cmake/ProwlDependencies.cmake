@@ -56,6 +56,9 @@ set_target_properties(prowl_dep_mujoco PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES ${PROWL_MUJOCO}/include)
 
 find_package(tinyxml2 REQUIRED)
+find_package(urdfdom REQUIRED)
+find_package(assimp 6.0 REQUIRED)
+find_package(meshoptimizer REQUIRED)
 find_package(fmt REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(nlohmann_json REQUIRED)

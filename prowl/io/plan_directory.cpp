@@ -10,6 +10,7 @@
 #include "prowl/io/figure_files.hpp"
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_json.hpp"
+#include "prowl/io/report_file.hpp"
 #include "prowl/io/tracker_file.hpp"
 #include "prowl/io/trajectory_csv.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
@@ -24,7 +25,7 @@ const char* const kTracker = "tracker.bin";
 /// Whatever may be in the folder of a plan; a new plan removes what was made of the old one.
 const std::set<std::string>& own_names() {
   static const std::set<std::string> names = [] {
-    std::set<std::string> all = {kPlan, kNodes, kUniform, kTracker, "simulate.json", "simulate.csv", "sweep.json"};
+    std::set<std::string> all = {kPlan, kNodes, kUniform, kTracker, "simulate.json", "simulate.csv", "sweep.json", kReportFile};
     for (const std::string& figure : figure_file_names()) all.insert(std::string(kFiguresFolder) + "/" + figure);
     return all;
   }();

@@ -51,6 +51,23 @@ Json problem_to_json(const PlanRecord& record) {
           {"constraints", record.plan.num_constraints}};
 }
 
+/// Column by column: half as long as an object for each iteration.
+Json convergence_to_json(const std::vector<MeshIteration>& iterations) {
+  const char* const names[] = {"level", "iteration", "cost", "constraint_violation", "dual_violation", "seconds"};
+  Json json = Json::object();
+  for (const char* name : names) json[name] = Json::array();
+  for (const MeshIteration& one : iterations) {
+    const SolveProgress& p = one.progress;
+    json["level"].push_back(one.level);
+    json["iteration"].push_back(p.iteration);
+    json["cost"].push_back(p.cost);
+    json["constraint_violation"].push_back(p.constraint_violation);
+    json["dual_violation"].push_back(p.dual_violation);
+    json["seconds"].push_back(p.elapsed_seconds);
+  }
+  return json;
+}
+
 Json solver_to_json(const PlanRecord& record) {
   const SolveResult& result = record.plan.result;
   const SolverOptions& options = record.task.solver;
@@ -76,6 +93,7 @@ Json solver_to_json(const PlanRecord& record) {
             {"derivatives", result.times.derivatives},
             {"linear_algebra", result.times.linear_algebra}}},
           {"levels", levels},
+          {"convergence", convergence_to_json(record.iterations)},
           {"warm_start", record.warm_start},
           {"tolerance", options.tolerance},
           {"max_iterations", options.max_iterations},
@@ -123,6 +141,15 @@ class Reader {
     std::vector<Reader> entries;
     for (const Json& entry : need(key)) entries.emplace_back(fmt::format("{}.{}[{}]", where_, key, entries.size()), entry);
     return entries;
+  }
+  /// null as in number(). Indices among them are small enough to be exact.
+  std::vector<double> numbers(const char* key) const {
+    const Json& list = need(key);
+    const auto is_number = [](const Json& entry) { return entry.is_number() || entry.is_null(); };
+    if (!list.is_array() || !std::ranges::all_of(list, is_number)) fail(key, "numbers");
+    std::vector<double> values;
+    for (const Json& entry : list) values.push_back(entry.is_null() ? std::numeric_limits<double>::quiet_NaN() : entry.get<double>());
+    return values;
   }
   std::vector<std::string> texts(const char* key) const {
     const Json& list = need(key);
@@ -251,6 +278,34 @@ HessianKind read_hessian(const Reader& solver) {
   solver.fail("hessian", fmt::format("{} or {}", to_string(HessianKind::exact), to_string(HessianKind::gauss_newton)));
 }
 
+/// Nothing in plans of before 2026-11-22.
+std::vector<MeshIteration> read_convergence(const Reader& solver) {
+  if (!solver.has("convergence")) return {};
+  const Reader columns = solver.object("convergence");
+  const std::vector<double> level = columns.numbers("level"), iteration = columns.numbers("iteration");
+  const std::vector<double> cost = columns.numbers("cost"), seconds = columns.numbers("seconds");
+  const std::vector<double> primal = columns.numbers("constraint_violation"), dual = columns.numbers("dual_violation");
+  std::vector<MeshIteration> iterations;
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    const auto at = [&](const std::vector<double>& column, const char* key) {
+      if (column.size() != level.size()) columns.fail(key, "as many numbers as level");
+      return column[i];
+    };
+    const auto count = [&](const std::vector<double>& column, const char* key) {
+      const double value = at(column, key);
+      if (!(value >= 0.0 && value <= 1e9)) columns.fail(key, "counts");
+      return static_cast<int>(value);
+    };
+    iterations.push_back({count(level, "level"),
+                          {.iteration = count(iteration, "iteration"),
+                           .cost = at(cost, "cost"),
+                           .constraint_violation = at(primal, "constraint_violation"),
+                           .dual_violation = at(dual, "dual_violation"),
+                           .elapsed_seconds = at(seconds, "seconds")}});
+  }
+  return iterations;
+}
+
 Json decay_to_json(const PhaseDecay& decay) {
   return {{"phase", decay.name},
           {"start_s", decay.start},
@@ -349,6 +404,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                     .plan = {},
                     .versions = {},
                     .feedback = {},
+                    .iterations = {},
                     .warm_start = {}};
   const RobotDescription& robot = record.task.problem.robot.description();
   if (as_utf8(robot.urdf_text) != urdf.text) {
@@ -361,6 +417,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   record.plan.solver = plan.object("solver").text("name");
   record.plan.levels = read_levels(plan.object("solver"));
   record.plan.hessian = read_hessian(plan.object("solver"));
+  record.iterations = read_convergence(plan.object("solver"));
   record.warm_start = plan.object("solver").text("warm_start");
   record.plan.certificate = read_certificate(plan.object("certificate"));
   record.plan.reasons = plan.texts("reasons");

@@ -4,27 +4,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <string_view>
 
 #include "prowl/error.hpp"
+#include "prowl/io/csv_table.hpp"
 
 namespace prowl {
 namespace {
 
 using Row = std::vector<double>;
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
 
 void append(Row& row, const Eigen::VectorXd& values) { row.insert(row.end(), values.begin(), values.end()); }
 
@@ -79,16 +69,11 @@ TrajectoryPoint from_row(const RobotModel& robot, std::size_t phase, const Row& 
 }
 
 Row parse_row(const std::string& where, std::string_view line, const std::vector<std::string>& columns) {
-  const std::vector<std::string_view> cells = split(line, ',');
-  if (cells.size() != columns.size()) {
-    throw InputError(fmt::format("{}: {} cells; need {}", where, cells.size(), columns.size()));
-  }
-  Row row(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), row[i]);
-    if (error != std::errc{} || end != cells[i].data() + cells[i].size() || !std::isfinite(row[i])) {
-      throw InputError(fmt::format("{}: {}: \"{}\" is not allowed; need a finite number", where, columns[i], cells[i]));
-    }
+  Row row = csv_numbers(where, line, columns);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (std::isfinite(row[i])) continue;
+    throw InputError(fmt::format("{}: {}: \"{}\" is not allowed; need a finite number", where, columns[i],
+                                 split_text(line, ',')[i]));
   }
   return row;
 }
@@ -160,7 +145,7 @@ std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& tr
 Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source) {
   const std::string file = source.path.string();
   const std::vector<std::string> columns = trajectory_columns(problem.robot);
-  std::vector<std::string_view> lines = split(source.text, '\n');
+  std::vector<std::string_view> lines = split_text(source.text, '\n');
   const bool ends_with_line = lines.back().empty();
   if (ends_with_line) lines.pop_back();
   if (lines.empty() || lines[0] != fmt::format("{}", fmt::join(columns, ","))) {

@@ -22,7 +22,7 @@ TEST_F(Command, TellsVersionsAndHelp) {
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, StartsWith("prowl "));
   for (const char* part : {"Ipopt 3.14", "Pinocchio 4", "Eigen 3.4"}) EXPECT_THAT(version.out, HasSubstr(part));
-  for (const char* verb : {"", "plan", "check", "robot", "simulate", "sweep"}) {
+  for (const char* verb : {"", "plan", "check", "robot", "simulate", "sweep", "report"}) {
     const Outcome help = run(std::string("$prowl ") + verb + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Example")) << verb;
@@ -119,6 +119,36 @@ TEST_F(Command, SimulatesAndSweeps) {
   const Outcome without = run("rm out/tracker.bin; $prowl simulate out $dirs");
   EXPECT_EQ(without.status, 2);
   EXPECT_THAT(without.error, HasSubstr("--no-gains"));
+}
+
+TEST_F(Command, WritesAReportAndRemovesItWithThePlan) {
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out --report").status, 0);
+  const std::string with_plan = test::read_file(folder_.path() / "out/report.html");
+  EXPECT_THAT(with_plan, StartsWith("<!doctype html>"));
+
+  const Outcome again = run("$prowl report out $dirs --out other.html");
+  EXPECT_EQ(again.status, 0) << again.error;
+  EXPECT_THAT(again.error, HasSubstr("report: other.html, "));
+  EXPECT_THAT(again.error, HasSubstr("there is no simulation"));
+  const std::string alone = test::read_file(folder_.path() / "other.html");
+  const auto motion = [](const std::string& html) { return html.substr(html.find("\"placements\""), 10000); };
+  EXPECT_EQ(motion(alone), motion(with_plan));
+
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/report.html")) << "of a plan that is no more";
+}
+
+TEST_F(Command, SaysWhatAReportNeeds) {
+  const Outcome none = run("$prowl report nowhere");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.error, HasSubstr("nowhere/plan.json: no such file"));
+  run("$prowl plan hold.toml $dirs --out out");
+  const Outcome place = run("$prowl report out $dirs --out no/such/folder/report.html");
+  EXPECT_EQ(place.status, 4);
+  folder_.write("out/simulate.csv", "time_s,x\n0,1\n");
+  const Outcome other = run("$prowl report out $dirs");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.error, HasSubstr("simulate.csv:1: no column"));
 }
 
 TEST_F(Command, PlansWithoutAnybodyListening) {

@@ -19,6 +19,12 @@ foreach(header ${INTERNAL_HEADERS})
 endforeach()
 
 run(${prefix}/bin/prowl --version)
+if(EXISTS ${BUILD_DIR}/share/prowl/report.html)
+  run(${prefix}/bin/prowl plan ${prefix}/share/prowl/tasks/hyq/hold.toml --package-dir ${ROBOTS_DATA} --out ${WORK_DIR}/hold --report)
+  if(NOT EXISTS ${WORK_DIR}/hold/report.html)
+    message(FATAL_ERROR "the installed command writes no report: ${output}")
+  endif()
+endif()
 run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_PREFIX_PATH=${prefix}
   -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)

@@ -1,0 +1,122 @@
+#include "prowl/io/report_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "prowl/error.hpp"
+#include "prowl/io/plan_json.hpp"
+#include "prowl/io/report_json.hpp"
+#include "prowl/io/report_motion.hpp"
+
+namespace prowl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPlaceholder = "PROWL_REPORT_DATA";
+constexpr double kGainStep = 0.02;  ///< [s]
+
+/// Phases with their planned times and contacts.
+Json phases_json(const MotionProblem& problem, const Trajectory& trajectory) {
+  Json phases = Json::array();
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    Json contacts = Json::array();
+    for (const PhaseContact& held : problem.phases[p].contacts) {
+      contacts.push_back({{"contact", held.contact}, {"surface", held.surface}});
+    }
+    const auto of_phase = [p](const TrajectoryPoint& node) { return node.phase == static_cast<int>(p); };
+    const auto first = std::find_if(trajectory.nodes.begin(), trajectory.nodes.end(), of_phase);
+    const auto last = std::find_if(trajectory.nodes.rbegin(), trajectory.nodes.rend(), of_phase);
+    if (first == trajectory.nodes.end()) continue;
+    phases.push_back({{"name", problem.phases[p].name},
+                      {"start", first->time},
+                      {"end", last->time},
+                      {"intervals", problem.phases[p].intervals},
+                      {"contacts", contacts}});
+  }
+  return phases;
+}
+
+/// An argument of a shell, in quotes where it needs them.
+std::string shell_quoted(const std::string& text) {
+  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::string_view("/._-+:=,@%").find(static_cast<char>(c)) != std::string_view::npos; };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// The command that makes the plan again.
+std::string plan_command(const PlanRecord& record) {
+  const TaskOverrides& overrides = record.task.overrides;
+  std::string command = "prowl plan " + shell_quoted(record.task.task_file.path.string());
+  std::string solver = record.plan.solver;
+  std::transform(solver.begin(), solver.end(), solver.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (solver == "fatrop" || solver == "ipopt") command += " --solver " + solver;
+  if (overrides.intervals) command += fmt::format(" --intervals {}", *overrides.intervals);
+  if (overrides.max_iterations) command += fmt::format(" --max-iterations {}", *overrides.max_iterations);
+  if (overrides.max_seconds) command += fmt::format(" --max-time {}", *overrides.max_seconds);
+  if (overrides.tolerance) command += fmt::format(" --tolerance {}", *overrides.tolerance);
+  if (!record.warm_start.empty()) command += " --warm-start " + shell_quoted(record.warm_start);
+  return command;
+}
+
+Json parse_simulation(const ReportInputs& inputs) {
+  if (!inputs.simulation_json) return nullptr;
+  const Json json = Json::parse(inputs.simulation_json->text, nullptr, false);
+  if (!json.is_object()) throw InputError(inputs.simulation_json->path.string() + ": not JSON; run prowl simulate again");
+  return json;
+}
+
+/// In place of the placeholder. '<' is only ever inside a string of the JSON, where \u003c means the same; without it no
+/// text can end the element or begin another.
+std::string filled(const std::string& page, std::string data) {
+  const std::size_t place = page.find(kPlaceholder);
+  if (place == std::string::npos || page.find(kPlaceholder, place + 1) != std::string::npos) {
+    throw FileError(fmt::format("the page of the report is not one that was built for it: need {} in it once", kPlaceholder));
+  }
+  std::string safe;
+  safe.reserve(data.size());
+  for (const char c : data) c == '<' ? safe += "\\u003c" : safe += c;
+  return page.substr(0, place) + safe + page.substr(place + std::string_view(kPlaceholder).size());
+}
+
+}  // namespace
+
+Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
+  const PlanRecord& record = inputs.plan;
+  const MotionProblem& problem = record.task.problem;
+  const RobotModel& robot = problem.robot;
+  Report report;
+
+  const Trajectory& trajectory = record.plan.trajectory;
+  const double step = report_step(trajectory.duration());
+  const std::vector<TrajectoryPoint> plan = report_points(trajectory, step);
+  std::vector<TrajectoryPoint> simulation;
+  if (inputs.simulation) simulation = simulated_points(robot, read_csv_table(*inputs.simulation), step);
+
+  Json data = {{"format", 1},
+               {"directory", inputs.directory},
+               {"robot", robot.name()},
+               {"weight_N", robot.weight()},
+               {"size_m", robot.size()},
+               {"joints", robot.joint_names()},
+               {"phases", phases_json(problem, trajectory)},
+               {"plan_json", plan_to_json(record)},
+               {"command", plan_command(record)},
+               {"scene", report_scene(problem, search, report.warnings)},
+               {"plan", report_motion_json(robot, plan)},
+               {"simulation", nullptr},
+               {"simulation_json", parse_simulation(inputs)},
+               {"charts", report_charts(problem, plan, simulation)},
+               {"gains", nullptr}};
+  if (!simulation.empty()) data["simulation"] = report_motion_json(robot, simulation);
+  if (inputs.tracking) data["gains"] = report_gains(*inputs.tracking, kGainStep);
+  data["warnings"] = report.warnings;
+  report.html = filled(inputs.template_html, data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return report;
+}
+
+}  // namespace prowl

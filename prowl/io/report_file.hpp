@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "prowl/io/plan_directory.hpp"
+#include "prowl/tracker/tracking_plan.hpp"
+
+namespace prowl {
+
+/// Name of the report within the folder of a plan, unless asked for another.
+inline constexpr const char* kReportFile = "report.html";
+
+/// All that goes into a report.
+struct ReportInputs {
+  const PlanRecord& plan;
+  std::string directory;                  ///< of the plan, as the user named it
+  std::optional<SourceText> simulation = {};      ///< simulate.csv
+  std::optional<SourceText> simulation_json = {}; ///< simulate.json
+  std::optional<TrackingPlan> tracking = {};      ///< tracker.bin
+  std::string template_html;              ///< the page without data, built from report/
+};
+
+struct Report {
+  std::string html;                   ///< one file that needs no other
+  std::vector<std::string> warnings;  ///< what it shows in another way than asked for, one line each
+};
+
+/// A page that replays the plan, and the simulation if there is one (docs/report.md). Meshes are looked for as package:// in
+/// robot files is. Nothing from the files becomes markup or script: it is in the page as JSON without any '<'.
+/// Throws InputError for files that are wrong, FileError for a template that is not one.
+Report make_report(const ReportInputs& inputs, const PackageSearch& search);
+
+}  // namespace prowl

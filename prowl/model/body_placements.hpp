@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Where the bodies of a robot are, by Pinocchio's forward kinematics. One object holds the work space of one thread.
+class BodyPlacements {
+ public:
+  explicit BodyPlacements(const RobotModel& robot);
+  ~BodyPlacements();
+
+  /// Placements in the world, of the base and then of the body behind each joint, in the order of BodyTree::bodies; q as in
+  /// RobotModel. Valid until the next call.
+  const std::vector<Eigen::Isometry3d>& at(const Eigen::VectorXd& q);
+
+ private:
+  struct Workspace;  // Pinocchio's Data
+  const RobotModel& robot_;
+  std::unique_ptr<Workspace> workspace_;
+  std::vector<Eigen::Isometry3d> placements_;
+};
+
+}  // namespace prowl

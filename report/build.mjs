@@ -1,0 +1,43 @@
+// Bundles src/ into one page without data: build.mjs OUT. Scripts and styles are inside, and a policy that lets the page run
+// exactly these and reach nothing else.
+import { createHash } from "node:crypto";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+import { build } from "esbuild";
+
+const folder = path.dirname(fileURLToPath(import.meta.url));
+const out = process.argv[2];
+if (!out) throw new Error("usage: build.mjs OUT");
+
+/// The licences of what goes into the page, as its first comment.
+async function licences(packages) {
+  const texts = await Promise.all(packages.map(async (name) => `${name}\n\n${await readFile(path.join(folder, "node_modules", name, "LICENSE"), "utf8")}`));
+  return `/*!\n${texts.join("\n").replaceAll("*/", "* /")}*/`;
+}
+
+const result = await build({
+  entryPoints: [path.join(folder, "src/main.ts")],
+  bundle: true,
+  minify: true,
+  format: "iife",
+  target: "es2022",
+  charset: "utf8",
+  legalComments: "none", // all of it is in the banner
+  banner: { js: await licences(["three", "uplot"]) },
+  outdir: "out",
+  write: false,
+});
+const bundle = (ending) => result.outputFiles.find((file) => file.path.endsWith(ending)).text;
+const script = bundle(".js");
+const style = bundle(".css");
+// An end tag inside the script's own text would end the element.
+if (/<\/script/i.test(script) || /<\/style/i.test(style)) throw new Error("the bundle holds an end tag");
+
+const hash = (text) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
+const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data: blob:`;
+const fill = { POLICY: policy, STYLE: style, SCRIPT: script };
+const page = (await readFile(path.join(folder, "src/page.html"), "utf8")).replace(/\{\{(\w+)\}\}/g, (_, name) => fill[name]);
+
+await mkdir(path.dirname(path.resolve(out)), { recursive: true });
+await writeFile(out, page);

@@ -1,0 +1,181 @@
+import uPlot from "uplot";
+import type { Clock } from "./clock";
+import type { Phase } from "./data";
+import { colour, el, short } from "./dom";
+import { place } from "./motion";
+
+export interface Line {
+  label: string;
+  time: ArrayLike<number>;
+  values: ArrayLike<number>;
+  colour: string; // name of a colour of the theme
+  dash?: number[];
+  width?: number;
+  limit?: boolean; // not in the readout, and to be switched off
+  quiet?: boolean; // not in the readout
+  steps?: boolean; // holds its value up to the next
+}
+
+export interface ChartOptions {
+  title: string;
+  unit: string;
+  lines: Line[];
+  logarithmic?: boolean;
+  height?: number;
+  limits: boolean; // whether they are shown
+  group: string; // charts of one group share cursor and zoom
+  xLabel?: string; // in place of time, which can be clicked
+}
+
+/// A line for each series over the same x, as uPlot wants it; what is no number is a gap.
+function aligned(lines: Line[]): uPlot.AlignedData {
+  const one = (line: Line): uPlot.AlignedData => [
+    Array.from(line.time),
+    Array.from(line.values, (value) => (Number.isFinite(value) ? value : null)),
+  ];
+  const same = lines.every((line) => line.time === lines[0].time);
+  if (same) return [Array.from(lines[0].time), ...lines.map((line) => one(line)[1])] as uPlot.AlignedData;
+  // Two points at one time (a phase switch) would fall together in a join: the first comes a little earlier.
+  const apart = (data: uPlot.AlignedData): uPlot.AlignedData => {
+    const x = data[0] as number[];
+    for (let i = x.length - 2; i >= 0; --i) if (x[i] >= x[i + 1]) x[i] = x[i + 1] - 1e-9;
+    return data;
+  };
+  return uPlot.join(lines.map((line) => apart(one(line))), lines.map(() => [2]));
+}
+
+/// A small chart over time: a click seeks, the time of the clock is a line, the values at that time are in its heading.
+export class Chart {
+  readonly element: HTMLElement;
+  private readonly values = el("span", { class: "values" });
+  private readonly box = el("div", { class: "plot" });
+  private readonly head = el("div", { class: "playhead" });
+  private plot: uPlot | null = null;
+
+  constructor(
+    private readonly options: ChartOptions,
+    private readonly clock: Clock,
+    private readonly phases: Phase[],
+  ) {
+    this.element = el(
+      "figure",
+      { class: "chart" },
+      el("figcaption", {}, el("span", { class: "title", title: options.title }, options.title), this.values, el("span", { class: "unit" }, options.unit === "-" ? "" : options.unit)),
+      this.box,
+    );
+  }
+
+  /// Draws it; the element has to be in the page.
+  draw(): void {
+    this.plot?.destroy();
+    const { lines, options } = { lines: this.options.lines, options: this.options };
+    const width = this.box.clientWidth || 200;
+    const grid = { stroke: colour("grid"), width: 1 };
+    const font = "10px system-ui, sans-serif";
+    const axis = { stroke: colour("muted"), font, grid, ticks: { ...grid, size: 3 } };
+    this.plot = new uPlot(
+      {
+        width,
+        height: options.height ?? 112,
+        padding: [4, 12, 0, 0],
+        pxAlign: 0, // whole pixels would make steps of slow changes
+        legend: { show: false },
+        cursor: { sync: { key: options.group }, drag: { x: true, y: false }, points: { size: 5 } },
+        scales: { x: { time: false }, y: options.logarithmic ? { distr: 3 } : { range: (_u, low, high) => padded(low, high) } },
+        axes: [
+          { ...axis, size: 22, gap: 2, space: 38, values: (_u, ticks) => ticks.map((tick) => (options.xLabel ? String(tick) : `${short(tick, 4)} s`)) },
+          { ...axis, grid: options.logarithmic ? { ...grid, filter: powersOfTen } : grid, ticks: { show: false }, size: 42, gap: 3, space: 22, values: (_u, ticks) => ticks.map((tick) => (tick == null ? "" : short(tick, 4))) },
+        ],
+        series: [
+          {},
+          ...lines.map((line) => ({
+            label: line.label,
+            stroke: colour(line.colour),
+            width: line.width ?? 1.4,
+            dash: line.dash,
+            points: { show: false },
+            show: !line.limit || options.limits,
+            paths: line.steps ? uPlot.paths.stepped!({ align: 1 }) : undefined,
+          })),
+        ],
+        hooks: { drawClear: [(u) => this.shade(u)], setScale: [() => this.update()] },
+      },
+      aligned(lines),
+      this.box,
+    );
+    if (!options.xLabel) {
+      this.plot.over.append(this.head);
+      this.seekOnClick(this.plot.over);
+    }
+    this.update();
+  }
+  resize(): void {
+    const width = this.box.clientWidth;
+    if (this.plot && width > 0 && width !== this.plot.width) this.plot.setSize({ width, height: this.plot.height });
+  }
+  showLimits(on: boolean): void {
+    this.options.limits = on;
+    this.options.lines.forEach((line, i) => line.limit && this.plot?.setSeries(i + 1, { show: on }));
+  }
+  /// Line and values of the time.
+  update(): void {
+    if (!this.plot || this.options.xLabel) return;
+    const t = this.clock.time;
+    const x = this.plot.valToPos(t, "x");
+    this.head.style.transform = `translateX(${x}px)`;
+    this.head.hidden = !(x >= 0 && x <= this.plot.over.clientWidth);
+    const values: Node[] = [];
+    for (const line of this.options.lines) {
+      if (line.limit || line.quiet) continue;
+      const value = at(line, t);
+      const text = el("span", {}, short(value));
+      text.style.color = colour(line.colour);
+      values.push(text);
+    }
+    this.values.replaceChildren(...values);
+  }
+
+  private seekOnClick(over: HTMLElement): void {
+    let from = 0;
+    over.addEventListener("mousedown", (event) => (from = event.clientX));
+    over.addEventListener("click", (event) => {
+      if (Math.abs(event.clientX - from) > 3) return; // a zoom
+      this.clock.pause();
+      this.clock.seek(this.plot!.posToVal(event.clientX - over.getBoundingClientRect().left, "x"));
+    });
+  }
+  /// Every other phase has a shade.
+  private shade(u: uPlot): void {
+    if (this.options.xLabel) return;
+    u.ctx.save();
+    u.ctx.fillStyle = colour("shade");
+    for (const phase of this.phases.filter((_, i) => i % 2 === 1)) {
+      const left = Math.max(u.valToPos(phase.start, "x", true), u.bbox.left);
+      const right = Math.min(u.valToPos(phase.end, "x", true), u.bbox.left + u.bbox.width);
+      if (right > left) u.ctx.fillRect(left, u.bbox.top, right - left, u.bbox.height);
+    }
+    u.ctx.restore();
+  }
+}
+
+/// Linear between samples, nothing outside of them.
+function at(line: Line, t: number): number {
+  const { time, values } = line;
+  if (time.length === 0 || t > time[time.length - 1] + 1e-9) return NaN;
+  const { index, share } = place(time, t);
+  if (line.steps || share === 0) return values[index];
+  return values[index] + share * (values[index + 1] - values[index]);
+}
+
+/// Of the ticks of a logarithmic axis.
+const powersOfTen = (_u: uPlot, ticks: number[]): (number | null)[] =>
+  ticks.map((tick) => (Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) < 1e-6 ? tick : null));
+
+/// A range with some air, and not one that makes rounding look like a motion.
+function padded(low: number, high: number): [number, number] {
+  if (!Number.isFinite(low) || !Number.isFinite(high)) return [-1, 1];
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  const span = Math.max(high - low, 0.02 * size, 1e-4);
+  const middle = 0.5 * (low + high);
+  return [middle - 0.56 * span, middle + 0.56 * span];
+}

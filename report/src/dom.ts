@@ -1,0 +1,28 @@
+// Makes elements. Text goes in as text, never as markup.
+
+type Child = Node | string | null | undefined;
+
+export function el<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Record<string, string | boolean> = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === true) element.setAttribute(name, "");
+    else if (value !== false) element.setAttribute(name, value);
+  }
+  element.append(...children.filter((child): child is Node | string => child != null));
+  return element;
+}
+
+/// Colour of the theme by the name of its CSS variable.
+export const colour = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+/// A number as short as it can be with so many digits; "–" for what is none.
+export function short(value: number | null | undefined, digits = 3): string {
+  if (value == null || !Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(digits - 1).replace(/\.?0*e\+?/, "e").replaceAll("-", "−");
+  return Number(value.toPrecision(digits)).toString().replaceAll("-", "−");
+}

@@ -1,0 +1,124 @@
+import {
+  BufferGeometry, type Color, ConeGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments,
+  Mesh, MeshBasicMaterial, Quaternion, Vector3,
+} from "three";
+import type { ReportData, Phase } from "./data";
+import type { Motion } from "./motion";
+
+const kUp = new Vector3(0, 0, 1);
+const kSeen = 1e-3; // of the weight: smaller forces are not drawn
+
+/// As seen in the scene: where the arrow begins [m], the force that its length stands for [N], the cone's friction coefficient.
+export interface DrawnForce {
+  name: string;
+  visible: boolean;
+  from: number[];
+  vector: number[];
+  cone: { slope: number };
+}
+
+interface Contact {
+  arrow: Group;
+  shaft: Mesh;
+  head: Mesh;
+  cone: Group;
+}
+
+/// Contact forces on the robot as arrows, from where the contact touches, each in its friction cone: the mouth of the cone is
+/// as high as the arrow's tip, so that a tip on its rim is a foot about to slip.
+export class Forces {
+  readonly arrows = new Group();
+  readonly cones = new Group();
+  private readonly contacts: Contact[];
+  private readonly arrowMaterial = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 });
+  private readonly coneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false });
+  private readonly rimMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.7 });
+  private readonly perNewton: number; // [m/N]
+  private readonly thickness: number; // [m]
+
+  constructor(private readonly data: ReportData) {
+    this.perNewton = (1.05 * data.size_m) / data.weight_N;
+    this.thickness = 0.012 * data.size_m;
+    this.contacts = data.scene.contacts.map(() => this.make());
+  }
+
+  setColours(arrow: Color, cone: Color): void {
+    this.arrowMaterial.color.copy(arrow);
+    this.coneMaterial.color.copy(cone);
+    this.rimMaterial.color.copy(cone);
+  }
+
+  /// `point(c)` is where contact c is in the world.
+  show(motion: Motion, t: number, phase: Phase | undefined, point: (contact: number) => Vector3): void {
+    const force = new Vector3();
+    this.contacts.forEach((contact, c) => {
+      const held = phase?.contacts.find((entry) => entry.contact === c);
+      motion.force(t, c, force);
+      const seen = held !== undefined && force.length() > kSeen * this.data.weight_N;
+      contact.arrow.visible = contact.cone.visible = seen;
+      if (!seen) return;
+      const surface = this.data.scene.surfaces[held.surface];
+      const normal = new Vector3(...surface.normal);
+      const touch = point(c).addScaledVector(normal, -this.data.scene.contacts[c].radius);
+      this.placeArrow(contact, touch, force);
+      const height = Math.max(force.dot(normal) * this.perNewton, 1e-4);
+      contact.cone.position.copy(touch);
+      contact.cone.quaternion.copy(new Quaternion().setFromUnitVectors(kUp, normal));
+      contact.cone.scale.set(height * surface.friction, height * surface.friction, height);
+    });
+  }
+
+  drawn(): DrawnForce[] {
+    return this.contacts.map(({ arrow, head, cone }, c) => {
+      arrow.updateWorldMatrix(true, true);
+      const from = new Vector3().setFromMatrixPosition(arrow.matrixWorld);
+      const tip = new Vector3(0, 0, 1).applyMatrix4(head.matrixWorld);
+      return {
+        name: this.data.scene.contacts[c].name,
+        visible: arrow.visible,
+        from: from.toArray(),
+        vector: tip.sub(from).divideScalar(this.perNewton).toArray(),
+        cone: { slope: cone.scale.x / cone.scale.z },
+      };
+    });
+  }
+
+  private placeArrow(contact: Contact, touch: Vector3, force: Vector3): void {
+    const length = force.length() * this.perNewton;
+    const head = Math.min(6 * this.thickness, 0.5 * length);
+    contact.arrow.position.copy(touch);
+    contact.arrow.quaternion.copy(new Quaternion().setFromUnitVectors(kUp, force.clone().normalize()));
+    contact.shaft.scale.set(this.thickness, this.thickness, length - head);
+    contact.head.position.z = length - head;
+    contact.head.scale.set(2.4 * this.thickness, 2.4 * this.thickness, head);
+  }
+
+  private make(): Contact {
+    const arrow = new Group();
+    const shaft = new Mesh(new CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5), this.arrowMaterial);
+    const head = new Mesh(new ConeGeometry(1, 1, 24).rotateX(Math.PI / 2).translate(0, 0, 0.5), this.arrowMaterial);
+    shaft.renderOrder = head.renderOrder = 3;
+    arrow.add(shaft, head);
+    const cone = new Group();
+    // Apex at the origin, mouth of radius 1 at z = 1: scaled to the friction coefficient.
+    const side = new Mesh(new ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5), this.coneMaterial);
+    side.renderOrder = 2;
+    cone.add(side, new LineSegments(new EdgesGeometry(new ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5), 30), this.rimMaterial));
+    this.arrows.add(arrow);
+    this.cones.add(cone);
+    return { arrow, shaft, head, cone };
+  }
+}
+
+/// Lines that points of the robot draw.
+export class Trails {
+  readonly group = new Group();
+  private readonly material = new LineBasicMaterial({ transparent: true, opacity: 0.8 });
+
+  add(points: Vector3[]): void {
+    this.group.add(new Line(new BufferGeometry().setFromPoints(points), this.material));
+  }
+  setColour(colour: Color): void {
+    this.material.color.copy(colour);
+  }
+}

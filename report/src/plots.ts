@@ -1,0 +1,151 @@
+import { Chart, type Line } from "./chart";
+import type { Clock } from "./clock";
+import { floats, type ReportData, type SeriesData } from "./data";
+import { el } from "./dom";
+
+interface Tab {
+  name: string;
+  legend: [string, string, boolean][]; // text, colour, dashed
+  limits: boolean;
+  charts: (options: { limits: boolean; group: string }) => Chart[];
+  head?: HTMLElement;
+  wide?: boolean; // charts with long titles or many values
+}
+
+const kAxes = ["x", "y", "z"];
+const kAxisColours = ["axis-x", "axis-y", "axis-z"];
+
+/// All plots, a tab a kind; made when they are first looked at.
+export class Plots {
+  readonly element: HTMLElement;
+  private readonly tabs: Tab[];
+  private readonly buttons: HTMLButtonElement[];
+  private readonly panel = el("div", { class: "charts", role: "tabpanel", id: "plots-panel", tabindex: "0" });
+  private readonly legend = el("div", { class: "legend" });
+  private readonly limits = el("input", { type: "checkbox", id: "plots-limits" });
+  private readonly times: { plan: number[]; simulation: number[] };
+  private charts: Chart[] = [];
+  private chosen = 0;
+
+  constructor(private readonly data: ReportData, private readonly clock: Clock) {
+    this.times = { plan: data.plan.time, simulation: data.simulation?.time ?? [] };
+    this.tabs = data.charts.map((tab) => this.fromData(tab));
+    if (data.gains) this.tabs.push(this.gains(data.gains));
+    this.buttons = this.tabs.map((tab, i) => {
+      const button = el("button", { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": "plots-panel" }, tab.name);
+      button.addEventListener("click", () => this.choose(i));
+      button.addEventListener("keydown", (event) => this.move(event, i));
+      return button;
+    });
+    this.limits.addEventListener("change", () => {
+      this.tabs[this.chosen].limits = this.limits.checked;
+      for (const chart of this.charts) chart.showLimits(this.limits.checked);
+    });
+    this.element = el(
+      "section",
+      { class: "card plots", "aria-label": "Plots" },
+      el("div", { class: "tabs", role: "tablist", "aria-label": "Plots" }, ...this.buttons),
+      el("div", { class: "bar-under" }, this.legend, el("label", { class: "limits", for: "plots-limits" }, this.limits, " limits")),
+      this.panel,
+      el("p", { class: "hint" }, "Time in seconds. Click to go there, drag to zoom, double click to see all."),
+    );
+    clock.onChange(() => this.charts.forEach((chart) => chart.update()));
+    new ResizeObserver(() => this.charts.forEach((chart) => chart.resize())).observe(this.panel);
+  }
+
+  choose(index: number): void {
+    this.chosen = index;
+    const tab = this.tabs[index];
+    this.buttons.forEach((button, i) => {
+      button.setAttribute("aria-selected", String(i === index));
+      button.tabIndex = i === index ? 0 : -1;
+    });
+    this.panel.setAttribute("aria-labelledby", `tab-${index}`);
+    this.limits.checked = tab.limits;
+    this.limits.parentElement!.hidden = !tab.legend.some(([text]) => text === "limit");
+    this.panel.classList.toggle("two", tab.wide === true);
+    this.legend.replaceChildren(...tab.legend.map(([text, name, dashed]) => el("span", { class: `key ${name}${dashed ? " dashed" : ""}` }, text)));
+    this.charts = tab.charts({ limits: tab.limits, group: tab.name });
+    this.panel.replaceChildren(...(tab.head ? [tab.head] : []), ...this.charts.map((chart) => chart.element));
+    this.draw();
+  }
+  /// Again, in the colours of the theme.
+  draw(): void {
+    for (const chart of this.charts) chart.draw();
+  }
+
+  private move(event: KeyboardEvent, from: number): void {
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (by === undefined) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const to = (from + by + this.tabs.length) % this.tabs.length;
+    this.choose(to);
+    this.buttons[to].focus();
+  }
+
+  private fromData(tab: ReportData["charts"][number]): Tab {
+    const styles = new Set(tab.charts.flatMap((chart) => chart.series.map((series) => series.style)));
+    const legend: Tab["legend"] = [];
+    if (styles.has("plan")) legend.push(["plan", "plan", false]);
+    if (styles.has("simulation")) legend.push(["simulation", "simulation", false]);
+    if (styles.has("limit")) legend.push(["limit", "limit", true]);
+    const lines = (all: SeriesData[]): Line[] => {
+      const order = { limit: 0, simulation: 1, plan: 2 };
+      return [...all].sort((a, b) => order[a.style] - order[b.style]).map((series) => ({
+        label: series.label,
+        time: this.times[series.time],
+        values: floats(series.values),
+        colour: series.style,
+        dash: series.style === "limit" ? [4, 3] : undefined,
+        width: series.style === "limit" ? 1 : 1.5,
+        limit: series.style === "limit",
+      }));
+    };
+    return {
+      name: tab.name,
+      legend,
+      wide: tab.name === "Margins",
+      limits: tab.name !== "Rates",
+      charts: (options) => tab.charts.map((chart) => new Chart({ ...options, title: chart.title, unit: chart.unit, lines: lines(chart.series) }, this.clock, this.data.phases)),
+    };
+  }
+
+  /// Rows of K(t), of the joint that is chosen.
+  private gains(gains: NonNullable<ReportData["gains"]>): Tab {
+    const values = floats(gains.values);
+    const { joints } = this.data;
+    const nv = 6 + joints.length;
+    const row = 2 * nv;
+    const select = el("select", { id: "gains-joint" }, ...joints.map((name, j) => el("option", { value: String(j) }, name)));
+    const knee = joints.findIndex((name) => /kfe|knee|calf/i.test(name));
+    select.value = String(Math.max(knee, 0));
+    select.addEventListener("change", () => this.choose(this.chosen));
+    const line = (column: number, label: string, name: string): Line => ({
+      label,
+      time: gains.time,
+      values: gains.time.map((_, i) => values[(i * joints.length + Number(select.value)) * row + column]),
+      colour: name,
+      width: 1.3,
+    });
+    const axes = (first: number) => kAxes.map((axis, i) => line(first + i, axis, kAxisColours[i]));
+    const own = (first: number): Line[] =>
+      joints.map((name, j) => (j === Number(select.value) ? line(first + j, name, "head") : { ...line(first + j, name, "other"), quiet: true }));
+    const groups = (): [string, string, Line[]][] => [
+      ["on base position", "N m/m", axes(0)],
+      ["on base orientation", "N m/rad", axes(3)],
+      ["on joint positions", "N m/rad", own(6)],
+      ["on base velocity", "N m s/m", axes(nv)],
+      ["on base angular velocity", "N m s/rad", axes(nv + 3)],
+      ["on joint rates", "N m s/rad", own(nv + 6)],
+    ];
+    return {
+      name: "Gains",
+      wide: true,
+      limits: false,
+      legend: [["x", "axis-x", false], ["y", "axis-y", false], ["z", "axis-z", false], ["the joint itself", "head", false], ["other joints", "other", false]],
+      head: el("label", { class: "choice", for: "gains-joint" }, "Feedback on the torque of ", select),
+      charts: (options) => groups().map(([title, unit, lines]) => new Chart({ ...options, title, unit, lines: [...lines].sort((a, b) => Number(b.quiet ?? false) - Number(a.quiet ?? false)) }, this.clock, this.data.phases)),
+    };
+  }
+}

@@ -1,0 +1,82 @@
+import type { ReportData, SimulationJson, TextFile } from "./data";
+import { el, short } from "./dom";
+
+/// How the simulation went, in words and figures; nothing if there was none.
+export function simulation(data: ReportData): HTMLElement | null {
+  const found = data.simulation_json;
+  if (!found) return null;
+  const degrees = (angle: number) => `${short((angle * 180) / Math.PI)}°`;
+  const slips = Object.entries(found.slip_m ?? {}).map(([name, slip]) => `${name} ${short(1000 * slip, 2)} mm`);
+  const error = (name: string, of: { largest: number; rms: number; rest: number }, text: (value: number) => string) =>
+    el("tr", {}, el("th", { scope: "row" }, name), ...[of.largest, of.rms, of.rest].map((value) => el("td", { class: "number" }, text(value))));
+  return el(
+    "section",
+    { class: "card", "aria-labelledby": "simulation-title" },
+    el("h2", { id: "simulation-title" }, "Simulation ", el("small", {}, found.success ? "success" : `failed: ${found.failures.join("; ")}`)),
+    el(
+      "div", { class: "wide" },
+      el("table", {},
+        el("thead", {}, el("tr", {}, ...["error", "largest", "RMS", "in rest"].map((name) => el("th", { scope: "col", class: name === "error" ? "" : "number" }, name)))),
+        el("tbody", {},
+          error("base position", found.base_position_m, (value) => `${short(100 * value)} cm`),
+          error("base orientation", found.base_angle_rad, degrees),
+          error("worst joint", found.joints_rad, degrees))),
+    ),
+    el("dl", { class: "facts" },
+      el("dt", {}, "slip"), el("dd", {}, slips.join(", ")),
+      el("dt", {}, "torque"), el("dd", {}, `${short(100 * found.torque.largest_share)} % of the limit at most (${found.torque.joint}), ${short(found.torque.positive_work_J)} J of work`),
+      el("dt", {}, "engine"), el("dd", {}, Object.entries(found.versions).map(([name, version]) => `${name} ${version}`).join(", "))),
+  );
+}
+
+/// The command with what is not as it would be anyhow.
+function simulateCommand(directory: string, found: SimulationJson): string {
+  const { options } = found;
+  const words = ["prowl simulate", /^[\w./-]+$/.test(directory) ? directory : `'${directory.replaceAll("'", "'\\''")}'`];
+  const add = (flag: string, value: unknown, usual: unknown) => {
+    if (value !== usual && value !== undefined && value !== null) words.push(value === true ? flag : `${flag} ${value}`);
+  };
+  add("--open-loop", options.open_loop, false);
+  add("--perfect-state", options.perfect_state, false);
+  add("--noise", options.noise.scale, 1);
+  add("--delay", Number((1000 * options.delay_s).toPrecision(6)), 2);
+  add("--bandwidth", options.bandwidth_Hz, 0);
+  add("--control-rate", options.control_rate_Hz, 1000);
+  add("--mass", options.mass_scale, 1);
+  add("--friction", options.friction, null);
+  for (const push of options.pushes) words.push(`--push ${push.time_s} ${push.impulse_Ns.join(" ")}`);
+  const duration = options.pushes[0]?.duration_s;
+  add("--push-duration", duration, 0.1);
+  add("--step", options.step_s, 0.0005);
+  add("--seed", options.seed, 1);
+  return words.join(" ");
+}
+
+/// Everything that it takes to make the plan again.
+export function reproduce(data: ReportData): HTMLElement {
+  const { versions, task_file, robot_file, urdf, overrides } = data.plan_json;
+  const commands = [data.command];
+  if (data.simulation_json) commands.push(simulateCommand(data.directory, data.simulation_json));
+  const options = data.simulation_json ? file({ path: "options of the simulation", text: JSON.stringify(data.simulation_json.options, null, 2) }) : null;
+  return el(
+    "section",
+    { class: "card", "aria-labelledby": "reproduce-title" },
+    el("h2", { id: "reproduce-title" }, "Reproduce"),
+    el("pre", { class: "commands", tabindex: "0" }, commands.join("\n")),
+    el("p", { class: "hint" }, `Same versions, same plan. Folder: ${data.directory}. Changed on the command line: ${Object.entries(overrides).map(([name, value]) => `${name} = ${value}`).join(", ") || "nothing"}.`),
+    el("dl", { class: "facts" }, ...Object.entries(versions).flatMap(([name, version]) => [el("dt", {}, name), el("dd", {}, version)])),
+    file(task_file),
+    file(robot_file),
+    file(urdf),
+    options,
+  );
+}
+
+function file(source: TextFile): HTMLElement {
+  const lines = source.text.split("\n").length;
+  return el(
+    "details", {},
+    el("summary", {}, source.path, " ", el("small", {}, `${lines} lines`)),
+    el("pre", { tabindex: "0" }, source.text),
+  );
+}

@@ -1,0 +1,46 @@
+// Plans, simulates and reports what the tests look at, with the command that was built.
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { command, folder, root, work } from "./reports";
+
+// Names may be any ASCII without quotes; comments and paths may be anything.
+export const kOddName = "</script><script>window.hacked=1</script><img src=x onerror=window.hacked=2>";
+export const kOddText = `<!-- "quoted" & 'odd' </script><script>window.hacked = "3"</script>`;
+
+function prowl(...parameters: string[]): void {
+  const found = spawnSync(command, parameters, { cwd: root, encoding: "utf8" });
+  if (found.status !== 0) throw new Error(`prowl ${parameters.join(" ")}: status ${found.status}\n${found.stdout}${found.stderr}`);
+}
+
+function make(name: string, task: string, simulated: boolean): void {
+  prowl("plan", task, "--out", folder(name));
+  if (simulated) prowl("simulate", folder(name));
+  prowl("report", folder(name));
+}
+
+/// HyQ's stand, with names and comments that try to be markup, from a folder with quotes in its name.
+function makeOdd(): void {
+  const quoted = JSON.stringify(kOddName); // a basic string of TOML, too
+  const from = path.join(work, `odd "task" & 'more'`);
+  const robot = readFileSync(path.join(root, "robots/hyq.toml"), "utf8").replace(/^name = .*$/m, () => `name = ${quoted}`);
+  const task = readFileSync(path.join(root, "tasks/hyq/stand.toml"), "utf8")
+    .replace(/^name = .*$/m, () => `# ${kOddText}\nname = ${quoted}`)
+    .replace(/^robot = .*$/m, () => `robot = "robot.toml"`)
+    .replace(/^\[\[phase\]\]$/m, () => `[[phase]]\nname = ${quoted}`);
+  mkdirSync(from, { recursive: true });
+  writeFileSync(path.join(from, "robot.toml"), robot);
+  writeFileSync(path.join(from, "task.toml"), task);
+  make("odd", path.join(from, "task.toml"), false);
+}
+
+export default function (): void {
+  if (process.env.PROWL_REPORT_REUSE) return; // while working on the tests
+  rmSync(work, { recursive: true, force: true });
+  mkdirSync(work, { recursive: true });
+  make("crouch", "tasks/hyq/crouch.toml", true);
+  make("step", "tasks/hyq/step.toml", true);
+  make("walk", "tasks/hyq/walk.toml", true);
+  make("squat", "tasks/talos/squat.toml", true);
+  makeOdd();
+}

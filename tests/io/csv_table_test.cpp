@@ -1,0 +1,33 @@
+#include "prowl/io/csv_table.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(CsvTable, ReadsNumbersByTheNamesOfTheirColumns) {
+  const CsvTable table = read_csv_table({"a.csv", "time_s,x\n0,1e-3\n0.5,nan\n"});
+  ASSERT_EQ(table.rows(), 2);
+  EXPECT_EQ(table.values(table.index("time_s"), 1), 0.5);
+  EXPECT_EQ(table.values(table.index("x"), 0), 1e-3);
+  EXPECT_TRUE(std::isnan(table.values(table.index("x"), 1)));
+}
+
+TEST(CsvTable, SaysWhereItIsWrong) {
+  const auto message = [](const std::string& text) { return test::message_of("", [&] { read_csv_table({"a.csv", text}); }); };
+  EXPECT_THAT(message("t,x\n0,1\n0\n"), HasSubstr("a.csv:3: 1 cells; need 2"));
+  EXPECT_THAT(message("t,x\n0,1m\n"), HasSubstr("a.csv:2: x: \"1m\""));
+  EXPECT_THAT(message("t,x\n0,1"), HasSubstr("cut short"));
+  EXPECT_THAT(message(""), HasSubstr("cut short"));
+  EXPECT_THAT(test::message_of("", [] { read_csv_table({"a.csv", "time_s,x\n"}).index("times"); }),
+              HasSubstr("no column times; did you mean 'time_s'"));
+}
+
+}  // namespace
+}  // namespace prowl
