@@ -123,7 +123,7 @@ TEST(ReportFile, ShowsASimulationUpToWhereItDiverged) {
     if (i == 3) sample.q(2) = std::nan("");
     result.samples.push_back(sample);
   }
-  const std::string csv = simulation_csv(robot, result);
+  const std::string csv = simulation_csv(robot, result.samples);
   const auto make = [&](const std::string& text) {
     return make_report({.plan = stand(), .directory = "d", .simulation = SourceText{"simulate.csv", text}, .template_html = kPage}, test::test_search());
   };
