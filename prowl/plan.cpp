@@ -76,7 +76,8 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
     if (!plan.levels.empty() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(level, solver, options, plan);
   }
-  if (plan.reasons.empty() && plan.result.status != SolveStatus::converged) {
+  const bool ended_by_itself = plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
+  if (plan.reasons.empty() && plan.result.status != SolveStatus::converged && ended_by_itself) {
     plan.hints = doubts(problem, initial_guess(problem, make_mesh(problem)),
                         options.hint_solver ? *options.hint_solver : solver);
   }
