@@ -96,11 +96,13 @@ def test_ctrl_c_stops_a_solve_and_keeps_its_best_motion():
 
 
 def test_ctrl_c_stops_a_simulation(crouch):
-    pressed = press_ctrl_c(0.2)
+    started = time.monotonic()
+    prowl.simulate(crouch, control_rate=2000.0)
+    whole = time.monotonic() - started
+    pressed = press_ctrl_c(0.2 * whole)
     with pytest.raises(KeyboardInterrupt):
-        while True:  # one takes half a second
-            prowl.simulate(crouch, control_rate=20000.0)
-    assert time.monotonic() - pressed[0] < 0.3
+        prowl.simulate(crouch, control_rate=2000.0)
+    assert time.monotonic() - pressed[0] < 0.5 * whole, "it went on"
 
 
 def test_other_threads_run_meanwhile(crouch):
@@ -113,9 +115,7 @@ def test_other_threads_run_meanwhile(crouch):
 
     thread = threading.Thread(target=count)
     thread.start()
-    started = time.monotonic()
     prowl.solve(crouch.task)
-    milliseconds = 1e3 * (time.monotonic() - started)
     done.set()
     thread.join()
-    assert counted[0] > 0.1 * milliseconds
+    assert counted[0] > 10, "of some hundred"

@@ -74,6 +74,13 @@ def test_all_its_libraries_are_in_the_environment_or_the_systems(environment):
         assert all(str(environment) in line for line in ours), listed
 
 
+def test_it_has_types_and_licences(environment):
+    package, = environment.glob("lib/python3*/site-packages/prowl")
+    for name in ("py.typed", "_prowl.pyi", "share/example-robot-data/robots/hyq_description/LICENSE",
+                 *(f"share/doc/prowl/licences/{library}.txt" for library in ("nanobind", "fmt", "tomlplusplus"))):
+        assert (package / name).is_file(), name
+
+
 def test_python_and_what_it_loads(environment):
     script = ("import prowl; task = prowl.read_task('hyq/crouch');"
               "plan = prowl.solve(task, solver='ipopt', threads=2); assert plan.good, plan.summary();"
