@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +37,21 @@ def _find(name: str | os.PathLike[str], shipped: list[str], folder: str) -> Path
     return _SHARE / folder / f"{name}.toml"
 
 
+# Has the URDFs of the shipped robots; HyQ's is also in Prowl's own wheel.
+_ROBOTS = "example-robot-data==6.0.0"
+
+
+@contextmanager
+def _remedy(path: Path) -> Iterator[None]:
+    """For a shipped robot without its URDF, what to install in place of all the folders that were searched."""
+    try:
+        yield
+    except _prowl.InputError as error:
+        if _SHARE not in path.parents or "package://example-robot-data" not in str(error):
+            raise
+        raise _prowl.InputError(f"{path}: the URDF of its robot comes with another package: pip install {_ROBOTS}") from error
+
+
 def _folders(package_dirs: Sequence[str | os.PathLike[str]]) -> list[str]:
     return [os.fspath(folder) for folder in package_dirs]
 
@@ -49,7 +65,9 @@ def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os
 
     package_dirs: where to look for package://, before ROS's own places. Raises InputError with file, line and column.
     """
-    return _prowl.read_robot(_find(robot, shipped_robots(), "robots"), _folders(package_dirs))
+    path = _find(robot, shipped_robots(), "robots")
+    with _remedy(path):
+        return _prowl.read_robot(path, _folders(package_dirs))
 
 
 def parse_robot(document: str | Mapping[str, Any], *, folder: str | os.PathLike[str] = ".",
@@ -67,8 +85,10 @@ def read_task(task: str | os.PathLike[str], *, package_dirs: Sequence[str | os.P
     together. package_dirs: where to look for package://, before ROS's own places. Raises InputError with file, line and
     column.
     """
-    return _prowl.read_task(_find(task, shipped_tasks(), "tasks"), package_dirs=_folders(package_dirs), intervals=intervals,
-                            max_iterations=max_iterations, max_time=max_time, tolerance=tolerance)
+    path = _find(task, shipped_tasks(), "tasks")
+    with _remedy(path):
+        return _prowl.read_task(path, package_dirs=_folders(package_dirs), intervals=intervals,
+                                max_iterations=max_iterations, max_time=max_time, tolerance=tolerance)
 
 
 def parse_task(document: str | Mapping[str, Any], *, folder: str | os.PathLike[str] = ".",

@@ -29,7 +29,9 @@ def test_pins_are_those_of_requirements():
     pinned = [pin for pin in run if "==" in pin]
     assert set(map(normal, build)) <= known
     assert len(pinned) > 10 and set(pinned) <= set(build), "what was built against is what is run with"
-    assert set(map(normal, project["project"]["optional-dependencies"]["robots"])) <= known
+    robots, = project["project"]["optional-dependencies"]["robots"]
+    assert normal(robots) in known
+    assert f'"{robots}"' in (SOURCE / "python/prowl/_files.py").read_text(), "what the message says"
 
 
 @pytest.fixture(scope="module")
@@ -89,6 +91,11 @@ def test_python_and_what_it_loads(environment):
     task, *loaded = run(environment, "python", "-c", script).split()
     assert task.startswith(str(environment)) and any("libpinocchio" in path for path in loaded)
     assert not [path for path in loaded if path.startswith(str(SOURCE))]
+
+
+def test_robots_that_it_does_not_bring(environment):
+    script = ("import prowl\ntry: prowl.read_task('go2/crouch')\nexcept prowl.InputError as error: print(error)")
+    assert "pip install example-robot-data" in run(environment, "python", "-c", script)
 
 
 def test_the_command(environment):
