@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "program_path.hpp"
 #include "prowl/error.hpp"
 #include "prowl/simulation/physics.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
@@ -35,9 +36,13 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs) {
   for (const auto& path : path_list("ROS_PACKAGE_PATH")) search.folders.push_back(path);
   std::error_code ignored;  // a working directory that was removed has nothing to offer
   search.working_directory = std::filesystem::current_path(ignored);
-  // CLONE/build/bin/prowl: found from any working directory, without a path compiled in.
-  const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  search.clone = executable.parent_path().parent_path().parent_path();
+  // CLONE/build/bin/prowl, CLONE/build/python/prowl/: found from any working directory, without a path compiled in. In
+  // a wheel that is site-packages, where Pinocchio's wheels have their shared folder.
+  const std::filesystem::path program = program_path().parent_path();
+  const std::filesystem::path prefix = program.filename() == "bin" ? program.parent_path() : program;
+  search.clone = prefix.parent_path();
+  if (search.clone.filename() == "python") search.clone = search.clone.parent_path().parent_path();
+  search.installed = {prefix / "share", prefix.parent_path() / "cmeel.prefix" / "share"};
   return search;
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "commands.hpp"
@@ -25,8 +26,14 @@ constexpr double kStep = 0.005;                       ///< of contact accelerati
 constexpr std::size_t kLongestFigure = 1u << 30;      ///< [bytes]
 constexpr int kNoLibrary = 3;                         ///< exit status of draw.py
 
+/// That of the wheel, which the wheel's command names, or that of the build.
+std::string default_python() {
+  const char* const python = std::getenv("PROWL_PYTHON");
+  return python ? python : PROWL_PYTHON;
+}
+
 struct FiguresArguments {
-  std::string directory, out, joint, python = PROWL_PYTHON;
+  std::string directory, out, joint, python = default_python();
   std::vector<std::string> package_dirs;
 };
 
@@ -122,7 +129,7 @@ void add_figures_command(CLI::App& app, int& status) {
   verb->add_option("--out", arguments->out, "Folder for the figures; default: DIR/figures")->type_name("DIR");
   verb->add_option("--joint", arguments->joint, "Whose gains to draw; default: the first knee, or else the first leg's last joint")
       ->type_name("NAME");
-  verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " PROWL_PYTHON)->type_name("PATH");
+  verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " + arguments->python)->type_name("PATH");
   add_package_dirs(*verb, arguments->package_dirs);
   verb->footer("Example:\n  prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch\n\nExit status: 0 if they are drawn.");
   verb->callback([arguments, &status] { status = run_figures(*arguments); });

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -18,10 +17,9 @@
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/report_file.hpp"
 #include "prowl/io/summary.hpp"
-#include "prowl/solvers/fatrop_solver.hpp"
+#include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/resample.hpp"
+#include "prowl/solvers/make_solver.hpp"
 #include "shared_options.hpp"
 
 namespace prowl::cli {
@@ -59,28 +57,11 @@ const CLI::Validator kPositive(
 /// The motion of --warm-start, once it is known to fit.
 Trajectory read_start(const PlanArguments& arguments, const MotionProblem& problem) {
   const PlanRecord record = read_plan(arguments.warm_start, package_search(arguments.package_dirs));
-  const Trajectory& motion = record.plan.trajectory;
-  const MotionProblem& other = record.task.problem;
   try {
-    if (other.robot.joint_names() != problem.robot.joint_names()) {
-      throw InputError("the motion to start from is of another robot");
-    }
-    resample(motion, problem, make_mesh(problem));
-    for (std::size_t p = 0; p < problem.phases.size(); ++p) {
-      const auto contact = &PhaseContact::contact;
-      if (std::ranges::equal(problem.phases[p].contacts, other.phases[p].contacts, {}, contact, contact)) continue;
-      throw InputError(fmt::format("the motion to start from has other contacts in phase {}", p + 1));
-    }
+    return warm_start(record, problem);
   } catch (const InputError& error) {
     throw InputError(fmt::format("--warm-start {}: {}", arguments.warm_start, error.what()));
   }
-  return motion;
-}
-
-std::unique_ptr<NlpSolver> make_solver(const std::string& name) {
-  if (name == "riccati") return std::make_unique<RiccatiSolver>();
-  if (name == "fatrop") return std::make_unique<FatropSolver>();
-  return std::make_unique<IpoptSolver>();
 }
 
 /// Gains for a plan that is good; why there are none is a note, for the plan is as good without.

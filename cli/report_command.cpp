@@ -6,10 +6,9 @@
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "output.hpp"
-#include "plan_tracker.hpp"
-#include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/report_file.hpp"
+#include "report_page.hpp"
 #include "shared_options.hpp"
 
 namespace prowl::cli {
@@ -17,46 +16,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestSimulation = 1u << 30;  ///< [bytes]
-constexpr std::size_t kLongestPage = 16u << 20;       ///< [bytes]
-
 struct ReportArguments {
   std::string directory, out;
   std::vector<std::string> package_dirs;
 };
 
-/// PREFIX/bin/prowl: PREFIX/share/prowl/report.html, installed as well as in a build.
-std::string page_without_data() {
-  std::error_code ignored;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path page = executable.parent_path().parent_path() / "share/prowl/report.html";
-  if (!fs::exists(page, ignored)) {
-    throw FileError(fmt::format("{}: missing; scripts/setup builds it from report/, with the Node.js in .venv", page.string()));
-  }
-  return read_text_file(page, kLongestPage).text;
-}
-
-std::optional<SourceText> read_if_there(const fs::path& file) {
-  std::error_code ignored;
-  if (!fs::exists(file, ignored)) return std::nullopt;
-  return read_text_file(file, kLongestSimulation);
-}
-
 }  // namespace
 
 void write_report(const PlanRecord& plan, const fs::path& directory, const fs::path& out, const PackageSearch& search) {
-  ReportInputs inputs{.plan = plan,
-                      .directory = directory.string(),
-                      .simulation = read_if_there(directory / "simulate.csv"),
-                      .simulation_json = read_if_there(directory / "simulate.json"),
-                      .tracking = {},
-                      .template_html = page_without_data()};
-  std::error_code ignored;
-  if (fs::exists(directory / "tracker.bin", ignored)) inputs.tracking = read_tracker(directory, plan.task.problem).plan();
-  const Report report = make_report(inputs, search);
-  for (const std::string& warning : report.warnings) print_message(fmt::format("warning: {}\n", warning));
-  write_file_atomically(out, report.html);
-  print_message(fmt::format("report: {}, {:.1f} MB{}\n", out.string(), 1e-6 * static_cast<double>(report.html.size()),
+  const ReportInputs inputs = report_inputs(plan, directory);
+  const std::string html = report_page(inputs, search);
+  write_file_atomically(out, html);
+  print_message(fmt::format("report: {}, {:.1f} MB{}\n", out.string(), 1e-6 * static_cast<double>(html.size()),
                             inputs.simulation ? "" : ", of the plan alone: there is no simulation"));
 }
 

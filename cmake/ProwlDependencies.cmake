@@ -1,11 +1,18 @@
-# Finds what the wheels of requirements.txt and the system packages ship. Nothing is downloaded here: scripts/setup does.
-set(PROWL_VENV ${CMAKE_CURRENT_SOURCE_DIR}/.venv CACHE PATH "Virtual environment with the pinned wheels")
-if(NOT EXISTS ${PROWL_VENV}/bin/python)
+# Finds what the wheels of requirements.txt and the system packages ship. Nothing is downloaded here: scripts/setup does, or
+# pip, which builds with a Python of its own.
+if(SKBUILD)
+  set(PROWL_PYTHON ${Python_EXECUTABLE})
+else()
+  set(PROWL_VENV ${CMAKE_CURRENT_SOURCE_DIR}/.venv CACHE PATH "Virtual environment with the pinned wheels")
+  set(PROWL_PYTHON ${PROWL_VENV}/bin/python)
+endif()
+if(NOT EXISTS ${PROWL_PYTHON})
   message(FATAL_ERROR "No virtual environment at ${PROWL_VENV}: run scripts/setup, or set PROWL_VENV.")
 endif()
 
-execute_process(COMMAND ${PROWL_VENV}/bin/python -c
-    "import sysconfig; print(sysconfig.get_path('purelib'), end='')"
+# Where the wheels are: not always where Python's own packages are, for pip builds in a folder that it puts before them.
+execute_process(COMMAND ${PROWL_PYTHON} -c
+    "import importlib.util, pathlib; print(pathlib.Path(importlib.util.find_spec('mujoco').origin).parent.parent, end='')"
   OUTPUT_VARIABLE PROWL_SITE_PACKAGES COMMAND_ERROR_IS_FATAL ANY)
 set(PROWL_CMEEL ${PROWL_SITE_PACKAGES}/cmeel.prefix)
 set(PROWL_CASADI ${PROWL_SITE_PACKAGES}/casadi)
@@ -58,7 +65,10 @@ set_target_properties(prowl_dep_mujoco PROPERTIES
 find_package(tinyxml2 REQUIRED)
 find_package(urdfdom REQUIRED)
 find_package(assimp 6.0 REQUIRED)
-find_package(meshoptimizer REQUIRED)
-find_package(fmt REQUIRED)
-find_package(tomlplusplus REQUIRED)
-find_package(nlohmann_json REQUIRED)
+foreach(package fmt tomlplusplus nlohmann_json meshoptimizer)
+  find_package(${package} QUIET)
+  if(NOT ${package}_FOUND)
+    message(FATAL_ERROR "No ${package}. On Debian and Ubuntu:\n  sudo apt-get install "
+      "g++ python3-dev libcli11-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libmeshoptimizer-dev")
+  endif()
+endforeach()

@@ -1,4 +1,5 @@
-# `cmake --install build --prefix DIR`: libraries, headers, robots and tasks, and a package for find_package(prowl).
+# `cmake --install build --prefix DIR`: libraries, headers, robots and tasks, and a package for find_package(prowl). What runs is
+# the component runtime: that and `python` are in a wheel.
 # The libraries look for Pinocchio and Ipopt where they were found at build time: the virtual environment has to stay.
 include(CMakePackageConfigHelpers)
 
@@ -9,24 +10,23 @@ endif()
 
 get_property(layers GLOBAL PROPERTY PROWL_LAYERS)
 install(TARGETS ${layers} EXPORT prowlTargets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 
 set(internal_headers)
 foreach(header ${PROWL_INTERNAL_HEADERS})
   list(APPEND internal_headers REGEX /${header}$ EXCLUDE)
 endforeach()
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/prowl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/prowl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   FILES_MATCHING PATTERN *.hpp ${internal_headers})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/robots ${PROJECT_SOURCE_DIR}/tasks DESTINATION ${CMAKE_INSTALL_DATADIR}/prowl
-  FILES_MATCHING PATTERN *.toml)
-install(FILES ${PROJECT_SOURCE_DIR}/docs/third-party.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+  COMPONENT runtime FILES_MATCHING PATTERN *.toml)
+install(FILES ${PROJECT_SOURCE_DIR}/docs/third-party.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/prowl)
-install(EXPORT prowlTargets NAMESPACE prowl:: DESTINATION ${package_dir})
+install(EXPORT prowlTargets NAMESPACE prowl:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/prowlConfig.cmake.in ${PROJECT_BINARY_DIR}/prowlConfig.cmake
   INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/prowlConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/prowlConfig.cmake ${PROJECT_BINARY_DIR}/prowlConfigVersion.cmake
-  DESTINATION ${package_dir})
+  DESTINATION ${package_dir} COMPONENT development)

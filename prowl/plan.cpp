@@ -48,6 +48,7 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   level_options.start_multipliers = from_elsewhere ? options.start_multipliers : std::vector<StageMultipliers>{};
   constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
   level_options.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
+  if (options.on_motion) level_options.on_iterate = [&](const Eigen::VectorXd& z) { options.on_motion(nlp.unpack(z)); };
   if (options.on_level) options.on_level(count_intervals(problem));
 
   const SolveResult before = std::move(plan.result);
@@ -77,7 +78,8 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
     if (!plan.levels.empty() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(level, solver, options, plan);
   }
-  if (plan.reasons.empty() && plan.result.status != SolveStatus::converged) {
+  const bool ended_by_itself = plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
+  if (plan.reasons.empty() && plan.result.status != SolveStatus::converged && ended_by_itself) {
     plan.hints = doubts(problem, initial_guess(problem, make_mesh(problem)),
                         options.hint_solver ? *options.hint_solver : solver);
   }

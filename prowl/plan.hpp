@@ -33,7 +33,7 @@ struct Plan {
   /// Why there can be no such motion, proven before the solve (proofs_of_infeasibility). If there is a reason the status is
   /// infeasible, the solver did not run, and the trajectory is the initial guess.
   std::vector<std::string> reasons;
-  /// After a solve that did not converge: what may be the matter (doubts).
+  /// After a solve that did not converge and was not interrupted: what may be the matter (doubts).
   std::vector<std::string> hints;
 };
 
@@ -49,6 +49,7 @@ struct PlanOptions {
   HessianKind hessian = HessianKind::exact;
   bool coarse_first = true;  ///< false: on the mesh of the problem at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
+  std::function<void(const Trajectory&)> on_motion = {};  ///< the motion after each iteration; may be empty
 };
 
 /// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from makes

@@ -53,6 +53,7 @@ std::vector<fs::path> folders_to_search(const fs::path& robot_file, const std::v
     const std::vector<fs::path> shares = wheel_shares(folder);
     folders.insert(folders.end(), shares.begin(), shares.end());
   }
+  folders.insert(folders.end(), search.installed.begin(), search.installed.end());
   return folders;
 }
 

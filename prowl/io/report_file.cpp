@@ -16,6 +16,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlaceholder = "PROWL_REPORT_DATA";
+// A file reaches nothing; a page that is served, its server.
+constexpr const char* kPolicy = "default-src 'none';";
+constexpr const char* kServedPolicy = "default-src 'none'; connect-src 'self';";
 constexpr double kGainStep = 0.02;  ///< [s]
 
 /// Phases with their planned times and contacts.
@@ -83,6 +86,13 @@ std::string filled(const std::string& page, std::string data) {
   return page.substr(0, place) + safe + page.substr(place + std::string_view(kPlaceholder).size());
 }
 
+/// The page with a policy that lets it talk to its server.
+std::string served(std::string page) {
+  const std::size_t place = page.find(kPolicy);
+  if (place == std::string::npos) throw FileError(fmt::format("the page of the report is not one that was built for it: need {} in it", kPolicy));
+  return page.replace(place, std::string_view(kPolicy).size(), kServedPolicy);
+}
+
 }  // namespace
 
 Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
@@ -111,12 +121,31 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
                {"simulation", nullptr},
                {"simulation_json", parse_simulation(inputs)},
                {"charts", report_charts(problem, plan, simulation)},
-               {"gains", nullptr}};
+               {"gains", nullptr},
+               {"live", nullptr}};
   if (!simulation.empty()) data["simulation"] = report_motion_json(robot, simulation);
   if (inputs.tracking) data["gains"] = report_gains(*inputs.tracking, kGainStep);
   data["warnings"] = report.warnings;
-  report.html = filled(inputs.template_html, data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  if (inputs.state != PageState::file) data["live"] = {{"solved", inputs.state == PageState::solved}};
+  report.html = filled(inputs.state == PageState::file ? inputs.template_html : served(inputs.template_html), data.dump(-1, ' ', false, Json::error_handler_t::replace));
   return report;
+}
+
+std::string report_iterate(const MotionProblem& problem, const Trajectory& motion, const MeshIteration& at) {
+  const std::vector<TrajectoryPoint> points = report_points(motion, report_step(motion.duration()));
+  std::size_t switches = 0;
+  for (std::size_t k = 1; k < motion.nodes.size(); ++k) switches += motion.nodes[k].phase != motion.nodes[k - 1].phase ? 1 : 0;
+  const Json iterate = {{"level", at.level},
+                        {"intervals", motion.nodes.size() - 1 - switches},
+                        {"iteration", at.progress.iteration},
+                        {"cost", at.progress.cost},
+                        {"constraint_violation", at.progress.constraint_violation},
+                        {"dual_violation", at.progress.dual_violation},
+                        {"seconds", at.progress.elapsed_seconds},
+                        {"phases", phases_json(problem, motion)},
+                        {"plan", report_motion_json(problem.robot, points)},
+                        {"charts", report_charts(problem, points, {})}};
+  return iterate.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace prowl

@@ -13,6 +13,9 @@ namespace prowl {
 /// Name of the report within the folder of a plan, unless asked for another.
 inline constexpr const char* kReportFile = "report.html";
 
+/// Whether the page is a file, or served while its plan is made (prowl view): then it listens to the server's events.
+enum class PageState { file, solving, solved };
+
 /// All that goes into a report.
 struct ReportInputs {
   const PlanRecord& plan;
@@ -21,6 +24,7 @@ struct ReportInputs {
   std::optional<SourceText> simulation_json = {}; ///< simulate.json
   std::optional<TrackingPlan> tracking = {};      ///< tracker.bin
   std::string template_html;              ///< the page without data, built from report/
+  PageState state = PageState::file;
 };
 
 struct Report {
@@ -32,5 +36,8 @@ struct Report {
 /// robot files is. Nothing from the files becomes markup or script: it is in the page as JSON without any '<'.
 /// Throws InputError for files that are wrong, FileError for a template that is not one.
 Report make_report(const ReportInputs& inputs, const PackageSearch& search);
+
+/// An iterate of the solver for a page that is served: its motion, charts and phases as in a report, and how far it is. One line.
+std::string report_iterate(const MotionProblem& problem, const Trajectory& motion, const MeshIteration& at);
 
 }  // namespace prowl

@@ -336,13 +336,16 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
           .file_intervals = std::move(file_intervals)};
 }
 
-Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {
-  const SourceText task_file = read_text_file(path);
+Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides) {
   const TomlDocument document(task_file);
   const TomlTable root = task_root(document);
   const std::filesystem::path robot = robot_path(task_file, root);
   if (!std::filesystem::exists(robot)) root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
   return parse_task(task_file, read_text_file(robot), search, overrides);
+}
+
+Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {
+  return read_task_text(read_text_file(path), search, overrides);
 }
 
 std::string task_slug(const std::filesystem::path& task_file) {

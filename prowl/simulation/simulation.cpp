@@ -82,6 +82,7 @@ class Run {
     long tick = 0;
     for (; tick <= ticks && end == SimulationResult::End::finished; ++tick) {
       const double t = static_cast<double>(tick) * period_;
+      if (options_.on_tick) options_.on_tick(t);
       control(t);
       if (!advance(t)) end = SimulationResult::End::diverged;
       sample_.tau = torque_;

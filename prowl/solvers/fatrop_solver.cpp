@@ -210,6 +210,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
     if (options_.on_iteration) {
       options_.on_iteration({iterations_, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - began_});
     }
+    if (options_.on_iterate) options_.on_iterate(nlp_.flat(last_.stages));
     check_limits();
     if (iterations_ >= options_.max_iterations) throw Stopped{SolveStatus::iteration_limit, "iteration limit reached"};
     if (!std::isfinite(last_.cost) || !std::isfinite(last_.violation) || !std::isfinite(last_.dual_violation)) {

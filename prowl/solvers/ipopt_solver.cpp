@@ -93,6 +93,7 @@ class IpoptProblem : public Ipopt::TNLP {
     if (options_.on_iteration) {
       options_.on_iteration({iteration, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - start_});
     }
+    if (options_.on_iterate && last_.z.size() > 0) options_.on_iterate(last_.z);
     guarded_.forget_failure();  // a shorter step got away from it
     return !guarded_.broken() && !(options_.interrupt && options_.interrupt->load());
   }

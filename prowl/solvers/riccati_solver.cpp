@@ -41,6 +41,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     if (options.on_iteration) {
       options.on_iteration({iteration, figures.cost, figures.violation, figures.dual_violation, wall_seconds() - began});
     }
+    if (options.on_iterate) options.on_iterate(stages.flat(method.stages()));
     if (options.interrupt && options.interrupt->load()) return {{interrupted, "stopped on request"}};
     if (wall_seconds() - began > options.max_seconds) return {{time_limit, "time limit reached"}};
     if (iteration >= options.max_iterations) return {{iteration_limit, "iteration limit reached"}};

@@ -9,7 +9,7 @@ export class Clock {
   private last = 0;
   private readonly listeners: (() => void)[] = [];
 
-  constructor(readonly end: number) {}
+  constructor(public end: number) {}
 
   /// Called whenever time, speed or playing change.
   onChange(listener: () => void): void {
@@ -18,6 +18,11 @@ export class Clock {
   seek(time: number): void {
     this.time = Math.min(Math.max(time, 0), this.end);
     this.tell();
+  }
+  /// Of another motion: the time stays where it is, if there is such a time in it.
+  setEnd(end: number): void {
+    this.end = end;
+    this.seek(this.time);
   }
   pause(): void {
     this.playing = false;

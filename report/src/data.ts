@@ -159,6 +159,21 @@ export interface ReportData {
   charts: { name: string; charts: ChartData[] }[];
   gains: { time: number[]; values: string } | null;
   warnings: string[];
+  live: { solved: boolean } | null; // served by prowl view
+}
+
+/// An iterate of the solver, sent by prowl view; "level" is the mesh, 0 the coarsest.
+export interface Iterate {
+  level: number;
+  intervals: number;
+  iteration: number;
+  cost: number | null;
+  constraint_violation: number | null;
+  dual_violation: number | null;
+  seconds: number;
+  phases: Phase[];
+  plan: MotionData;
+  charts: ReportData["charts"];
 }
 
 function bytes(base64: string): ArrayBuffer {

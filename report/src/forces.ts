@@ -115,6 +115,10 @@ export class Trails {
   readonly group = new Group();
   private readonly material = new LineBasicMaterial({ transparent: true, opacity: 0.8 });
 
+  clear(): void {
+    for (const line of this.group.children) (line as Line).geometry.dispose();
+    this.group.clear();
+  }
   add(points: Vector3[]): void {
     this.group.add(new Line(new BufferGeometry().setFromPoints(points), this.material));
   }

@@ -18,15 +18,15 @@ const kLayers: Record<string, keyof Layers> = { f: "forces", c: "cones", g: "gho
 
 /// Keys of the whole page; those of a field that has the focus go first.
 export function keyboard(clock: Clock, timeline: Timeline, view: View | null, data: ReportData, help: () => void): void {
-  const starts = [...data.phases.map((phase) => phase.start), data.phases[data.phases.length - 1]?.end ?? 0];
+  const starts = () => [...data.phases.map((phase) => phase.start), data.phases[data.phases.length - 1]?.end ?? 0];
   const actions: Record<string, (event: KeyboardEvent) => void> = {
     " ": () => clock.toggle(),
     ArrowLeft: (event) => clock.seek(clock.time - kFrame * (event.shiftKey ? 10 : 1)),
     ArrowRight: (event) => clock.seek(clock.time + kFrame * (event.shiftKey ? 10 : 1)),
     Home: () => clock.seek(0),
     End: () => clock.seek(clock.end),
-    n: () => clock.seek(starts.find((start) => start > clock.time + 1e-6) ?? clock.end),
-    p: () => clock.seek(starts.findLast((start) => start < clock.time - 1e-6) ?? 0),
+    n: () => clock.seek(starts().find((start) => start > clock.time + 1e-6) ?? clock.end),
+    p: () => clock.seek(starts().findLast((start) => start < clock.time - 1e-6) ?? 0),
     "+": () => timeline.changeSpeed(1),
     "-": () => timeline.changeSpeed(-1),
     r: () => view?.resetCamera(),

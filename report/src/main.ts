@@ -5,6 +5,7 @@ import { Clock } from "./clock";
 import { readData, type ReportData } from "./data";
 import { el, short } from "./dom";
 import { keyboard, kKeys } from "./keyboard";
+import { Live, type Shown } from "./live";
 import { Plots } from "./plots";
 import { reproduce, simulation } from "./reproduce";
 import { solver } from "./solver";
@@ -28,8 +29,8 @@ function header(data: ReportData, theme: ThemeSwitch, help: () => void): HTMLEle
   return el(
     "header", {},
     el("h1", {}, el("span", { class: "robot" }, data.robot), " ", name),
-    el("span", { class: good ? "badge good" : "badge bad" }, good ? `✓ passed · ${found.grade}` : `✗ not good · ${data.plan_json.status}`),
-    el("span", { class: "summary" }, `${short(duration)} s · ${data.phases.length} ${data.phases.length === 1 ? "phase" : "phases"} · ${intervals} intervals · ${solved.name}, ${solved.iterations} iterations, ${short(solved.seconds)} s`),
+    data.live?.solved === false ? el("span", { class: "badge" }, "… solving") : el("span", { class: good ? "badge good" : "badge bad" }, good ? `✓ passed · ${found.grade}` : `✗ not good · ${data.plan_json.status}`),
+    el("span", { class: "summary" }, `${short(duration)} s · ${data.phases.length} ${data.phases.length === 1 ? "phase" : "phases"} · ${intervals} intervals · ${solved.name}${data.live?.solved === false ? "" : `, ${solved.iterations} iterations, ${short(solved.seconds)} s`}`),
     el("span", { class: "spacer" }),
     helpButton,
     theme.button,
@@ -79,11 +80,12 @@ function makeView(container: HTMLElement, data: ReportData, clock: Clock): View 
   }
 }
 
+const endOf = (data: ReportData): number => Math.max(data.plan.time.at(-1) ?? 0, data.simulation?.time.at(-1) ?? 0);
+
 function start(): void {
   const data = readData();
   document.title = `${data.robot} ${data.plan_json.name} – Prowl`;
-  const end = Math.max(data.plan.time.at(-1) ?? 0, data.simulation?.time.at(-1) ?? 0);
-  const clock = new Clock(end);
+  const clock = new Clock(endOf(data));
   let redraw: () => void = () => undefined;
   const theme = new ThemeSwitch(() => redraw());
 
@@ -118,6 +120,16 @@ function start(): void {
     judged.draw();
     solved.draw();
   };
+  if (data.live) {
+    const show = (shown: Shown) => {
+      Object.assign(data, shown);
+      clock.setEnd(endOf(data));
+      timeline.setData();
+      plots.setData();
+      view?.setPlan();
+    };
+    timeline.element.after(new Live(data, show).element);
+  }
   keyboard(clock, timeline, view, data, () => (help.open ? help.close() : help.showModal()));
   const linked = /^#t=(\d+(\.\d+)?)$/.exec(location.hash);
   if (linked) clock.seek(Number(linked[1]));

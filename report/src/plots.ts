@@ -18,19 +18,18 @@ const kAxisColours = ["axis-x", "axis-y", "axis-z"];
 /// All plots, a tab a kind; made when they are first looked at.
 export class Plots {
   readonly element: HTMLElement;
-  private readonly tabs: Tab[];
+  private tabs: Tab[];
   private readonly buttons: HTMLButtonElement[];
   private readonly panel = el("div", { class: "charts", role: "tabpanel", id: "plots-panel", tabindex: "0" });
   private readonly legend = el("div", { class: "legend" });
   private readonly limits = el("input", { type: "checkbox", id: "plots-limits" });
-  private readonly times: { plan: number[]; simulation: number[] };
+  private times: { plan: number[]; simulation: number[] };
   private charts: Chart[] = [];
   private chosen = 0;
 
   constructor(private readonly data: ReportData, private readonly clock: Clock) {
-    this.times = { plan: data.plan.time, simulation: data.simulation?.time ?? [] };
-    this.tabs = data.charts.map((tab) => this.fromData(tab));
-    if (data.gains) this.tabs.push(this.gains(data.gains));
+    this.times = this.timesOfData();
+    this.tabs = this.tabsOfData();
     this.buttons = this.tabs.map((tab, i) => {
       const button = el("button", { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": "plots-panel" }, tab.name);
       button.addEventListener("click", () => this.choose(i));
@@ -69,6 +68,14 @@ export class Plots {
     this.panel.replaceChildren(...(tab.head ? [tab.head] : []), ...this.charts.map((chart) => chart.element));
     this.draw();
   }
+  /// Plots what the data has now: the same tabs, of another motion.
+  setData(): void {
+    const limits = this.tabs.map((tab) => tab.limits);
+    this.times = this.timesOfData();
+    this.tabs = this.tabsOfData();
+    this.tabs.forEach((tab, i) => (tab.limits = limits[i] ?? tab.limits));
+    this.choose(this.chosen);
+  }
   /// Again, in the colours of the theme.
   draw(): void {
     for (const chart of this.charts) chart.draw();
@@ -84,6 +91,14 @@ export class Plots {
     this.buttons[to].focus();
   }
 
+  private timesOfData(): { plan: number[]; simulation: number[] } {
+    return { plan: this.data.plan.time, simulation: this.data.simulation?.time ?? [] };
+  }
+  private tabsOfData(): Tab[] {
+    const tabs = this.data.charts.map((tab) => this.fromData(tab));
+    if (this.data.gains) tabs.push(this.gains(this.data.gains));
+    return tabs;
+  }
   private fromData(tab: ReportData["charts"][number]): Tab {
     const styles = new Set(tab.charts.flatMap((chart) => chart.series.map((series) => series.style)));
     const legend: Tab["legend"] = [];

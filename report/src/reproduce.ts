@@ -63,7 +63,7 @@ export function reproduce(data: ReportData): HTMLElement {
     { class: "card", "aria-labelledby": "reproduce-title" },
     el("h2", { id: "reproduce-title" }, "Reproduce"),
     el("pre", { class: "commands", tabindex: "0" }, commands.join("\n")),
-    el("p", { class: "hint" }, `Same versions, same plan. Folder: ${data.directory}. Changed on the command line: ${Object.entries(overrides).map(([name, value]) => `${name} = ${value}`).join(", ") || "nothing"}.`),
+    el("p", { class: "hint" }, `Same versions, same plan. ${data.directory ? `Folder: ${data.directory}. ` : ""}Changed on the command line: ${Object.entries(overrides).map(([name, value]) => `${name} = ${value}`).join(", ") || "nothing"}.`),
     el("dl", { class: "facts" }, ...Object.entries(versions).flatMap(([name, version]) => [el("dt", {}, name), el("dd", {}, version)])),
     file(task_file),
     file(robot_file),

@@ -27,6 +27,7 @@ export class Timeline {
   private readonly readout = el("output", { class: "readout" });
   private readonly phase = el("span", { class: "phase-name" });
   private readonly speed = el("select", { "aria-label": "Speed" });
+  private rows: HTMLElement;
   private shown: boolean | null = null;
 
   constructor(private readonly data: ReportData, private readonly clock: Clock) {
@@ -45,12 +46,20 @@ export class Timeline {
       "section",
       { class: "timeline", "aria-label": "Time line" },
       el("div", { class: "transport" }, this.play, this.readout, this.phase, el("label", { class: "speed" }, "Speed ", this.speed)),
-      this.tracks(),
+      (this.rows = this.tracks()),
     );
     clock.onChange(() => this.update());
     this.update();
   }
 
+  /// Phases and contacts that the data has now.
+  setData(): void {
+    this.slider.max = String(this.clock.end);
+    const rows = this.tracks();
+    this.rows.replaceWith(rows);
+    this.rows = rows;
+    this.update();
+  }
   /// Faster (+1) or slower (-1).
   changeSpeed(by: number): void {
     const at = kSpeeds.indexOf(this.clock.speed) + by;

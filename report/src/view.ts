@@ -26,7 +26,7 @@ export function phaseAt(phases: Phase[], t: number): Phase | undefined {
 
 /// The robot in three dimensions.
 export class View {
-  readonly plan: Motion;
+  plan: Motion;
   readonly simulation: Motion | null;
   readonly layers: Layers;
   private readonly renderer: WebGLRenderer;
@@ -66,13 +66,11 @@ export class View {
     const shapes = new Shapes(data.scene);
     this.robot = new Robot(data.scene, shapes, null);
     if (this.simulation) this.ghost = new Robot(data.scene, shapes, this.ghostMaterial);
-    const path = this.plan.path(0, new Vector3());
-    const reach = this.measure(path);
+    const reach = this.measure(this.plan.path(0, new Vector3()));
     this.layers = { forces: true, cones: true, ghost: true, trails: true, follow: reach > 2.5 * data.size_m };
     this.ground = new Ground(data.scene.surfaces, this.centre, reach + 6 * data.size_m);
     this.forces = new Forces(data);
-    this.trails.add(path);
-    for (const contact of contacts) this.trails.add(this.plan.path(contact.body, new Vector3(...contact.point)));
+    this.drawTrails();
 
     const light = new Group();
     light.add(new HemisphereLight(0xffffff, 0x8a8f98, 1.6), this.sun, this.sun.target);
@@ -114,6 +112,12 @@ export class View {
     return this.forces.drawn();
   }
 
+  /// Shows the motion that the data has now.
+  setPlan(): void {
+    this.plan = new Motion(this.data.plan, this.data.scene.bodies.length, this.data.scene.contacts.length);
+    this.drawTrails();
+    this.ask();
+  }
   setTheme(): void {
     this.scene.background = new Color(colour("scene"));
     this.scene.fog = new Fog(colour("scene"));
@@ -149,6 +153,11 @@ export class View {
     });
   }
 
+  private drawTrails(): void {
+    this.trails.clear();
+    this.trails.add(this.plan.path(0, new Vector3()));
+    for (const contact of this.data.scene.contacts) this.trails.add(this.plan.path(contact.body, new Vector3(...contact.point)));
+  }
   private reach = 0;
   /// Sets the middle of the base's path; returns how far it is from it at most [m].
   private measure(path: Vector3[]): number {

@@ -18,8 +18,8 @@ export function readTable(file: string): Table {
   return Object.fromEntries(heading.map((name, i) => [name, rows.map((row) => Number(row[i]))]));
 }
 
-/// Opens a report as a double click does, and keeps what goes wrong in it and what it asks of the network.
-export async function open(page: Page, name: string): Promise<{ errors: string[]; requests: string[] }> {
+/// Keeps what goes wrong in a page and what it asks of the network.
+export function watch(page: Page): { errors: string[]; requests: string[] } {
   const errors: string[] = [];
   const requests: string[] = [];
   page.on("console", (message) => {
@@ -27,9 +27,15 @@ export async function open(page: Page, name: string): Promise<{ errors: string[]
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => requests.push(request.url()));
+  return { errors, requests };
+}
+
+/// Opens a report as a double click does.
+export async function open(page: Page, name: string): Promise<{ errors: string[]; requests: string[] }> {
+  const seen = watch(page);
   await page.goto(pathToFileURL(report(name)).href);
   await page.waitForFunction(() => window.prowl !== undefined);
-  return { errors, requests };
+  return seen;
 }
 
 export const seek = (page: Page, time: number): Promise<void> => page.evaluate((t) => window.prowl!.clock.seek(t), time);

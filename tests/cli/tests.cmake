@@ -6,6 +6,6 @@ if(PROWL_BUILD_CLI)
   endforeach()
 
   add_test(NAME cli/figures
-    COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/figures_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
+    COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/figures_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
   set_tests_properties(cli/figures PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
 endif()

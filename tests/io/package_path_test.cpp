@@ -13,7 +13,8 @@ class PackagePath : public testing::Test {
     return resolve_uri(uri, folder_.path() / "work/robots/dog.toml", {folder_.path() / "own"},
                        {.folders = {folder_.path() / "given"},
                         .working_directory = folder_.path() / "elsewhere/deep",
-                        .clone = folder_.path() / "clone"});
+                        .clone = folder_.path() / "clone",
+                        .installed = {folder_.path() / "installed/share"}});
   }
   test::TempFolder folder_;
 };
@@ -23,7 +24,7 @@ TEST_F(PackagePath, SearchesInOrder) {
   const std::string uri = "package://dog/urdf/dog.urdf";
   EXPECT_THROW(resolve(uri), InputError);
   for (const char* folder :
-       {"clone/.venv/lib/python3.10/site-packages/cmeel.prefix/share",
+       {"installed/share", "clone/.venv/lib/python3.10/site-packages/cmeel.prefix/share",
         "elsewhere/.venv/lib/python3.11/site-packages/cmeel.prefix/share",
         "work/.venv/lib/python3.12/site-packages/cmeel.prefix/share", "work", "work/robots", "given", "own"}) {
     const auto file = folder_.write(std::string(folder) + "/dog/urdf/dog.urdf", "");

@@ -1,2 +1,2 @@
-add_test(NAME scripts/plot_knee COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/plot_knee_test.py)
+add_test(NAME scripts/plot_knee COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/plot_knee_test.py)
 set_tests_properties(scripts/plot_knee PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)

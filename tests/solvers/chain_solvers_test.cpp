@@ -86,6 +86,20 @@ TYPED_TEST(ChainSolvers, DoTheSameTwice) {
   EXPECT_EQ(first.iterations, second.iterations);
 }
 
+TYPED_TEST(ChainSolvers, ShowTheVariablesAfterEveryIteration) {
+  Cart cart;
+  std::vector<Eigen::VectorXd> iterates;
+  int calls = 0;
+  SolverOptions options;
+  options.on_iteration = [&](const SolveProgress&) { ++calls; };
+  options.on_iterate = [&](const Eigen::VectorXd& z) { iterates.push_back(z); };
+  const SolveResult result = this->solve(cart, options);
+  ASSERT_EQ(result.status, SolveStatus::converged);
+  ASSERT_EQ(static_cast<int>(iterates.size()), calls);
+  EXPECT_LT((iterates.back() - result.z).norm(), 1e-6 * (1.0 + result.z.norm()));
+  EXPECT_GT((iterates.front() - result.z).norm(), 1e-3);
+}
+
 TYPED_TEST(ChainSolvers, TellEveryIteration) {
   Cart cart;
   int calls = 0;

@@ -12,5 +12,5 @@ target_link_libraries(tracking_print_design PRIVATE prowl::prowl fmt::fmt)
 target_compile_definitions(tracking_print_design PRIVATE
   PROWL_SOURCE_DIR="${PROJECT_SOURCE_DIR}" PROWL_ROBOTS_DATA="${PROWL_CMEEL}/share")
 add_test(NAME tracking/riccati_scipy
-  COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/riccati_scipy_test.py $<TARGET_FILE:tracking_print_design>)
+  COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/riccati_scipy_test.py $<TARGET_FILE:tracking_print_design>)
 set_tests_properties(tracking/riccati_scipy PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "commands.hpp"
+#include "environment.hpp"
+#include "exit_status.hpp"
+#include "interrupt.hpp"
+#include "output.hpp"
+#include "progress.hpp"
+#include "prowl/io/plan_directory.hpp"
+#include "prowl/io/summary.hpp"
+#include "prowl/plan.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "report_page.hpp"
+#include "shared_options.hpp"
+#include "view_server.hpp"
+
+namespace prowl::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ViewArguments {
+  std::string target, out;
+  std::string solver = solver_names().front();
+  std::uint16_t port = 0;
+  TaskOverrides overrides;
+  bool one_mesh = false;
+  bool json = false;
+  std::vector<std::string> package_dirs;
+};
+
+void say_where(const ViewServer& server, bool json) {
+  print_result(json ? nlohmann::json{{"url", server.url()}}.dump() + "\n" : server.url() + "\n");
+  print_message("open it in a browser on this machine; Ctrl-C ends it\n");
+}
+
+void serve_until(const std::atomic<bool>& interrupted) {
+  while (!interrupted) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
+  const PackageSearch search = package_search(arguments.package_dirs);
+  const PlanRecord record = read_plan(arguments.target, search);
+  ViewServer server(arguments.port);
+  server.show(report_page(report_inputs(record, arguments.target), search));
+  say_where(server, arguments.json);
+  serve_until(interrupted);
+  return kPassed;
+}
+
+/// Solves with every iterate sent to the server.
+void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, ViewServer& server, PlanRecord& record) {
+  ProgressPrinter progress;
+  MeshIteration at{-1, {}};
+  PlanOptions options{.solver = record.task.solver};
+  options.solver.interrupt = &interrupted;
+  options.solver.on_iteration = [&](const SolveProgress& iteration) {
+    progress.print(iteration);
+    at.progress = iteration;
+    record.iterations.push_back(at);
+  };
+  options.on_motion = [&](const Trajectory& motion) { server.publish("iterate", report_iterate(record.task.problem, motion, at)); };
+  options.on_level = [&](int intervals) {
+    ++at.level;
+    progress.begin_level(intervals);
+  };
+  const IpoptSolver hint_solver;
+  options.hint_solver = &hint_solver;
+  options.coarse_first = !arguments.one_mesh;
+  record.plan = make_plan(record.task.problem, *make_solver(arguments.solver), options);
+}
+
+int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
+  const PackageSearch search = package_search(arguments.package_dirs);
+  PlanRecord record{.task = read_task_file(arguments.target, search, arguments.overrides), .plan = {}, .versions = versions()};
+  const MotionProblem& problem = record.task.problem;
+  validate(problem);
+  if (!arguments.out.empty()) check_plan_directory(arguments.out);
+  record.plan.trajectory = initial_guess(problem, make_mesh(problem));
+  record.plan.solver = make_solver(arguments.solver)->name();
+
+  ViewServer server(arguments.port);
+  const auto show = [&](PageState state) {
+    ReportInputs inputs = report_inputs(record, "");
+    inputs.directory = arguments.out;
+    inputs.state = state;
+    server.show(report_page(inputs, search));
+  };
+  show(PageState::solving);
+  say_where(server, arguments.json);
+  solve(arguments, interrupted, server, record);
+  if (!arguments.out.empty()) write_plan(arguments.out, record);
+  show(PageState::solved);
+  server.publish("solved", "{}");
+  print_message(plan_report(record) + (arguments.out.empty() ? "" : fmt::format("written to {}\n", arguments.out)));
+  const int status = exit_status(record.plan.result.status, record.plan.certificate);
+  serve_until(interrupted);
+  return status;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<ViewArguments>();
+  CLI::App* const verb = app.add_subcommand("view", "Show a plan in a browser, or a task while it is planned");
+  verb->add_option("target", arguments->target, "Task file, or folder that prowl plan wrote")->required()->type_name("TASK.toml|DIR");
+  verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any that is free")->type_name("N");
+  verb->add_option("--out", arguments->out, "Folder to write the plan of a task into; default: none")->type_name("DIR");
+  verb->add_option("--solver", arguments->solver, "Who solves it; default " + arguments->solver)
+      ->check(CLI::IsMember(solver_names()))->type_name("NAME");
+  verb->add_option("--intervals", arguments->overrides.intervals, "Mesh intervals in all, shared out over the phases as in the task file")
+      ->check(CLI::Range(1, 10000))->type_name("N");
+  verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
+  verb->footer("Examples:\n  prowl view tasks/hyq/walk.toml\n  prowl view out/hyq_crouch --port 8080\n\n"
+               "It serves the page of prowl report on the loopback interface until Ctrl-C; a task's also has a slider over the\n"
+               "solver's iterates. Exit status: that of prowl plan for a task, 0 for a folder.");
+  verb->callback([arguments, &status] {
+    const std::atomic<bool>& interrupted = catch_interrupts();
+    std::error_code ignored;
+    status = fs::is_directory(arguments->target, ignored) ? view_plan(*arguments, interrupted) : view_task(*arguments, interrupted);
+  });
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,17 @@
+# A build by `pip install .` or `pip wheel .` (pyproject.toml), whose options are few: what it needs besides a build by hand.
+find_program(PROWL_CCACHE ccache)
+if(PROWL_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${PROWL_CCACHE})
+endif()
+
+# A source file that includes Pinocchio takes up to 2.2 GB to compile: not more of them at once than there is memory for.
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+cmake_host_system_information(RESULT memory QUERY AVAILABLE_PHYSICAL_MEMORY)
+math(EXPR jobs "${memory} / 2200")
+if(jobs GREATER cores)
+  set(jobs ${cores})
+elseif(jobs LESS 1)
+  set(jobs 1)
+endif()
+set_property(GLOBAL PROPERTY JOB_POOLS compile=${jobs})
+set(CMAKE_JOB_POOL_COMPILE compile)

@@ -1,0 +1,25 @@
+#include "prowl/solvers/make_solver.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "prowl/error.hpp"
+#include "prowl/solvers/fatrop_solver.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/riccati_solver.hpp"
+
+namespace prowl {
+
+const std::vector<std::string>& solver_names() {
+  static const std::vector<std::string> names = {"riccati", "fatrop", "ipopt"};
+  return names;
+}
+
+std::unique_ptr<NlpSolver> make_solver(const std::string& name) {
+  if (name == "riccati") return std::make_unique<RiccatiSolver>();
+  if (name == "fatrop") return std::make_unique<FatropSolver>();
+  if (name == "ipopt") return std::make_unique<IpoptSolver>();
+  throw InputError(fmt::format("solver: \"{}\" is not allowed; need one of {}", name, fmt::join(solver_names(), ", ")));
+}
+
+}  // namespace prowl

@@ -1,0 +1,57 @@
+"""Whole-body motions of legged robots: plan, check, simulate, track.
+
+    import prowl
+
+    task = prowl.read_task("hyq/crouch")     # one that comes with Prowl, or a path
+    plan = prowl.solve(task)                 # Ctrl-C stops it
+    print(plan.certificate)                  # whether it is any good
+    plan.t, plan.q, plan.tau, plan.f         # NumPy arrays, no copies
+    prowl.simulate(plan).success             # in MuJoCo, with its feedback gains
+    plan.write("out/crouch")                 # what the command writes
+
+Conventions are Pinocchio's: q has the base position in the world [m], its quaternion x y z w, then the joints [rad or m];
+v has the base twist in the base frame [m/s, rad/s], then the joint rates. SI units throughout. docs/python.md has more.
+"""
+
+from . import _notebook
+from ._files import parse_robot, parse_task, read_robot, read_task, shipped_robots, shipped_tasks
+from ._prowl import (
+    Certificate,
+    Check,
+    Contact,
+    Derivatives,
+    Dynamics,
+    Error,
+    ErrorMeasure,
+    Evaluation,
+    FileError,
+    InputError,
+    Interrupted,
+    Motion,
+    NumericalError,
+    Phase,
+    Plan,
+    Progress,
+    Robot,
+    Simulation,
+    Task,
+    Tracker,
+    __version__,
+    difference,
+    integrate,
+    read_plan,
+    simulate,
+    solver_names,
+    versions,
+)
+from ._solve import solve
+
+_notebook.show_as_tables()
+del _notebook
+
+__all__ = [
+    "Certificate", "Check", "Contact", "Derivatives", "Dynamics", "Error", "ErrorMeasure", "Evaluation", "FileError",
+    "InputError", "Interrupted", "Motion", "NumericalError", "Phase", "Plan", "Progress", "Robot", "Simulation", "Task", "Tracker",
+    "__version__", "difference", "integrate", "parse_robot", "parse_task", "read_plan", "read_robot", "read_task",
+    "shipped_robots", "shipped_tasks", "simulate", "solve", "solver_names", "versions",
+]

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace prowl::python {
+
+// One for each subject, in the order in which they need each other's types.
+void bind_errors(nanobind::module_& module);
+void bind_robot(nanobind::module_& module);
+void bind_task(nanobind::module_& module);
+void bind_certificate(nanobind::module_& module);
+void bind_motion(nanobind::module_& module);
+void bind_tracker(nanobind::module_& module);
+void bind_plan(nanobind::module_& module);
+void bind_simulation(nanobind::module_& module);
+void bind_solve(nanobind::module_& module);
+void bind_dynamics(nanobind::module_& module);
+
+}  // namespace prowl::python

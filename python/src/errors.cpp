@@ -1,0 +1,59 @@
+#include "prowl/error.hpp"
+
+#include <nanobind/stl/string.h>
+
+#include "bindings.hpp"
+#include "interrupted.hpp"
+#include "prowl/tracker/tracker.hpp"
+
+namespace prowl::python {
+
+namespace nb = nanobind;
+
+namespace {
+
+nb::tuple also(nb::handle error, PyObject* kind) { return nb::make_tuple(error, nb::handle(kind)); }
+
+void document(nb::handle type, const char* text) { nb::setattr(type, "__doc__", nb::str(text)); }
+
+PyObject* interrupted_type = nullptr;  // of this module, which is loaded once in a process
+
+}  // namespace
+
+void raise_interrupted(nb::handle plan) {
+  const nb::object error = nb::handle(interrupted_type)("stopped; the best motion so far is in .plan");
+  nb::setattr(error, "plan", plan);
+  PyErr_SetObject(interrupted_type, error.ptr());
+  throw nb::python_error();
+}
+
+/// The hierarchy of prowl/error.hpp, each also of the kind that Python's own functions raise in such a case.
+void bind_errors(nb::module_& module) {
+  const nb::exception<Error> error(module, "Error", PyExc_RuntimeError);
+  document(error, "Base of all that Prowl raises on purpose. The message says what is wrong, where, and what would be right.");
+  const nb::exception<InputError> input(module, "InputError", also(error, PyExc_ValueError));
+  document(input, "The caller or a file asks for something that cannot be: unknown name, wrong shape, value out of range.");
+  const nb::exception<FileError> file(module, "FileError", also(error, PyExc_OSError));
+  document(file, "A file or a folder cannot be read or written.");
+  const nb::exception<NumericalError> numerical(module, "NumericalError", also(error, PyExc_ArithmeticError));
+  document(numerical, "A model evaluation gave NaN or infinity, or a matrix that must be regular is not.");
+  nb::register_exception_translator(
+      [](const std::exception_ptr& thrown, void* type) {
+        try {
+          std::rethrow_exception(thrown);
+        } catch (const TrackerError& tracker_error) {  // not of the hierarchy: it goes on robots without the rest of Prowl
+          PyErr_SetString(static_cast<PyObject*>(type), tracker_error.what());
+        }
+      },
+      input.ptr());
+
+  const std::string name = nb::cast<std::string>(module.attr("__name__")) + ".Interrupted";
+  const nb::object interrupted = nb::steal(PyErr_NewException(name.c_str(), PyExc_KeyboardInterrupt, nullptr));
+  document(interrupted,
+           "Ctrl-C, or the stop button of a notebook, while solve() ran: a KeyboardInterrupt. Its attribute `plan` is the best\n"
+           "motion so far, with status \"interrupted\".");
+  module.attr("Interrupted") = interrupted;
+  interrupted_type = interrupted.ptr();
+}
+
+}  // namespace prowl::python

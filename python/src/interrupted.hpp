@@ -1,0 +1,10 @@
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+namespace prowl::python {
+
+/// Raises prowl.Interrupted with that plan.
+[[noreturn]] void raise_interrupted(nanobind::handle plan);
+
+}  // namespace prowl::python

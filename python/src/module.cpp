@@ -1,0 +1,24 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/string.h>
+
+#include "bindings.hpp"
+#include "environment.hpp"
+
+NB_MODULE(_prowl, module) {
+  using namespace prowl::python;
+  module.doc() = "Prowl's library as seen from Python; use it through the package prowl.";
+  bind_errors(module);
+  prowl::cli::check_processor();
+  bind_robot(module);
+  bind_task(module);
+  bind_certificate(module);
+  bind_motion(module);
+  bind_tracker(module);
+  bind_plan(module);
+  bind_simulation(module);
+  bind_solve(module);
+  bind_dynamics(module);
+  module.def("versions", &prowl::cli::versions, "Versions of Prowl and of what it uses.");
+  module.attr("__version__") = PROWL_VERSION;
+}

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "arrays.hpp"
+#include "prowl/trajectory/trajectory.hpp"
+
+namespace prowl::python {
+
+/// A trajectory as arrays, one row a point.
+struct Motion {
+  explicit Motion(const Trajectory& trajectory);
+
+  Eigen::VectorXd t;
+  Eigen::VectorXi phase;
+  RowMatrix q, v, a, tau, f;
+};
+
+}  // namespace prowl::python

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arrays.hpp"
+#include "bindings.hpp"
+#include "environment.hpp"
+#include "prowl/io/phase_table.hpp"
+#include "prowl/io/task_file.hpp"
+
+namespace prowl::python {
+namespace {
+
+/// A phase with names in place of indices.
+struct PhaseView {
+  std::string name;
+  std::vector<std::string> contacts;
+  double shortest = 0.0, longest = 0.0;  ///< [s]
+  int intervals = 0;
+};
+
+std::vector<PhaseView> phases(const Task& task) {
+  std::vector<PhaseView> all;
+  for (const Phase& phase : task.problem.phases) {
+    PhaseView& view = all.emplace_back(PhaseView{phase.name, {}, phase.duration.min, phase.duration.max, phase.intervals});
+    for (const PhaseContact& contact : phase.contacts) {
+      view.contacts.push_back(task.problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
+    }
+  }
+  return all;
+}
+
+using Folders = std::vector<std::string>;
+
+Task read_task(const std::filesystem::path& path, const Folders& package_dirs, std::optional<int> intervals,
+               std::optional<int> max_iterations, std::optional<double> max_time, std::optional<double> tolerance) {
+  return read_task_file(path, cli::package_search(package_dirs), {intervals, max_iterations, max_time, tolerance});
+}
+
+Task parse_task_text(const std::string& text, const std::filesystem::path& path, const Folders& package_dirs,
+                     std::optional<int> intervals, std::optional<int> max_iterations, std::optional<double> max_time,
+                     std::optional<double> tolerance) {
+  return read_task_text({std::filesystem::absolute(path), text}, cli::package_search(package_dirs),
+                        {intervals, max_iterations, max_time, tolerance});
+}
+
+}  // namespace
+
+void bind_task(nb::module_& module) {
+  nb::class_<PhaseView>(module, "Phase", "A time with one set of contacts, cut into mesh intervals.")
+      .def_ro("name", &PhaseView::name)
+      .def_ro("contacts", &PhaseView::contacts, "Names of the contacts that hold.")
+      .def_ro("shortest", &PhaseView::shortest, "Least duration [s]; the same as `longest` where it is fixed.")
+      .def_ro("longest", &PhaseView::longest, "Longest duration [s].")
+      .def_ro("intervals", &PhaseView::intervals, "Mesh intervals.")
+      .def("__repr__", [](const PhaseView& phase) {
+        return fmt::format("<prowl.Phase {}: {} contacts, {} intervals>", phase.name, phase.contacts.size(), phase.intervals);
+      });
+  nb::class_<Task>(module, "Task",
+                   "A motion that is asked for: robot, surfaces, phases, goals and costs, as a task file says. Immutable; for\n"
+                   "another goal, change the text and parse it again.")
+      .def_prop_ro("name", [](const Task& task) { return task.problem.name; })
+      .def_prop_ro("robot", [](const Task& task) -> const RobotModel& { return task.problem.robot; },
+                   nb::rv_policy::reference_internal)
+      .def_prop_ro("phases", &phases)
+      .def_prop_ro("path", [](const Task& task) { return task.task_file.path; }, "The file that it came from.")
+      .def_prop_ro("text", [](const Task& task) { return task.task_file.text; }, "Text of the task file.")
+      .def_prop_ro("robot_text", [](const Task& task) { return task.robot_file.text; }, "Text of the robot file.")
+      .def_prop_ro("start", [](nb::handle self) { return view(nb::cast<const Task&>(self).problem.start_configuration(), self); },
+                   "Configuration at the start, q (nq).")
+      .def("phase_table", [](const Task& task) { return phase_table(task.problem); }, "The phases as a table to print.")
+      .def("__repr__", [](const Task& task) {
+        return fmt::format("<prowl.Task {}: {}, {} phase{}>", task.problem.name, task.problem.robot.name(),
+                           task.problem.phases.size(), task.problem.phases.size() == 1 ? "" : "s");
+      });
+  module.def("read_task", &read_task, nb::arg("path"), nb::kw_only(), nb::arg("package_dirs") = Folders{},
+             nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(), nb::arg("max_time") = nb::none(),
+             nb::arg("tolerance") = nb::none(), "Reads a task file, docs/task-file.md.");
+  module.def("parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
+             nb::arg("package_dirs") = Folders{}, nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
+             nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
+             "Reads the text of a task file; what it names is relative to the folder of `path`, where no file needs to be.");
+}
+
+}  // namespace prowl::python
