@@ -66,10 +66,11 @@ MotionSamples take_samples(const ExportArguments& arguments, const PlanRecord& p
   return sample_plan(problem, plan.plan.trajectory, tracker ? &*tracker : nullptr, arguments.rate);
 }
 
-/// What a script makes of the samples.
-std::string written_by(const ExportArguments& arguments, const WorkFolder& work, const std::string& script) {
-  const fs::path result = work.path() / "result";
-  run_script({arguments.python, kLibraries}, script, {(work.path() / "motion.json").string(), result.string()});
+/// What the script of a format makes of the samples: "npz", "mcap".
+std::string written_by_script(const ExportArguments& arguments, const WorkFolder& work, const std::string& format) {
+  const fs::path result = work.path() / ("result." + format);  // NumPy adds the ending where it is missing
+  run_script({arguments.python, kLibraries}, "exports/write_" + format + ".py",
+             {(work.path() / "motion.json").string(), result.string()});
   return read_text_file(result, kLongestFile).text;
 }
 
@@ -94,8 +95,8 @@ std::map<std::string, std::string> make_files(const ExportArguments& arguments, 
   if (arguments.wants("npz") || arguments.wants("mcap")) {
     const WorkFolder work;
     write_file_atomically(work.path() / "motion.json", exchange_json(plan, samples));
-    if (arguments.wants("npz")) files[prefix + "motion.npz"] = written_by(arguments, work, "exports/write_npz.py");
-    if (arguments.wants("mcap")) files[prefix + "motion.mcap"] = written_by(arguments, work, "exports/write_mcap.py");
+    if (arguments.wants("npz")) files[prefix + "motion.npz"] = written_by_script(arguments, work, "npz");
+    if (arguments.wants("mcap")) files[prefix + "motion.mcap"] = written_by_script(arguments, work, "mcap");
   }
   return files;
 }

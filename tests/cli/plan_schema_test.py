@@ -31,6 +31,13 @@ def objects(value, path=()):
         yield from objects(value[0], (*path, 0))
 
 
+def shortened(value):
+    """With the first entry of each list only: as good for a look at keys, and quick."""
+    if isinstance(value, dict):
+        return {key: shortened(inside) for key, inside in value.items()}
+    return [shortened(entry) for entry in value[:1]] if isinstance(value, list) else value
+
+
 def at(value, path):
     for key in path:
         value = value[key]
@@ -75,7 +82,7 @@ class PlanSchema(unittest.TestCase):
     def test_no_key_may_be_added_or_missing(self):
         optional = {("overrides",), ("versions",)}
         tried = 0
-        for plan in (self.plans["gait"], self.plans["unfinished"]):
+        for plan in map(shortened, (self.plans["gait"], self.plans["unfinished"])):
             for path, keys in objects(plan):
                 if path == ("versions",):
                     continue  # any library
@@ -93,7 +100,7 @@ class PlanSchema(unittest.TestCase):
         for path, value in (("schema_version", 1), ("schema_version", 3), ("status", "fine"), ("good", "yes"), ("certificate.grade", "A"),
                             ("solver.iterations", -1), ("solver.iterations", 1.5), ("solver.hessian", "none"), ("solver.cost", "0"),
                             ("problem.joints", "lf_haa_joint"), ("versions.prowl", 1), ("overrides.intervals", "60")):
-            plan = copy.deepcopy(self.plans["crouch"])
+            plan = shortened(self.plans["crouch"])
             *outer, last = path.split(".")
             at(plan, outer)[last] = value
             self.assertTrue(self.faults(plan), f"{path} = {value}")
