@@ -1,7 +1,5 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "commands.hpp"
@@ -9,13 +7,14 @@
 #include "exit_status.hpp"
 #include "output.hpp"
 #include "plan_tracker.hpp"
-#include "process.hpp"
+#include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/figure_data.hpp"
 #include "prowl/io/figure_files.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "shared_options.hpp"
+#include "work_folder.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -24,55 +23,14 @@ namespace fs = std::filesystem;
 
 constexpr double kStep = 0.005;                       ///< of contact accelerations [s]
 constexpr std::size_t kLongestFigure = 1u << 30;      ///< [bytes]
-constexpr int kNoLibrary = 3;                         ///< exit status of draw.py
-
-/// That of the wheel, which the wheel's command names, or that of the build.
-std::string default_python() {
-  const char* const python = std::getenv("PROWL_PYTHON");
-  return python ? python : PROWL_PYTHON;
-}
 
 struct FiguresArguments {
   std::string directory, out, joint, python = default_python();
   std::vector<std::string> package_dirs;
 };
 
-/// For tables and pictures until all are there; removed at the end.
-class WorkFolder {
- public:
-  WorkFolder() {
-    std::string name = (fs::temp_directory_path() / "prowl_figures_XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw FileError(fmt::format("{}: cannot make this folder", name));
-    path_ = name;
-  }
-  ~WorkFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  WorkFolder(const WorkFolder&) = delete;
-  WorkFolder& operator=(const WorkFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-/// PREFIX/bin/prowl: PREFIX/share/prowl/figures/draw.py, installed as well as in a build.
-fs::path drawing_script() {
-  std::error_code ignored;
-  const fs::path executable = fs::read_symlink("/proc/self/exe", ignored);
-  const fs::path script = executable.parent_path().parent_path() / "share/prowl/figures/draw.py";
-  if (!fs::exists(script, ignored)) throw FileError(fmt::format("{}: missing; it belongs to this program", script.string()));
-  return script;
-}
-
 void draw(const FiguresArguments& arguments, const fs::path& work, const std::string& joint) {
-  const int status = run_program({arguments.python, "-B", drawing_script().string(), arguments.directory, work.string(), joint});
-  if (status == kNoLibrary) {
-    throw InputError(fmt::format("{}: need a Python with numpy, scipy and matplotlib (scripts/setup makes one in .venv): --python PATH",
-                                 arguments.python));
-  }
-  if (status != 0) throw Error(fmt::format("{} failed with status {}", drawing_script().string(), status));
+  run_script({arguments.python, "numpy, scipy and matplotlib"}, "figures/draw.py", {arguments.directory, work.string(), joint});
 }
 
 /// "--joint" or a default, checked.

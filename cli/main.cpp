@@ -54,7 +54,8 @@ int run(int argc, char** argv) {
              "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
              "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
              "  prowl report out/hyq_crouch          replay it in a browser\n"
-             "  prowl view tasks/hyq/walk.toml       look at the iterates in a browser while it is planned\n\nMore with prowl VERB --help.");
+             "  prowl view tasks/hyq/walk.toml       look at the iterates in a browser while it is planned\n"
+             "  prowl export out/hyq_crouch --format npz,mcap   for NumPy, Foxglove, ROS 2, MuJoCo\n\nMore with prowl VERB --help.");
   add_plan_command(app, status);
   add_check_command(app, status);
   add_robot_command(app, status);
@@ -63,6 +64,7 @@ int run(int argc, char** argv) {
   add_figures_command(app, status);
   add_report_command(app, status);
   add_view_command(app, status);
+  add_export_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@
 
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/error.hpp"
+#include "prowl/io/gain_columns.hpp"
 #include "prowl/model/nearest_name.hpp"
 
 namespace prowl {
@@ -94,12 +95,7 @@ std::string gains_csv(const RobotModel& robot, const Tracker& tracker, int joint
   const TrackingPlan& plan = tracker.plan();
   if (plan.joint_names != robot.joint_names()) throw InputError("the gains are not those of " + robot.name());
   std::vector<std::string> columns = {"time_s", "segment"};
-  for (const char* axis : kAxes) columns.push_back(fmt::format("base_p{}_Npm", axis));
-  for (const char* axis : kAxes) columns.push_back(fmt::format("base_r{}_Nmprad", axis));
-  for (const std::string& name : robot.joint_names()) columns.push_back(fmt::format("q_{}_Nmprad", name));
-  for (const char* axis : kAxes) columns.push_back(fmt::format("base_v{}_Nspm", axis));
-  for (const char* axis : kAxes) columns.push_back(fmt::format("base_w{}_Nmsprad", axis));
-  for (const std::string& name : robot.joint_names()) columns.push_back(fmt::format("v_{}_Nmsprad", name));
+  for (const std::string& column : gain_columns(robot)) columns.push_back(column);
   Table table(columns);
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
     const TrackingPlan::Segment& segment = plan.segments[s];

@@ -7,6 +7,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
+#include "prowl/io/export_files.hpp"
 #include "prowl/io/figure_files.hpp"
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_json.hpp"
@@ -27,6 +28,7 @@ const std::set<std::string>& own_names() {
   static const std::set<std::string> names = [] {
     std::set<std::string> all = {kPlan, kNodes, kUniform, kTracker, "simulate.json", "simulate.csv", "sweep.json", kReportFile};
     for (const std::string& figure : figure_file_names()) all.insert(std::string(kFiguresFolder) + "/" + figure);
+    for (const std::string& file : export_file_names()) all.insert(std::string(kExportsFolder) + "/" + file);
     return all;
   }();
   return names;

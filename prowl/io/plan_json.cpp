@@ -14,7 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kSchemaVersion = 1;
+/// Of schema/plan.schema.json; whoever changes the keys counts it up, and keeps what read_version promises.
+constexpr int kSchemaVersion = 2;
+constexpr int kOldestVersion = 1;  ///< plans of before 2026-11-22: solver may lack the keys that came since
 
 /// As planned [s].
 double phase_duration(const PlanRecord& record, std::size_t phase) {
@@ -157,6 +159,7 @@ class Reader {
     return get<std::vector<std::string>>(key, list.is_array() && std::ranges::all_of(list, is_text), "strings");
   }
   const Json& json() const { return *json_; }
+  const std::string& where() const { return where_; }
   [[noreturn]] void fail(const char* key, const std::string& needed) const {
     throw InputError(fmt::format("{}.{}: {} is not allowed; need {}", where_, key, need(key).dump(), needed));
   }
@@ -182,6 +185,20 @@ std::string place_of(const std::string& text, std::size_t byte) {
   const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
   const std::size_t line_start = before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1;
   return fmt::format("{}:{}", 1 + std::count(before.begin(), before.end(), '\n'), before.size() - line_start + 1);
+}
+
+/// Throws unless it is one that this program reads.
+int read_version(const Reader& plan) {
+  const int version = plan.integer("schema_version");
+  if (version > kSchemaVersion) {
+    throw InputError(fmt::format("{}.schema_version: {}, written by a newer Prowl; this one reads {} to {}: use that Prowl, or plan "
+                                 "again with this one", plan.where(), version, kOldestVersion, kSchemaVersion));
+  }
+  if (version < kOldestVersion) {
+    throw InputError(fmt::format("{}.schema_version: {} is no longer read; need {} to {}: plan again with prowl plan, task_file in it "
+                                 "has the task", plan.where(), version, kOldestVersion, kSchemaVersion));
+  }
+  return version;
 }
 
 SolveStatus read_status(const Reader& json) {
@@ -241,7 +258,7 @@ TaskOverrides read_overrides(const Reader& json) {
 
 SourceText read_text(const Reader& file) { return {file.text("path"), file.text("text")}; }
 
-SolveResult read_result(const Reader& plan) {
+SolveResult read_result(const Reader& plan, int version) {
   const Reader solver = plan.object("solver");
   SolveResult result;
   result.status = read_status(plan);
@@ -251,7 +268,7 @@ SolveResult read_result(const Reader& plan) {
   result.dual_violation = solver.number("dual_violation");
   result.iterations = solver.integer("iterations");
   result.seconds = solver.number("seconds");
-  if (!solver.has("cpu_seconds")) return result;  // plans of before 2026-11-21
+  if (version < 2 && !solver.has("cpu_seconds")) return result;
   result.times.cpu = solver.number("cpu_seconds");
   const Reader evaluation = solver.object("evaluation");
   result.times.values = evaluation.number("values");
@@ -260,17 +277,17 @@ SolveResult read_result(const Reader& plan) {
   return result;
 }
 
-std::vector<LevelResult> read_levels(const Reader& solver) {
+std::vector<LevelResult> read_levels(const Reader& solver, int version) {
   std::vector<LevelResult> levels;
   for (const Reader& level : solver.list("levels")) {
     levels.push_back({level.integer("intervals"), read_status(level), level.integer("iterations"), level.number("seconds"),
-                      level.has("cpu_seconds") ? level.number("cpu_seconds") : 0.0});
+                      version < 2 && !level.has("cpu_seconds") ? 0.0 : level.number("cpu_seconds")});
   }
   return levels;
 }
 
-HessianKind read_hessian(const Reader& solver) {
-  if (!solver.has("hessian")) return HessianKind::exact;  // plans of before 2026-11-22 do not tell
+HessianKind read_hessian(const Reader& solver, int version) {
+  if (version < 2 && !solver.has("hessian")) return HessianKind::exact;
   const std::string name = solver.text("hessian");
   for (const HessianKind kind : {HessianKind::exact, HessianKind::gauss_newton}) {
     if (name == to_string(kind)) return kind;
@@ -278,9 +295,8 @@ HessianKind read_hessian(const Reader& solver) {
   solver.fail("hessian", fmt::format("{} or {}", to_string(HessianKind::exact), to_string(HessianKind::gauss_newton)));
 }
 
-/// Nothing in plans of before 2026-11-22.
-std::vector<MeshIteration> read_convergence(const Reader& solver) {
-  if (!solver.has("convergence")) return {};
+std::vector<MeshIteration> read_convergence(const Reader& solver, int version) {
+  if (version < 2 && !solver.has("convergence")) return {};
   const Reader columns = solver.object("convergence");
   const std::vector<double> level = columns.numbers("level"), iteration = columns.numbers("iteration");
   const std::vector<double> cost = columns.numbers("cost"), seconds = columns.numbers("seconds");
@@ -396,7 +412,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                                  source.path.string(), place_of(source.text, error.byte)));
   }
   const Reader plan(source.path.string() + ": plan", json);
-  if (plan.integer("schema_version") != kSchemaVersion) plan.fail("schema_version", std::to_string(kSchemaVersion));
+  const int version = read_version(plan);
 
   const SourceText urdf = read_text(plan.object("urdf"));
   PlanRecord record{.task = parse_task(read_text(plan.object("task_file")), read_text(plan.object("robot_file")),
@@ -413,11 +429,11 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                     "the copy in plan.json is used",
                     source.path.string(), robot.urdf.string()));
   }
-  record.plan.result = read_result(plan);
+  record.plan.result = read_result(plan, version);
   record.plan.solver = plan.object("solver").text("name");
-  record.plan.levels = read_levels(plan.object("solver"));
-  record.plan.hessian = read_hessian(plan.object("solver"));
-  record.iterations = read_convergence(plan.object("solver"));
+  record.plan.levels = read_levels(plan.object("solver"), version);
+  record.plan.hessian = read_hessian(plan.object("solver"), version);
+  record.iterations = read_convergence(plan.object("solver"), version);
   record.warm_start = plan.object("solver").text("warm_start");
   record.plan.certificate = read_certificate(plan.object("certificate"));
   record.plan.reasons = plan.texts("reasons");

@@ -132,10 +132,9 @@ void set_options(const PhysicsOptions& options, mjSpec* spec) {
 
 }  // namespace
 
-MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
-                              const PhysicsOptions& options) {
+MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces, const PhysicsOptions& options) {
   silence();
-  const std::unique_ptr<mjSpec, decltype(&mj_deleteSpec)> spec(mj_makeSpec(), mj_deleteSpec);
+  MujocoSpec spec(mj_makeSpec());
   set_options(options, spec.get());
   const BodyTree tree = body_tree(robot);
   mjsBody* const world = mjs_findBody(spec.get(), "world");
@@ -176,7 +175,12 @@ MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface
   for (const Surface& surface : surfaces) {
     add_surface(surface, options.friction.value_or(surface.friction), spec.get(), world);
   }
+  return spec;
+}
 
+MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
+                              const PhysicsOptions& options) {
+  const MujocoSpec spec = make_mujoco_spec(robot, surfaces, options);
   MujocoModel result;
   result.model.reset(mj_compile(spec.get(), nullptr));
   if (!result.model) throw InputError(fmt::format("robot '{}' in MuJoCo: {}", robot.name(), mjs_getError(spec.get())));

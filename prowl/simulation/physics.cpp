@@ -4,6 +4,7 @@
 
 #include "prowl/model/configuration.hpp"
 #include "prowl/simulation/mujoco_model.hpp"
+#include "prowl/simulation/mujoco_state.hpp"
 
 namespace prowl {
 
@@ -39,11 +40,8 @@ void Physics::set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   mj_resetData(engine_->model(), data);
   q_ = q;
   v_ = v;
-  Eigen::Map<Eigen::VectorXd> qpos(data->qpos, q.size()), qvel(data->qvel, v.size());
-  qpos = q;
-  qpos.segment<4>(3) << q(6), q(3), q(4), q(5);  // w first
-  qvel = v;
-  qvel.head<3>() = base_rotation(q) * v.head<3>();  // world axes
+  Eigen::Map<Eigen::VectorXd>(data->qpos, q.size()) = mujoco_qpos(q);
+  Eigen::Map<Eigen::VectorXd>(data->qvel, v.size()) = mujoco_qvel(q, v);
 }
 
 bool Physics::step(const Eigen::VectorXd& tau, const Eigen::Vector3d& push) {

@@ -128,7 +128,7 @@ TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
 TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
   write_plan(out_, record_);
   const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
-  EXPECT_EQ(json.at("schema_version"), 1);
+  EXPECT_EQ(json.at("schema_version"), 2);
   EXPECT_EQ(json.at("status"), "interrupted");
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ(json.at("certificate").at("passed"), true);
@@ -181,12 +181,9 @@ TEST_F(PlanDirectory, SamplesAUniformGrid) {
 TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
-  edit("plan.json", "\"schema_version\": 1", "\"schema_version\": 4294967297");
+  edit("plan.json", "\"schema_version\": 2", "\"schema_version\": 4294967297");
   EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from "))
       << "1 modulo 2^32";
-  write_plan(out_, record_);
-  edit("plan.json", "\"schema_version\": 1", "\"schema_version\": 2");
-  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 2 is not allowed; need 1");
   write_plan(out_, record_);
   edit("plan.json", "\"status\": \"interrupted\"", "\"status\": \"fine\"");
   EXPECT_THAT(message(), HasSubstr("plan.status: \"fine\" is not allowed; need one of converged, "));
@@ -203,6 +200,34 @@ TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json:2:4: not JSON from here on: the file is cut short or was edited");
   EXPECT_EQ(test::message_of(folder_.path(), [&] { read_plan(out_ / "plan.json", test::test_search()); }),
             "out/plan.json: a file; need the folder that prowl plan wrote");
+}
+
+TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
+  const auto write_version = [&](int version, const auto& change) {
+    write_plan(out_, record_);
+    auto json = nlohmann::ordered_json::parse(test::read_file(out_ / "plan.json"));
+    json["schema_version"] = version;
+    change(json);
+    folder_.write("out/plan.json", json.dump());
+  };
+  const auto remove_new_keys = [](auto& json) {
+    for (const char* key : {"hessian", "cpu_seconds", "evaluation", "convergence"}) ASSERT_EQ(json["solver"].erase(key), 1u) << key;
+  };
+  write_version(1, remove_new_keys);
+  const PlanRecord old = read_plan(out_, test::test_search());
+  EXPECT_EQ(old.plan.result.cost, 1.0 / 3.0);
+  EXPECT_EQ(old.plan.hessian, HessianKind::exact);
+  EXPECT_EQ(old.plan.trajectory.nodes.size(), record_.plan.trajectory.nodes.size());
+  write_version(2, remove_new_keys);
+  EXPECT_EQ(message(), "out/plan.json: plan.solver.cpu_seconds: missing");
+  write_version(3, [](auto&) {});
+  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 3, written by a newer Prowl; this one reads 1 to 2: use that Prowl, or "
+                       "plan again with this one");
+  write_version(0, [](auto&) {});
+  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 0 is no longer read; need 1 to 2: plan again with prowl plan, task_file in "
+                       "it has the task");
+  write_version(2, [](auto& json) { json.erase("schema_version"); });
+  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
 }
 
 TEST_F(PlanDirectory, IsGoodIfTheSolverConvergedAndTheCertificatePassed) {

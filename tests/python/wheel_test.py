@@ -105,6 +105,8 @@ def test_the_command(environment):
     assert "success" in run(environment, "prowl", "simulate", "out")
     run(environment, "prowl", "figures", "out")
     assert (environment.parent / "work/out/figures").is_dir()
+    run(environment, "prowl", "export", "out", "--format", "npz,mcap")
+    assert {"motion.npz", "motion.mcap"} <= {path.name for path in (environment.parent / "work/out/exports").iterdir()}
     run(environment, "prowl", "report", "out")
     assert "<!doctype html>" in (environment.parent / "work/out/report.html").read_text()[:200].lower()
 

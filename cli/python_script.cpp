@@ -1,0 +1,45 @@
+#include "python_script.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "process.hpp"
+#include "program_path.hpp"
+#include "prowl/error.hpp"
+
+namespace prowl::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kNoLibrary = 3;
+
+/// PREFIX/bin/prowl: PREFIX/share/prowl/SCRIPT.
+fs::path find_script(const std::string& script) {
+  std::error_code ignored;
+  const fs::path path = program_path().parent_path().parent_path() / "share/prowl" / script;
+  if (!fs::exists(path, ignored)) throw FileError(fmt::format("{}: missing; it belongs to this program", path.string()));
+  return path;
+}
+
+}  // namespace
+
+std::string default_python() {
+  const char* const python = std::getenv("PROWL_PYTHON");
+  return python ? python : PROWL_PYTHON;
+}
+
+void run_script(const Python& python, const std::string& script, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {python.program, "-B", find_script(script).string()};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const int status = run_program(command);
+  if (status == kNoLibrary) {
+    throw InputError(fmt::format("{}: need a Python with {} (scripts/setup makes one in .venv): --python PATH", python.program,
+                                 python.libraries));
+  }
+  if (status != 0) throw Error(fmt::format("{} failed with status {}", command[2], status));
+}
+
+}  // namespace prowl::cli

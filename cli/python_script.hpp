@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace prowl::cli {
+
+/// That of the environment variable PROWL_PYTHON, which the command of the wheel sets, or else that of the build.
+std::string default_python();
+
+struct Python {
+  std::string program;
+  std::string libraries;  ///< that the script needs, for messages
+};
+
+/// Runs share/prowl/`script`, in a build as well as installed, and waits for it; a script that finds no library ends with status 3.
+/// Throws InputError if Python or a library is missing, FileError if the script is, Error for any other failure.
+void run_script(const Python& python, const std::string& script, const std::vector<std::string>& arguments);
+
+}  // namespace prowl::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace prowl {
+
+/// Folder of the exports within the folder of a plan, unless asked for another.
+inline constexpr const char* kExportsFolder = "exports";
+
+/// One format of `prowl export` and the files that it has; see docs/exports.md.
+struct ExportFormat {
+  std::string name;                ///< as for --format
+  std::vector<std::string> files;  ///< of a plan; those of a simulation begin with kSimulatedPrefix
+  bool of_simulations = true;      ///< whether a simulation has it, too
+};
+
+inline constexpr const char* kSimulatedPrefix = "simulated_";
+
+const std::vector<ExportFormat>& export_formats();
+
+/// All that `prowl export` may write.
+std::vector<std::string> export_file_names();
+
+}  // namespace prowl
