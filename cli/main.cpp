@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   add_sweep_command(app, status);
   add_figures_command(app, status);
   add_report_command(app, status);
+  add_new_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
