@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   add_report_command(app, status);
   add_view_command(app, status);
   add_export_command(app, status);
+  add_new_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

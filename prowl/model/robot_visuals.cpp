@@ -66,9 +66,8 @@ std::optional<Eigen::Vector3d> colour_of(const urdf::Visual& visual) {
   return rgb.cwiseMax(0.0).cwiseMin(1.0);
 }
 
-}  // namespace
-
-std::vector<RobotVisual> robot_visuals(const RobotModel& robot) {
+template <class Sources, class Colour>
+std::vector<RobotVisual> shapes_of(const RobotModel& robot, const Sources& sources, const Colour& colour) {
   const pinocchio::Model& model = robot.pinocchio().model;
   const urdf::ModelInterfaceSharedPtr urdf = urdf::parseURDF(robot.description().urdf_text);
   if (!urdf) throw InputError(robot.description().urdf.string() + ": urdfdom cannot read it");
@@ -80,17 +79,29 @@ std::vector<RobotVisual> robot_visuals(const RobotModel& robot) {
     Eigen::Isometry3d in_body = Eigen::Isometry3d::Identity();
     in_body.linear() = frame.placement.rotation();
     in_body.translation() = frame.placement.translation();
-    for (const urdf::VisualSharedPtr& source : link->visual_array) {
+    for (const auto& source : sources(*link)) {
       if (!source || !source->geometry) continue;
       RobotVisual& visual = visuals.emplace_back();
       visual.link = name;
       visual.body = static_cast<int>(frame.parentJoint - kBaseJoint);
       visual.placement = in_body * to_isometry(source->origin);
-      visual.colour = colour_of(*source);
+      visual.colour = colour(*source);
       set_shape(*source->geometry, visual);
     }
   }
   return visuals;
+}
+
+}  // namespace
+
+std::vector<RobotVisual> robot_visuals(const RobotModel& robot) {
+  return shapes_of(robot, [](const urdf::Link& link) { return link.visual_array; },
+                   [](const urdf::Visual& source) { return colour_of(source); });
+}
+
+std::vector<RobotVisual> robot_collisions(const RobotModel& robot) {
+  return shapes_of(robot, [](const urdf::Link& link) { return link.collision_array; },
+                   [](const urdf::Collision&) { return std::optional<Eigen::Vector3d>(); });
 }
 
 std::optional<RobotVisual> inertia_box(const BodyTree& tree, int index) {

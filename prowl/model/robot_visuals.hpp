@@ -29,6 +29,9 @@ struct RobotVisual {
 /// The <visual> elements of the robot's URDF, in the order of its links. Those of the world's side of a robot have none.
 std::vector<RobotVisual> robot_visuals(const RobotModel& robot);
 
+/// The same of its <collision> elements; without colours.
+std::vector<RobotVisual> robot_collisions(const RobotModel& robot);
+
 /// A box of the body's mass and inertia, evenly filled: a stand-in for what cannot be drawn. None for a body without mass.
 std::optional<RobotVisual> inertia_box(const BodyTree& tree, int body);
 

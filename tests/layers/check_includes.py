@@ -26,6 +26,7 @@ ALLOWED = {
     # Of dynamics nothing: an independent judge.
     "simulation": {"model", "motion", "trajectory", "tracker", "estimation"},
     "io": None,  # what it needs
+    "starter": {"model", "dynamics", "motion", "io"},
     ".": None,  # prowl/plan
 }
 

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace prowl {
+
+/// What a URDF says of its moving joints, before a RobotModel judges it.
+struct UrdfOutline {
+  /// As written; 0 for what is left out.
+  struct Limits {
+    std::string joint;
+    bool prismatic = false;
+    double lower = 0.0, upper = 0.0;  ///< [rad] or [m]
+    double velocity = 0.0;            ///< [rad/s] or [m/s]
+    double effort = 0.0;              ///< [N m] or [N]
+
+    bool has_range() const { return lower < upper; }
+  };
+  std::string name;  ///< of the robot
+  std::vector<Limits> joints;
+};
+
+/// Throws InputError as check_urdf (prowl/model/urdf_check.hpp) does; `file` is for its messages, `xml` what is in it.
+UrdfOutline urdf_outline(const std::string& file, const std::string& xml);
+
+}  // namespace prowl

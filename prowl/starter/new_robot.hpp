@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "prowl/io/package_path.hpp"
+#include "prowl/model/robot_description.hpp"
+#include "prowl/starter/foot_contacts.hpp"
+#include "prowl/starter/legs.hpp"
+#include "prowl/starter/limit_guesses.hpp"
+#include "prowl/starter/standing_posture.hpp"
+
+namespace prowl {
+
+/// A robot description made from a URDF alone, and how each part of it came about.
+struct NewRobot {
+  RobotDescription description;       ///< with contacts, posture and limits; its name is the URDF's
+  double mass = 0.0;                  ///< [kg]
+  LegSearch search;
+  std::vector<FootContacts> feet;     ///< one a leg
+  StandingPosture posture;
+  std::vector<LimitGuess> limits;
+  double torque_share = 0.0;          ///< most that a joint needs for standing still, of its limit
+  std::string torque_joint;           ///< which
+  std::vector<std::string> missing_meshes;
+};
+
+/// Throws FileError or InputError: the URDF is no file, is one that Prowl cannot take, or of a robot without legs.
+NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& search);
+
+}  // namespace prowl

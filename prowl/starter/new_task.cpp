@@ -1,0 +1,146 @@
+#include "prowl/starter/new_task.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/dynamics/inverse_kinematics.hpp"
+#include "prowl/dynamics/static_equilibrium.hpp"
+#include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/model/leg_kinematics.hpp"
+
+namespace prowl {
+namespace {
+
+// Shares of the standing height, from those of the tasks that Prowl ships for HyQ, Go2, Solo12 and Talos.
+constexpr double kDepth = 0.25, kDepthOnSoles = 0.12;
+constexpr double kStep = 0.2, kStepOnSoles = 0.1;
+constexpr double kShift[] = {0.08, 0.045, -0.08}, kShiftOnSoles[] = {0.02, 0.02, -0.05};
+constexpr double kTurn[] = {0.05, 0.1, 0.1}, kTurnOnSoles[] = {0.0, 0.0, 0.05};  // [rad]
+constexpr double kSmaller = 0.8, kSmallest = 0.1;  // factors on all of these
+constexpr double kInside = 0.05;                   // [rad], from the limits
+constexpr double kTorqueShare = 0.8;               // of the limits, at rest
+constexpr double kUnbalanced = 0.01;               // of the weight
+
+// The weight of torques goes with 1 / mass^2: docs/adding-a-robot.md. HyQ's and Talos's tasks have these.
+constexpr double kHyqMass = 86.8, kHyqWeight = 1e-5, kWeightOnSoles = 3e-5;
+
+double hundredths(double x) { return 0.01 * std::round(100.0 * x) + 0.0; }
+
+double one_digit(double x) {
+  const double unit = std::pow(10.0, std::floor(std::log10(x)));
+  return unit * std::max(1.0, std::round(x / unit));
+}
+
+std::vector<int> all_contacts(const RobotModel& robot) {
+  std::vector<int> all;
+  for (std::size_t c = 0; c < robot.contacts().size(); ++c) all.push_back(static_cast<int>(c));
+  return all;
+}
+
+/// Contacts where they are in the nominal posture.
+std::vector<ContactTarget> standing_places(const RobotModel& robot) {
+  const LegKinematics legs(robot);
+  const Eigen::VectorXd& q = robot.nominal_configuration();
+  std::vector<ContactTarget> places;
+  for (const int c : all_contacts(robot)) places.push_back({c, base_position(q) + base_rotation(q) * legs.position(c)});
+  return places;
+}
+
+/// Whether the robot can rest with its base moved and turned, its contacts where they are.
+bool can_rest(const RobotModel& robot, const Eigen::Vector3d& shift, const Eigen::Vector3d& turn) {
+  Eigen::VectorXd q = robot.nominal_configuration();
+  q.head<3>() += shift;
+  const Eigen::Matrix3d R = (Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()) *
+                             Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX())).toRotationMatrix();
+  set_base_rotation(q, R * base_rotation(q));
+  const InverseKinematics ik = inverse_kinematics(robot, q, standing_places(robot));
+  if (ik.residual > 1e-4) return false;  // [m]: soles that are level to rounding are not on one plane
+  const Eigen::VectorXd joints = ik.q.tail(robot.nu());
+  const Eigen::VectorXd torque = static_equilibrium(robot, ik.q, all_contacts(robot)).tau;
+  for (Eigen::Index j = 0; j < robot.nu(); ++j) {
+    const double start = robot.nominal_configuration()(7 + j);
+    if (std::abs(joints(j) - start) < 1e-6) continue;  // not part of this motion
+    if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside) return false;
+    if (std::abs(torque(j)) > kTorqueShare * robot.torque_limit()(j)) return false;
+  }
+  return true;
+}
+
+/// The largest factor from 1 down with which `fits` is true. Throws InputError if none is.
+template <class Fits>
+double largest_factor(const RobotModel& robot, const std::string& kind, const Fits& fits) {
+  for (double factor = 1.0; factor > kSmallest; factor *= kSmaller) {
+    if (fits(factor)) return factor;
+  }
+  throw InputError(fmt::format("robot '{}': no {} found that stays within its limits, however small; see prowl robot, and choose a "
+                               "nominal posture further inside the limits, or --kind hold", robot.name(), kind));
+}
+
+/// Contacts of one foot: those on the frame of contact `c`.
+bool is_same_foot(const RobotModel& robot, std::size_t c, std::size_t other) {
+  return robot.contacts()[c].frame == robot.contacts()[other].frame;
+}
+
+/// The left foot; on four legs or more the left one in front.
+void choose_step(const RobotModel& robot, NewTask& task) {
+  const std::vector<ContactTarget> places = standing_places(robot);
+  std::size_t first = 0;
+  const auto rank = [&](std::size_t c) { return places[c].position.y() + (task.soles ? 0.0 : places[c].position.x()); };
+  for (std::size_t c = 1; c < places.size(); ++c) {
+    if (rank(c) > rank(first)) first = c;
+  }
+  while (first > 0 && is_same_foot(robot, first, first - 1)) --first;
+  for (std::size_t c = 0; c < places.size(); ++c) {
+    (is_same_foot(robot, c, first) ? task.swing : task.stay).push_back(robot.contacts()[c].name);
+  }
+  task.length = hundredths((task.soles ? kStepOnSoles : kStep) * task.height);
+  task.place = places[first].position + Eigen::Vector3d(task.length, 0.0, 0.0);
+  task.place.z() = 0.0;
+}
+
+}  // namespace
+
+std::string to_string(NewTaskKind kind) {
+  switch (kind) {
+    case NewTaskKind::hold: return "hold";
+    case NewTaskKind::stand: return "stand";
+    case NewTaskKind::crouch: return "crouch";
+    case NewTaskKind::step: return "step";
+  }
+  return "";
+}
+
+NewTask new_task(const RobotModel& robot, NewTaskKind kind) {
+  NewTask task;
+  task.kind = kind;
+  task.height = robot.nominal_configuration()(2);
+  for (std::size_t c = 1; c < robot.contacts().size(); ++c) task.soles = task.soles || is_same_foot(robot, c, c - 1);
+  task.torque_weight = one_digit((task.soles ? kWeightOnSoles : kHyqWeight) * std::pow(kHyqMass / robot.mass(), 2));
+
+  const double unbalanced = static_equilibrium(robot, robot.nominal_configuration(), all_contacts(robot)).residual;
+  if (unbalanced > kUnbalanced * robot.weight()) {
+    throw InputError(fmt::format(
+        "robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left of {:.0f} N): a task that begins and ends at "
+        "rest needs contacts around its centre of mass, three points or flat feet", robot.name(), robot.contacts().size(), unbalanced, robot.weight()));
+  }
+  const auto scaled = [](const double (&shares)[3], double factor) -> Eigen::Vector3d { return factor * Eigen::Vector3d(shares[0], shares[1], shares[2]); };
+  if (kind == NewTaskKind::crouch) {
+    const double depth = (task.soles ? kDepthOnSoles : kDepth) * task.height;
+    const double factor = largest_factor(robot, "crouch", [&](double f) { return can_rest(robot, {0.0, 0.0, -f * depth}, Eigen::Vector3d::Zero()); });
+    task.depth = std::max(0.01, 0.01 * std::floor(100.0 * factor * depth));
+  }
+  if (kind == NewTaskKind::stand) {
+    const auto shift = [&](double f) { return scaled(task.soles ? kShiftOnSoles : kShift, f * task.height); };
+    const auto turn = [&](double f) { return scaled(task.soles ? kTurnOnSoles : kTurn, f); };
+    const double factor = largest_factor(robot, "shift of the base", [&](double f) { return can_rest(robot, shift(f), turn(f)); });
+    task.shift = shift(factor).unaryExpr([](double x) { return 1e-3 * std::round(1e3 * x) + 0.0; });
+    task.turn = turn(factor).unaryExpr([](double x) { return hundredths(x); });
+  }
+  if (kind == NewTaskKind::step) choose_step(robot, task);
+  return task;
+}
+
+}  // namespace prowl

@@ -1,0 +1,157 @@
+#include "prowl/starter/robot_template.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <set>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHead = R"(# {name}: {mass:.1f} kg, {legs} legs. Written by `prowl new robot` from the URDF. What says "guess" is to be looked at;
+# `prowl robot {file}` shows what Prowl understands of it and warns. All keys: docs/robot-file.md.
+name = "{name}"
+
+# A path is relative to this file; package://NAME/PATH is looked for in --package-dir, ROS_PACKAGE_PATH and others.
+urdf = "{urdf}"
+
+# Contacts, guess: the ends of the {legs} limbs that reach furthest down with all joints next to 0.{others}
+# Others may be added, on any link or fixed joint: `prowl robot {file} --frames` lists them.
+)";
+
+constexpr const char* kContact = R"([[contact]]
+name = "{name}"
+frame = "{frame}"
+)";
+
+constexpr const char* kPosture = R"(# Posture that motions start from, guess: by inverse kinematics, all contacts on the ground below the hips, legs
+# stretched to {stretch:.0f} % of their length, knees {knees} where limits allow both ways.
+# The base is then {height:.3f} m up. Standing takes {torque}.
+# Instead: `group_state` "standing" or the like of the robot's SRDF. Keep joints inside their limits and knees bent.
+)";
+
+constexpr const char* kNoPosture = R"(# Posture that motions start from. NOT FOUND: no posture with bent knees puts all contacts level on the ground below the hips.
+# These are joint positions next to 0 within the limits. Change them until `prowl robot {file}` warns of nothing.
+)";
+
+constexpr const char* kLimits = R"(# Limits: the URDF's, but for what follows: they were missing or placeholders that limit nothing. Guesses, not the
+# maker's: put the data sheet's figures here, with the source. Ranges keep each knee bent its own way.
+)";
+
+constexpr const char* kAllLimits = "# Limits: the URDF's. [limits.JOINT] replaces them one by one: docs/robot-file.md.\n";
+
+std::string number(double x) {
+  const std::string text = fmt::format("{:.6g}", x);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+/// A key of TOML: quoted where a bare one is not allowed.
+std::string key(const std::string& name) {
+  const bool bare = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+  return bare ? name : '"' + name + '"';
+}
+
+std::string contacts(const NewRobot& robot) {
+  std::string text, last;
+  for (const FootContacts& foot : robot.feet) {
+    if (foot.how != last) text += fmt::format("# Place and size: {}.\n", foot.how);
+    last = foot.how;
+    for (const ContactPoint& contact : foot.contacts) {
+      text += fmt::format(fmt::runtime(kContact), fmt::arg("name", contact.name), fmt::arg("frame", contact.frame));
+      if (contact.radius > 0.0) text += fmt::format("radius_m = {}\n", number(contact.radius));
+      if (!contact.offset.isZero(0.0)) {
+        text += fmt::format("offset_m = [{}, {}, {}]\n", number(contact.offset.x()), number(contact.offset.y()), number(contact.offset.z()));
+      }
+      text += "\n";
+    }
+  }
+  return text;
+}
+
+std::string torque_in_words(const NewRobot& robot) {
+  const bool placeholders = std::any_of(robot.limits.begin(), robot.limits.end(), [](const LimitGuess& g) { return g.torque_is_no_limit; });
+  if (placeholders) return "torques that cannot be compared with limits, for the URDF has none";
+  return fmt::format("{:.0f} % of the torque limits at most ({})", 100.0 * robot.torque_share, robot.torque_joint);
+}
+
+std::string posture(const NewRobot& robot, const fs::path& file) {
+  std::string text;
+  if (robot.posture.found) {
+    text = fmt::format(fmt::runtime(kPosture), fmt::arg("stretch", 100.0 * robot.posture.stretch),
+                       fmt::arg("knees", robot.search.legs.size() > 2 ? "towards the middle of the robot" : "forward"),
+                       fmt::arg("height", robot.posture.height), fmt::arg("torque", torque_in_words(robot)));
+  } else {
+    text = fmt::format(fmt::runtime(kNoPosture), fmt::arg("file", file.string()));
+  }
+  const Eigen::Vector3d& rpy = robot.search.base_rpy;
+  if (!rpy.isZero(0.0)) {
+    text += fmt::format("[nominal]   # guess: z of the base does not point up, the legs hang down another way\nbase_rpy_rad = [{}, {}, {}]\n\n",
+                        number(rpy.x()), number(rpy.y()), number(rpy.z()));
+  }
+  text += "[nominal.joints]   # [rad]; those not named are at 0\n";
+  for (const auto& [joint, position] : robot.description.nominal_joints) {
+    if (position != 0.0) text += fmt::format("{} = {}\n", key(joint), number(position));
+  }
+  return text + "\n";
+}
+
+std::string limits(const NewRobot& robot) {
+  if (robot.limits.empty()) return kAllLimits;
+  std::string text = kLimits;
+  for (const LimitGuess& guess : robot.limits) {
+    text += fmt::format("[limits.{}]\n", key(guess.joint));
+    if (guess.position) {
+      text += fmt::format("position_rad = [{}, {}]{}\n", number(guess.position->first), number(guess.position->second),
+                          guess.is_knee ? "   # guess: 0.1 to 2.6 rad from straight" : "   # guess");
+    }
+    if (guess.velocity) text += fmt::format("velocity_radps = {}   # guess: the URDF has none\n", number(*guess.velocity));
+    if (guess.torque) text += fmt::format("torque_Nm = {}   # guess: five times what standing takes; the URDF has none\n", number(*guess.torque));
+    if (guess.torque_is_no_limit) text += "# torque_Nm =      the URDF's 1000 N m or more is no limit\n";
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string robot_template(const NewRobot& robot, const std::string& urdf, const fs::path& file) {
+  const std::string others = robot.search.other_ends.empty()
+                                 ? std::string()
+                                 : fmt::format("\n# No contacts: the limbs that end in {}.", fmt::join(robot.search.other_ends, ", "));
+  std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
+                                 fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", file.string()),
+                                 fmt::arg("urdf", urdf), fmt::arg("others", others));
+  for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# A mesh that was not read: {}\n", mesh);
+  text += "\n";
+  text += contacts(robot);
+  text += posture(robot, file);
+  text += limits(robot);
+  while (text.ends_with("\n\n")) text.pop_back();
+  return text;
+}
+
+std::string urdf_reference(const RobotDescription& robot, const fs::path& file, const PackageSearch& search) {
+  const std::string scheme = "package://";
+  std::set<std::string> packages;
+  for (std::size_t at = 0; (at = robot.urdf_text.find(scheme, at)) != std::string::npos;) {
+    at += scheme.size();
+    packages.insert(robot.urdf_text.substr(at, robot.urdf_text.find_first_of("/\"'", at) - at));
+  }
+  for (fs::path folder = robot.urdf.parent_path(); folder.has_filename(); folder = folder.parent_path()) {
+    if (!packages.contains(folder.filename().string())) continue;
+    const std::string uri = scheme + folder.filename().string() + "/" + robot.urdf.lexically_relative(folder).string();
+    try {
+      std::error_code error;
+      if (fs::equivalent(resolve_uri(uri, file, {}, search), robot.urdf, error) && !error) return uri;
+    } catch (const InputError&) {  // not to be found from there: try a folder further up
+    }
+  }
+  return robot.urdf.lexically_relative(fs::absolute(file).lexically_normal().parent_path()).string();
+}
+
+}  // namespace prowl
