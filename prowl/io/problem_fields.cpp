@@ -40,7 +40,7 @@ std::string in_terms_of_the_file(const SourceText& task_file, const std::string&
   const std::string message = complaint.substr(colon);
   const std::vector<std::string> keys = keys_of(complaint.substr(0, colon));
   for (const std::string& key : keys) {
-    if (const std::string place = locate(task_file, key); place != nowhere) return place + key + message;
+    if (const auto place = find_place(task_file, key)) return *place + key + message;
   }
   return nowhere + keys.front() + message;
 }

@@ -80,29 +80,31 @@ std::string complaint(const RobotDescription& description) {
   }
 }
 
-/// The key that RobotModel complains of: the first without which it no longer does; else the URDF.
-std::string culprit(const RobotDescription& description, const std::string& message) {
+/// Where the robot file says what RobotModel complains of: the first key without which it no longer does; else the URDF.
+std::string place_of_culprit(const SourceText& source, const RobotDescription& description, const std::string& message) {
+  const auto value = [&](const std::string& key) { return locate(source, key) + key; };
+  const auto name = [&](const std::string& key) { return locate_key(source, key) + key; };  // a joint that there is not
   RobotDescription bare;
   bare.name = description.name;
   bare.urdf = description.urdf;
   bare.urdf_text = description.urdf_text;
-  if (complaint(bare) == message) return "urdf";
+  if (complaint(bare) == message) return value("urdf");
   for (std::size_t i = 0; i < description.contacts.size(); ++i) {
     RobotDescription without = description;
     without.contacts.erase(without.contacts.begin() + static_cast<std::ptrdiff_t>(i));
-    if (complaint(without) != message) return fmt::format("contact[{}].frame", i);
+    if (complaint(without) != message) return value(fmt::format("contact[{}].frame", i));
   }
   for (const auto& [joint, position] : description.nominal_joints) {
     RobotDescription without = description;
     without.nominal_joints.erase(joint);
-    if (complaint(without) != message) return "nominal.joints." + joint;
+    if (complaint(without) != message) return name("nominal.joints." + joint);
   }
   for (const auto& [joint, limits] : description.limits) {
     RobotDescription without = description;
     without.limits.erase(joint);
-    if (complaint(without) != message) return "limits." + joint;
+    if (complaint(without) != message) return name("limits." + joint);
   }
-  return "urdf";
+  return value("urdf");
 }
 
 }  // namespace
@@ -145,8 +147,7 @@ RobotModel load_robot(const SourceText& source, const PackageSearch& search, con
   try {
     return RobotModel(description);
   } catch (const InputError& error) {
-    const std::string key = culprit(description, error.what());
-    throw InputError(fmt::format("{}{}: {}", locate(source, key), key, error.what()));
+    throw InputError(fmt::format("{}: {}", place_of_culprit(source, description, error.what()), error.what()));
   }
 }
 

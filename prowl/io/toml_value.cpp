@@ -37,6 +37,15 @@ std::string unknown(const std::string& what, const std::string& name, const std:
   return fmt::format("unknown {}{} Known: {}", what, did_you_mean(name, known), fmt::join(known, ", "));
 }
 
+/// " It is a key of [phase]." for a key that other tables have, else "".
+std::string where_else(const FileKeys& keys, const std::string& name) {
+  std::vector<std::string> tables;
+  for (const FileKey& key : keys) {
+    if (key.name == name) tables.push_back(key.table.empty() ? "the top of the file" : fmt::format("[{}]", key.table));
+  }
+  return tables.empty() ? "" : fmt::format(" It is a key of {}.", fmt::join(tables, ", "));
+}
+
 /// " [s]" for "phase[0].duration_s" or "goal[1].time_s[0]"; "" for a key without unit.
 std::string unit_of(const std::string& path) {
   static const std::pair<std::string, std::string> kUnits[] = {
@@ -47,6 +56,23 @@ std::string unit_of(const std::string& path) {
     if (key.ends_with(ending)) return fmt::format(" [{}]", unit);
   }
   return "";
+}
+
+/// Where the key is (`with_key`) or its value; of the nearest table around it if it is not there.
+std::optional<std::string> place_of(const SourceText& source, const std::string& path, bool with_key) {
+  const toml::table root = toml::parse(source.text);
+  for (std::string rest = path; !rest.empty();) {
+    const std::size_t end = rest.find_last_of(".[");
+    const std::string parent = rest.substr(0, end == std::string::npos ? 0 : end);
+    if (const auto node = toml::at_path(root, rest)) {
+      const bool is_member = end == std::string::npos || rest[end] == '.';
+      const toml::table* const table = parent.empty() ? &root : toml::at_path(root, parent).as_table();
+      if (with_key && is_member && table) return at(source, table->find(rest.substr(parent.empty() ? 0 : end + 1))->first.source());
+      return at(source, node.node()->source());
+    }
+    rest = parent;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -190,7 +216,12 @@ TomlTable::TomlTable(const TomlValue& value, const FileKeys& keys, const std::st
   const std::vector<std::string> names = key_names(keys, declared);
   if (!value.is_table()) value.fail(fmt::format("{} is not allowed; need a table with {}", describe(value.node()),
                                                 fmt::join(names, ", ")));
-  value_.as_named_values(names, "key");
+  for (const auto& [key, node] : *value.node().as_table()) {
+    const std::string name(key.str());
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw InputError(fmt::format("{}{}: unknown key{}{} Known: {}", at(value.source(), key.source()), path_of(name),
+                                 did_you_mean(name, names), where_else(keys, name), fmt::join(names, ", ")));
+  }
 }
 
 std::string TomlTable::path_of(const std::string& key) const { return join_path(value_.path(), key); }
@@ -233,7 +264,7 @@ std::vector<TomlTable> TomlTable::find_tables(const std::string& key) const {
 TomlDocument::TomlDocument(const SourceText& source) : source_(source) {
   if (const std::size_t first = source.text.find_first_not_of(" \t\r\n");
       first != std::string::npos && source.text[first] == '<') {
-    throw InputError(fmt::format("{}: this looks like XML; need a TOML file (a URDF is named by a robot file)",
+    throw InputError(fmt::format("{}:1:1: this looks like XML; need a TOML file (a URDF is named by a robot file)",
                                  source.path.string()));
   }
   try {
@@ -251,14 +282,16 @@ TomlTable TomlDocument::root(const FileKeys& keys) const {
   return TomlTable(TomlValue(source_, table_, ""), keys, "");
 }
 
+std::optional<std::string> find_place(const SourceText& source, const std::string& path) {
+  return place_of(source, path, false);
+}
+
 std::string locate(const SourceText& source, const std::string& path) {
-  const toml::table root = toml::parse(source.text);
-  for (std::string rest = path; !rest.empty();) {
-    if (const auto node = toml::at_path(root, rest)) return at(source, node.node()->source());
-    const std::size_t end = rest.find_last_of(".[");
-    rest.erase(end == std::string::npos ? 0 : end);
-  }
-  return source.path.string() + ": ";
+  return place_of(source, path, false).value_or(source.path.string() + ":1:1: ");
+}
+
+std::string locate_key(const SourceText& source, const std::string& path) {
+  return place_of(source, path, true).value_or(source.path.string() + ":1:1: ");
 }
 
 }  // namespace prowl

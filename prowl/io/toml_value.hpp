@@ -120,7 +120,11 @@ class TomlDocument {
 };
 
 /// "file:line:column: " of a key path ("contact[1].frame") in a file that parses, or of the deepest part of the path that
-/// it has; "file: " if it has none. For what other layers find wrong.
+/// it has; "file:1:1: " if it has none. For what other layers find wrong.
 std::string locate(const SourceText& source, const std::string& path);
+/// The same of the key, where not its value but its name is wrong.
+std::string locate_key(const SourceText& source, const std::string& path);
+/// locate(); none if the file has no part of the path.
+std::optional<std::string> find_place(const SourceText& source, const std::string& path);
 
 }  // namespace prowl

@@ -5,7 +5,7 @@
 
 namespace prowl {
 
-/// The name that takes the fewest changed, missing or added letters (upper and lower case count as one) from `wrong`;
+/// The name that takes the fewest changed, missing, added or swapped letters (upper and lower case count as one) from `wrong`;
 /// empty if there are no names.
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);
 

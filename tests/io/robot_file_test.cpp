@@ -53,10 +53,10 @@ TEST_F(RobotFile, NamesTheNearestFrame) {
 
 TEST_F(RobotFile, NamesTheNearestJoint) {
   const std::string nominal = message("lh_kfe_joint", "lh_kef_joint");
-  EXPECT_THAT(nominal, StartsWith("hyq.toml:18:16: nominal.joints.lh_kef_joint: "));
+  EXPECT_THAT(nominal, StartsWith("hyq.toml:18:1: nominal.joints.lh_kef_joint: "));
   EXPECT_THAT(nominal, EndsWith("did you mean 'lh_kfe_joint'?"));
   const std::string limits = message_of(kHyqFile + "[limits.lf_haa]\ntorque_Nm = 10\n");
-  EXPECT_THAT(limits, StartsWith("hyq.toml:22:1: limits.lf_haa: "));
+  EXPECT_THAT(limits, StartsWith("hyq.toml:22:9: limits.lf_haa: "));
 }
 
 TEST_F(RobotFile, RefusesUnknownKeysWithTheNearest) {
@@ -96,7 +96,7 @@ TEST_F(RobotFile, TellsOtherKindsOfFiles) {
   EXPECT_EQ(message_of(test::kTaskFile),
             "hyq.toml:3:1: phase: this looks like a task file; need the robot file that it names");
   EXPECT_THAT(message_of("<?xml version=\"1.0\"?>\n<robot name=\"dog\"/>"),
-              StartsWith("hyq.toml: this looks like XML; "));
+              StartsWith("hyq.toml:1:1: this looks like XML; "));
 }
 
 TEST_F(RobotFile, NeedsContactsUnlessAskedNotTo) {

@@ -1,6 +1,7 @@
 prowl_test(io/atomic_folder prowl::io)
 prowl_test(io/figure_data prowl::prowl)
 prowl_test(io/file_keys prowl::io)
+prowl_test(io/file_mistakes prowl::io)
 prowl_test(io/mesh_advice prowl::io)
 prowl_test(io/package_path prowl::io)
 prowl_test(io/plan_directory prowl::io nlohmann_json::nlohmann_json)
