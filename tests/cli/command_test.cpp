@@ -22,7 +22,7 @@ TEST_F(Command, TellsVersionsAndHelp) {
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, StartsWith("prowl "));
   for (const char* part : {"Ipopt 3.14", "Pinocchio 4", "Eigen 3.4"}) EXPECT_THAT(version.out, HasSubstr(part));
-  for (const char* verb : {"", "plan", "check", "robot", "simulate", "sweep", "report"}) {
+  for (const char* verb : {"", "plan", "check", "robot", "simulate", "sweep", "report", "export"}) {
     const Outcome help = run(std::string("$prowl ") + verb + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Example")) << verb;

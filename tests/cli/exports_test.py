@@ -1,109 +1,21 @@
-"""prowl export on a step of HyQ, with feet that lift and land: every file read back by somebody else's reader and held against
-trajectory.csv, simulate.csv and the URDF, whose forward kinematics are computed again here.
+"""What prowl export writes of a step of HyQ, with feet that lift and land: every file read back by somebody else's reader and held
+against trajectory.csv, simulate.csv and the URDF.
 
     exports_test.py PROWL ROBOTS_DATA
 """
-import csv
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
-from mcap.reader import make_reader
-from mcap_ros2.decoder import DecoderFactory
+from exports_support import ROOT, Urdf, columns, of_seven, placement, read_csv, read_mcap, rotation, run_or_fail, xyz
 
-ROOT = pathlib.Path(__file__).parents[2]
 AXES = "xyz"
 TWIST = [f"base_{c}_{unit}" for c, unit in zip(("vx", "vy", "vz", "wx", "wy", "wz"), ["mps"] * 3 + ["radps"] * 3)]
 POSE = ["base_px_m", "base_py_m", "base_pz_m", "base_qx", "base_qy", "base_qz", "base_qw"]
-command = robots = None
-
-
-def prowl(*arguments) -> subprocess.CompletedProcess:
-    return subprocess.run([command, *map(str, arguments), "--package-dir", robots], capture_output=True, text=True)
-
-
-def read_csv(path: pathlib.Path) -> dict[str, np.ndarray]:
-    with open(path, newline="") as file:
-        rows = list(csv.reader(file))
-    return dict(zip(rows[0], np.array(rows[1:], dtype=float).T))
-
-
-def columns(table: dict[str, np.ndarray], names) -> np.ndarray:
-    return np.column_stack([table[name] for name in names])
-
-
-def rotation(quaternion) -> np.ndarray:
-    """Of x y z w."""
-    x, y, z, w = quaternion
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-
-
-def placement(position, turn) -> np.ndarray:
-    result = np.eye(4)
-    result[:3, :3], result[:3, 3] = turn, position
-    return result
-
-
-def of_seven(values) -> np.ndarray:
-    return placement(values[:3], rotation(values[3:]))
-
-
-def about(axis, angle) -> np.ndarray:
-    """Rodrigues."""
-    k = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
-    return np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
-
-
-class Urdf:
-    """Just enough of one for forward kinematics."""
-
-    def __init__(self, text: str):
-        tree = ElementTree.fromstring(text)
-        self.links = [link.get("name") for link in tree.iter("link")]
-        self.joints = {joint.find("child").get("link"): joint for joint in tree.iter("joint") if joint.find("child") is not None}
-
-    def parent(self, link: str):
-        return self.joints[link].find("parent").get("link") if link in self.joints else None
-
-    def fixed(self, link: str) -> bool:
-        return link in self.joints and self.joints[link].get("type") == "fixed"
-
-    def in_world(self, link: str, base: np.ndarray, angles: dict[str, float]) -> np.ndarray:
-        if link not in self.joints:
-            return base
-        joint = self.joints[link]
-        numbers = lambda tag, key, default: [float(x) for x in joint.find(tag).get(key, default).split()]  # noqa: E731
-        origin = np.eye(4)
-        if joint.find("origin") is not None:
-            roll, pitch, yaw = numbers("origin", "rpy", "0 0 0")
-            turn = about((0, 0, 1), yaw) @ about((0, 1, 0), pitch) @ about((1, 0, 0), roll)
-            origin = placement(numbers("origin", "xyz", "0 0 0"), turn)
-        move = np.eye(4)
-        if joint.get("type") in ("revolute", "continuous"):
-            axis = np.array(numbers("axis", "xyz", "1 0 0"))
-            move[:3, :3] = about(axis / np.linalg.norm(axis), angles[joint.get("name")])
-        return self.in_world(self.parent(link), base, angles) @ origin @ move
-
-
-def read_mcap(path: pathlib.Path):
-    """Topic: list of (schema name, log time, decoded message)."""
-    topics: dict[str, list] = {}
-    with open(path, "rb") as file:
-        reader = make_reader(file, decoder_factories=[DecoderFactory()])
-        for schema, channel, message, decoded in reader.iter_decoded_messages():
-            topics.setdefault(channel.topic, []).append((schema.name, message.log_time, decoded))
-        return topics, reader.get_summary(), {m.name: m.metadata for m in reader.iter_metadata()}
-
-
-def xyz(value) -> list[float]:
-    return [value.x, value.y, value.z]
 
 
 class Exports(unittest.TestCase):
@@ -112,24 +24,16 @@ class Exports(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         cls.plan = pathlib.Path(cls.folder.name) / "a plan; with 'odd' name"
-        cls.run_or_fail("plan", ROOT / "tasks/hyq/step.toml", "--out", cls.plan)
-        cls.early = prowl("export", cls.plan, "--format", "npz", "--simulation")
-        cls.run_or_fail("simulate", cls.plan, "--record-rate", 200)
-        cls.done = cls.run_or_fail("export", cls.plan, "--format", "csv,json,npz,mcap,joint-trajectory,mujoco")
+        run_or_fail("plan", ROOT / "tasks/hyq/step.toml", "--out", cls.plan)
+        run_or_fail("simulate", cls.plan, "--record-rate", 200)
+        run_or_fail("export", cls.plan, "--format", "csv,json,npz,mcap,joint-trajectory,mujoco")
         cls.out = cls.plan / "exports"
-        cls.run_or_fail("export", cls.plan, "--format", "json,npz,mcap,joint-trajectory,mujoco", "--simulation", "--rate", 50)
+        run_or_fail("export", cls.plan, "--format", "json,npz,mcap,joint-trajectory,mujoco", "--simulation", "--rate", 50)
         cls.json = json.loads((cls.plan / "plan.json").read_text())
         cls.joints = cls.json["problem"]["joints"]
         cls.nodes = read_csv(cls.plan / "trajectory.csv")
         cls.contacts = [name.removeprefix("contact_") for name in cls.nodes if name.startswith("contact_")]
         cls.urdf = Urdf(cls.json["urdf"]["text"])
-
-    @classmethod
-    def run_or_fail(cls, *arguments):
-        done = prowl(*arguments)
-        if done.returncode != 0:
-            raise AssertionError(f"{arguments}: {done.returncode}\n{done.stdout}{done.stderr}")
-        return done
 
     def quantities(self, table) -> dict[str, np.ndarray]:
         """q, v, a, tau, f of a table with the columns of trajectory.csv."""
@@ -149,7 +53,7 @@ class Exports(unittest.TestCase):
 
     def test_csv_at_a_rate_lies_between_the_nodes(self):
         out = self.plan.with_name("rate")
-        self.run_or_fail("export", self.plan, "--format", "csv", "--rate", 123, "--out", out)
+        run_or_fail("export", self.plan, "--format", "csv", "--rate", 123, "--out", out)
         rows, gains = read_csv(out / "motion.csv"), read_csv(out / "gains.csv")
         end = self.nodes["time_s"][-1]
         np.testing.assert_allclose(rows["time_s"][:-1], np.arange(len(rows["time_s"]) - 1) / 123, atol=1e-12)
@@ -345,69 +249,12 @@ class Exports(unittest.TestCase):
         keys = ElementTree.parse(self.out / "simulated_mujoco_keyframes.xml").getroot()
         self.assertTrue((self.out / keys.find("include").get("file")).exists())
 
-    def test_says_what_it_wrote(self):
-        for name in ("motion.csv", "gains.csv", "motion.json", "motion.npz", "motion.mcap", "joint_trajectory.json",
-                     "mujoco_keyframes.xml", "mujoco_model.xml"):
-            self.assertIn(name, self.done.stdout)
-        out = self.plan.with_name("told")
-        told = json.loads(self.run_or_fail("export", self.plan, "--format", "csv", "--out", out, "--json").stdout)
-        self.assertEqual(told["directory"], str(out))
-        self.assertEqual({f["name"]: f["bytes"] for f in told["files"]}, {p.name: p.stat().st_size for p in out.iterdir()})
-        self.assertEqual(told["samples"], len(self.nodes["time_s"]))
-
     def test_same_input_same_files(self):
         again = self.plan.with_name("again")
-        self.run_or_fail("export", self.plan, "--format", "json,npz,mcap,mujoco", "--out", again)
+        run_or_fail("export", self.plan, "--format", "json,npz,mcap,mujoco", "--out", again)
         for path in again.iterdir():
             self.assertEqual(path.read_bytes(), (self.out / path.name).read_bytes(), path.name)
 
-    def test_a_plan_without_gains_that_is_not_finished(self):
-        plan = self.plan.with_name("unfinished")
-        self.assertEqual(prowl("plan", ROOT / "tasks/hyq/step.toml", "--max-iterations", 2, "--one-mesh", "--out", plan).returncode, 6)
-        done = self.run_or_fail("export", plan, "--format", "csv,npz,mcap")
-        self.assertIn("this plan is not good: iteration_limit", done.stderr)
-        self.assertEqual({p.name for p in (plan / "exports").iterdir()}, {"motion.csv", "motion.npz", "motion.mcap"})
-        with np.load(plan / "exports/motion.npz", allow_pickle=False) as file:
-            self.assertFalse(file["good"])
-            self.assertNotIn("K", file.files)
-
-    def test_tells_what_is_wrong(self):
-        self.assertEqual(self.early.returncode, 2)
-        self.assertIn(f"prowl simulate {self.plan}", self.early.stderr)
-        nowhere = self.plan.with_name("nowhere")
-        for arguments, said in ((("--format", "cvs"), "cvs"), ((), "--format"), (("--format", "csv", "--simulation"), "simulate.csv already"),
-                                (("--format", "csv", "--rate", 0), "--rate: 0"), (("--format", "csv", "--rate", "nan"), "--rate: nan"),
-                                (("--format", "csv", "--rate", 1e12), "at most"), (("--format", "npz", "--python", "/nowhere/python"), "/nowhere/python")):
-            with self.subTest(arguments):
-                done = prowl("export", self.plan, *arguments, "--out", nowhere)
-                self.assertEqual(done.returncode, 2, done.stderr)
-                self.assertIn(said, done.stderr)
-        bare = self.plan.with_name("bare python")
-        bare.write_text(f'#!/bin/sh\nexec "{sys.executable}" -S "$@"\n')
-        bare.chmod(0o755)
-        missing = prowl("export", self.plan, "--format", "csv,mcap", "--python", bare, "--out", nowhere)
-        self.assertEqual(missing.returncode, 2, missing.stderr)
-        self.assertIn("mcap-ros2-support", missing.stderr)
-        self.assertFalse(nowhere.exists(), "nothing is written")
-        self.assertEqual(prowl("export", self.plan.with_name("no plan"), "--format", "csv").returncode, 2)
-        self.assertEqual(prowl("export", self.plan, "--format", "csv", "--out", "/dev/null").returncode, 4)
-
-    def test_a_new_plan_removes_the_exports_but_no_strange_file(self):
-        plan = self.plan.with_name("replaced")
-        again = ("plan", ROOT / "tasks/hyq/stand.toml", "--no-gains", "--out", plan)
-        self.run_or_fail(*again)
-        self.run_or_fail("export", plan, "--format", "csv,joint-trajectory")
-        strange = plan / "exports/notes.txt"
-        strange.write_text("mine")
-        self.run_or_fail("export", plan, "--format", "json")  # beside it
-        refused = prowl(*again)
-        self.assertEqual(refused.returncode, 4, refused.stderr)
-        self.assertIn("notes.txt", refused.stderr)
-        strange.unlink()
-        self.run_or_fail(*again)
-        self.assertFalse((plan / "exports").exists())
-
 
 if __name__ == "__main__":
-    command, robots = sys.argv[1:3]
     unittest.main(argv=sys.argv[:1])

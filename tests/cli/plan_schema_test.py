@@ -5,20 +5,14 @@
 import copy
 import json
 import pathlib
-import subprocess
 import sys
 import tempfile
 import unittest
 
+from exports_support import ROOT, prowl
 from jsonschema import Draft202012Validator
 
-ROOT = pathlib.Path(__file__).parents[2]
 SCHEMA = json.loads((ROOT / "schema/plan.schema.json").read_text())
-command = robots = None
-
-
-def prowl(*arguments) -> subprocess.CompletedProcess:
-    return subprocess.run([command, *map(str, arguments), "--package-dir", robots], capture_output=True, text=True)
 
 
 def objects(value, path=()):
@@ -137,5 +131,4 @@ class PlanSchema(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    command, robots = sys.argv[1:3]
     unittest.main(argv=sys.argv[:1])

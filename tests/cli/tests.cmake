@@ -10,7 +10,7 @@ if(PROWL_BUILD_CLI)
   set_tests_properties(cli/figures PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
 
   # What prowl writes, read by somebody else's code.
-  foreach(name exports plan_schema)
+  foreach(name exports export_command plan_schema)
     add_test(NAME cli/${name}
       COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/${name}_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
     set_tests_properties(cli/${name} PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")

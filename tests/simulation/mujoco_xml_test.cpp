@@ -33,7 +33,7 @@ template <typename Number>
 void expect_same(const char* what, const Number* a, const Number* b, int size) {
   double largest = 0.0;
   for (int i = 0; i < size; ++i) largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
-  EXPECT_LE(largest, 1e-15) << what;
+  EXPECT_LE(largest, 1e-14) << what;  // MuJoCo turns meshes to their principal axes again
 }
 
 TEST(MujocoXml, ReadsBackAsTheModelThatIsSimulated) {
