@@ -1,0 +1,1 @@
+prowl_test(starter/sole prowl::starter)
