@@ -32,13 +32,13 @@ def _side_view(plan, moments, ground) -> plt.Figure:
 
 
 def slope(planner) -> plt.Figure:
-    plan = planner.plan("hyq/slope", "--no-gains")
-    tilt = np.tan(np.radians(15))
-    return _side_view(plan, (0, plan.trajectory["time_s"][-1]), [[(-0.8, -0.8 * tilt), (1.1, 1.1 * tilt)]])
+    plan = planner.plan_shown("slope.md", "mine/ramp.toml", "--no-gains")
+    tilt = np.tan(np.radians(10))
+    return _side_view(plan, (0, plan.trajectory["time_s"][-1]), [[(-0.7, -0.7 * tilt), (0.9, 0.9 * tilt)]])
 
 
 def wall(planner) -> plt.Figure:
-    plan = planner.plan("hyq/wall", "--no-gains")
+    plan = planner.plan_shown("wall.md", "mine/wall.toml", "--no-gains")
     return _side_view(plan, (0, plan.trajectory["time_s"][-1]), [[(-0.7, 0), (0.75, 0)], [(0.75, 0), (0.75, 0.8)]])
 
 

@@ -3,10 +3,13 @@ import csv
 import json
 import pathlib
 import subprocess
+import sys
 
 import numpy as np
 
 ROOT = pathlib.Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "site"))
+from page_blocks import blocks  # noqa: E402
 
 
 class Table:
@@ -40,9 +43,19 @@ class Planner:
         self._prowl, self._work, self._packages = prowl, work, packages
 
     def plan(self, task: str, *options: str, good: bool = True) -> Plan:
-        folder = self._work / "-".join([task.replace("/", "_"), *(option.strip("-") for option in options)])
+        return self._plan(ROOT / "tasks" / f"{task}.toml", options, good)
+
+    def plan_shown(self, page: str, title: str, *options: str) -> Plan:
+        """The task that a page of docs/ shows under this title."""
+        block, = (block for block in blocks(ROOT / "docs" / page) if block.title == title)
+        path = self._work / pathlib.Path(title).name
+        path.write_text(block.text.replace('"../robots/', f'"{ROOT}/robots/'), encoding="utf-8")
+        return self._plan(path, options, good=True)
+
+    def _plan(self, task: pathlib.Path, options: tuple, good: bool) -> Plan:
+        folder = self._work / "-".join([task.parent.name, task.stem, *(option.strip("-") for option in options)])
         if not folder.exists():
-            self.run("plan", ROOT / "tasks" / f"{task}.toml", "--out", folder, *options, allowed=(0,) if good else (0, 7))
+            self.run("plan", task, "--out", folder, *options, allowed=(0,) if good else (0, 7))
         return Plan(folder)
 
     def run(self, *arguments, allowed=(0,)) -> None:

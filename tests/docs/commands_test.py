@@ -15,7 +15,8 @@ import time
 import tomllib
 import unittest
 
-from blocks import ROOT, Block, blocks, pages
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "site"))
+from page_blocks import ROOT, Block, blocks, pages  # noqa: E402
 
 STATUS = re.compile(r"^(?P<command>.*?)\s+# exit status (?P<status>\d+)\s*$")
 NOT_COPIED = shutil.ignore_patterns(".git", "build*", ".venv*", "node_modules", "out", "artefacts", "__pycache__")
@@ -51,7 +52,8 @@ def script(block: Block) -> str:
     for line in block.text.splitlines():
         status = STATUS.match(line)
         if status:
-            line = f"code=0; {status['command']} || code=$?; [ $code -eq {status['status']} ] || {{ echo \"ended with $code\"; exit 1; }}"
+            line = (f"code=0\n{{ {status['command']}\n}} || code=$?\n"
+                    f"[ $code -eq {status['status']} ] || {{ echo \"ended with $code\"; exit 1; }}")
         lines.append(line)
     return "\n".join(lines)
 
@@ -106,9 +108,9 @@ class Commands(unittest.TestCase):
         for _, left_out, _, _ in results.values():
             for entry in left_out:
                 print("  " + entry)
+        faults = [fault for found, *_ in results.values() for fault in found]
+        self.assertFalse(faults, "\n\n".join(["", *faults]))
         self.assertGreater(sum(ran for _, _, ran, _ in results.values()), 0 if wanted else 20)
-        self.assertEqual([fault for faults, *_ in results.values() for fault in faults], [], "\n\n".join(
-            fault for faults, *_ in results.values() for fault in faults))
 
 
 if __name__ == "__main__":

@@ -11,9 +11,8 @@ import unittest
 
 import pymdownx.slugs
 
-from blocks import ROOT, blocks, pages, prose
-
-sys.path.insert(0, str(ROOT / "site"))
+sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "site"))
+from page_blocks import ROOT, blocks, pages, prose  # noqa: E402
 from code_names import CODE_LINK, defining_line, linked_name, repository_file  # noqa: E402
 
 LANGUAGES = {"sh", "text", "toml", "cpp", "cmake", "json", "math", "python", "xml"}

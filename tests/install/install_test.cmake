@@ -32,3 +32,17 @@ run(${WORK_DIR}/build/consumer ${prefix}/share/prowl/tasks/hyq/hold.toml ${ROBOT
 if(NOT output MATCHES "converged, cost [0-9]")
   message(FATAL_ERROR "the consumer did not plan: ${output}")
 endif()
+
+# The examples that docs/ shows, as a reader builds them.
+run(${CMAKE_COMMAND} -S ${EXAMPLES_DIR} -B ${WORK_DIR}/examples -G Ninja -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/examples)
+run(${WORK_DIR}/examples/plan_task ${prefix}/share/prowl/tasks/hyq/stand.toml ${ROBOTS_DATA})
+run(${prefix}/bin/prowl plan ${prefix}/share/prowl/tasks/hyq/stand.toml --package-dir ${ROBOTS_DATA} --out ${WORK_DIR}/stand)
+run(${WORK_DIR}/examples/track_plan ${WORK_DIR}/stand/tracker.bin)
+if(NOT output MATCHES "last segment: stand on")
+  message(FATAL_ERROR "track_plan does not stand on: ${output}")
+endif()
+run(${WORK_DIR}/examples/receding_horizon ${prefix}/share/prowl/tasks/hyq/stand.toml ${ROBOTS_DATA})
+if(NOT output MATCHES "cycle 20: [1-5] iterations")
+  message(FATAL_ERROR "receding_horizon needs more iterations than it should: ${output}")
+endif()

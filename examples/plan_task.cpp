@@ -1,0 +1,24 @@
+// Plans a task file and says what came of it:  plan_task TASK.toml [FOLDER of robot packages]
+#include <iostream>
+#include <prowl/io/task_file.hpp>
+#include <prowl/plan.hpp>
+#include <prowl/solvers/riccati_solver.hpp>
+
+int main(int count, char** arguments) try {
+  prowl::PackageSearch packages;
+  if (count > 2) packages.folders = {arguments[2]};
+
+  const prowl::Task task = prowl::read_task_file(arguments[1], packages);
+  const prowl::Plan plan = prowl::make_plan(task.problem, prowl::RiccatiSolver(), {.solver = task.solver});
+  if (plan.result.status != prowl::SolveStatus::converged || !plan.certificate.passed) {
+    std::cerr << "no good plan: " << prowl::to_string(plan.result.status) << '\n';
+    return 1;
+  }
+  for (const prowl::TrajectoryPoint& node : plan.trajectory.nodes) {
+    std::cout << node.time << ' ' << node.q(2) << ' ' << node.tau.cwiseAbs().maxCoeff() << '\n';  // s, m, N m
+  }
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 2;
+}
