@@ -53,7 +53,9 @@ int run(int argc, char** argv) {
              "  prowl check out/hyq_crouch           check it again\n"
              "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
              "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
-             "  prowl report out/hyq_crouch          replay it in a browser\n\nMore with prowl VERB --help.");
+             "  prowl report out/hyq_crouch          replay it in a browser\n"
+             "  prowl new robot URDF                 a robot file to start from; prowl new task likewise\n"
+             "  prowl doctor                         what works here, and what is slow or missing\n\nMore with prowl VERB --help.");
   add_plan_command(app, status);
   add_check_command(app, status);
   add_robot_command(app, status);
@@ -62,6 +64,7 @@ int run(int argc, char** argv) {
   add_figures_command(app, status);
   add_report_command(app, status);
   add_new_command(app, status);
+  add_doctor_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
