@@ -18,6 +18,7 @@ void add_report_command(CLI::App& app, int& status);
 void add_view_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
 void add_new_command(CLI::App& app, int& status);
+void add_doctor_command(CLI::App& app, int& status);
 
 /// Writes `out`, the report of a plan and of what else is in its folder (see prowl report), and says so.
 void write_report(const PlanRecord& plan, const std::filesystem::path& directory, const std::filesystem::path& out,

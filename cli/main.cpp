@@ -55,7 +55,9 @@ int run(int argc, char** argv) {
              "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
              "  prowl report out/hyq_crouch          replay it in a browser\n"
              "  prowl view tasks/hyq/walk.toml       look at the iterates in a browser while it is planned\n"
-             "  prowl export out/hyq_crouch --format npz,mcap   for NumPy, Foxglove, ROS 2, MuJoCo\n\nMore with prowl VERB --help.");
+             "  prowl export out/hyq_crouch --format npz,mcap   for NumPy, Foxglove, ROS 2, MuJoCo\n"
+             "  prowl new robot URDF                 a robot file to start from; prowl new task likewise\n"
+             "  prowl doctor                         what works here, and what is slow or missing\n\nMore with prowl VERB --help.");
   add_plan_command(app, status);
   add_check_command(app, status);
   add_robot_command(app, status);
@@ -66,6 +68,7 @@ int run(int argc, char** argv) {
   add_view_command(app, status);
   add_export_command(app, status);
   add_new_command(app, status);
+  add_doctor_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -11,6 +11,10 @@
 #include <limits>
 #include <utility>
 
+extern "C" {  // the header does not say so itself
+#include <blasfeo_processor_features.h>
+}
+
 #include "prowl/error.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/iterate.hpp"
@@ -333,6 +337,14 @@ void set_options(fatrop::OptionRegistry& registry, const SolverOptions& options)
 std::string FatropSolver::name() const { return "Fatrop"; }
 
 std::string FatropSolver::version() const { return PROWL_FATROP_VERSION; }
+
+std::string FatropSolver::linear_algebra() {
+  char text[256] = {};  // the longest of its strings is far below that
+  blasfeo_processor_library_string(text);
+  std::string features = text;
+  while (!features.empty() && features.back() == ' ') features.pop_back();
+  return features;
+}
 
 std::optional<std::string> FatropSolver::why_unsupported(Nlp& nlp) const {
   return why_no_chain(nlp, "Fatrop");
