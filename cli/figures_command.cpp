@@ -1,18 +1,24 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
+#include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "plan_tracker.hpp"
 #include "process.hpp"
+#include "progress_bar.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/figure_data.hpp"
 #include "prowl/io/figure_files.hpp"
+#include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "shared_options.hpp"
 
@@ -28,6 +34,7 @@ constexpr int kNoLibrary = 3;                         ///< exit status of draw.p
 struct FiguresArguments {
   std::string directory, out, joint, python = PROWL_PYTHON;
   std::vector<std::string> package_dirs;
+  bool json = false;
 };
 
 /// For tables and pictures until all are there; removed at the end.
@@ -60,7 +67,18 @@ fs::path drawing_script() {
 }
 
 void draw(const FiguresArguments& arguments, const fs::path& work, const std::string& joint) {
-  const int status = run_program({arguments.python, "-B", drawing_script().string(), arguments.directory, work.string(), joint});
+  std::optional<ProgressBar> bar;
+  const auto on_line = [&bar](const std::string& line) {
+    int done = 0, total = 0;
+    if (std::sscanf(line.c_str(), "figures %d of %d", &done, &total) != 2 || total < 1) {
+      print_message(line + "\n");
+      return;
+    }
+    if (!bar) bar.emplace("figures", total);
+    bar->show(done);
+  };
+  const int status =
+      run_program({arguments.python, "-B", drawing_script().string(), arguments.directory, work.string(), joint}, on_line);
   if (status == kNoLibrary) {
     throw InputError(fmt::format("{}: need a Python with numpy, scipy and matplotlib (scripts/setup makes one in .venv): --python PATH",
                                  arguments.python));
@@ -102,14 +120,21 @@ int run_figures(const FiguresArguments& arguments) {
   draw(arguments, work.path(), problem.robot.joint_names()[static_cast<std::size_t>(joint)]);
 
   std::map<std::string, std::string> files;
-  std::string pictures;
+  std::vector<fs::path> written;
+  std::vector<std::string> pictures;
   for (const std::string& name : figure_file_names()) {
     if (!fs::exists(work.path() / name, ignored)) continue;
     files[name] = read_text_file(work.path() / name, kLongestFigure).text;
-    if (name.ends_with(".png")) pictures += (pictures.empty() ? "" : ", ") + name.substr(0, name.size() - 4);
+    written.push_back(out / name);
+    if (name.ends_with(".png")) pictures.push_back(name.substr(0, name.size() - 4));
   }
   write_folder_atomically(out, files, figure_file_names());
-  print_result(fmt::format("{}\nwritten to {}, each as .svg, .png and .csv\n", pictures, out.string()));
+  if (arguments.json) {
+    print_json({.verb = "figures", .plan = &plan, .directory = directory, .written = written,
+                .result = json_text({{"figures", pictures}})});
+  } else {
+    print_result(fmt::format("{}\nwritten to {}, each as .svg, .png and .csv\n", fmt::join(pictures, ", "), out.string()));
+  }
   return kPassed;
 }
 
@@ -123,8 +148,10 @@ void add_figures_command(CLI::App& app, int& status) {
   verb->add_option("--joint", arguments->joint, "Whose gains to draw; default: the first knee, or else the first leg's last joint")
       ->type_name("NAME");
   verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " PROWL_PYTHON)->type_name("PATH");
+  add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Example:\n  prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch\n\nExit status: 0 if they are drawn.");
+  set_footer(*verb, {"prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch", "prowl figures out/hyq_crouch --joint lf_hfe_joint --out figures"},
+             "0 if they are drawn, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_figures(*arguments); });
 }
 
