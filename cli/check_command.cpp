@@ -5,6 +5,7 @@
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
@@ -28,10 +29,14 @@ int run_check(const CheckArguments& arguments) {
     print_message(fmt::format("note: plan.json says grade {}, this check says {}\n", to_string(recorded),
                               to_string(certificate.grade)));
   }
-  print_result(arguments.json
-                   ? plan_report_json(record, arguments.directory)
-                   : plan_report(record, " (as planned)"));
-  return exit_status(record.plan.result.status, certificate);
+  const int status = exit_status(record.plan.result.status, certificate);
+  if (arguments.json) {
+    print_json({.verb = "check", .exit_status = status, .plan = &record, .directory = arguments.directory,
+                .result = plan_report_json(record, arguments.directory)});
+  } else {
+    print_result(plan_report(record, " (as planned)"));
+  }
+  return status;
 }
 
 }  // namespace
@@ -42,7 +47,7 @@ void add_check_command(CLI::App& app, int& status) {
   add_plan_directory(*verb, arguments->directory);
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Example:\n  prowl check out/hyq_crouch\n\nExit status: as prowl plan.");
+  set_footer(*verb, {"prowl check out/hyq_crouch", "prowl check out/hyq_crouch --json"}, "as prowl plan.");
   verb->callback([arguments, &status] { status = run_check(*arguments); });
 }
 

@@ -19,9 +19,16 @@ void add_view_command(CLI::App& app, int& status);
 void add_export_command(CLI::App& app, int& status);
 void add_new_command(CLI::App& app, int& status);
 void add_doctor_command(CLI::App& app, int& status);
+void add_completion_command(CLI::App& app, int& status);
 
-/// Writes `out`, the report of a plan and of what else is in its folder (see prowl report), and says so.
-void write_report(const PlanRecord& plan, const std::filesystem::path& directory, const std::filesystem::path& out,
-                  const PackageSearch& search);
+struct WrittenReport {
+  std::size_t bytes;
+  bool has_simulation;
+  std::vector<std::string> warnings;
+};
+
+/// Writes `out`, the report of a plan and of what else is in its folder (see prowl report), and says so on stderr.
+WrittenReport write_report(const PlanRecord& plan, const std::filesystem::path& directory, const std::filesystem::path& out,
+                           const PackageSearch& search);
 
 }  // namespace prowl::cli

@@ -6,7 +6,9 @@
 
 #include "commands.hpp"
 #include "doctor_checks.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
+#include "prowl/io/json_text.hpp"
 #include "shared_options.hpp"
 
 namespace prowl::cli {
@@ -53,8 +55,7 @@ std::string json(const std::vector<Finding>& findings, ExitStatus status) {
                       {"remedy", finding.remedy},
                       {"exit_status", static_cast<int>(finding.status)}});
   }
-  return nlohmann::ordered_json{{"ok", status == kPassed}, {"checks", checks}}.dump(2, ' ', false,
-                                                                                    nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text({{"ok", status == kPassed}, {"checks", checks}});
 }
 
 int run_doctor(bool as_json) {
@@ -65,7 +66,11 @@ int run_doctor(bool as_json) {
   }
   const auto bad = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) { return finding.status != kPassed; });
   const ExitStatus status = bad == findings.end() ? kPassed : bad->status;
-  print_result(as_json ? json(findings, status) : table(findings) + verdict(findings));
+  if (as_json) {
+    print_json({.verb = "doctor", .exit_status = status, .result = json(findings, status)});
+  } else {
+    print_result(table(findings) + verdict(findings));
+  }
   return status;
 }
 
@@ -75,9 +80,9 @@ void add_doctor_command(CLI::App& app, int& status) {
   const auto as_json = std::make_shared<bool>(false);
   CLI::App* const verb = app.add_subcommand("doctor", "Look at what Prowl needs here: what works, what is slow or missing, and the remedy");
   add_json(*verb, *as_json);
-  verb->footer("Example:\n  prowl doctor\n\n"
-               "Exit status: 0 planning works, even if something is slow or a verb like figures lacks its parts;\n"
-               "3 a solver does not work; 4 the URDFs of the robots that come with Prowl are not found.");
+  set_footer(*verb, {"prowl doctor"},
+             "0 planning works, even if something is slow or a verb like figures lacks its parts;\n"
+             "3 a solver does not work; 4 the URDFs of the robots that come with Prowl are not found.");
   verb->callback([as_json, &status] { status = run_doctor(*as_json); });
 }
 

@@ -9,6 +9,7 @@
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "plan_tracker.hpp"
 #include "prowl/error.hpp"
@@ -70,7 +71,8 @@ MotionSamples take_samples(const ExportArguments& arguments, const PlanRecord& p
 std::string written_by_script(const ExportArguments& arguments, const WorkFolder& work, const std::string& format) {
   const fs::path result = work.path() / ("result." + format);  // NumPy adds the ending where it is missing
   run_script({arguments.python, kLibraries}, "exports/write_" + format + ".py",
-             {(work.path() / "motion.json").string(), result.string()});
+             {(work.path() / "motion.json").string(), result.string()},
+             [](const std::string& line) { print_message(line + "\n"); });
   return read_text_file(result, kLongestFile).text;
 }
 
@@ -117,20 +119,25 @@ int run_export(const ExportArguments& arguments) {
   }
   const std::map<std::string, std::string> files = make_files(arguments, plan, samples);
   make_folder(out);
-  nlohmann::ordered_json json = {{"directory", fs::absolute(out).lexically_normal().string()},
-                                 {"motion", samples.simulated ? "simulation" : "plan"},
+  nlohmann::ordered_json json = {{"motion", samples.simulated ? "simulation" : "plan"},
                                  {"samples", samples.points.size()},
                                  {"has_gains", !samples.gains.empty()},
                                  {"files", nlohmann::ordered_json::array()}};
   std::string text;
+  std::vector<fs::path> written;
   for (const auto& [name, content] : files) {
+    written.push_back(out / name);
     write_file_atomically(out / name, content);
     text += fmt::format("{:>10.1f} kB  {}\n", 1e-3 * static_cast<double>(content.size()), (out / name).string());
     json["files"].push_back({{"name", name}, {"bytes", content.size()}});
   }
   text += fmt::format("{} samples of the {}, {:g} s, {}\n", samples.points.size(), samples.simulated ? "simulation" : "plan",
                       samples.points.back().time, samples.gains.empty() ? "without gains" : "with gains");
-  print_result(arguments.json ? json_text(json) : text);
+  if (arguments.json) {
+    print_json({.verb = "export", .plan = &plan, .directory = arguments.directory, .written = written, .result = json_text(json)});
+  } else {
+    print_result(text);
+  }
   return kPassed;
 }
 
@@ -150,9 +157,8 @@ void add_export_command(CLI::App& app, int& status) {
       ->type_name("PATH");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Examples:\n  prowl export out/hyq_crouch --format csv,npz --rate 500\n"
-               "  prowl export out/hyq_crouch --format mcap --simulation\n\n"
-               "What they hold, and who reads them: docs/exports.md. Exit status: 0 if they are written.");
+  set_footer(*verb, {"prowl export out/hyq_crouch --format csv,npz --rate 500", "prowl export out/hyq_crouch --format mcap --simulation"},
+             "0 if they are written, 2 bad input, 4 files. What they hold, and who reads them: docs/exports.md.");
   verb->callback([arguments, &status] { status = run_export(*arguments); });
 }
 

@@ -1,17 +1,22 @@
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "plan_tracker.hpp"
+#include "progress_bar.hpp"
 #include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/figure_data.hpp"
 #include "prowl/io/figure_files.hpp"
+#include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "shared_options.hpp"
 #include "work_folder.hpp"
@@ -27,10 +32,21 @@ constexpr std::size_t kLongestFigure = 1u << 30;      ///< [bytes]
 struct FiguresArguments {
   std::string directory, out, joint, python = default_python();
   std::vector<std::string> package_dirs;
+  bool json = false;
 };
 
 void draw(const FiguresArguments& arguments, const fs::path& work, const std::string& joint) {
-  run_script({arguments.python, "numpy, scipy and matplotlib"}, "figures/draw.py", {arguments.directory, work.string(), joint});
+  std::optional<ProgressBar> bar;
+  const auto on_line = [&bar](const std::string& line) {
+    int done = 0, total = 0;
+    if (std::sscanf(line.c_str(), "figures %d of %d", &done, &total) != 2 || total < 1) {
+      print_message(line + "\n");
+      return;
+    }
+    if (!bar) bar.emplace("figures", total);
+    bar->show(done);
+  };
+  run_script({arguments.python, "numpy, scipy and matplotlib"}, "figures/draw.py", {arguments.directory, work.string(), joint}, on_line);
 }
 
 /// "--joint" or a default, checked.
@@ -67,14 +83,21 @@ int run_figures(const FiguresArguments& arguments) {
   draw(arguments, work.path(), problem.robot.joint_names()[static_cast<std::size_t>(joint)]);
 
   std::map<std::string, std::string> files;
-  std::string pictures;
+  std::vector<fs::path> written;
+  std::vector<std::string> pictures;
   for (const std::string& name : figure_file_names()) {
     if (!fs::exists(work.path() / name, ignored)) continue;
     files[name] = read_text_file(work.path() / name, kLongestFigure).text;
-    if (name.ends_with(".png")) pictures += (pictures.empty() ? "" : ", ") + name.substr(0, name.size() - 4);
+    written.push_back(out / name);
+    if (name.ends_with(".png")) pictures.push_back(name.substr(0, name.size() - 4));
   }
   write_folder_atomically(out, files, figure_file_names());
-  print_result(fmt::format("{}\nwritten to {}, each as .svg, .png and .csv\n", pictures, out.string()));
+  if (arguments.json) {
+    print_json({.verb = "figures", .plan = &plan, .directory = directory, .written = written,
+                .result = json_text({{"figures", pictures}})});
+  } else {
+    print_result(fmt::format("{}\nwritten to {}, each as .svg, .png and .csv\n", fmt::join(pictures, ", "), out.string()));
+  }
   return kPassed;
 }
 
@@ -88,8 +111,10 @@ void add_figures_command(CLI::App& app, int& status) {
   verb->add_option("--joint", arguments->joint, "Whose gains to draw; default: the first knee, or else the first leg's last joint")
       ->type_name("NAME");
   verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " + arguments->python)->type_name("PATH");
+  add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Example:\n  prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch\n\nExit status: 0 if they are drawn.");
+  set_footer(*verb, {"prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch", "prowl figures out/hyq_crouch --joint lf_hfe_joint --out figures"},
+             "0 if they are drawn, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_figures(*arguments); });
 }
 

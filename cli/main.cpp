@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "prowl/error.hpp"
 #include "prowl/model/nearest_name.hpp"
@@ -43,6 +44,16 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   return "";
 }
 
+/// The verb of a command line, or "" if it names none.
+std::string verb_of(int argc, const char* const* argv) { return argc > 1 && argv[1][0] != '-' ? argv[1] : ""; }
+
+/// To stderr and, with --json, to stdout as well.
+int report_error(int argc, const char* const* argv, const std::string& message, int status, const std::string& hint = "") {
+  print_message(fmt::format("prowl: {}{}\n", message, hint));
+  if (asks_for_json(argc, argv)) print_json_error(verb_of(argc, argv), status, message);
+  return status;
+}
+
 int run(int argc, char** argv) {
   int status = kPassed;
   CLI::App app("Prowl plans whole-body motions of legged robots and checks them.", "prowl");
@@ -69,6 +80,7 @@ int run(int argc, char** argv) {
   add_export_command(app, status);
   add_new_command(app, status);
   add_doctor_command(app, status);
+  add_completion_command(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -78,8 +90,7 @@ int run(int argc, char** argv) {
       print_result(text.str());
       return kPassed;
     }
-    print_message(fmt::format("prowl: {}{}\nMore with prowl --help.\n", error.what(), suggestion(app, argc, argv)));
-    return kBadInput;
+    return report_error(argc, argv, error.what() + suggestion(app, argc, argv), kBadInput, "\nMore with prowl --help.");
   }
   return status;
 }
@@ -87,10 +98,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto report = [](const std::exception& error, int status) {
-    print_message(fmt::format("prowl: {}\n", error.what()));
-    return status;
-  };
+  const auto report = [&](const std::exception& error, int status) { return report_error(argc, argv, error.what(), status); };
   open_standard_streams();
   try {
     check_processor();

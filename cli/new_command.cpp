@@ -8,9 +8,11 @@
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "new_file.hpp"
 #include "output.hpp"
 #include "prowl/error.hpp"
+#include "prowl/io/json_text.hpp"
 #include "prowl/io/robot_file.hpp"
 #include "prowl/io/robot_summary.hpp"
 #include "prowl/model/robot_inspection.hpp"
@@ -64,7 +66,7 @@ int run_new_robot(const NewRobotArguments& arguments) {
   const RobotInspection inspection = inspect(model);
   write_new_file(out, text);
   if (arguments.json) {
-    print_result(robot_report_json(model, inspection));
+    print_json({.verb = "new", .written = {out}, .result = robot_report_json(model, inspection)});
     return kPassed;
   }
   std::string report = fmt::format("{}: {:.1f} kg, {} legs, {} contacts, {}\nwritten to {}\n", model.name(), model.mass(),
@@ -84,8 +86,8 @@ void add_new_robot(CLI::App& verb, int& status) {
   add_new_file(*robot, arguments->file, "robots/NAME.toml");
   add_json(*robot, arguments->json);
   add_package_dirs(*robot, arguments->package_dirs);
-  robot->footer("Example:\n  prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml\n\n"
-                "What it guesses it says in comments. Exit status: 0, 2 bad input and nothing is written, 4 files.");
+  set_footer(*robot, {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml"},
+             "0, 2 bad input and nothing is written, 4 files. What it guesses it says in comments.");
   robot->callback([arguments, &status] { status = run_new_robot(*arguments); });
 }
 
@@ -94,6 +96,7 @@ struct NewTaskArguments {
   std::string kind = "crouch";
   std::vector<std::string> package_dirs;
   NewFileOptions file;
+  bool json = false;
 };
 
 constexpr std::array kKinds = {NewTaskKind::hold, NewTaskKind::stand, NewTaskKind::crouch, NewTaskKind::step};
@@ -115,6 +118,11 @@ int run_new_task(const NewTaskArguments& arguments) {
   const fs::path from = fs::absolute(out).lexically_normal().parent_path();
   const fs::path reference = fs::absolute(robot_file).lexically_normal().lexically_relative(from);
   write_new_file(out, task_template(task, robot, reference.generic_string()));
+  if (arguments.json) {
+    const nlohmann::json result = {{"robot", robot.name()}, {"kind", arguments.kind}};
+    print_json({.verb = "new", .written = {out}, .result = json_text(result)});
+    return kPassed;
+  }
   print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}\n", robot.name(), arguments.kind, out.string(), out.string()));
   return kPassed;
 }
@@ -128,9 +136,10 @@ void add_new_task(CLI::App& verb, int& status) {
   task->add_option("--kind", arguments->kind, "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step forward")
       ->check(CLI::IsMember(names))->type_name("NAME");
   add_new_file(*task, arguments->file, "tasks/ROBOT/KIND.toml");
+  add_json(*task, arguments->json);
   add_package_dirs(*task, arguments->package_dirs);
-  task->footer("Example:\n  prowl new task robots/go2.toml --kind step --out step.toml && prowl plan step.toml\n\n"
-               "Exit status: 0, 2 bad input and nothing is written, 4 files.");
+  set_footer(*task, {"prowl new task robots/go2.toml --kind step --out step.toml && prowl plan step.toml"},
+             "0, 2 bad input and nothing is written, 4 files.");
   task->callback([arguments, &status] { status = run_new_task(*arguments); });
 }
 
@@ -139,7 +148,9 @@ void add_new_task(CLI::App& verb, int& status) {
 void add_new_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("new", "Write a robot or task file to start from");
   verb->require_subcommand(1);
-  verb->footer("Examples:\n  prowl new robot URDF\n  prowl new task robots/NAME.toml --kind crouch\n\nMore with prowl new robot --help.");
+  set_footer(*verb, {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml",
+                     "prowl new task robots/go2.toml --kind step --out step.toml"},
+             "0, 2 bad input and nothing is written, 4 files. More with prowl new robot --help.");
   add_new_robot(*verb, status);
   add_new_task(*verb, status);
 }

@@ -10,6 +10,11 @@
 #include "prowl/error.hpp"
 
 namespace prowl::cli {
+namespace {
+
+bool quiet = false;
+
+}  // namespace
 
 void open_standard_streams() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -29,5 +34,13 @@ void print_message(const std::string& text) noexcept {
   [[maybe_unused]] const std::size_t written = std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
+
+void print_progress(const std::string& text) noexcept {
+  if (!quiet) print_message(text);
+}
+
+void be_quiet() { quiet = true; }
+
+bool is_quiet() { return quiet; }
 
 }  // namespace prowl::cli

@@ -9,18 +9,21 @@
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "interrupt.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "progress_bar.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/file_keys.hpp"
 #include "prowl/io/phase_table.hpp"
+#include "prowl/io/plan_brief.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/report_file.hpp"
-#include "prowl/io/summary.hpp"
 #include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "shared_options.hpp"
+#include "wrap.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -67,18 +70,39 @@ Trajectory read_start(const PlanArguments& arguments, const MotionProblem& probl
 /// Gains for a plan that is good; why there are none is a note, for the plan is as good without.
 void add_feedback(PlanRecord& record) {
   if (!is_good(record.plan)) return;
+  const MotionProblem& problem = record.task.problem;
   try {
-    record.feedback = design_feedback(record.task.problem, record.plan.trajectory, record.task.tracking);
+    const std::vector<ReferencePhase> grid = reference_grid(problem, record.plan.trajectory, record.task.tracking.step);
+    std::size_t samples = 0;
+    for (const ReferencePhase& phase : grid) samples += phase.samples.size();
+    ProgressBar bar("gains", static_cast<int>(samples), ProgressBar::Start::if_long);
+    int done = 0;
+    record.feedback = design_feedback(problem, record.plan.trajectory, record.task.tracking, [&](const ReducedSample& sample) {
+      if (sample.phase < std::ssize(grid)) bar.show(++done);  // the phase of standing on is one more
+    });
   } catch (const NumericalError& error) {
     print_message(fmt::format("note: {}\n", error.what()));
   }
+}
+
+/// Those of its files that a new plan's folder has.
+std::vector<std::filesystem::path> files_of_plan(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {"plan.json", "trajectory.csv", "trajectory_uniform.csv", "tracker.bin", kReportFile}) {
+    if (std::filesystem::exists(directory / name)) files.push_back(directory / name);
+  }
+  return files;
 }
 
 int run_plan(const PlanArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), arguments.overrides);
   if (arguments.print_phases) {
-    print_result(arguments.json ? phases_json(task.problem) : phase_table(task.problem));
+    if (arguments.json) {
+      print_json({.verb = "plan", .result = phases_json(task.problem)});
+    } else {
+      print_result(phase_table(task.problem));
+    }
     return kPassed;
   }
   if (arguments.solver == "fatrop" && arguments.threads > 1) {
@@ -122,13 +146,14 @@ int run_plan(const PlanArguments& arguments) {
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
   write_plan(out, record, arguments.step);
-  if (arguments.json) {
-    print_result(plan_report_json(record, out));
-  } else {
-    print_result(plan_report(record) + fmt::format("written to {}\n", out.string()));
-  }
+  if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
-  return exit_status(record.plan.result.status, record.plan.certificate);
+  const int status = exit_status(record.plan.result.status, record.plan.certificate);
+  if (arguments.json) {
+    print_json({.verb = "plan", .exit_status = status, .plan = &record, .directory = out, .written = files_of_plan(out),
+                .result = plan_report_json(record, out)});
+  }
+  return status;
 }
 
 }  // namespace
@@ -171,12 +196,12 @@ void add_plan_command(CLI::App& app, int& status) {
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
   for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--no-gains", "--report"}) phases->excludes(unused);
-  verb->footer("Examples:\n  prowl plan tasks/hyq/crouch.toml\n"
-               "  prowl plan tasks/hyq/balance.toml --print-phases\n"
-               "  prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out stand\n\n"
-               "Exit status: 0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
-               "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"
-               "130 interrupted (Ctrl-C keeps the best motion so far, marked as not finished).");
+  set_footer(*verb, {"prowl plan tasks/hyq/crouch.toml", "prowl plan tasks/hyq/balance.toml --print-phases",
+                     "prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out out/stand",
+                     "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120"},
+             "0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
+             "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"
+             "130 interrupted (Ctrl-C keeps the best motion so far, marked as not finished).");
   verb->callback([arguments, &status] { status = run_plan(*arguments); });
 }
 

@@ -10,17 +10,17 @@ namespace prowl::cli {
 ProgressPrinter::ProgressPrinter() : in_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void ProgressPrinter::begin_level(int intervals) {
-  print_message(fmt::format("mesh of {} interval{}\n", intervals, intervals == 1 ? "" : "s"));
+  print_progress(fmt::format("mesh of {} interval{}\n", intervals, intervals == 1 ? "" : "s"));
   line_ = 0;
 }
 
 void ProgressPrinter::print(const SolveProgress& progress) {
   constexpr int kLinesAHeading = 20;
   if (line_ == 0 || (in_terminal_ && line_ % kLinesAHeading == 0)) {
-    print_message(
+    print_progress(
         fmt::format("{:>9}  {:>13}  {:>10}  {:>10}  {:>9}\n", "iteration", "objective", "constraint", "dual", "elapsed"));
   }
-  print_message(fmt::format("{:>9}  {:>13.6e}  {:>10.2e}  {:>10.2e}  {:>7.2f} s\n", progress.iteration, progress.cost,
+  print_progress(fmt::format("{:>9}  {:>13.6e}  {:>10.2e}  {:>10.2e}  {:>7.2f} s\n", progress.iteration, progress.cost,
                             progress.constraint_violation, progress.dual_violation, progress.elapsed_seconds));
   ++line_;
 }

@@ -31,10 +31,11 @@ std::string default_python() {
   return python ? python : PROWL_PYTHON;
 }
 
-void run_script(const Python& python, const std::string& script, const std::vector<std::string>& arguments) {
+void run_script(const Python& python, const std::string& script, const std::vector<std::string>& arguments,
+                const std::function<void(const std::string&)>& on_line) {
   std::vector<std::string> command = {python.program, "-B", find_script(script).string()};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  const int status = run_program(command);
+  const int status = run_program(command, on_line);
   if (status == kNoLibrary) {
     throw InputError(fmt::format("{}: need a Python with {} (scripts/setup makes one in .venv): --python PATH", python.program,
                                  python.libraries));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ struct Python {
 
 /// Runs share/prowl/`script`, in a build as well as installed, and waits for it; a script that finds no library ends with status 3.
 /// Throws InputError if Python or a library is missing, FileError if the script is, Error for any other failure.
-void run_script(const Python& python, const std::string& script, const std::vector<std::string>& arguments);
+/// `on_line` gets every line that it prints.
+void run_script(const Python& python, const std::string& script, const std::vector<std::string>& arguments,
+                const std::function<void(const std::string& line)>& on_line);
 
 }  // namespace prowl::cli

@@ -1,12 +1,15 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "prowl/io/atomic_folder.hpp"
+#include "prowl/io/json_text.hpp"
 #include "prowl/io/report_file.hpp"
 #include "report_page.hpp"
 #include "shared_options.hpp"
@@ -19,16 +22,18 @@ namespace fs = std::filesystem;
 struct ReportArguments {
   std::string directory, out;
   std::vector<std::string> package_dirs;
+  bool json = false;
 };
 
 }  // namespace
 
-void write_report(const PlanRecord& plan, const fs::path& directory, const fs::path& out, const PackageSearch& search) {
+WrittenReport write_report(const PlanRecord& plan, const fs::path& directory, const fs::path& out, const PackageSearch& search) {
   const ReportInputs inputs = report_inputs(plan, directory);
-  const std::string html = report_page(inputs, search);
-  write_file_atomically(out, html);
-  print_message(fmt::format("report: {}, {:.1f} MB{}\n", out.string(), 1e-6 * static_cast<double>(html.size()),
+  const Report report = report_page(inputs, search);
+  write_file_atomically(out, report.html);
+  print_message(fmt::format("report: {}, {:.1f} MB{}\n", out.string(), 1e-6 * static_cast<double>(report.html.size()),
                             inputs.simulation ? "" : ", of the plan alone: there is no simulation"));
+  return {report.html.size(), inputs.simulation.has_value(), report.warnings};
 }
 
 void add_report_command(CLI::App& app, int& status) {
@@ -36,14 +41,20 @@ void add_report_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("report", "Write a page that replays a plan in a browser");
   add_plan_directory(*verb, arguments->directory);
   verb->add_option("--out", arguments->out, "Where to write it; default: DIR/report.html")->type_name("FILE");
+  add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Example:\n  prowl simulate out/hyq_crouch && prowl report out/hyq_crouch\n\n"
-               "One file that needs no network and no other file. Exit status: 0 if it is written.");
+  set_footer(*verb, {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html"},
+             "0 if it is written, 2 bad input, 4 files. It is one file that needs no network and no other file.");
   verb->callback([arguments, &status] {
     const fs::path directory = arguments->directory;
+    const fs::path out = arguments->out.empty() ? directory / kReportFile : fs::path(arguments->out);
     const PackageSearch search = package_search(arguments->package_dirs);
-    write_report(read_plan(directory, search), directory,
-                 arguments->out.empty() ? directory / kReportFile : fs::path(arguments->out), search);
+    const PlanRecord plan = read_plan(directory, search);
+    const WrittenReport report = write_report(plan, directory, out, search);
+    if (arguments->json) {
+      const nlohmann::json result = {{"bytes", report.bytes}, {"simulation", report.has_simulation}, {"warnings", report.warnings}};
+      print_json({.verb = "report", .plan = &plan, .directory = directory, .written = {out}, .result = json_text(result)});
+    }
     status = kPassed;
   });
 }

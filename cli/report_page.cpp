@@ -43,10 +43,10 @@ ReportInputs report_inputs(const PlanRecord& plan, const fs::path& directory) {
   return inputs;
 }
 
-std::string report_page(const ReportInputs& inputs, const PackageSearch& search) {
+Report report_page(const ReportInputs& inputs, const PackageSearch& search) {
   Report report = make_report(inputs, search);
   for (const std::string& warning : report.warnings) print_message(fmt::format("warning: {}\n", warning));
-  return std::move(report.html);
+  return report;
 }
 
 }  // namespace prowl::cli

@@ -3,10 +3,12 @@
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "prowl/io/robot_file.hpp"
 #include "prowl/io/robot_summary.hpp"
 #include "shared_options.hpp"
+#include "wrap.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -22,8 +24,11 @@ int run_robot(const RobotArguments& arguments) {
   const RobotModel robot =
       load_robot(read_text_file(arguments.robot), package_search(arguments.package_dirs), {.needs_contacts = false});
   const RobotInspection inspection = inspect(robot);
-  print_result(arguments.json ? robot_report_json(robot, inspection)
-                              : robot_summary(robot, inspection) + (arguments.frames ? frame_list(robot) : ""));
+  if (arguments.json) {
+    print_json({.verb = "robot", .result = robot_report_json(robot, inspection)});
+  } else {
+    print_result(wrap(robot_summary(robot, inspection)) + (arguments.frames ? frame_list(robot) : ""));
+  }
   return kPassed;
 }
 
@@ -36,10 +41,8 @@ void add_robot_command(CLI::App& app, int& status) {
   verb->add_flag("--frames", arguments->frames, "List also the frames that contacts may be fixed to");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer(
-      "Examples:\n  prowl robot robots/hyq.toml\n"
-      "  prowl robot new.toml --frames     of a file that has no contacts yet\n\n"
-      "Exit status: 0, 2 bad input, 4 files.");
+  set_footer(*verb, {"prowl robot robots/hyq.toml", "prowl robot new.toml --frames     of a file that has no contacts yet"},
+             "0, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_robot(*arguments); });
 }
 

@@ -9,6 +9,9 @@ namespace prowl::cli {
 // Options that several verbs have, in the same words.
 void add_plan_directory(CLI::App& verb, std::string& directory);  ///< the folder that prowl plan wrote; required
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
-void add_json(CLI::App& verb, bool& json);                                 ///< --json
+void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet
+
+/// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.
+void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status);
 
 }  // namespace prowl::cli

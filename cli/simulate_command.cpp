@@ -6,8 +6,10 @@
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "plan_tracker.hpp"
+#include "progress_bar.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/report_file.hpp"
@@ -17,6 +19,7 @@
 #include "prowl/simulation/sweep.hpp"
 #include "prowl/tracking/displaced_start.hpp"
 #include "shared_options.hpp"
+#include "wrap.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -56,7 +59,13 @@ void check_engine(const CLI::App& verb, const std::string& engine) {
   }
 }
 
-int run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
+/// What came of a simulation, for stdout.
+struct Outcome {
+  bool success;
+  std::string text, json;
+};
+
+Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
   SimulationOptions options = arguments.options;
   options.open_loop = arguments.open_loop;
   options.control_rate = arguments.control_rate.value_or(options.control_rate);
@@ -68,12 +77,10 @@ int run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, const
     options.pushes.push_back({{push[1], push[2], push[3]}, push[0], arguments.push_duration});
   }
   if (arguments.sweep_case) options = perturbed(tracker, options, {}, *arguments.sweep_case);
-  const SimulationRecord record{options, simulate(plan.task.problem, tracker, plan.task.success, options)};
+  MotionProgress progress;
+  const SimulationRecord record{options, simulate(plan.task.problem, tracker, plan.task.success, options, std::ref(progress))};
   write_simulation(arguments.directory, plan, record);
-  print_result(arguments.json ? simulation_json(plan, record)
-                              : simulation_summary(plan, record) +
-                                    fmt::format("written to {}/simulate.json, simulate.csv\n", arguments.directory));
-  return record.result.success() ? kPassed : kSimulationFailed;
+  return {record.result.success(), simulation_summary(plan, record), simulation_json(plan, record)};
 }
 
 /// Of --control-rate; 0 for a controller that acts at every moment.
@@ -85,7 +92,7 @@ double control_step(std::optional<double> rate) {
   return 1.0 / *rate;
 }
 
-int run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
+Outcome run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
   constexpr double kSampleStep = 1e-3;  // [s] that errors, torques and forces are looked at
   const MotionProblem& problem = plan.task.problem;
   RolloutRecord record;
@@ -102,24 +109,32 @@ int run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, cons
   Eigen::Matrix<double, 6, 1> displacement;
   displacement << record.base_offset, turn.angle() * turn.axis();
   const StartState start = displaced_start(problem.robot, tracker, displacement);
-  record.rollout = rollout(problem.robot, tracker, start.q, start.v, record.options);
+  MotionProgress progress;
+  record.rollout = rollout(problem.robot, tracker, start.q, start.v, record.options, std::ref(progress));
   record.measures = measure_rollout(problem, tracker, record.rollout, tracker.end() + record.options.stand_on, record.friction);
   record.failures = rollout_failures(tracker, record.rollout, record.measures, plan.task.success);
   write_rollout(arguments.directory, plan, tracker, record);
-  print_result(arguments.json ? rollout_json(plan, tracker, record)
-                              : rollout_summary(plan, record) +
-                                    fmt::format("written to {}/simulate.json, simulate.csv\n", arguments.directory));
-  return record.failures.empty() ? kPassed : kSimulationFailed;
+  return {record.failures.empty(), rollout_summary(plan, record), rollout_json(plan, tracker, record)};
 }
 
 int run_simulate(const SimulateArguments& arguments) {
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
   const Tracker tracker = read_tracker(arguments.directory, plan.task.problem);
-  const int status =
+  const Outcome outcome =
       arguments.engine == "rollout" ? run_rollout(arguments, plan, tracker) : run_mujoco(arguments, plan, tracker);
+  if (!arguments.json) {
+    print_result(wrap(outcome.text + fmt::format("written to {}/simulate.json, simulate.csv\n", arguments.directory)));
+  }
+  const std::filesystem::path directory = arguments.directory;
+  std::vector<std::filesystem::path> written = {directory / "simulate.json", directory / "simulate.csv"};
   if (arguments.report) {
-    const std::filesystem::path directory = arguments.directory;
     write_report(plan, directory, directory / kReportFile, package_search(arguments.package_dirs));
+    written.push_back(directory / kReportFile);
+  }
+  const int status = outcome.success ? kPassed : kSimulationFailed;
+  if (arguments.json) {
+    print_json({.verb = "simulate", .exit_status = status, .plan = &plan, .directory = directory, .written = written,
+                .result = outcome.json});
   }
   return status;
 }
@@ -174,9 +189,9 @@ void add_simulate_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   add_mujoco_options(*verb, *arguments);
   add_rollout_options(*verb, *arguments);
-  verb->footer("Examples:\n  prowl simulate out/hyq_crouch --push 0.5 0 10 0\n"
-               "  prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0\n\n"
-               "Exit status: 0 success, 8 failure by the task's criteria; others as prowl plan.");
+  set_footer(*verb, {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
+                     "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
+             "0 success, 8 failure by the task's criteria; others as prowl plan.");
   verb->callback([arguments, verb, &status] {
     check_engine(*verb, arguments->engine);
     status = run_simulate(*arguments);

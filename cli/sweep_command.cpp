@@ -7,12 +7,14 @@
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "interrupt.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "plan_tracker.hpp"
 #include "progress_bar.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/sweep_files.hpp"
 #include "shared_options.hpp"
+#include "wrap.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -61,13 +63,22 @@ int run_sweep(const SweepArguments& arguments) {
   }
   record.interrupted = interrupted && (std::ssize(record.cases) < arguments.cases || arguments.breakdown_cases > 0);
   if (record.cases.empty()) {
-    print_message("interrupted before the first simulation was finished; nothing written\n");
+    const char* const message = "interrupted before the first simulation was finished; nothing written";
+    print_message(fmt::format("{}\n", message));
+    if (arguments.json) print_json_error("sweep", kInterrupted, message);
     return kInterrupted;
   }
-  write_file_atomically(std::filesystem::path(arguments.directory) / "sweep.json", sweep_json(plan, tracker, record));
-  print_result(arguments.json ? sweep_json(plan, tracker, record)
-                              : sweep_summary(plan, tracker, record) + fmt::format("written to {}/sweep.json\n", arguments.directory));
-  return record.interrupted ? kInterrupted : kPassed;
+  const std::filesystem::path file = std::filesystem::path(arguments.directory) / "sweep.json";
+  const std::string json = sweep_json(plan, tracker, record);
+  const int status = record.interrupted ? kInterrupted : kPassed;
+  write_file_atomically(file, json);
+  if (arguments.json) {
+    print_json({.verb = "sweep", .exit_status = status, .plan = &plan, .directory = arguments.directory, .written = {file},
+                .result = json});
+  } else {
+    print_result(wrap(sweep_summary(plan, tracker, record) + fmt::format("written to {}\n", file.string())));
+  }
+  return status;
 }
 
 }  // namespace
@@ -78,18 +89,18 @@ void add_sweep_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each perturbed in another way");
   add_plan_directory(*verb, arguments->directory);
   verb->add_option("--n", arguments->cases, "How many; default 200")->type_name("N")->check(CLI::Range(1, 1000000));
-  verb->add_option("--seed", arguments->seed, "Of the first case, the others count on; default 1")->type_name("SEED");
-  verb->add_option("--mass", ranges.mass, "Masses are off by up to this share; default 0.1")->type_name("X")->check(CLI::Range(0.0, 0.9));
-  verb->add_option("--push", ranges.push, "Impulse on the base; default 10")->type_name("NS")->check(CLI::NonNegativeNumber);
-  verb->add_option("--push-on-two-feet", ranges.push_on_two_feet, "While two feet or fewer are down; default 2")->type_name("NS")->check(CLI::NonNegativeNumber);
+  verb->add_option("--seed", arguments->seed, "Of the first case, the others count on; default 1")->type_name("N");
+  verb->add_option("--mass-spread", ranges.mass, "Masses are off by up to this share; default 0.1")->type_name("X")->check(CLI::Range(0.0, 0.9));
+  verb->add_option("--push-impulse", ranges.push, "Impulse on the base; default 10")->type_name("NS")->check(CLI::NonNegativeNumber);
+  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet, "While two feet or fewer are down; default 2")->type_name("NS")->check(CLI::NonNegativeNumber);
   verb->add_option("--breakdown", arguments->breakdown_cases,
                    "Simulations for each size of a perturbation alone; default 20, 0: do not look for it")->type_name("N")->check(CLI::Range(0, 100000));
   verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Example:\n  prowl sweep out/hyq_crouch --n 200 --seed 1\n\n"
-               "Exit status: 0 if all were simulated, whatever came of them;\n"
-               "130 interrupted (Ctrl-C keeps the simulations that have finished).");
+  set_footer(*verb, {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2 --breakdown 0"},
+             "0 if all were simulated, whatever came of them;\n"
+             "130 interrupted (Ctrl-C keeps the simulations that have finished).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });
 }
 

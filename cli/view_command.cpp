@@ -10,6 +10,7 @@
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "interrupt.hpp"
+#include "json_result.hpp"
 #include "output.hpp"
 #include "progress.hpp"
 #include "prowl/io/plan_directory.hpp"
@@ -39,7 +40,11 @@ struct ViewArguments {
 };
 
 void say_where(const ViewServer& server, bool json) {
-  print_result(json ? nlohmann::json{{"url", server.url()}}.dump() + "\n" : server.url() + "\n");
+  if (json) {
+    print_json({.verb = "view", .result = nlohmann::json{{"url", server.url()}}.dump()});
+  } else {
+    print_result(server.url() + "\n");
+  }
   print_message("open it in a browser on this machine; Ctrl-C ends it\n");
 }
 
@@ -51,7 +56,7 @@ int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupt
   const PackageSearch search = package_search(arguments.package_dirs);
   const PlanRecord record = read_plan(arguments.target, search);
   ViewServer server(arguments.port);
-  server.show(report_page(report_inputs(record, arguments.target), search));
+  server.show(report_page(report_inputs(record, arguments.target), search).html);
   say_where(server, arguments.json);
   serve_until(interrupted);
   return kPassed;
@@ -93,7 +98,7 @@ int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupt
     ReportInputs inputs = report_inputs(record, "");
     inputs.directory = arguments.out;
     inputs.state = state;
-    server.show(report_page(inputs, search));
+    server.show(report_page(inputs, search).html);
   };
   show(PageState::solving);
   say_where(server, arguments.json);
@@ -122,9 +127,9 @@ void add_view_command(CLI::App& app, int& status) {
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  verb->footer("Examples:\n  prowl view tasks/hyq/walk.toml\n  prowl view out/hyq_crouch --port 8080\n\n"
-               "It serves the page of prowl report on the loopback interface until Ctrl-C; a task's also has a slider over the\n"
-               "solver's iterates. Exit status: that of prowl plan for a task, 0 for a folder.");
+  set_footer(*verb, {"prowl view tasks/hyq/walk.toml", "prowl view out/hyq_crouch --port 8080"},
+             "0 of a folder, that of prowl plan of a task, once Ctrl-C ends it. It is the page of prowl report,\n"
+             "served on the loopback interface; that of a task has a slider over the solver's iterates.");
   verb->callback([arguments, &status] {
     const std::atomic<bool>& interrupted = catch_interrupts();
     std::error_code ignored;

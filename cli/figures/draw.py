@@ -1,7 +1,7 @@
 """Draws the figures of a plan. `prowl figures` runs it: draw.py PLAN_FOLDER TABLES_FOLDER JOINT
 
 TABLES_FOLDER holds what the robot's model has to say, as CSV; the figures and their own tables go there, too.
-Exit status 3: a library is missing.
+Prints how many figures are drawn. Exit status 3: a library is missing.
 """
 import concurrent.futures
 import multiprocessing
@@ -214,8 +214,11 @@ def main() -> None:
     if plan.limit_curves:
         tasks += [(draw_torque_over_position,)]
     with concurrent.futures.ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as pool:
-        for done in [pool.submit(draw, plan, tables, *more) for draw, *more in tasks]:
+        print(f"figures 0 of {len(tasks)}", flush=True)  # read by prowl figures
+        drawn = concurrent.futures.as_completed([pool.submit(draw, plan, tables, *more) for draw, *more in tasks])
+        for number, done in enumerate(drawn, 1):
             done.result()
+            print(f"figures {number} of {len(tasks)}", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,12 @@
 #include "prowl/io/robot_summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "prowl/io/json_text.hpp"
 
@@ -19,39 +22,53 @@ std::string limit(double value, const std::string& unit) {
 /// No "-0.0000" for a rounding error.
 double without_sign(double value) { return std::abs(value) < 5e-5 ? 0.0 : value; }
 
-std::string contact_table(const RobotModel& robot) {
-  if (robot.contacts().empty()) return "\nno contacts; frames for them: prowl robot --frames\n";
-  std::size_t name_width = 0, frame_width = 0;
-  for (const ContactPoint& contact : robot.contacts()) {
-    name_width = std::max(name_width, contact.name.size());
-    frame_width = std::max(frame_width, contact.frame.size());
-  }
-  std::string text = "\ncontacts\n";
-  for (const ContactPoint& contact : robot.contacts()) {
-    text += fmt::format("  {:<{}}  frame {:<{}}  radius {:g} m, offset {:g} {:g} {:g} m\n", contact.name, name_width,
-                        contact.frame, frame_width, contact.radius, contact.offset.x(), contact.offset.y(),
-                        contact.offset.z());
+using Row = std::vector<std::string>;
+
+/// As wide as it must be; the first `left` columns begin at their left end, the others end at their right.
+std::string aligned(const std::vector<Row>& rows, std::size_t left) {
+  std::string text;
+  for (const Row& row : rows) {
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      std::size_t width = 0;
+      for (const Row& other : rows) width = std::max(width, other[c].size());
+      text += c < left ? fmt::format("  {:<{}}", row[c], width) : fmt::format("  {:>{}}", row[c], width);
+    }
+    text += "\n";
   }
   return text;
 }
 
+std::string contact_table(const RobotModel& robot) {
+  if (robot.contacts().empty()) return "no contacts; frames for them: prowl robot --frames\n";
+  const ContactPoint& first = robot.contacts().front();
+  const auto is_like_first = [&first](const ContactPoint& contact) {
+    return contact.frame == contact.name && contact.radius == first.radius && contact.offset == first.offset;
+  };
+  if (std::ranges::all_of(robot.contacts(), is_like_first)) {
+    std::vector<std::string> names;
+    for (const ContactPoint& contact : robot.contacts()) names.push_back(contact.name);
+    return fmt::format("  contacts: {}\n    in the frames of these names, radius {:g} m, offset {:g} {:g} {:g} m\n", fmt::join(names, ", "),
+                       first.radius, first.offset.x(), first.offset.y(), first.offset.z());
+  }
+  std::vector<Row> rows = {{"contact", "frame", "radius", "offset"}};
+  for (const ContactPoint& contact : robot.contacts()) {
+    rows.push_back({contact.name, contact.frame, fmt::format("{:g} m", contact.radius),
+                    fmt::format("{:g} {:g} {:g} m", contact.offset.x(), contact.offset.y(), contact.offset.z())});
+  }
+  return aligned(rows, 2);
+}
+
 std::string joint_table(const RobotModel& robot) {
-  std::size_t width = 5;
-  for (const std::string& name : robot.joint_names()) width = std::max(width, name.size());
-  std::string text = fmt::format("  {:>2}  {:<{}}  {:>13}  {:>24}  {:>12}  {:>12}\n", "#", "joint", width, "nominal",
-                                 "position", "velocity", "torque");
+  std::vector<Row> rows = {{"joint", "#", "nominal", "position", "velocity", "torque"}};
   for (int j = 0; j < robot.nu(); ++j) {
     const auto i = static_cast<std::size_t>(j);
     const bool slides = robot.joint_is_prismatic()[i];
     const std::string length = slides ? "m" : "rad";
-    const std::string range =
-        fmt::format("{:.4g} ... {:.4g} {}", robot.position_lower()(j), robot.position_upper()(j), length);
-    text += fmt::format("  {:>2}  {:<{}}  {:>13}  {:>24}  {:>12}  {:>12}\n", j, robot.joint_names()[i], width,
-                        limit(robot.nominal_configuration()(7 + j), length), range,
-                        limit(robot.velocity_limit()(j), length + "/s"),
-                        limit(robot.torque_limit()(j), slides ? "N" : "N m"));
+    rows.push_back({robot.joint_names()[i], fmt::format("{}", j), limit(robot.nominal_configuration()(7 + j), length),
+                    fmt::format("{:.4g} ... {:.4g}", robot.position_lower()(j), robot.position_upper()(j)),
+                    limit(robot.velocity_limit()(j), length + "/s"), limit(robot.torque_limit()(j), slides ? "N" : "N m")});
   }
-  return text;
+  return aligned(rows, 1);
 }
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -78,17 +95,16 @@ std::string robot_summary(const RobotModel& robot, const RobotInspection& inspec
   const Eigen::VectorXd& q = robot.nominal_configuration();
   std::string text = fmt::format("{}: {:.3f} kg, {} joints, {} velocities with the base\n", robot.name(), robot.mass(),
                                  robot.nu(), robot.nv());
-  text += fmt::format("  URDF {}\n\n", robot.description().urdf.string());
+  text += fmt::format("  URDF {}\n", robot.description().urdf.string());
   text += joint_table(robot);
   text += contact_table(robot);
-  text += fmt::format("\nnominal posture: base at {:.4f} {:.4f} {:.4f} m\n", without_sign(q(0)), without_sign(q(1)),
-                      without_sign(q(2)));
+  text += fmt::format("nominal posture: base at {:.4f} {:.4f} {:.4f} m", without_sign(q(0)), without_sign(q(1)), without_sign(q(2)));
   if (!robot.contacts().empty()) {
     text +=
-        fmt::format("contact Jacobian there: {} rows, rank {}{}\n", inspection.contact_rows, inspection.contact_rank,
+        fmt::format("; contacts: {} rows, rank {}{}", inspection.contact_rows, inspection.contact_rank,
                     inspection.contact_rank < inspection.contact_rows ? " (redundant contacts)" : "");
   }
-  text += inspection.warnings.empty() ? "no warnings\n" : "\n";
+  text += inspection.warnings.empty() ? "\nno warnings\n" : "\n";
   for (const RobotWarning& warning : inspection.warnings) text += fmt::format("warning: {}\n", warning.text);
   return text;
 }

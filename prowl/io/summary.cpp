@@ -25,26 +25,11 @@ const char* in_words(SolveStatus status) {
   return "unknown";
 }
 
-std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{:.3g}{}", value, unit.empty() || unit == "-" ? "" : " " + unit);
-}
-
 /// Whether nothing costs anything: then all motions that keep the constraints are as good.
 bool is_zero(const QuadraticCost& cost) {
   return cost.configuration_weight.isZero(0.0) && cost.velocity_weight.isZero(0.0) && cost.acceleration_weight.isZero(0.0) &&
          cost.torque_weight.isZero(0.0) && cost.force_weight.isZero(0.0) && cost.time_weight == 0.0 &&
          cost.contact_positions.empty();
-}
-
-/// "failed: local integration error (0.000184 > 0.0001), ...", or "" if none has.
-std::string failed_checks(const Certificate& certificate) {
-  std::string text;
-  for (const CertificateCheck& check : certificate.checks) {
-    if (check.passed) continue;
-    text += fmt::format("{}{} ({} > {})", text.empty() ? "failed: " : ", ", check.name, with_unit(check.worst, ""),
-                        with_unit(check.limit, check.unit));
-  }
-  return text.empty() ? "" : text + "\n";
 }
 
 /// "33 + 9 on 39 + 135 intervals", or the number alone where there was one mesh.
@@ -60,6 +45,20 @@ std::string iterations_in_words(const Plan& plan) {
 
 }  // namespace
 
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.3g}{}", value, unit.empty() || unit == "-" ? "" : " " + unit);
+}
+
+std::string failed_checks(const Certificate& certificate) {
+  std::string text;
+  for (const CertificateCheck& check : certificate.checks) {
+    if (check.passed) continue;
+    text += fmt::format("{}{} ({} > {})", text.empty() ? "failed: " : ", ", check.name, with_unit(check.worst, ""),
+                        with_unit(check.limit, check.unit));
+  }
+  return text.empty() ? "" : text + "\n";
+}
+
 std::string plan_summary(const PlanRecord& record, const std::string& when) {
   const MotionProblem& problem = record.task.problem;
   const SolveResult& result = record.plan.result;
@@ -74,10 +73,10 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
                       problem.phases.size(), problem.phases.size() == 1 ? "" : "s", count_intervals(problem), duration,
                       record.plan.num_variables, record.plan.num_constraints);
-  text += fmt::format("  solver       {}: {}, {:.2f} s ({:.2f} s evaluating the problem)\n", record.plan.solver,
+  text += fmt::format("  solver       {}: {}, {:.2f} s (problem {:.2f} s)\n", record.plan.solver,
                       iterations_in_words(record.plan), result.seconds, result.times.evaluation());
   if (!record.warm_start.empty()) text += fmt::format("  started from {}\n", record.warm_start);
-  text += fmt::format("  solution     cost {:.6g}, constraint violation {:.1e}, dual violation {:.1e}\n", result.cost,
+  text += fmt::format("  solution     cost {:.6g}, violation of constraints {:.1e}, dual {:.1e}\n", result.cost,
                       result.constraint_violation, result.dual_violation);
   if (is_zero(problem.running_cost) && is_zero(problem.terminal_cost)) {
     text += "  note         without [cost] all motions are as good, and what comes out need not be smooth (docs/task-file.md)\n";
@@ -122,7 +121,7 @@ std::string feedback_summary(const FeedbackDesign& feedback, double step) {
                                  feedback.num_samples(), step * 1e3, feedback.seconds, feedback.whole.bandwidth);
   const auto worst = std::max_element(feedback.decay.begin(), feedback.decay.end(),
                                       [](const PhaseDecay& a, const PhaseDecay& b) { return a.worst < b.worst; });
-  text += fmt::format("  a deviation at the start is {:.1e} of itself at the end, at worst ({})\n", feedback.whole.worst,
+  text += fmt::format("  of a start deviation at most {:.1e} is left at the end ({})\n", feedback.whole.worst,
                       feedback.whole.worst_direction);
   if (worst->worst > 1.0) {
     text += fmt::format("  it grows at most in phase '{}', {:.1f} times ({})\n", worst->name, worst->worst,

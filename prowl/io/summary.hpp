@@ -12,6 +12,12 @@ std::string plan_summary(const PlanRecord& record, const std::string& when = "")
 /// Verdict, grade and a table of all checks: worst value, limit, time and place; the failed ones again in one line.
 std::string certificate_summary(const Certificate& certificate);
 
+/// "failed: local integration error (0.000184 > 0.0001), ...", or "" if none has.
+std::string failed_checks(const Certificate& certificate);
+
+/// "0.0001 m", or the number alone where there is no unit.
+std::string with_unit(double value, const std::string& unit);
+
 /// The gains and what they do to deviations, in a few lines.
 std::string feedback_summary(const FeedbackDesign& feedback, double step);
 

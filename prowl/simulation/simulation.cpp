@@ -75,14 +75,14 @@ class Run {
     sample_.v_ref.resize(nv);
   }
 
-  SimulationResult operator()() {
+  SimulationResult operator()(const std::function<void(double, double)>& on_time) {
     std::vector<SimulationSample> samples;
     const long ticks = std::lround(end_ / period_), record_each = record_ticks();
     auto end = SimulationResult::End::finished;
     long tick = 0;
     for (; tick <= ticks && end == SimulationResult::End::finished; ++tick) {
       const double t = static_cast<double>(tick) * period_;
-      if (options_.on_tick) options_.on_tick(t);
+      if (on_time) on_time(t, end_);
       control(t);
       if (!advance(t)) end = SimulationResult::End::diverged;
       sample_.tau = torque_;
@@ -169,10 +169,10 @@ class Run {
 }  // namespace
 
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
-                          const SimulationOptions& options) {
+                          const SimulationOptions& options, const std::function<void(double, double)>& on_time) {
   check_fit(problem, tracker);
   check(options);
-  SimulationResult result = Run(problem, tracker, criteria, options)();
+  SimulationResult result = Run(problem, tracker, criteria, options)(on_time);
   result.failures = failures(result, problem, criteria);
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -54,9 +55,9 @@ struct SimulationResult {
 /// Runs a plan with its tracker in MuJoCo (docs/simulation.md). `tracker` has one segment for each phase of the problem, and may have
 /// another one to stand on after the end.
 /// Ends early if the robot falls, by has_fallen(). Same arguments, same result, bit for bit. Throws InputError if the parts
-/// do not fit each other or an option makes no sense.
+/// do not fit each other or an option makes no sense. `on_time(t, end)` is called as it goes on [s]; it may be empty, and what it throws ends it.
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
-                          const SimulationOptions& options);
+                          const SimulationOptions& options, const std::function<void(double t, double end)>& on_time = {});
 
 /// Throws InputError if the tracker is of another robot or of other phases than the problem.
 void check_fit(const MotionProblem& problem, const Tracker& tracker);

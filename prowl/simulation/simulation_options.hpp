@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "prowl/simulation/physics.hpp"
@@ -45,8 +44,6 @@ struct SimulationOptions {
   std::vector<Push> pushes;
   std::uint64_t seed = 1;
   double record_rate = 0.0;      ///< of SimulationResult::samples [Hz]; 0: none
-  /// Called before each tick of the controller with its time [s], may be empty. What it throws ends the simulation.
-  std::function<void(double time)> on_tick = {};
 };
 
 }  // namespace prowl

@@ -144,7 +144,7 @@ bool is_far(const RobotModel& robot, const Tracker& tracker, double t, const Sta
 }  // namespace
 
 Rollout rollout(const RobotModel& robot, const Tracker& tracker, const VectorXd& q, const VectorXd& v,
-                const RolloutOptions& options) {
+                const RolloutOptions& options, const std::function<void(double, double)>& on_time) {
   const std::vector<TrackingPlan::Segment>& segments = tracker.plan().segments;
   const double step = options.control_step > 0.0 ? options.control_step : options.sample_step;
   Rollout result;
@@ -167,6 +167,7 @@ Rollout rollout(const RobotModel& robot, const Tracker& tracker, const VectorXd&
         const bool reaches_tick = tick <= end;
         result.fell = !integrator.integrate_to(reaches_tick ? tick : end, t, x, motion) || is_far(robot, tracker, t, x);
         result.end_time = t;
+        if (on_time) on_time(t, segments.back().end + options.stand_on);
         if (result.fell) return result;
         if (!reaches_tick) continue;
         ++ticks;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "prowl/motion/motion_problem.hpp"
@@ -34,8 +35,8 @@ struct Rollout {
 /// Boost.Odeint; orientations in a chart about the last state). The contacts are those of the schedule, at their times:
 /// they pull too, and where one closes the velocity changes by velocity_after_landing(). So this is the model that the
 /// gains were made for, not a judge: that is the simulation. Joints turn beyond their limits. Ends early, fell, by
-/// has_fallen(), or when the dynamics are no longer finite.
+/// has_fallen(), or when the dynamics are no longer finite. `on_time(t, end)` is called as it goes on [s]; it may be empty.
 Rollout rollout(const RobotModel& robot, const Tracker& tracker, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
-                const RolloutOptions& options);
+                const RolloutOptions& options, const std::function<void(double t, double end)>& on_time = {});
 
 }  // namespace prowl

@@ -71,11 +71,10 @@ std::shared_ptr<SimulationObject> run(std::shared_ptr<const PlanObject> plan, bo
   options.seed = seed;
   options.record_rate = record_rate;
   constexpr int kTicks = 50;
-  options.on_tick = [check = SignalCheck(kTicks)](double) mutable { check(); };
 
   const nb::gil_scoped_release others_may_run;
-  SimulationResult result = simulate(plan->problem(), *plan->tracker, plan->record.task.success, options);
-  options.on_tick = {};
+  SimulationResult result = simulate(plan->problem(), *plan->tracker, plan->record.task.success, options,
+                                     [check = SignalCheck(kTicks)](double, double) mutable { check(); });
   return std::make_shared<SimulationObject>(std::move(plan), SimulationRecord{std::move(options), std::move(result)});
 }
 

@@ -17,6 +17,14 @@ using test::kHold;
 using test::kPhase;
 using test::Outcome;
 
+/// Without the line breaks that fit text to a screen.
+std::string unwrapped(const std::string& text) {
+  std::istringstream input(text);
+  std::string words;
+  for (std::string word; input >> word;) words += (words.empty() ? "" : " ") + word;
+  return words;
+}
+
 TEST_F(Command, TellsVersionsAndHelp) {
   const Outcome version = run("$prowl --version");
   EXPECT_EQ(version.status, 0);
@@ -371,7 +379,7 @@ on = "slope"
 )");
   const Outcome slope = run("$prowl plan slope.toml $dirs --out out");
   EXPECT_EQ(slope.status, 3) << slope.error;
-  EXPECT_THAT(slope.out, HasSubstr("surface 'slope' has 0.5 and needs 0.577"));
+  EXPECT_THAT(unwrapped(slope.out), HasSubstr("surface 'slope' has 0.5 and needs 0.577"));
   const Outcome check = run("$prowl check out $dirs");
   EXPECT_EQ(check.status, 3) << "a check does not make it feasible";
   EXPECT_THAT(check.out, HasSubstr("(as planned): infeasible"));

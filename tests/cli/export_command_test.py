@@ -27,7 +27,8 @@ class ExportCommand(unittest.TestCase):
             self.assertIn(name, done.stdout)
         out = self.plan.with_name("told")
         told = json.loads(run_or_fail("export", self.plan, "--format", "csv", "--out", out, "--json").stdout)
-        self.assertEqual(told["directory"], str(out))
+        self.assertEqual(told["directory"], str(self.plan))
+        self.assertEqual({pathlib.Path(path).parent for path in told["written"]}, {out})
         self.assertEqual({f["name"]: f["bytes"] for f in told["files"]}, {p.name: p.stat().st_size for p in out.iterdir()})
         self.assertEqual(told["samples"], len(read_csv(self.plan / "trajectory.csv")["time_s"]))
 
