@@ -69,7 +69,7 @@ class Site(unittest.TestCase):
         own = 0
         for page in self.pages.values():
             for load in page.loads:
-                if load.startswith("data:"):
+                if load.startswith(("data:", "javascript:")):
                     continue
                 self.assertNotRegex(load, r"^(https?:)?//", page.path)
                 self.assertTrue((page.path.parent / load.split("?")[0].split("#")[0]).exists(), f"{page.path}: {load}")
