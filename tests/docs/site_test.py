@@ -88,6 +88,13 @@ class Site(unittest.TestCase):
         concepts = (self.out / "concepts.html").read_text(encoding="utf-8")
         self.assertGreaterEqual(concepts.count('<svg role="img" aria-label='), 3)
 
+    def test_in_a_browser(self):
+        node = ROOT / ".venv" / "bin" / "node"
+        pictures = self.out.with_name("site-pictures")
+        run = subprocess.run([node, pathlib.Path(__file__).with_name("browse.mjs"), self.out, pictures], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, f"{run.stdout}{run.stderr}")
+        self.assertGreaterEqual(len(list(pictures.glob("*.png"))), 12)
+
 
 if __name__ == "__main__":
     command, robots = sys.argv[1:3]

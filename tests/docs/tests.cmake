@@ -1,8 +1,9 @@
-# The documentation: its pages as text, the site built from them, and every command in them.
+# The documentation: its pages as text, the site built from them and looked at in a browser, and every command in the pages.
 if(PROWL_BUILD_CLI)
   foreach(name pages site commands)
     add_test(NAME docs/${name} COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/${name}_test.py $<TARGET_FILE:prowl_cli>
       ${PROWL_CMEEL}/share)
-    set_tests_properties(docs/${name} PROPERTIES TIMEOUT 900 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
+    set_tests_properties(docs/${name} PROPERTIES TIMEOUT 1200 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
   endforeach()
+  set_tests_properties(docs/commands PROPERTIES PROCESSORS 2)
 endif()
