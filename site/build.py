@@ -34,10 +34,13 @@ def copy_scripts(out: pathlib.Path) -> None:
 def document_headers(out: pathlib.Path, work: pathlib.Path) -> None:
     import doxygen_awesome_css
     style = pathlib.Path(doxygen_awesome_css.__file__).parent / "doxygen-awesome.css"
+    doxygen = shutil.which("doxygen") or sys.exit("site: doxygen is missing; scripts/docs installs it")
+    version = subprocess.run([doxygen, "--version"], capture_output=True, text=True, check=True).stdout.split()[0]
+    light = "HTML_COLORSTYLE = LIGHT\n" if tuple(map(int, version.split("."))) >= (1, 9, 5) else ""  # the style sheet knows dark
     settings = work / "Doxyfile"
-    settings.write_text(f'@INCLUDE = site/Doxyfile\nOUTPUT_DIRECTORY = "{out}"\n'
+    settings.write_text(f'@INCLUDE = site/Doxyfile\nOUTPUT_DIRECTORY = "{out}"\n{light}'
                         f'HTML_EXTRA_STYLESHEET = "{style}" site/theme/assets/headers.css\n')
-    run(shutil.which("doxygen") or sys.exit("site: doxygen is missing; scripts/docs installs it"), settings)
+    run(doxygen, settings)
 
 
 def main() -> None:

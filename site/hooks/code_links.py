@@ -37,7 +37,7 @@ def on_page_markdown(markdown, page, config, files):
     def replace(match):
         path = repository_file(ROOT, match["target"])
         line = defining_line(path, match["text"])
-        anchor = f"#__codelineno-0-{line}" if line else ""
+        anchor = f"#__codeline-0-{line}" if line else ""
         return f"[{match['text']}](source/{path.relative_to(ROOT)}.md{anchor})"
 
     return markdown if page.file.src_uri.startswith("source/") else CODE_LINK.sub(replace, markdown)

@@ -94,6 +94,15 @@ class Pages(unittest.TestCase):
                     with self.subTest(block=block.place):
                         tomllib.loads(block.text)
 
+    def test_both_requirements_pin_the_same(self):
+        pins = {}
+        for name in ("requirements.txt", "site/requirements.txt"):
+            for line in (ROOT / name).read_text(encoding="utf-8").splitlines():
+                if line and not line.startswith("#"):
+                    package, _, version = line.partition("==")
+                    self.assertTrue(version, f"{name}: {line} is not pinned exactly")
+                    self.assertEqual(pins.setdefault(package.lower().replace("_", "-"), version), version, f"{name}: {package}")
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

@@ -69,7 +69,7 @@ class Site(unittest.TestCase):
         own = 0
         for page in self.pages.values():
             for load in page.loads:
-                if load.startswith("data:"):
+                if load.startswith(("data:", "javascript:")):
                     continue
                 self.assertNotRegex(load, r"^(https?:)?//", page.path)
                 self.assertTrue((page.path.parent / load.split("?")[0].split("#")[0]).exists(), f"{page.path}: {load}")
@@ -87,6 +87,13 @@ class Site(unittest.TestCase):
             self.assertNotIn('class="arithmatex"', page.read_text(encoding="utf-8"), page)
         concepts = (self.out / "concepts.html").read_text(encoding="utf-8")
         self.assertGreaterEqual(concepts.count('<svg role="img" aria-label='), 3)
+
+    def test_in_a_browser(self):
+        node = ROOT / ".venv" / "bin" / "node"
+        pictures = self.out.with_name("site-pictures")
+        run = subprocess.run([node, pathlib.Path(__file__).with_name("browse.mjs"), self.out, pictures], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 0, f"{run.stdout}{run.stderr}")
+        self.assertGreaterEqual(len(list(pictures.glob("*.png"))), 12)
 
 
 if __name__ == "__main__":
