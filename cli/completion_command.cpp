@@ -29,9 +29,12 @@ struct Option {
   Value value;
 };
 
+/// The command itself, one of its verbs, or a verb of a verb.
 struct Verb {
+  std::string path;  ///< "" for the command, "plan", "new robot"
   std::string name, meaning;
   std::vector<Option> options, positionals;
+  std::vector<Verb> verbs;
 };
 
 /// From "DIR", "TASK.toml", "NAME:{riccati,fatrop,ipopt}".
@@ -58,12 +61,8 @@ Option option_of(const CLI::Option& option) {
   return read;
 }
 
-/// With the options of the verbs below it (prowl new robot), whose names are its first word, whatever they take the second.
-Verb verb_of(const CLI::App& app) {
-  Verb verb{app.get_name(), app.get_description(), {}, {}};
-  const auto is_new = [&verb](const Option& option) {
-    return std::none_of(verb.options.begin(), verb.options.end(), [&](const Option& known) { return known.names == option.names; });
-  };
+Verb verb_of(const CLI::App& app, const std::string& path = "") {
+  Verb verb{path, app.get_name(), app.get_description(), {}, {}, {}};
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional()) {
       verb.positionals.push_back(option_of(*option));
@@ -71,27 +70,16 @@ Verb verb_of(const CLI::App& app) {
       verb.options.push_back(option_of(*option));
     }
   }
-  const auto below = app.get_parent() ? app.get_subcommands([](const CLI::App*) { return true; }) : std::vector<const CLI::App*>{};
-  if (below.empty()) return verb;
-  Option which{.names = {}, .meaning = "", .type = "VERB"}, object{.names = {}, .meaning = "", .type = "FILE"};
-  for (const CLI::App* app_below : below) {
-    const Verb inner = verb_of(*app_below);
-    which.value.choices.push_back(inner.name);
-    std::copy_if(inner.options.begin(), inner.options.end(), std::back_inserter(verb.options), is_new);
-    for (const Option& positional : inner.positionals) {
-      object.value.is_toml = object.value.is_toml || positional.value.is_toml;
-      object.value.is_file = object.value.is_file || positional.value.is_file;
-    }
+  for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
+    verb.verbs.push_back(verb_of(*below, path + (path.empty() ? "" : " ") + below->get_name()));
   }
-  which.value.is_file = object.value.is_file;  // where a shell does not tell the words apart
-  verb.positionals = {which, object};
   return verb;
 }
 
-std::vector<Verb> verbs_of(const CLI::App& app) {
-  std::vector<Verb> verbs;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb_of(*verb));
-  return verbs;
+std::string names_of(const std::vector<Verb>& verbs) {
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs) names.push_back(verb.name);
+  return fmt::format("{}", fmt::join(names, " "));
 }
 
 /// In single quotes, for all three shells: none of our texts ends in a backslash.
@@ -108,37 +96,53 @@ std::string all_names(const std::vector<Option>& options) {
 }
 
 std::string bash_value(const Value& value) {
-  const std::string kinds = fmt::format("kinds='{}{}{}'", value.is_toml ? "toml " : "", value.is_folder ? "folder " : "", value.is_file ? "file " : "");
-  if (value.choices.empty()) return kinds;
-  return fmt::format("words={}; {}", in_quotes(fmt::format("{}", fmt::join(value.choices, " "))), kinds);
+  if (!value.choices.empty()) return fmt::format("words={}", in_quotes(fmt::format("{}", fmt::join(value.choices, " "))));
+  return fmt::format("kinds='{}{}{}'", value.is_toml ? "toml " : "", value.is_folder ? "folder " : "", value.is_file ? "file " : "");
 }
 
-std::string bash(const CLI::App& app) {
-  const std::vector<Verb> verbs = verbs_of(app);
-  std::map<std::string, std::vector<std::string>> patterns;  // by what completes the value
-  std::string values, options;
-  std::vector<std::string> names;
-  for (const Verb& verb : verbs) {
-    names.push_back(verb.name);
-    for (const Option& option : verb.options) {
-      if (option.values == 0) continue;
-      for (const std::string& name : option.names) patterns[bash_value(option.value)].push_back(in_quotes(verb.name + " " + name));
-    }
-    options += fmt::format("      {}) options={}; {} ;;\n", verb.name, in_quotes(all_names(verb.options)),
-                           verb.positionals.empty() ? ":" : bash_value(verb.positionals.front().value));
+struct BashCases {
+  std::map<std::string, std::vector<std::string>> values;  ///< what completes the value: patterns "plan --solver"
+  std::string verbs;
+  std::vector<std::string> paths;  ///< of verbs of verbs
+};
+
+void add_bash_cases(const Verb& verb, BashCases& cases) {
+  for (const Option& option : verb.options) {
+    if (option.values == 0) continue;
+    for (const std::string& name : option.names) cases.values[bash_value(option.value)].push_back(in_quotes(verb.path + " " + name));
   }
-  for (const auto& [value, words] : patterns) values += fmt::format("    {}) {}; is_value=1 ;;\n", fmt::join(words, "|"), value);
+  std::string argument = ":";
+  if (!verb.verbs.empty()) {
+    argument = "words=" + in_quotes(names_of(verb.verbs));
+  } else if (!verb.positionals.empty()) {
+    argument = bash_value(verb.positionals.front().value);
+  }
+  cases.verbs += fmt::format("      {}) options={}; {} ;;\n", in_quotes(verb.path), in_quotes(all_names(verb.options)), argument);
+  if (verb.path.find(' ') != std::string::npos) cases.paths.push_back(in_quotes(verb.path));
+  for (const Verb& below : verb.verbs) add_bash_cases(below, cases);
+}
+
+std::string bash(const Verb& command) {
+  BashCases cases;
+  add_bash_cases(command, cases);
+  std::string values;
+  for (const auto& [value, patterns] : cases.values) {
+    values += fmt::format("    {}) {}; is_value=1 ;;\n", fmt::join(patterns, "|"), value);
+  }
+  const std::string second =
+      cases.paths.empty() ? ""
+                          : fmt::format("  if ((COMP_CWORD > 2)); then case \"$verb ${{COMP_WORDS[2]}}\" in {}) verb+=\" ${{COMP_WORDS[2]}}\" ;; esac; fi\n",
+                                        fmt::join(cases.paths, "|"));
   return fmt::format(R"(# Completion of prowl for bash: source <(prowl completion bash)
 _prowl() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} verb= words= kinds= options= is_value= kind
   COMPREPLY=()
   if [[ $word == = ]]; then word=; elif [[ $before == = ]]; then before=${{COMP_WORDS[COMP_CWORD-2]}}; fi
   if ((COMP_CWORD > 1)); then verb=${{COMP_WORDS[1]}}; fi
-  case "$verb $before" in
+{}  case "$verb $before" in
 {}  esac
   if [[ -z $is_value ]]; then
     case $verb in
-      '') words={}; options={} ;;
 {}    esac
     if [[ $word == -* ]]; then words=$options; kinds=; fi
   fi
@@ -154,13 +158,13 @@ _prowl() {{
 }}
 complete -F _prowl prowl
 )",
-                     values, in_quotes(fmt::format("{}", fmt::join(names, " "))), in_quotes(all_names(verb_of(app).options)), options);
+                     second, values, cases.verbs);
 }
 
-/// Within [ ] and between colons of _arguments.
-std::string zsh_text(const std::string& text) {
+/// Within [ ] and between colons of _arguments; for _describe only colons mean something.
+std::string zsh_text(const std::string& text, const std::string& special = "[]:") {
   std::string safe;
-  for (const char c : text) safe += (c == '[' || c == ']' || c == ':' ? "\\" : "") + std::string(1, c);
+  for (const char c : text) safe += (special.find(c) == std::string::npos ? "" : "\\") + std::string(1, c);
   return safe;
 }
 
@@ -187,29 +191,35 @@ std::string zsh_specs(const Verb& verb) {
   return specs;
 }
 
-std::string zsh(const CLI::App& app) {
+std::string zsh_body(const Verb& verb) {
+  if (verb.verbs.empty()) return fmt::format("_arguments{}", zsh_specs(verb));
   std::string names, cases;
-  for (const Verb& verb : verbs_of(app)) {
-    names += fmt::format("    {}\n", in_quotes(verb.name + ":" + zsh_text(verb.meaning)));
-    cases += fmt::format("      {}) _arguments{} ;;\n", verb.name, zsh_specs(verb));
+  for (const Verb& below : verb.verbs) {
+    names += fmt::format("    {}\n", in_quotes(below.name + ":" + zsh_text(below.meaning, ":")));
+    cases += fmt::format("      {}) {} ;;\n", below.name, zsh_body(below));
   }
-  return fmt::format(R"(#compdef prowl
-# Completion of prowl for zsh: source <(prowl completion zsh), after compinit
-_prowl() {{
-  local state line
-  local -a verbs
-  verbs=(
+  return fmt::format(R"(state= verbs=(
 {})
   _arguments -C{} '1:verb:->verb' '*::argument:->argument'
   case $state in
     verb) _describe verb verbs ;;
     argument) case $line[1] in
 {}    esac ;;
-  esac
+  esac)",
+                     names, zsh_specs(verb), cases);
+}
+
+std::string zsh(const Verb& command) {
+  return fmt::format(R"(#compdef prowl
+# Completion of prowl for zsh: source <(prowl completion zsh), after compinit
+_prowl() {{
+  local state line
+  local -a verbs
+  {}
 }}
 if [[ $funcstack[1] == _prowl ]]; then _prowl "$@"; else compdef _prowl prowl; fi
 )",
-                     names, zsh_specs(verb_of(app)), cases);
+                     zsh_body(command));
 }
 
 std::string fish_value(const Value& value) {
@@ -228,15 +238,30 @@ std::string fish_option(const Option& option) {
   return text + " -d " + in_quotes(option.meaning);
 }
 
-std::string fish(const CLI::App& app) {
-  std::string text = "# Completion of prowl for fish: prowl completion fish | source\ncomplete -c prowl -f\n";
-  for (const Option& option : verb_of(app).options) text += "complete -c prowl -n __fish_use_subcommand" + fish_option(option) + "\n";
-  for (const Verb& verb : verbs_of(app)) {
-    text += fmt::format("complete -c prowl -n __fish_use_subcommand -a {} -d {}\n", verb.name, in_quotes(verb.meaning));
-    const std::string in_verb = fmt::format("complete -c prowl -n '__fish_seen_subcommand_from {}'", verb.name);
-    for (const Option& option : verb.options) text += in_verb + fish_option(option) + "\n";
-    for (const Option& positional : verb.positionals) text += in_verb + fish_value(positional.value) + "\n";
+void add_fish_lines(const Verb& verb, std::string& text) {
+  const char* const where = verb.verbs.empty() ? "__prowl_in" : "__prowl_at";  // a verb may come only where its own begin
+  const std::string here = fmt::format("complete -c prowl -n '{} {}'", where, verb.path);
+  for (const Option& option : verb.options) text += here + fish_option(option) + "\n";
+  for (const Option& positional : verb.positionals) text += here + fish_value(positional.value) + "\n";
+  for (const Verb& below : verb.verbs) {
+    text += fmt::format("{} -a {} -d {}\n", here, below.name, in_quotes(below.meaning));
+    add_fish_lines(below, text);
   }
+}
+
+std::string fish(const Verb& command) {
+  std::string text = R"(# Completion of prowl for fish: prowl completion fish | source
+function __prowl_at  # whether these words are all that stands behind the command
+  set -l words (commandline -opc)
+  test "$words[2..-1]" = "$argv"
+end
+function __prowl_in  # whether what stands behind the command begins with these words
+  set -l words (commandline -opc)
+  string match -q -- "$argv *" "$words[2..-1] "
+end
+complete -c prowl -f
+)";
+  add_fish_lines(command, text);
   return text;
 }
 
@@ -251,7 +276,8 @@ void add_completion_command(CLI::App& app, int& status) {
                      "prowl completion fish > ~/.config/fish/completions/prowl.fish"},
              "0, 2 bad input. What else a shell needs: docs/command-line.md.");
   verb->callback([shell, &app, &status] {
-    print_result(*shell == "bash" ? bash(app) : *shell == "zsh" ? zsh(app) : fish(app));
+    const Verb command = verb_of(app);
+    print_result(*shell == "bash" ? bash(command) : *shell == "zsh" ? zsh(command) : fish(command));
     status = kPassed;
   });
 }

@@ -33,7 +33,11 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   const bool is_verb = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
   if (!is_verb && !first.starts_with('-')) return prowl::did_you_mean(first, verbs);
   std::vector<std::string> options;
-  for (const CLI::Option* option : (is_verb ? app.get_subcommand(first) : &app)->get_options()) {
+  const CLI::App* verb = is_verb ? app.get_subcommand(first) : &app;
+  if (is_verb && argc > 2) {  // a verb may have verbs
+    for (const CLI::App* below : verb->get_subcommands([&](const CLI::App* app) { return app->get_name() == argv[2]; })) verb = below;
+  }
+  for (const CLI::Option* option : verb->get_options()) {
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
   }
   for (int i = 1; i < argc; ++i) {

@@ -5,6 +5,14 @@ if(PROWL_BUILD_CLI)
     add_dependencies(cli_${name}_test prowl_cli)
   endforeach()
 
+  find_package(CLI11 REQUIRED)
+  # A command of verbs of verbs, for the completion of what prowl itself need not have.
+  add_executable(cli_completion_tree ${CMAKE_CURRENT_LIST_DIR}/completion_tree.cpp ${PROJECT_SOURCE_DIR}/cli/completion_command.cpp
+    ${PROJECT_SOURCE_DIR}/cli/output.cpp ${PROJECT_SOURCE_DIR}/cli/shared_options.cpp)
+  target_link_libraries(cli_completion_tree PRIVATE prowl::io CLI11::CLI11 fmt::fmt)
+  target_compile_definitions(cli_completion_test PRIVATE PROWL_COMPLETION_TREE="$<TARGET_FILE:cli_completion_tree>")
+  add_dependencies(cli_completion_test cli_completion_tree)
+
   add_test(NAME cli/figures
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/figures_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
   set_tests_properties(cli/figures PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
