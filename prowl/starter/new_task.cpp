@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
@@ -61,10 +62,10 @@ bool can_rest(const RobotModel& robot, const Eigen::Vector3d& shift, const Eigen
   const Eigen::VectorXd joints = ik.q.tail(robot.nu());
   const Eigen::VectorXd torque = static_equilibrium(robot, ik.q, all_contacts(robot)).tau;
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
-    const double start = robot.nominal_configuration()(7 + j);
-    if (std::abs(joints(j) - start) < 1e-6) continue;  // not part of this motion
-    if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside) return false;
     if (std::abs(torque(j)) > kTorqueShare * robot.torque_limit()(j)) return false;
+    const double start = robot.nominal_configuration()(7 + j);
+    if (std::abs(joints(j) - start) < 1e-6) continue;  // not part of this motion: near a limit it may be
+    if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside) return false;
   }
   return true;
 }
@@ -79,9 +80,39 @@ double largest_factor(const RobotModel& robot, const std::string& kind, const Fi
                                "nominal posture further inside the limits, or --kind hold", robot.name(), kind));
 }
 
+/// Throws InputError for a robot that its contacts or its joints cannot carry at rest in the nominal posture.
+void check_that_it_stands(const RobotModel& robot) {
+  const StaticEquilibrium rest = static_equilibrium(robot, robot.nominal_configuration(), all_contacts(robot));
+  if (rest.residual > kUnbalanced * robot.weight()) {
+    throw InputError(fmt::format(
+        "robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left of {:.0f} N): a task that begins and ends at "
+        "rest needs contacts around its centre of mass, three points or flat feet", robot.name(), robot.contacts().size(), rest.residual, robot.weight()));
+  }
+  for (Eigen::Index j = 0; j < robot.nu(); ++j) {
+    if (std::abs(rest.tau(j)) <= kTorqueShare * robot.torque_limit()(j)) continue;
+    throw InputError(fmt::format("robot '{}': standing in the nominal posture takes {:.3g} of {:.3g} N m at {}: need another posture, or limits.{}.torque_Nm if the "
+                                 "limit is not the maker's", robot.name(), std::abs(rest.tau(j)), robot.torque_limit()(j),
+                                 robot.joint_names()[static_cast<std::size_t>(j)], robot.joint_names()[static_cast<std::size_t>(j)]));
+  }
+}
+
 /// Contacts of one foot: those on the frame of contact `c`.
 bool is_same_foot(const RobotModel& robot, std::size_t c, std::size_t other) {
   return robot.contacts()[c].frame == robot.contacts()[other].frame;
+}
+
+void check_that_it_can_step(const RobotModel& robot, const NewTask& task, int foot) {
+  if (!task.soles && task.stay.size() < 3) {
+    throw InputError(fmt::format("robot '{}': with {} lifted it stands on {} points, which need three to be balanced, or a flat foot; no --kind step",
+                                 robot.name(), task.swing.front(), task.stay.size()));
+  }
+  LegKinematics legs(robot);
+  legs.update(robot.nominal_configuration().tail(robot.nu()));
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(legs.linear(foot));
+  if ((svd.singularValues().array() > 1e-6 * svd.singularValues()(0)).count() < 3) {
+    throw InputError(fmt::format("robot '{}': the leg of {} moves its foot in a plane only, so that the weight cannot go to the other feet; no --kind step",
+                                 robot.name(), task.swing.front()));
+  }
 }
 
 /// The left foot; on four legs or more the left one in front.
@@ -96,6 +127,7 @@ void choose_step(const RobotModel& robot, NewTask& task) {
   for (std::size_t c = 0; c < places.size(); ++c) {
     (is_same_foot(robot, c, first) ? task.swing : task.stay).push_back(robot.contacts()[c].name);
   }
+  check_that_it_can_step(robot, task, static_cast<int>(first));
   task.length = hundredths((task.soles ? kStepOnSoles : kStep) * task.height);
   task.place = places[first].position + Eigen::Vector3d(task.length, 0.0, 0.0);
   task.place.z() = 0.0;
@@ -120,12 +152,7 @@ NewTask new_task(const RobotModel& robot, NewTaskKind kind) {
   for (std::size_t c = 1; c < robot.contacts().size(); ++c) task.soles = task.soles || is_same_foot(robot, c, c - 1);
   task.torque_weight = one_digit((task.soles ? kWeightOnSoles : kHyqWeight) * std::pow(kHyqMass / robot.mass(), 2));
 
-  const double unbalanced = static_equilibrium(robot, robot.nominal_configuration(), all_contacts(robot)).residual;
-  if (unbalanced > kUnbalanced * robot.weight()) {
-    throw InputError(fmt::format(
-        "robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left of {:.0f} N): a task that begins and ends at "
-        "rest needs contacts around its centre of mass, three points or flat feet", robot.name(), robot.contacts().size(), unbalanced, robot.weight()));
-  }
+  check_that_it_stands(robot);
   const auto scaled = [](const double (&shares)[3], double factor) -> Eigen::Vector3d { return factor * Eigen::Vector3d(shares[0], shares[1], shares[2]); };
   if (kind == NewTaskKind::crouch) {
     const double depth = (task.soles ? kDepthOnSoles : kDepth) * task.height;

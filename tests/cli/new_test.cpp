@@ -184,6 +184,22 @@ TEST_F(NewTask, CrouchGoesAsDeepAsTheRobotCan) {
   EXPECT_EQ(run("$prowl plan small.toml $dirs --out out --no-gains").status, 0);
 }
 
+TEST_F(NewTask, IsNoneForWhatTheRobotCannotDo) {
+  ASSERT_EQ(make(kUrdfs[5].path, "new.toml").status, 0);
+  std::string weak = test::read_file(folder_.path() / "new.toml");
+  for (const char* leg : {"FL", "FR", "RL", "RR"}) weak += fmt::format("[limits.{}_calf_joint]\ntorque_Nm = 7.0\n", leg);
+  folder_.write("weak.toml", weak);
+  ASSERT_EQ(make("solo_description/robots/solo.urdf", "planar.toml").status, 0);  // hip and knee: no way to the side
+  ASSERT_EQ(make("bolt_description/robots/bolt.urdf", "two_points.toml").status, 0);
+  for (const auto& [arguments, reason] : {std::pair("weak.toml --kind hold", "calf_joint"), std::pair("planar.toml --kind step", "in a plane only"),
+                                          std::pair("two_points.toml --kind step", "three to be balanced")}) {
+    const Outcome task = run(std::string("$prowl new task $dirs --out task.toml ") + arguments);
+    EXPECT_EQ(task.status, 2) << arguments;
+    EXPECT_THAT(task.error, HasSubstr(reason));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "task.toml"));
+  }
+}
+
 TEST_F(NewTask, NamesTheNearestKindAndWritesNothing) {
   const Outcome result = run("$prowl new task hyq.toml $dirs --kind jumpp --out new.toml");
   EXPECT_EQ(result.status, 2);
