@@ -5,6 +5,7 @@
 
 #include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/io/text_file.hpp"
+#include "prowl/model/name_check.hpp"
 #include "prowl/model/urdf_outline.hpp"
 #include "prowl/starter/robot_pose.hpp"
 
@@ -58,7 +59,7 @@ NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& searc
   description.urdf = std::filesystem::absolute(urdf).lexically_normal();
   description.urdf_text = read_text_file(description.urdf, kLargestUrdf).text;
   const UrdfOutline outline = urdf_outline(description.urdf.string(), description.urdf_text);
-  description.name = outline.name;
+  description.name = is_name(outline.name) ? outline.name : is_name(description.urdf.stem().string()) ? description.urdf.stem().string() : "robot";
   description.limits = usable_limits(outline);
 
   const RobotModel bare(description);

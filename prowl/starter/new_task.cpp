@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/static_equilibrium.hpp"
@@ -22,6 +25,7 @@ constexpr double kTurn[] = {0.05, 0.1, 0.1}, kTurnOnSoles[] = {0.0, 0.0, 0.05}; 
 constexpr double kSmaller = 0.8, kSmallest = 0.1;  // factors on all of these
 constexpr double kInside = 0.05;                   // [rad], from the limits
 constexpr double kTorqueShare = 0.8;               // of the limits, at rest
+constexpr double kFitted = 1e-6, kFittedSoles = 1e-4;  // [m]: soles that are level but for rounding
 constexpr double kUnbalanced = 0.01;               // of the weight
 
 // The weight of torques goes with 1 / mass^2: docs/adding-a-robot.md. HyQ's and Talos's tasks have these.
@@ -50,38 +54,89 @@ std::vector<ContactTarget> standing_places(const RobotModel& robot) {
 }
 
 /// Whether the robot can rest with its base moved and turned, its contacts where they are.
-bool can_rest(const RobotModel& robot, const Eigen::Vector3d& shift, const Eigen::Vector3d& turn) {
+bool can_rest(const RobotModel& robot, bool soles, const Eigen::Vector3d& shift, const Eigen::Vector3d& turn) {
   Eigen::VectorXd q = robot.nominal_configuration();
   q.head<3>() += shift;
   const Eigen::Matrix3d R = (Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()) *
                              Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX())).toRotationMatrix();
   set_base_rotation(q, R * base_rotation(q));
   const InverseKinematics ik = inverse_kinematics(robot, q, standing_places(robot));
-  if (ik.residual > 1e-4) return false;  // [m]: soles that are level to rounding are not on one plane
+  if (ik.residual > (soles ? kFittedSoles : kFitted)) return false;
   const Eigen::VectorXd joints = ik.q.tail(robot.nu());
   const Eigen::VectorXd torque = static_equilibrium(robot, ik.q, all_contacts(robot)).tau;
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
-    const double start = robot.nominal_configuration()(7 + j);
-    if (std::abs(joints(j) - start) < 1e-6) continue;  // not part of this motion
-    if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside) return false;
     if (std::abs(torque(j)) > kTorqueShare * robot.torque_limit()(j)) return false;
+    const double start = robot.nominal_configuration()(7 + j);
+    if (std::abs(joints(j) - start) < 1e-6) continue;  // not part of this motion: near a limit it may be
+    if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside) return false;
   }
   return true;
 }
 
-/// The largest factor from 1 down with which `fits` is true. Throws InputError if none is.
+/// The largest factor from 1 down with which `fits` is true, if there is one.
 template <class Fits>
-double largest_factor(const RobotModel& robot, const std::string& kind, const Fits& fits) {
+std::optional<double> largest_factor(const Fits& fits) {
   for (double factor = 1.0; factor > kSmallest; factor *= kSmaller) {
     if (fits(factor)) return factor;
   }
+  return std::nullopt;
+}
+
+[[noreturn]] void refuse_all_sizes(const RobotModel& robot, const char* motion) {
   throw InputError(fmt::format("robot '{}': no {} found that stays within its limits, however small; see prowl robot, and choose a "
-                               "nominal posture further inside the limits, or --kind hold", robot.name(), kind));
+                               "nominal posture further inside the limits, or --kind hold", robot.name(), motion));
+}
+
+/// Throws InputError for a robot that its contacts or its joints cannot carry at rest in the nominal posture.
+void check_that_it_stands(const RobotModel& robot) {
+  const StaticEquilibrium rest = static_equilibrium(robot, robot.nominal_configuration(), all_contacts(robot));
+  if (rest.residual > kUnbalanced * robot.weight()) {
+    throw InputError(fmt::format(
+        "robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left of {:.0f} N): a task that begins and ends at "
+        "rest needs contacts around its centre of mass, three points or flat feet", robot.name(), robot.contacts().size(), rest.residual, robot.weight()));
+  }
+  for (Eigen::Index j = 0; j < robot.nu(); ++j) {
+    if (std::abs(rest.tau(j)) <= kTorqueShare * robot.torque_limit()(j)) continue;
+    throw InputError(fmt::format("robot '{}': standing in the nominal posture takes {:.3g} of {:.3g} N m at {}: need another posture, or limits.{}.torque_Nm if the "
+                                 "limit is not the maker's", robot.name(), std::abs(rest.tau(j)), robot.torque_limit()(j),
+                                 robot.joint_names()[static_cast<std::size_t>(j)], robot.joint_names()[static_cast<std::size_t>(j)]));
+  }
 }
 
 /// Contacts of one foot: those on the frame of contact `c`.
 bool is_same_foot(const RobotModel& robot, std::size_t c, std::size_t other) {
   return robot.contacts()[c].frame == robot.contacts()[other].frame;
+}
+
+void check_that_it_can_step(const RobotModel& robot, const NewTask& task, int foot) {
+  if (!task.soles && task.stay.size() < 3) {
+    throw InputError(fmt::format("robot '{}': with {} lifted it stands on {} points, which need three to be balanced, or a flat foot; no --kind step",
+                                 robot.name(), task.swing.front(), task.stay.size()));
+  }
+  LegKinematics legs(robot);
+  legs.update(robot.nominal_configuration().tail(robot.nu()));
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(legs.linear(foot));
+  if ((svd.singularValues().array() > 1e-6 * svd.singularValues()(0)).count() < 3) {
+    throw InputError(fmt::format("robot '{}': the leg of {} moves its foot in a plane only, so that the weight cannot go to the other feet; no --kind step",
+                                 robot.name(), task.swing.front()));
+  }
+}
+
+/// The base forward, left and down, turned about all axes; of legs that move in a plane only what they can.
+void choose_shift(const RobotModel& robot, NewTask& task) {
+  const auto& shares = task.soles ? kShiftOnSoles : kShift;
+  const auto& angles = task.soles ? kTurnOnSoles : kTurn;
+  const Eigen::Vector3d all_shift = task.height * Eigen::Vector3d(shares[0], shares[1], shares[2]), all_turn(angles[0], angles[1], angles[2]);
+  const Eigen::Vector3d everything(1.0, 1.0, 1.0), along_x(1.0, 0.0, 1.0), about_y(0.0, 1.0, 0.0), along_y(0.0, 1.0, 1.0), about_x(1.0, 0.0, 0.0);
+  for (const auto& [shift, turn] : {std::pair(everything, everything), std::pair(along_x, about_y), std::pair(along_y, about_x)}) {
+    const auto try_with = [&, s = shift, t = turn](double factor) {
+      task.shift = (factor * all_shift.cwiseProduct(s)).unaryExpr([](double x) { return 1e-3 * std::round(1e3 * x) + 0.0; });
+      task.turn = (factor * all_turn.cwiseProduct(t)).unaryExpr([](double x) { return hundredths(x); });
+      return can_rest(robot, task.soles, task.shift, task.turn);
+    };
+    if (largest_factor(try_with)) return;
+  }
+  refuse_all_sizes(robot, "shift of the base");
 }
 
 /// The left foot; on four legs or more the left one in front.
@@ -96,6 +151,7 @@ void choose_step(const RobotModel& robot, NewTask& task) {
   for (std::size_t c = 0; c < places.size(); ++c) {
     (is_same_foot(robot, c, first) ? task.swing : task.stay).push_back(robot.contacts()[c].name);
   }
+  check_that_it_can_step(robot, task, static_cast<int>(first));
   task.length = hundredths((task.soles ? kStepOnSoles : kStep) * task.height);
   task.place = places[first].position + Eigen::Vector3d(task.length, 0.0, 0.0);
   task.place.z() = 0.0;
@@ -120,25 +176,14 @@ NewTask new_task(const RobotModel& robot, NewTaskKind kind) {
   for (std::size_t c = 1; c < robot.contacts().size(); ++c) task.soles = task.soles || is_same_foot(robot, c, c - 1);
   task.torque_weight = one_digit((task.soles ? kWeightOnSoles : kHyqWeight) * std::pow(kHyqMass / robot.mass(), 2));
 
-  const double unbalanced = static_equilibrium(robot, robot.nominal_configuration(), all_contacts(robot)).residual;
-  if (unbalanced > kUnbalanced * robot.weight()) {
-    throw InputError(fmt::format(
-        "robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left of {:.0f} N): a task that begins and ends at "
-        "rest needs contacts around its centre of mass, three points or flat feet", robot.name(), robot.contacts().size(), unbalanced, robot.weight()));
-  }
-  const auto scaled = [](const double (&shares)[3], double factor) -> Eigen::Vector3d { return factor * Eigen::Vector3d(shares[0], shares[1], shares[2]); };
+  check_that_it_stands(robot);
   if (kind == NewTaskKind::crouch) {
     const double depth = (task.soles ? kDepthOnSoles : kDepth) * task.height;
-    const double factor = largest_factor(robot, "crouch", [&](double f) { return can_rest(robot, {0.0, 0.0, -f * depth}, Eigen::Vector3d::Zero()); });
-    task.depth = std::max(0.01, 0.01 * std::floor(100.0 * factor * depth));
+    const auto factor = largest_factor([&](double f) { return can_rest(robot, task.soles, {0.0, 0.0, -f * depth}, Eigen::Vector3d::Zero()); });
+    if (!factor) refuse_all_sizes(robot, "crouch");
+    task.depth = std::max(0.01, 0.01 * std::floor(100.0 * *factor * depth));
   }
-  if (kind == NewTaskKind::stand) {
-    const auto shift = [&](double f) { return scaled(task.soles ? kShiftOnSoles : kShift, f * task.height); };
-    const auto turn = [&](double f) { return scaled(task.soles ? kTurnOnSoles : kTurn, f); };
-    const double factor = largest_factor(robot, "shift of the base", [&](double f) { return can_rest(robot, shift(f), turn(f)); });
-    task.shift = shift(factor).unaryExpr([](double x) { return 1e-3 * std::round(1e3 * x) + 0.0; });
-    task.turn = turn(factor).unaryExpr([](double x) { return hundredths(x); });
-  }
+  if (kind == NewTaskKind::stand) choose_shift(robot, task);
   if (kind == NewTaskKind::step) choose_step(robot, task);
   return task;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -18,7 +19,7 @@ constexpr const char* kHead = R"(# {name}: {mass:.1f} kg, {legs} legs. Written b
 name = "{name}"
 
 # A path is relative to this file; package://NAME/PATH is looked for in --package-dir, ROS_PACKAGE_PATH and others.
-urdf = "{urdf}"
+urdf = {urdf}
 
 # Contacts, guess: the ends of the {legs} limbs that reach furthest down with all joints next to 0.{others}
 # Others may be added, on any link or fixed joint: `prowl robot {file} --frames` lists them.
@@ -50,6 +51,22 @@ std::string number(double x) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
+/// For a comment: names of files and paths may have any character in them.
+std::string one_line(std::string text) {
+  std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
+/// A string of TOML.
+std::string string(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
 /// A key of TOML: quoted where a bare one is not allowed.
 std::string key(const std::string& name) {
   const bool bare = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
@@ -59,7 +76,7 @@ std::string key(const std::string& name) {
 std::string contacts(const NewRobot& robot) {
   std::string text, last;
   for (const FootContacts& foot : robot.feet) {
-    if (foot.how != last) text += fmt::format("# Place and size: {}.\n", foot.how);
+    if (foot.how != last) text += fmt::format("# Place and size: {}.\n", one_line(foot.how));
     last = foot.how;
     for (const ContactPoint& contact : foot.contacts) {
       text += fmt::format(fmt::runtime(kContact), fmt::arg("name", contact.name), fmt::arg("frame", contact.frame));
@@ -86,7 +103,7 @@ std::string posture(const NewRobot& robot, const fs::path& file) {
                        fmt::arg("knees", robot.search.legs.size() > 2 ? "towards the middle of the robot" : "forward"),
                        fmt::arg("height", robot.posture.height), fmt::arg("torque", torque_in_words(robot)));
   } else {
-    text = fmt::format(fmt::runtime(kNoPosture), fmt::arg("file", file.string()));
+    text = fmt::format(fmt::runtime(kNoPosture), fmt::arg("file", one_line(file.string())));
   }
   const Eigen::Vector3d& rpy = robot.search.base_rpy;
   if (!rpy.isZero(0.0)) {
@@ -124,9 +141,9 @@ std::string robot_template(const NewRobot& robot, const std::string& urdf, const
                                  ? std::string()
                                  : fmt::format("\n# No contacts: the limbs that end in {}.", fmt::join(robot.search.other_ends, ", "));
   std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
-                                 fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", file.string()),
-                                 fmt::arg("urdf", urdf), fmt::arg("others", others));
-  for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# A mesh that was not read: {}\n", mesh);
+                                 fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
+                                 fmt::arg("urdf", string(urdf)), fmt::arg("others", others));
+  for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# A mesh that was not read: {}\n", one_line(mesh));
   text += "\n";
   text += contacts(robot);
   text += posture(robot, file);

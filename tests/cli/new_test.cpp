@@ -128,6 +128,23 @@ TEST_F(NewRobot, FindsAUrdfOfNoPackageBesideTheFile) {
   EXPECT_EQ(run("cd robots; $prowl robot new.toml").status, 0);
 }
 
+TEST_F(NewRobot, TakesNoNameForText) {
+  // A robot, a mesh and a folder whose names would end a string or a comment of the file.
+  std::string urdf = test::read_file(kData + kUrdfs[5].path);
+  const auto replace = [&urdf](const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = urdf.find(from, at)) != std::string::npos; at += to.size()) urdf.replace(at, from.size(), to);
+  };
+  replace("name=\"laikago\"", "name='a \"quoted\" name'");
+  replace("<sphere radius=\"0.0265\"/>", "<mesh filename=\"no&#10;[[such]]&#10;mesh.stl\"/>");
+  folder_.write("of \"it\"/robot.urdf", urdf);
+  const Outcome made = run("$prowl new robot 'of \"it\"/robot.urdf' --out new.toml");
+  ASSERT_EQ(made.status, 0) << made.error;
+  EXPECT_EQ(inspected("new.toml").at("name"), "robot");
+  const std::string text = test::read_file(folder_.path() / "new.toml");
+  EXPECT_THAT(text, HasSubstr("A mesh that was not read"));
+  EXPECT_THAT(text, Not(HasSubstr("\n[[such]]")));
+}
+
 TEST_F(NewRobot, ReplacesAFileOnlyWhenTold) {
   folder_.write("mine.toml", "mine");
   const Outcome refused = make(kUrdfs[2].path, "mine.toml");
@@ -169,6 +186,8 @@ class NewTask : public NewRobot {
 TEST_F(NewTask, CrouchOfGo2Passes) { expect_that_it_plans(kUrdfs[2], "crouch"); }
 TEST_F(NewTask, StandOfAnymalPasses) { expect_that_it_plans(kUrdfs[1], "stand"); }
 TEST_F(NewTask, StepOfLaikagoPasses) { expect_that_it_plans(kUrdfs[5], "step"); }
+TEST_F(NewTask, StandOfASoloThatMovesInAPlanePasses) { expect_that_it_plans(kUrdfs[12], "stand"); }
+TEST_F(NewTask, StandOfARobotThatFacesAlongYPasses) { expect_that_it_plans(kUrdfs[13], "stand"); }
 TEST_F(NewTask, HoldOfTalosPasses) { expect_that_it_plans(kUrdfs[4], "hold"); }
 
 TEST_F(NewTask, CrouchGoesAsDeepAsTheRobotCan) {
@@ -182,6 +201,22 @@ TEST_F(NewTask, CrouchGoesAsDeepAsTheRobotCan) {
   ASSERT_EQ(run("$prowl new task stiff.toml $dirs --out small.toml").status, 0);
   EXPECT_NE(test::read_file(folder_.path() / "small.toml"), test::read_file(folder_.path() / "full.toml"));
   EXPECT_EQ(run("$prowl plan small.toml $dirs --out out --no-gains").status, 0);
+}
+
+TEST_F(NewTask, IsNoneForWhatTheRobotCannotDo) {
+  ASSERT_EQ(make(kUrdfs[5].path, "new.toml").status, 0);
+  std::string weak = test::read_file(folder_.path() / "new.toml");
+  for (const char* leg : {"FL", "FR", "RL", "RR"}) weak += fmt::format("[limits.{}_calf_joint]\ntorque_Nm = 7.0\n", leg);
+  folder_.write("weak.toml", weak);
+  ASSERT_EQ(make("solo_description/robots/solo.urdf", "planar.toml").status, 0);  // hip and knee: no way to the side
+  ASSERT_EQ(make("bolt_description/robots/bolt.urdf", "two_points.toml").status, 0);
+  for (const auto& [arguments, reason] : {std::pair("weak.toml --kind hold", "calf_joint"), std::pair("planar.toml --kind step", "in a plane only"),
+                                          std::pair("two_points.toml --kind step", "three to be balanced")}) {
+    const Outcome task = run(std::string("$prowl new task $dirs --out task.toml ") + arguments);
+    EXPECT_EQ(task.status, 2) << arguments;
+    EXPECT_THAT(task.error, HasSubstr(reason));
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "task.toml"));
+  }
 }
 
 TEST_F(NewTask, NamesTheNearestKindAndWritesNothing) {

@@ -1,0 +1,51 @@
+// prowl doctor: what it says is so, and what it misses it says.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "command.hpp"
+
+namespace prowl {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using test::Command;
+using test::Outcome;
+
+json named(const json& checks, const std::string& name) {
+  const auto found = std::find_if(checks.begin(), checks.end(), [&](const json& check) { return check.at("name") == name; });
+  return found == checks.end() ? json() : *found;
+}
+
+TEST_F(Command, DoctorFindsThatTheSolversWork) {
+  const Outcome result = run("ROS_PACKAGE_PATH=" PROWL_ROBOTS_DATA " $prowl doctor --json");
+  EXPECT_EQ(result.status, 0) << result.out << result.error;
+  const json report = json::parse(result.out);
+  EXPECT_EQ(report.at("ok"), true);
+  const json& checks = report.at("checks");
+  for (const char* solver : {"Riccati", "Fatrop", "Ipopt"}) {
+    const auto found = std::find_if(checks.begin(), checks.end(), [&](const json& check) { return check.at("area") == "solvers" && check.at("name") == solver; });
+    ASSERT_NE(found, checks.end()) << solver;
+    EXPECT_THAT(found->at("text").get<std::string>(), HasSubstr("solves and passes")) << solver;
+  }
+  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "BLASFEO", "processor", "cores", "memory", "robots", "figures", "report"}) {
+    ASSERT_FALSE(named(checks, name).is_null()) << name;
+    EXPECT_FALSE(named(checks, name).at("text").get<std::string>().empty()) << name;
+  }
+  for (const json& check : checks) {
+    EXPECT_TRUE(check.at("state") == "ok" || !check.at("remedy").get<std::string>().empty()) << check;
+  }
+}
+
+/// The program alone in a folder, without the files beside it and away from the .venv.
+TEST_F(Command, DoctorSaysWhatIsMissingAndHowToGetIt) {
+  const Outcome result = run("mkdir bin; cp $prowl bin/prowl; unset ROS_PACKAGE_PATH AMENT_PREFIX_PATH; bin/prowl doctor");
+  EXPECT_EQ(result.status, 4) << result.out << result.error;
+  EXPECT_THAT(result.out, HasSubstr("missing: robots, figures, report"));
+  EXPECT_THAT(result.out, HasSubstr("scripts/setup"));
+  EXPECT_THAT(result.out, HasSubstr("solves and passes"));
+}
+
+}  // namespace
+}  // namespace prowl
