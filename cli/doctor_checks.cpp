@@ -11,6 +11,8 @@
 
 #include "environment.hpp"
 #include "process.hpp"
+#include "program_path.hpp"
+#include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
 
@@ -52,32 +54,31 @@ double load() {
 
 /// PREFIX/share/prowl for PREFIX/bin/prowl, installed as well as in a build.
 fs::path share_folder() {
-  std::error_code ignored;
-  return fs::read_symlink("/proc/self/exe", ignored).parent_path().parent_path() / "share/prowl";
+  return program_path().parent_path().parent_path() / "share/prowl";
 }
 
-Finding check_python() {
-  const std::string python = PROWL_PYTHON;
-  Finding finding{.area = "files", .name = "figures", .text = python, .remedy = ""};
+/// A verb that is drawn or written by a script, and what the script needs.
+Finding check_script(const char* verb, const char* script_name, const char* libraries) {
+  const std::string python = default_python();
+  Finding finding{.area = "files", .name = verb, .text = python, .remedy = ""};
   std::error_code ignored;
-  const fs::path script = share_folder() / "figures/draw.py";
+  const fs::path script = share_folder() / script_name;
   if (!fs::exists(script, ignored)) {
     finding.state = State::missing;
     finding.text = script.string() + " is not there";
-    finding.remedy = "build or install again; prowl figures needs it";
+    finding.remedy = fmt::format("build or install again; prowl {} needs it", verb);
     return finding;
   }
-  constexpr const char* kTry =
-      "import importlib.util as u, sys; sys.exit(any(u.find_spec(m) is None for m in ('numpy', 'scipy', 'matplotlib')))";
   int status = -1;
   try {
-    status = run_program({python, "-c", kTry});
+    status = run_program({python, "-c", fmt::format("import importlib.util as u, sys; sys.exit(any(u.find_spec(m) is None for m in '{}'.split()))", libraries)},
+                         [](const std::string&) {});
   } catch (const InputError&) {  // it cannot be started
   }
   if (status != 0) {
     finding.state = State::missing;
-    finding.text = python + (status < 0 ? " cannot be started" : " lacks numpy, scipy or matplotlib");
-    finding.remedy = "scripts/setup makes one in .venv; or prowl figures --python PATH";
+    finding.text = python + (status < 0 ? " cannot be started" : fmt::format(" lacks one of: {}", libraries));
+    finding.remedy = fmt::format("scripts/setup makes one in .venv; or prowl {} --python PATH", verb);
   }
   return finding;
 }
@@ -150,6 +151,6 @@ std::vector<Finding> check_machine() {
   return findings;
 }
 
-std::vector<Finding> check_files() { return {check_robots(), check_python(), check_page()}; }
+std::vector<Finding> check_files() { return {check_robots(), check_script("figures", "figures/draw.py", "numpy scipy matplotlib"), check_script("export", "exports/write_mcap.py", "numpy mcap mcap_ros2"), check_page()}; }
 
 }  // namespace prowl::cli

@@ -29,7 +29,7 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
     ASSERT_NE(found, checks.end()) << solver;
     EXPECT_THAT(found->at("text").get<std::string>(), HasSubstr("solves and passes")) << solver;
   }
-  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "BLASFEO", "processor", "cores", "memory", "robots", "figures", "report"}) {
+  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "BLASFEO", "processor", "cores", "memory", "robots", "figures", "export", "report"}) {
     ASSERT_FALSE(named(checks, name).is_null()) << name;
     EXPECT_FALSE(named(checks, name).at("text").get<std::string>().empty()) << name;
   }
@@ -42,7 +42,7 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
 TEST_F(Command, DoctorSaysWhatIsMissingAndHowToGetIt) {
   const Outcome result = run("mkdir bin; cp $prowl bin/prowl; unset ROS_PACKAGE_PATH AMENT_PREFIX_PATH; bin/prowl doctor");
   EXPECT_EQ(result.status, 4) << result.out << result.error;
-  EXPECT_THAT(result.out, HasSubstr("missing: robots, figures, report"));
+  EXPECT_THAT(result.out, HasSubstr("missing: robots, figures, export, report"));
   EXPECT_THAT(result.out, HasSubstr("scripts/setup"));
   EXPECT_THAT(result.out, HasSubstr("solves and passes"));
 }
