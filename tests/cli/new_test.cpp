@@ -211,7 +211,8 @@ TEST_F(NewTask, IsNoneForWhatTheRobotCannotDo) {
   ASSERT_EQ(make("solo_description/robots/solo.urdf", "planar.toml").status, 0);  // hip and knee: no way to the side
   ASSERT_EQ(make("bolt_description/robots/bolt.urdf", "two_points.toml").status, 0);
   for (const auto& [arguments, reason] : {std::pair("weak.toml --kind hold", "calf_joint"), std::pair("planar.toml --kind step", "in a plane only"),
-                                          std::pair("two_points.toml --kind step", "three to be balanced")}) {
+                                          std::pair("two_points.toml --kind step", "three to be balanced"),
+                                          std::pair("two_points.toml --kind stand", "falls over")}) {
     const Outcome task = run(std::string("$prowl new task $dirs --out task.toml ") + arguments);
     EXPECT_EQ(task.status, 2) << arguments;
     EXPECT_THAT(task.error, HasSubstr(reason));
