@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "commands.hpp"
 #include "environment.hpp"
@@ -94,6 +95,7 @@ struct NewTaskArguments {
   std::string kind = "crouch";
   std::vector<std::string> package_dirs;
   NewFileOptions file;
+  bool json = false;
 };
 
 constexpr std::array kKinds = {NewTaskKind::hold, NewTaskKind::stand, NewTaskKind::crouch, NewTaskKind::step};
@@ -115,6 +117,11 @@ int run_new_task(const NewTaskArguments& arguments) {
   const fs::path from = fs::absolute(out).lexically_normal().parent_path();
   const fs::path reference = fs::absolute(robot_file).lexically_normal().lexically_relative(from);
   write_new_file(out, task_template(task, robot, reference.generic_string()));
+  if (arguments.json) {
+    print_result(nlohmann::ordered_json{{"robot", robot.name()}, {"kind", arguments.kind}, {"file", out.string()}}.dump(
+                     2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+    return kPassed;
+  }
   print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}\n", robot.name(), arguments.kind, out.string(), out.string()));
   return kPassed;
 }
@@ -128,6 +135,7 @@ void add_new_task(CLI::App& verb, int& status) {
   task->add_option("--kind", arguments->kind, "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step forward")
       ->check(CLI::IsMember(names))->type_name("NAME");
   add_new_file(*task, arguments->file, "tasks/ROBOT/KIND.toml");
+  add_json(*task, arguments->json);
   add_package_dirs(*task, arguments->package_dirs);
   task->footer("Example:\n  prowl new task robots/go2.toml --kind step --out step.toml && prowl plan step.toml\n\n"
                "Exit status: 0, 2 bad input and nothing is written, 4 files.");
