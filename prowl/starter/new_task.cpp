@@ -183,6 +183,10 @@ NewTask new_task(const RobotModel& robot, NewTaskKind kind) {
     if (!factor) refuse_all_sizes(robot, "crouch");
     task.depth = std::max(0.01, 0.01 * std::floor(100.0 * *factor * depth));
   }
+  if (kind == NewTaskKind::stand && robot.contacts().size() < 3) {
+    throw InputError(fmt::format("robot '{}': on {} points a base that moves aside falls over; no --kind stand, but hold and crouch",
+                                 robot.name(), robot.contacts().size()));
+  }
   if (kind == NewTaskKind::stand) choose_shift(robot, task);
   if (kind == NewTaskKind::step) choose_step(robot, task);
   return task;

@@ -193,8 +193,9 @@ TEST_F(NewTask, HoldOfTalosPasses) { expect_that_it_plans(kUrdfs[4], "hold"); }
 TEST_F(NewTask, CrouchGoesAsDeepAsTheRobotCan) {
   // Limits that leave the knees 0.3 rad: a smaller crouch, that still passes.
   ASSERT_EQ(make(kUrdfs[5].path, "new.toml").status, 0);
-  const Outcome full = run("$prowl new task new.toml $dirs --out full.toml");
+  const Outcome full = run("$prowl new task new.toml $dirs --out full.toml --json");
   ASSERT_EQ(full.status, 0) << full.error;
+  EXPECT_EQ(json::parse(full.out).at("written"), json({"full.toml"}));
   std::string text = test::read_file(folder_.path() / "new.toml");
   for (const char* leg : {"FL", "FR", "RL", "RR"}) text += fmt::format("[limits.{}_calf_joint]\nposition_rad = [-1.6, -0.7]\n", leg);
   folder_.write("stiff.toml", text);
@@ -211,7 +212,8 @@ TEST_F(NewTask, IsNoneForWhatTheRobotCannotDo) {
   ASSERT_EQ(make("solo_description/robots/solo.urdf", "planar.toml").status, 0);  // hip and knee: no way to the side
   ASSERT_EQ(make("bolt_description/robots/bolt.urdf", "two_points.toml").status, 0);
   for (const auto& [arguments, reason] : {std::pair("weak.toml --kind hold", "calf_joint"), std::pair("planar.toml --kind step", "in a plane only"),
-                                          std::pair("two_points.toml --kind step", "three to be balanced")}) {
+                                          std::pair("two_points.toml --kind step", "three to be balanced"),
+                                          std::pair("two_points.toml --kind stand", "falls over")}) {
     const Outcome task = run(std::string("$prowl new task $dirs --out task.toml ") + arguments);
     EXPECT_EQ(task.status, 2) << arguments;
     EXPECT_THAT(task.error, HasSubstr(reason));
