@@ -24,6 +24,14 @@ std::string version_text() {
   return text;
 }
 
+/// "plan " if that is the first argument and a verb, else "".
+std::string first_verb(const CLI::App& app, int argc, const char* const* argv) {
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (argc > 1 && verb->get_name() == argv[1]) return verb->get_name() + " ";
+  }
+  return "";
+}
+
 /// "; did you mean '--json'?" for the first verb or option that there is not, else "".
 std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> verbs;
@@ -94,7 +102,7 @@ int run(int argc, char** argv) {
       print_result(text.str());
       return kPassed;
     }
-    return report_error(argc, argv, error.what() + suggestion(app, argc, argv), kBadInput, "\nMore with prowl --help.");
+    return report_error(argc, argv, error.what() + suggestion(app, argc, argv), kBadInput, "\nMore with prowl " + first_verb(app, argc, argv) + "--help.");
   }
   return status;
 }

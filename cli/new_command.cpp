@@ -16,6 +16,7 @@
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/robot_file.hpp"
 #include "prowl/io/robot_summary.hpp"
+#include "prowl/io/task_file.hpp"
 #include "prowl/model/robot_inspection.hpp"
 #include "prowl/starter/new_task.hpp"
 #include "prowl/starter/robot_template.hpp"
@@ -118,7 +119,9 @@ int run_new_task(const NewTaskArguments& arguments) {
   }
   const fs::path from = fs::absolute(out).lexically_normal().parent_path();
   const fs::path reference = fs::absolute(robot_file).lexically_normal().lexically_relative(from);
-  write_new_file(out, task_template(task, robot, reference.generic_string()));
+  const std::string text = task_template(task, robot, reference.generic_string());
+  read_task_text({fs::absolute(out), text}, search);  // what cannot be read is not written
+  write_new_file(out, text);
   if (arguments.json) {
     const nlohmann::json result = {{"robot", robot.name()}, {"kind", arguments.kind}};
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});

@@ -27,7 +27,7 @@ int run_program(const std::vector<std::string>& arguments, const std::function<v
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
   pid_t child = 0;
-  const int error = ::posix_spawn(&child, argv[0], &files, nullptr, argv.data(), environ);
+  const int error = ::posix_spawnp(&child, argv[0], &files, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   ::close(ends[1]);
   const std::unique_ptr<FILE, int (*)(FILE*)> printed(::fdopen(ends[0], "r"), ::fclose);

@@ -72,7 +72,10 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
   options.record_rate = arguments.record_rate;
   options.delay = 1e-3 * arguments.delay_ms;
   options.physics.friction = arguments.friction ? arguments.friction : plan.task.simulated_friction;
-  for (std::size_t i = 0; i + 3 < arguments.push.size(); i += 4) {
+  if (arguments.push.size() % 4 != 0) {
+    throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]", arguments.push.size()));
+  }
+  for (std::size_t i = 0; i < arguments.push.size(); i += 4) {
     const double* const push = &arguments.push[i];
     options.pushes.push_back({{push[1], push[2], push[3]}, push[0], arguments.push_duration});
   }

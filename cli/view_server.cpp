@@ -69,7 +69,13 @@ class ViewServer::Connections {
  private:
   asio::awaitable<void> accept() {
     for (;;) {
-      tcp::socket socket = co_await acceptor_.async_accept(asio::use_awaitable);
+      boost::system::error_code error;
+      tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
+      if (error) {  // too many files are open, say: later there may be fewer
+        asio::steady_timer pause(context_, std::chrono::milliseconds(100));
+        co_await pause.async_wait(asio::use_awaitable);
+        continue;
+      }
       asio::co_spawn(context_, serve(beast::tcp_stream(std::move(socket))), [](const std::exception_ptr&) {
         // The browser has gone, or what it sent was no HTTP: nothing to be done for it.
       });

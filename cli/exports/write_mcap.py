@@ -76,8 +76,12 @@ def transform(nanoseconds: int, parent: str, child: str, position, rotation=(0.0
             "transform": {"translation": vector(position), "rotation": quaternion(rotation)}}
 
 
-def contact_frame(contact: str) -> str:
-    return f"contact_{contact}"
+def contact_frame(contact: str, links: list[str]) -> str:
+    """A frame of its own: no link's, whose parent is another."""
+    name = f"contact_{contact}"
+    while name in links:
+        name += "_"
+    return name
 
 
 def contact_topics(contacts: list[str]) -> dict[str, str]:
@@ -105,13 +109,13 @@ def write_start(topics: Topics, motion: dict, first: int) -> None:
 
 
 def write_sample(topics: Topics, motion: dict, i: int) -> None:
-    samples, world = motion["samples"], world_frame(motion)
+    samples, world, links = motion["samples"], world_frame(motion), [link["name"] for link in motion["links"]]
     q, v = samples["q"][i], samples["v"][i]
     now = round(1e9 * samples["time_s"][i])
     root = motion["links"][0]["name"]
     moving = [transform(now, link["parent"] or world, link["name"], placement[:3], placement[3:])
               for link, placement in zip(motion["links"], motion["link_in_parent"][i]) if not link["fixed"]]
-    moving += [transform(now, world, contact_frame(contact), position)
+    moving += [transform(now, world, contact_frame(contact, links), position)
                for contact, position in zip(motion["contacts"], samples["contact_position_m"][i])]
     topics.write("/tf", now, {"transforms": moving})
     topics.write("/joint_states", now, {"header": header(now, ""), "name": motion["joints"], "position": q[7:], "velocity": v[6:],
@@ -122,7 +126,7 @@ def write_sample(topics: Topics, motion: dict, i: int) -> None:
         "twist": {"twist": {"linear": vector(v[:3]), "angular": vector(v[3:6])}, "covariance": [0.0] * 36}})
     for (contact, topic), force in zip(contact_topics(motion["contacts"]).items(), samples["force_N"][i]):
         wrench = {"force": vector(force), "torque": vector((0.0, 0.0, 0.0))}
-        topics.write(topic, now, {"header": header(now, contact_frame(contact)), "wrench": wrench})
+        topics.write(topic, now, {"header": header(now, contact_frame(contact, links)), "wrench": wrench})
 
 
 def write(motion: dict, path: str) -> None:

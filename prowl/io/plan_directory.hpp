@@ -46,7 +46,8 @@ void write_plan(const std::filesystem::path& directory, const PlanRecord& record
 /// since, FileError.
 PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search);
 
-/// plan.json but for the texts of task, robot and URDF: what `prowl plan --json` prints.
+/// plan.json but for the texts of task, robot and URDF: what `prowl plan --json` prints. With "directory" unless
+/// that is empty.
 std::string plan_report_json(const PlanRecord& record, const std::filesystem::path& directory);
 
 }  // namespace prowl

@@ -14,7 +14,8 @@
 namespace prowl {
 namespace {
 
-void check(const SimulationOptions& options) {
+/// `end` of the simulation [s].
+void check(const SimulationOptions& options, double end) {
   const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {
     if (!ok) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, range));
   };
@@ -26,6 +27,11 @@ void check(const SimulationOptions& options) {
   need(options.physics.step >= 1e-5 && options.physics.step <= 1e-2, "step", options.physics.step, "1e-5 to 1e-2 s");
   need(options.physics.mass_scale > 0.0 && std::isfinite(options.physics.mass_scale), "mass scale",
        options.physics.mass_scale, "> 0");
+  for (const Push& push : options.pushes) {
+    need(push.time >= 0.0 && push.time <= end, "push time", push.time, fmt::format("0 to {:g} s, the end of the simulation", end));
+    need(push.duration > 0.0 && std::isfinite(push.duration), "push duration", push.duration, "a finite number > 0 s");
+    need(push.impulse.allFinite(), "push impulse", push.impulse.sum(), "finite numbers");
+  }
   const double friction = options.physics.friction.value_or(1.0);
   need(friction >= 0.0 && std::isfinite(friction), "friction", friction, ">= 0");
 }
@@ -171,7 +177,7 @@ class Run {
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                           const SimulationOptions& options, const std::function<void(double, double)>& on_time) {
   check_fit(problem, tracker);
-  check(options);
+  check(options, tracker.end() + criteria.rest);
   SimulationResult result = Run(problem, tracker, criteria, options)(on_time);
   result.failures = failures(result, problem, criteria);
   return result;

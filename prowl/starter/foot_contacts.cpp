@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "prowl/starter/sole.hpp"
 
@@ -99,12 +100,17 @@ class FootFinder {
       if (shape.radius > 0.0 && lowest(shape) <= lowest() + kSameHeight) touching.push_back(&shape);
     }
     for (const FootShape* shape : touching) middle += level_ * shape->points.col(0) / static_cast<double>(touching.size());
+    std::vector<std::string> corners;
+    for (const FootShape* shape : touching) {
+      corners.push_back(corner_name((level_ * shape->points.col(0) - middle).head<2>(), middle.x() > -kToe, is_on_the_left()));
+    }
+    const bool are_corners = touching.size() == 4 && std::set(corners.begin(), corners.end()).size() == 4;
     for (const FootShape* shape : touching) {
       const Eigen::Vector3d center = shape->points.col(0);
       const LinkFrame& link = nearest_link(pose_, leg_.foot, center, shape->link);
       std::string name = link.name;
-      if (touching.size() == 4) {
-        name += corner_name((level_ * center - middle).head<2>(), middle.x() > -kToe, is_on_the_left());
+      if (are_corners) {
+        name += corners[foot.contacts.size()];
       } else if (touching.size() > 1) {
         name += fmt::format("_{}", foot.contacts.size() + 1);
       }

@@ -1,8 +1,12 @@
 #include "prowl/starter/limit_guesses.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "prowl/error.hpp"
 
 namespace prowl {
 namespace {
@@ -36,6 +40,10 @@ std::map<std::string, JointLimits> usable_limits(const UrdfOutline& outline) {
   std::map<std::string, JointLimits> limits;
   for (const UrdfOutline::Limits& joint : outline.joints) {
     JointLimits usable;
+    if (joint.prismatic && (!joint.has_range() || !(joint.velocity > 0.0))) {
+      throw InputError(fmt::format("joint '{}' slides, and its range [m] or velocity [m/s] is not in the URDF, nor can it be guessed: put lower, upper "
+                                   "and velocity into its <limit>", joint.joint));
+    }
     if (!joint.has_range()) {
       usable.position_lower = -std::numbers::pi;
       usable.position_upper = std::numbers::pi;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "prowl/error.hpp"
+#include "prowl/io/toml_text.hpp"
 
 namespace prowl {
 namespace {
@@ -55,16 +56,6 @@ std::string number(double x) {
 std::string one_line(std::string text) {
   std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   return text;
-}
-
-/// A string of TOML.
-std::string string(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + '"';
 }
 
 /// A key of TOML: quoted where a bare one is not allowed.
@@ -142,7 +133,7 @@ std::string robot_template(const NewRobot& robot, const std::string& urdf, const
                                  : fmt::format("\n# No contacts: the limbs that end in {}.", fmt::join(robot.search.other_ends, ", "));
   std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
                                  fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
-                                 fmt::arg("urdf", string(urdf)), fmt::arg("others", others));
+                                 fmt::arg("urdf", toml_string(urdf)), fmt::arg("others", others));
   for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# A mesh that was not read: {}\n", one_line(mesh));
   text += "\n";
   text += contacts(robot);

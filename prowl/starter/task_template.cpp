@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prowl/io/toml_text.hpp"
+#include "prowl/model/configuration.hpp"
 #include "prowl/starter/new_task.hpp"
 
 namespace prowl {
@@ -12,7 +14,7 @@ namespace {
 constexpr const char* kHead = R"(# {what}
 # Written by `prowl new task` for {robot}: {mass:.1f} kg, its base {height:.2f} m up. All keys: docs/task-file.md.
 name = "{kind}"
-robot = "{file}"   # relative to this file
+robot = {file}   # relative to this file
 
 # Where contacts may touch: planes and patches. Without more keys, level ground at z = 0.
 [[surface]]
@@ -134,6 +136,12 @@ std::string step_phases(const NewTask& task) {
   return task.soles ? phases("1.2", intervals(120), "0.8", intervals(100), "1.2", intervals(60)) : phases("[0.3, 1.2]   # the optimiser chooses", 70, "[0.25, 0.6]", 80, "[0.3, 1.2]", 70);
 }
 
+/// Roll, pitch and yaw of a base that has `rpy` already and is turned by `turn` about the world's axes.
+Eigen::Vector3d turned(const Eigen::Vector3d& rpy, const Eigen::Vector3d& turn) {
+  const Eigen::Matrix3d R = rotation_from_rpy(turn) * rotation_from_rpy(rpy);
+  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), std::atan2(R(1, 0), R(0, 0))};
+}
+
 std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double duration) {
   const auto goal = [&](const std::string& when, const Eigen::Vector3d& displacement, const Eigen::Vector3d& turn, bool at_rest) {
     return fmt::format("[[goal]]\n{}base_displacement_m = {}\nbase_rpy_rad = {}\n{}\n", when, vector(displacement), vector(turn), at_rest ? kAtRest : "");
@@ -142,7 +150,7 @@ std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double durati
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   switch (task.kind) {
     case NewTaskKind::hold: return goal(end, none, rpy, true);
-    case NewTaskKind::stand: return goal(end, task.shift, rpy + task.turn, true);
+    case NewTaskKind::stand: return goal(end, task.shift, turned(rpy, task.turn), true);
     case NewTaskKind::crouch:
       return goal(fmt::format("time_s = {:.1f}\n", 0.5 * duration), {0.0, 0.0, -task.depth}, rpy, false) + goal(end, none, rpy, true);
     case NewTaskKind::step:
@@ -164,7 +172,7 @@ std::string task_template(const NewTask& task, const RobotModel& robot, const st
   const double duration = task.kind == NewTaskKind::hold ? 1.0 : task.soles ? 2.4 : 2.0;
   const int intervals = intervals_of(task, robot.contacts().size());
   std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("what", what(task)), fmt::arg("robot", robot.name()), fmt::arg("mass", robot.mass()),
-                                 fmt::arg("height", task.height), fmt::arg("kind", to_string(task.kind)), fmt::arg("file", robot_file));
+                                 fmt::arg("height", task.height), fmt::arg("kind", to_string(task.kind)), fmt::arg("file", toml_string(robot_file)));
   text += task.kind == NewTaskKind::step
               ? step_phases(task)
               : fmt::format(fmt::runtime(kOnePhase), fmt::arg("duration", duration), fmt::arg("intervals", intervals));

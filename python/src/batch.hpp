@@ -17,7 +17,7 @@ using Argument = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 class Batch {
  public:
   Batch(const Argument& array, Eigen::Index width, const char* name)
-      : single_(array.ndim() == 1), rows_(single_ ? 1 : static_cast<Eigen::Index>(array.shape(0))), width_(width),
+      : single_(array.ndim() == 1), rows_(array.ndim() == 2 ? static_cast<Eigen::Index>(array.shape(0)) : 1), width_(width),
         data_(array.data()) {
     const bool fits = (array.ndim() == 1 || array.ndim() == 2) &&
                       static_cast<Eigen::Index>(array.shape(array.ndim() - 1)) == width;

@@ -1,5 +1,6 @@
 """What Python is told when something is wrong, and how it stops what runs."""
 
+import math
 import os
 import signal
 import threading
@@ -41,6 +42,21 @@ def test_numbers_that_are_none(hyq):
     dynamics = prowl.Dynamics(hyq)
     with pytest.raises(prowl.NumericalError):
         dynamics.forward(hyq.nominal_configuration, np.full(hyq.nv, np.nan), np.zeros(hyq.nu))
+
+
+def test_steps_and_pushes_that_make_no_sense(crouch):
+    with pytest.raises(prowl.InputError, match="too fine"):
+        crouch.sample(1e-9)
+    for push in [(99.0, (0, 0, 1)), (-1.0, (0, 0, 1)), (math.nan, (0, 0, 1)), (0.5, (math.nan, 0, 0))]:
+        with pytest.raises(prowl.InputError, match="push"):
+            prowl.simulate(crouch, pushes=[push])
+
+
+def test_arrays_of_no_and_of_too_many_dimensions(hyq):
+    dynamics = prowl.Dynamics(hyq)
+    for array in (np.array(1.0), np.zeros((2, 2, hyq.nq))):
+        with pytest.raises(prowl.InputError, match="shape"):
+            dynamics.mass_matrix(array)
 
 
 def test_shapes_that_do_not_fit(hyq):

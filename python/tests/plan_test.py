@@ -74,6 +74,13 @@ def test_arrays_are_views_that_nobody_can_write_to_and_that_outlive_the_plan():
     np.testing.assert_array_equal(K, gains)
 
 
+def test_a_plan_tells_itself_as_json(crouch, tmp_path):
+    told = json.loads(crouch.to_json())
+    assert told["good"] and "directory" not in told
+    crouch.write(tmp_path / "out")
+    assert json.loads(prowl.read_plan(tmp_path / "out").to_json())["directory"] == str(tmp_path / "out")
+
+
 def test_samples_between_nodes_lie_on_the_motion(crouch):
     motion = crouch.sample(0.01)
     assert len(motion) == 201 and motion.t[-1] == crouch.duration

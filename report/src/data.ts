@@ -116,16 +116,26 @@ export interface PlanJson {
   urdf: TextFile;
 }
 
+/// "rest" is null if the robot did not come to stand in the end.
+export interface SimulationError {
+  largest: number | null;
+  rms: number | null;
+  rest: number | null;
+}
+
+/// Of MuJoCo, or of a rollout (engine "rollout"), which has no slip, sensors and versions, but loads of contacts.
 export interface SimulationJson {
+  engine: string;
   success: boolean;
   failures: string[];
   end: string;
   end_time_s: number;
-  base_position_m: { largest: number; rms: number; rest: number };
-  base_angle_rad: { largest: number; rms: number; rest: number };
-  joints_rad: { largest: number; rms: number; rest: number };
+  base_position_m: SimulationError;
+  base_angle_rad: SimulationError;
+  joints_rad: SimulationError;
   torque: { largest_share: number; joint: string; saturated_share_of_time: number; positive_work_J: number };
-  slip_m: Record<string, number>;
+  slip_m?: Record<string, number>;
+  contacts?: Record<string, { least_normal_force_N: number | null }>;
   options: {
     seed: number;
     control_rate_Hz: number;
@@ -137,9 +147,11 @@ export interface SimulationJson {
     open_loop: boolean;
     mass_scale: number;
     friction: number | null;
+    base_offset_m?: number[];
+    base_offset_rad?: number[];
     pushes: { impulse_Ns: number[]; time_s: number; duration_s: number }[];
   };
-  versions: Record<string, string>;
+  versions?: Record<string, string>;
 }
 
 export interface ReportData {

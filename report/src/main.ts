@@ -97,8 +97,10 @@ function start(): void {
     clock.pause();
     clock.seek(time);
   };
-  const judged = certificate(data, clock, goTo);
-  const solved = solver(data, clock);
+  const isSolving = data.live?.solved === false;
+  const later = el("section", { class: "card" }, el("p", { class: "hint" }, "Certificate, solver and sources are here when it is solved."));
+  const judged = isSolving ? { element: later, draw: () => undefined } : certificate(data, clock, goTo);
+  const solved = isSolving ? null : solver(data, clock);
   const warnings = data.warnings.length > 0
     ? el("section", { class: "card warnings", "aria-label": "Warnings" }, ...data.warnings.map((text) => el("p", {}, `⚠ ${text}`)))
     : null;
@@ -106,19 +108,19 @@ function start(): void {
     header(data, theme, () => help.showModal()),
     el("main", {},
       el("div", { class: "stage" }, container, timeline.element),
-      el("div", { class: "details" }, warnings, plots.element, judged.element, simulation(data), solved.element, reproduce(data))),
+      el("div", { class: "details" }, warnings, plots.element, judged.element, simulation(data), solved?.element, isSolving ? null : reproduce(data))),
     help,
   );
 
   const view = makeView(container, data, clock);
   plots.choose(0);
   judged.draw();
-  solved.draw();
+  solved?.draw();
   redraw = () => {
     view?.setTheme();
     plots.draw();
     judged.draw();
-    solved.draw();
+    solved?.draw();
   };
   if (data.live) {
     const show = (shown: Shown) => {

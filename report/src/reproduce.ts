@@ -1,13 +1,19 @@
-import type { ReportData, SimulationJson, TextFile } from "./data";
+import type { ReportData, SimulationError, SimulationJson, TextFile } from "./data";
 import { el, short } from "./dom";
 
 /// How the simulation went, in words and figures; nothing if there was none.
 export function simulation(data: ReportData): HTMLElement | null {
   const found = data.simulation_json;
   if (!found) return null;
-  const degrees = (angle: number) => `${short((angle * 180) / Math.PI)}°`;
+  const degrees = (angle: number | null) => (angle === null ? "–" : `${short((angle * 180) / Math.PI)}°`);
   const slips = Object.entries(found.slip_m ?? {}).map(([name, slip]) => `${name} ${short(1000 * slip, 2)} mm`);
-  const error = (name: string, of: { largest: number; rms: number; rest: number }, text: (value: number) => string) =>
+  const engine = found.engine === "rollout" ? "rollout of the planned dynamics" : Object.entries(found.versions ?? {}).map(([name, version]) => `${name} ${version}`).join(", ");
+  // A rollout's contacts hold whatever the force.
+  const pulling = Object.entries(found.contacts ?? {}).filter(([, load]) => load.least_normal_force_N !== null && load.least_normal_force_N < 0);
+  const loads = found.contacts
+    ? [el("dt", {}, "contacts"), el("dd", {}, pulling.length > 0 ? pulling.map(([name, load]) => `${name} pulls, ${short(-load.least_normal_force_N!)} N`).join(", ") : "none pulls")]
+    : [];
+  const error = (name: string, of: SimulationError, text: (value: number | null) => string) =>
     el("tr", {}, el("th", { scope: "row" }, name), ...[of.largest, of.rms, of.rest].map((value) => el("td", { class: "number" }, text(value))));
   return el(
     "section",
@@ -18,14 +24,15 @@ export function simulation(data: ReportData): HTMLElement | null {
       el("table", {},
         el("thead", {}, el("tr", {}, ...["error", "largest", "RMS", "in rest"].map((name) => el("th", { scope: "col", class: name === "error" ? "" : "number" }, name)))),
         el("tbody", {},
-          error("base position", found.base_position_m, (value) => `${short(100 * value)} cm`),
+          error("base position", found.base_position_m, (value) => (value === null ? "–" : `${short(100 * value)} cm`)),
           error("base orientation", found.base_angle_rad, degrees),
           error("worst joint", found.joints_rad, degrees))),
     ),
     el("dl", { class: "facts" },
-      el("dt", {}, "slip"), el("dd", {}, slips.join(", ")),
+      ...(slips.length > 0 ? [el("dt", {}, "slip"), el("dd", {}, slips.join(", "))] : []),
+      ...loads,
       el("dt", {}, "torque"), el("dd", {}, `${short(100 * found.torque.largest_share)} % of the limit at most (${found.torque.joint}), ${short(found.torque.positive_work_J)} J of work`),
-      el("dt", {}, "engine"), el("dd", {}, Object.entries(found.versions).map(([name, version]) => `${name} ${version}`).join(", "))),
+      el("dt", {}, "engine"), el("dd", {}, engine)),
   );
 }
 
@@ -37,6 +44,14 @@ function simulateCommand(directory: string, found: SimulationJson): string {
     if (value !== usual && value !== undefined && value !== null) words.push(value === true ? flag : `${flag} ${value}`);
   };
   add("--open-loop", options.open_loop, false);
+  if (found.engine === "rollout") {
+    words.push("--engine rollout");
+    add("--control-rate", options.control_rate_Hz || null, null);
+    const offset = (flag: string, value: number[] | undefined) => value?.some((x) => x !== 0) && words.push(`${flag} ${value.join(" ")}`);
+    offset("--base-offset-m", options.base_offset_m);
+    offset("--base-offset-rad", options.base_offset_rad);
+    return words.join(" ");
+  }
   add("--perfect-state", options.perfect_state, false);
   add("--noise", options.noise.scale, 1);
   add("--delay", Number((1000 * options.delay_s).toPrecision(6)), 2);

@@ -13,9 +13,9 @@ function prowl(...parameters: string[]): void {
   if (found.status !== 0) throw new Error(`prowl ${parameters.join(" ")}: status ${found.status}\n${found.stdout}${found.stderr}`);
 }
 
-function make(name: string, task: string, simulated: boolean): void {
+function make(name: string, task: string, simulated: boolean, ...options: string[]): void {
   prowl("plan", task, "--out", folder(name));
-  if (simulated) prowl("simulate", folder(name));
+  if (simulated) prowl("simulate", folder(name), ...options);
   prowl("report", folder(name));
 }
 
@@ -42,5 +42,6 @@ export default function (): void {
   make("step", "tasks/hyq/step.toml", true);
   make("walk", "tasks/hyq/walk.toml", true);
   make("squat", "tasks/talos/squat.toml", true);
+  make("rollout", "tasks/hyq/stand.toml", true, "--engine", "rollout");
   makeOdd();
 }

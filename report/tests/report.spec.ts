@@ -5,7 +5,7 @@ import { expect, test } from "@playwright/test";
 import { kOddName, kOddText } from "./make_reports";
 import { folder, open, report, seek, timeOf } from "./reports";
 
-const kAll = ["crouch", "step", "walk", "squat", "odd"];
+const kAll = ["crouch", "step", "walk", "squat", "odd", "rollout"];
 
 for (const name of kAll) {
   test(`${name}: loads without errors and asks nothing of the network`, async ({ page }) => {

@@ -183,6 +183,12 @@ class NewTask : public NewRobot {
   }
 };
 
+TEST_F(NewTask, NamesARobotFileWhateverItIsCalled) {
+  ASSERT_EQ(make(kUrdfs[5].path, "'of \"it\".toml'").status, 0);
+  const Outcome made = run("$prowl new task 'of \"it\".toml' $dirs --kind hold --out hold.toml && $prowl plan hold.toml $dirs --print-phases");
+  EXPECT_EQ(made.status, 0) << made.error;
+}
+
 TEST_F(NewTask, CrouchOfGo2Passes) { expect_that_it_plans(kUrdfs[2], "crouch"); }
 TEST_F(NewTask, StandOfAnymalPasses) { expect_that_it_plans(kUrdfs[1], "stand"); }
 TEST_F(NewTask, StepOfLaikagoPasses) { expect_that_it_plans(kUrdfs[5], "step"); }

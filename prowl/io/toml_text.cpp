@@ -1,0 +1,15 @@
+#include "prowl/io/toml_text.hpp"
+
+#include <sstream>
+#include <toml++/toml.h>
+
+namespace prowl {
+
+std::string toml_string(const std::string& text) {
+  const toml::value<std::string> value(text);
+  std::ostringstream quoted;
+  quoted << toml::toml_formatter(value, toml::format_flags::none);
+  return quoted.str();
+}
+
+}  // namespace prowl
