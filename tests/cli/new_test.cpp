@@ -185,7 +185,7 @@ class NewTask : public NewRobot {
 
 TEST_F(NewTask, NamesARobotFileWhateverItIsCalled) {
   ASSERT_EQ(make(kUrdfs[5].path, "'of \"it\".toml'").status, 0);
-  const Outcome made = run("$prowl new task 'of \"it\".toml' $dirs --kind hold --out hold.toml && $prowl plan hold.toml $dirs --print-phases");
+  const Outcome made = run("$prowl new task 'of \"it\".toml' $dirs --kind hold --out still.toml && $prowl plan still.toml $dirs --print-phases");
   EXPECT_EQ(made.status, 0) << made.error;
 }
 
