@@ -49,7 +49,7 @@ struct PlanOptions {
   HessianKind hessian = HessianKind::exact;
   bool coarse_first = true;  ///< false: on the mesh of the problem at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
-  std::function<void(const Trajectory&)> on_motion = {};  ///< the motion after each iteration; may be empty
+  std::function<void(const Trajectory&)> on_motion = {};  ///< the motion of each iterate; may be empty
 };
 
 /// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from makes

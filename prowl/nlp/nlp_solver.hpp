@@ -41,7 +41,7 @@ struct SolverOptions {
   /// go by stages. Riccati then takes its first steps whole, without asking a filter, and takes them back if they lead away.
   std::vector<StageMultipliers> start_multipliers = {};
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
-  /// The variables after each iteration, called right after on_iteration; may be empty, which saves gathering them.
+  /// The variables of the iterate that on_iteration told of just before; may be empty, which saves gathering them.
   std::function<void(const Eigen::VectorXd& z)> on_iterate;
   const std::atomic<bool>* interrupt = nullptr;            ///< looked at once an iteration; true stops
 };
