@@ -8,12 +8,12 @@
 #include "prowl/error.hpp"
 #include "prowl/motion/contact_schedule.hpp"
 #include "prowl/motion/motion_problem.hpp"
-#include "prowl/nlp/nlp.hpp"
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 #include "prowl/transcription/decision_layout.hpp"
 #include "prowl/transcription/interval_defects.hpp"
 #include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/motion_nlp.hpp"
 #include "prowl/transcription/node_functions.hpp"
 
 namespace prowl {
@@ -27,7 +27,7 @@ class StagewiseTranscription;
 /// torque limits, start, goals, durations, places of contacts) are bounds on the decision variables. Cost: the running
 /// cost by the trapezoid, and the terminal cost.
 /// Betts, Practical Methods for Optimal Control, 2010, sec. 4.5; docs/transcription.md.
-class Transcription : public Nlp {
+class Transcription : public MotionNlp {
  public:
   /// `guess` (one point a node) fixes the chart of the base's rotation at each node. Throws InputError if bounds
   /// contradict each other.
@@ -36,9 +36,8 @@ class Transcription : public Nlp {
   Transcription& operator=(const Transcription&) = delete;
   ~Transcription() override;
 
-  Eigen::VectorXd pack(const Trajectory& trajectory) const;
-  /// Includes the contact forces. Throws NumericalError if z is not finite.
-  Trajectory unpack(const Eigen::VectorXd& z);
+  Eigen::VectorXd pack(const Trajectory& trajectory) const override;
+  Trajectory unpack(const Eigen::VectorXd& z) override;
 
   int num_variables() const override { return layout_.num_variables(); }
   int num_constraints() const override { return layout_.num_constraints(); }
@@ -60,7 +59,7 @@ class Transcription : public Nlp {
   std::string describe_variable(int index) const override;
 
   int use_threads(int count) override;
-  void use_hessian(HessianKind kind);  ///< exact, if not said otherwise
+  void use_hessian(HessianKind kind) override;
   StagewiseNlp* stagewise() override;
 
  private:

@@ -19,6 +19,7 @@ ALLOWED = {
     # Of dynamics neither: the certificate must not share the projection with the planner.
     "trajectory": {"model", "motion"},
     "transcription": {"model", "dynamics", "motion", "trajectory", "nlp"},
+    "formulations": {"model", "dynamics", "motion", "trajectory", "nlp", "transcription"},
     "feasibility": {"model", "dynamics", "motion", "trajectory", "nlp"},
     "tracker": set(),  # nor prowl/error.hpp: it goes on the robot
     "tracking": {"model", "dynamics", "motion", "trajectory", "tracker"},

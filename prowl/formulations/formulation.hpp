@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/motion_nlp.hpp"
+
+namespace prowl {
+
+/// One way to write a motion problem as a nonlinear program: a choice in each of four questions (docs/formulations.md).
+/// The default is what make_plan() solves.
+struct Formulation {
+  std::string dynamics = "inverse";
+  std::string transcription = "trapezoid";
+  std::string contact = "stabilised";
+  std::string orientation = "se3";
+};
+
+/// What may be chosen; the default first.
+const std::vector<std::string>& dynamics_names();
+const std::vector<std::string>& transcription_names();
+const std::vector<std::string>& contact_names();
+const std::vector<std::string>& orientation_names();
+
+/// Of the problem on a mesh, about a guess with one point a node. Throws InputError if there is no such choice, if two of the
+/// four do not go together, or if the problem asks for something that the formulation has not.
+std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const MotionProblem& problem,
+                                            const Mesh& mesh, const Trajectory& guess);
+
+}  // namespace prowl

@@ -1,0 +1,54 @@
+#include "prowl/formulations/run_formulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/formulations/subdivided.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+
+namespace prowl {
+
+const CertificateCheck* FormulationRun::worst_check() const {
+  const auto share = [](const CertificateCheck& check) {
+    return std::isnan(check.worst) ? std::numeric_limits<double>::infinity() : check.worst / check.limit;
+  };
+  const auto worst = std::ranges::max_element(certificate.checks, {}, share);
+  return worst == certificate.checks.end() ? nullptr : &*worst;
+}
+
+const CertificateCheck* FormulationRun::check(const std::string& name) const {
+  const auto found = std::ranges::find(certificate.checks, name, &CertificateCheck::name);
+  return found == certificate.checks.end() ? nullptr : &*found;
+}
+
+FormulationRun judge_formulation(const MotionProblem& problem, const Formulation& formulation, MotionNlp& nlp,
+                                 SolveResult result, std::string solver) {
+  FormulationRun run{.formulation = formulation,
+                     .solver = std::move(solver),
+                     .nodes = make_mesh(problem).size(),
+                     .num_variables = nlp.num_variables(),
+                     .num_constraints = nlp.num_constraints(),
+                     .jacobian_nonzeros = nlp.jacobian_pattern().size(),
+                     .hessian_nonzeros = nlp.hessian_pattern().size(),
+                     .result = std::move(result),
+                     .problem = subdivided(problem, nlp.parts()),
+                     .motion = {},
+                     .certificate = {}};
+  run.motion = nlp.motion(run.result.z);
+  run.certificate = certify(run.problem, run.motion);
+  return run;
+}
+
+FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
+                               const SolverOptions& options) {
+  validate(problem);
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  const std::unique_ptr<MotionNlp> nlp = make_formulation(formulation, problem, mesh, guess);
+  if (const auto reason = solver.why_unsupported(*nlp)) throw InputError(*reason);
+  return judge_formulation(problem, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options), solver.name());
+}
+
+}  // namespace prowl

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "prowl/formulations/formulation.hpp"
+#include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/trajectory/certificate.hpp"
+
+namespace prowl {
+
+/// What one formulation came to: a line of the table of `prowl compare`.
+struct FormulationRun {
+  Formulation formulation;
+  std::string solver;                       ///< its name
+  int nodes = 0;                            ///< of the mesh
+  int num_variables = 0, num_constraints = 0;
+  int jacobian_nonzeros = 0, hessian_nonzeros = 0;  ///< places of the patterns; of the Hessian the lower triangle
+  SolveResult result;
+  MotionProblem problem;  ///< on the mesh of the motion: that of the program in MotionNlp::parts() parts
+  Trajectory motion;
+  Certificate certificate;
+
+  double variables_per_node() const { return static_cast<double>(num_variables) / nodes; }
+  double constraints_per_node() const { return static_cast<double>(num_constraints) / nodes; }
+  double seconds_per_iteration() const { return result.iterations > 0 ? result.seconds / result.iterations : 0.0; }
+  /// The check that is furthest beyond its limit, or nearest to it; null without any.
+  const CertificateCheck* worst_check() const;
+  /// By name ("contact drift", "re-integration"); null if the motion has nothing for it to look at.
+  const CertificateCheck* check(const std::string& name) const;
+};
+
+/// Solves the problem on its own mesh, from the guess that its task alone gives, and judges the motion. Throws InputError as
+/// make_formulation() does, and if the solver cannot take such a program.
+FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
+                               const SolverOptions& options);
+/// The same for a program that somebody else has solved.
+FormulationRun judge_formulation(const MotionProblem& problem, const Formulation& formulation, MotionNlp& nlp,
+                                 SolveResult result, std::string solver);
+
+}  // namespace prowl
