@@ -11,7 +11,7 @@
 
 #include "environment.hpp"
 #include "process.hpp"
-#include "program_path.hpp"
+#include "share_folder.hpp"
 #include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
@@ -50,11 +50,6 @@ int usable_cores() {
 double load() {
   double loads[1] = {0.0};
   return ::getloadavg(loads, 1) == 1 ? loads[0] : 0.0;
-}
-
-/// PREFIX/share/prowl for PREFIX/bin/prowl, installed as well as in a build.
-fs::path share_folder() {
-  return program_path().parent_path().parent_path() / "share/prowl";
 }
 
 /// A verb that is drawn or written by a script, and what the script needs.

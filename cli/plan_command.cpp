@@ -19,6 +19,7 @@
 #include "prowl/io/plan_brief.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/report_file.hpp"
+#include "prowl/io/trajectory_csv.hpp"
 #include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
@@ -46,7 +47,6 @@ struct PlanArguments {
 };
 
 constexpr int kMostThreads = 256;
-constexpr double kMostSamples = 1e7;  // of the uniform grid: some gigabytes of text
 
 /// A finite number > 0; CLI11's own check lets NaN through.
 const CLI::Validator kPositive(
@@ -113,35 +113,26 @@ int run_plan(const PlanArguments& arguments) {
   check_plan_directory(out);
   double duration = 0.0;
   for (const Phase& phase : task.problem.phases) duration += phase.duration.max;
-  if (arguments.step && duration / *arguments.step > kMostSamples) {
+  if (arguments.step && duration / *arguments.step > kMostUniformSamples) {
     throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *arguments.step, duration));
   }
 
   ProgressPrinter progress;
   PlanOptions options{.solver = task.solver};
-  std::vector<MeshIteration> iterations;
-  int level = -1;
-  options.solver.on_iteration = [&](const SolveProgress& iteration) {
-    progress.print(iteration);
-    iterations.push_back({std::max(level, 0), iteration});
-  };
+  progress.watch(options);
   options.solver.interrupt = &interrupted;
   const IpoptSolver hint_solver;
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
   options.solver.threads = arguments.threads;
   options.hessian = arguments.hessian == "exact" ? HessianKind::exact : HessianKind::gauss_newton;
-  options.on_level = [&](int intervals) {
-    ++level;
-    progress.begin_level(intervals);
-  };
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
   Plan plan = make_plan(task.problem, *make_solver(arguments.solver), options);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
-                    .feedback = {}, .iterations = std::move(iterations), .warm_start = arguments.warm_start};
+                    .feedback = {}, .iterations = progress.iterations(), .warm_start = arguments.warm_start};
   if (!arguments.no_gains) add_feedback(record);
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));

@@ -3,11 +3,24 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "output.hpp"
 
 namespace prowl::cli {
 
 ProgressPrinter::ProgressPrinter() : in_terminal_(::isatty(STDERR_FILENO) == 1) {}
+
+void ProgressPrinter::watch(PlanOptions& options) {
+  options.on_level = [this](int intervals) {
+    ++level_;
+    begin_level(intervals);
+  };
+  options.solver.on_iteration = [this](const SolveProgress& iteration) {
+    print(iteration);
+    iterations_.push_back({std::max(level_, 0), iteration});
+  };
+}
 
 void ProgressPrinter::begin_level(int intervals) {
   print_progress(fmt::format("mesh of {} interval{}\n", intervals, intervals == 1 ? "" : "s"));

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "process.hpp"
-#include "program_path.hpp"
+#include "share_folder.hpp"
 #include "prowl/error.hpp"
 
 namespace prowl::cli {
@@ -16,10 +16,9 @@ namespace fs = std::filesystem;
 
 constexpr int kNoLibrary = 3;
 
-/// PREFIX/bin/prowl: PREFIX/share/prowl/SCRIPT.
 fs::path find_script(const std::string& script) {
   std::error_code ignored;
-  const fs::path path = program_path().parent_path().parent_path() / "share/prowl" / script;
+  const fs::path path = share_folder() / script;
   if (!fs::exists(path, ignored)) throw FileError(fmt::format("{}: missing; it belongs to this program", path.string()));
   return path;
 }

@@ -4,7 +4,7 @@
 
 #include "output.hpp"
 #include "plan_tracker.hpp"
-#include "program_path.hpp"
+#include "share_folder.hpp"
 #include "prowl/error.hpp"
 
 namespace prowl::cli {
@@ -15,10 +15,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestSimulation = 1u << 30;  ///< [bytes]
 constexpr std::size_t kLongestPage = 16u << 20;       ///< [bytes]
 
-/// PREFIX/bin/prowl: PREFIX/share/prowl/report.html, installed as well as in a build.
 std::string page_without_data() {
   std::error_code ignored;
-  const fs::path page = program_path().parent_path().parent_path() / "share/prowl/report.html";
+  const fs::path page = share_folder() / "report.html";
   if (!fs::exists(page, ignored)) {
     throw FileError(fmt::format("{}: missing; scripts/setup builds it from report/, with the Node.js in .venv", page.string()));
   }

@@ -65,23 +65,17 @@ int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupt
 /// Solves with every iterate sent to the server.
 void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, ViewServer& server, PlanRecord& record) {
   ProgressPrinter progress;
-  MeshIteration at{-1, {}};
   PlanOptions options{.solver = record.task.solver};
   options.solver.interrupt = &interrupted;
-  options.solver.on_iteration = [&](const SolveProgress& iteration) {
-    progress.print(iteration);
-    at.progress = iteration;
-    record.iterations.push_back(at);
-  };
-  options.on_motion = [&](const Trajectory& motion) { server.publish("iterate", report_iterate(record.task.problem, motion, at)); };
-  options.on_level = [&](int intervals) {
-    ++at.level;
-    progress.begin_level(intervals);
+  progress.watch(options);
+  options.on_motion = [&](const Trajectory& motion) {
+    server.publish("iterate", report_iterate(record.task.problem, motion, progress.iterations().back()));
   };
   const IpoptSolver hint_solver;
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
   record.plan = make_plan(record.task.problem, *make_solver(arguments.solver), options);
+  record.iterations = progress.iterations();
 }
 
 int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {

@@ -96,8 +96,7 @@ def contact_topics(contacts: list[str]) -> dict[str, str]:
     return topics
 
 
-def world_frame(motion: dict) -> str:
-    links = [link["name"] for link in motion["links"]]
+def world_frame(links: list[str]) -> str:
     return next(name for name in ("world", "map", "prowl_world") if name not in links)
 
 
@@ -108,15 +107,16 @@ def write_start(topics: Topics, motion: dict, first: int) -> None:
     topics.write("/tf_static", 0, {"transforms": held})
 
 
-def write_sample(topics: Topics, motion: dict, i: int) -> None:
-    samples, world, links = motion["samples"], world_frame(motion), [link["name"] for link in motion["links"]]
+def write_sample(topics: Topics, motion: dict, world: str, contacts: dict[str, tuple[str, str]], i: int) -> None:
+    """`contacts`: of each its frame and its topic."""
+    samples = motion["samples"]
     q, v = samples["q"][i], samples["v"][i]
     now = round(1e9 * samples["time_s"][i])
     root = motion["links"][0]["name"]
     moving = [transform(now, link["parent"] or world, link["name"], placement[:3], placement[3:])
               for link, placement in zip(motion["links"], motion["link_in_parent"][i]) if not link["fixed"]]
-    moving += [transform(now, world, contact_frame(contact, links), position)
-               for contact, position in zip(motion["contacts"], samples["contact_position_m"][i])]
+    moving += [transform(now, world, frame, position)
+               for (frame, _), position in zip(contacts.values(), samples["contact_position_m"][i])]
     topics.write("/tf", now, {"transforms": moving})
     topics.write("/joint_states", now, {"header": header(now, ""), "name": motion["joints"], "position": q[7:], "velocity": v[6:],
                                         "effort": samples["tau"][i]})
@@ -124,25 +124,27 @@ def write_sample(topics: Topics, motion: dict, i: int) -> None:
         "header": header(now, world), "child_frame_id": root,
         "pose": {"pose": {"position": vector(q[:3]), "orientation": quaternion(q[3:7])}, "covariance": [0.0] * 36},
         "twist": {"twist": {"linear": vector(v[:3]), "angular": vector(v[3:6])}, "covariance": [0.0] * 36}})
-    for (contact, topic), force in zip(contact_topics(motion["contacts"]).items(), samples["force_N"][i]):
+    for (frame, topic), force in zip(contacts.values(), samples["force_N"][i]):
         wrench = {"force": vector(force), "torque": vector((0.0, 0.0, 0.0))}
-        topics.write(topic, now, {"header": header(now, contact_frame(contact, links)), "wrench": wrench})
+        topics.write(topic, now, {"header": header(now, frame), "wrench": wrench})
 
 
 def write(motion: dict, path: str) -> None:
+    links = [link["name"] for link in motion["links"]]
+    contacts = {contact: (contact_frame(contact, links), topic) for contact, topic in contact_topics(motion["contacts"]).items()}
     topics = Topics(path)
     topics.add("/robot_description", "std_msgs/String", latched=True)
     topics.add("/tf_static", "tf2_msgs/TFMessage", latched=True)
     topics.add("/tf", "tf2_msgs/TFMessage")
     topics.add("/joint_states", "sensor_msgs/JointState")
     topics.add("/odom", "nav_msgs/Odometry")
-    for topic in contact_topics(motion["contacts"]).values():
+    for _, topic in contacts.values():
         topics.add(topic, "geometry_msgs/WrenchStamped")
     # A time has one transform: of two samples at one time the later phase's.
     indices = motion["one_a_time"]
     write_start(topics, motion, indices[0])
     for i in indices:
-        write_sample(topics, motion, i)
+        write_sample(topics, motion, world_frame(links), contacts, i)
     topics.finish("prowl", {key: str(motion[key]) for key in ("robot", "task", "motion", "good", "format")})
 
 

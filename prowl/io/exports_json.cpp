@@ -8,6 +8,7 @@
 #include "prowl/model/body_placements.hpp"
 #include "prowl/model/body_tree.hpp"
 #include "prowl/model/link_tree.hpp"
+#include "prowl/trajectory/phase_span.hpp"
 
 namespace prowl {
 namespace {
@@ -65,20 +66,18 @@ Json component_names(const RobotModel& robot) {
 /// As planned, with their times.
 Json phases_json(const PlanRecord& plan) {
   const MotionProblem& problem = plan.task.problem;
-  const std::vector<TrajectoryPoint>& nodes = plan.plan.trajectory.nodes;
   Json phases = Json::array();
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
-    const auto is_of_phase = [p](const TrajectoryPoint& node) { return node.phase == static_cast<int>(p); };
-    const auto first = std::find_if(nodes.begin(), nodes.end(), is_of_phase);
-    const auto last = std::find_if(nodes.rbegin(), nodes.rend(), is_of_phase);
+    const std::optional<PhaseSpan> span = phase_span(plan.plan.trajectory, p);
+    if (!span) continue;
     Json contacts = Json::array();
     for (const PhaseContact& c : problem.phases[p].contacts) {
       contacts.push_back({{"contact", problem.robot.contacts()[static_cast<std::size_t>(c.contact)].name},
                           {"surface", problem.surfaces[static_cast<std::size_t>(c.surface)].name}});
     }
     phases.push_back({{"name", problem.phases[p].name},
-                      {"start_s", first->time},
-                      {"end_s", last->time},
+                      {"start_s", span->start},
+                      {"end_s", span->end},
                       {"contacts", contacts}});
   }
   return phases;

@@ -8,6 +8,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/io/json_text.hpp"
+#include "prowl/trajectory/phase_span.hpp"
 
 namespace prowl {
 namespace {
@@ -20,16 +21,10 @@ constexpr int kOldestVersion = 1;  ///< plans of before 2026-11-22: solver may l
 
 /// As planned [s].
 double phase_duration(const PlanRecord& record, std::size_t phase) {
-  double first = 0.0, last = 0.0;
-  bool any = false;
-  for (const TrajectoryPoint& node : record.plan.trajectory.nodes) {
-    if (node.phase != static_cast<int>(phase)) continue;
-    if (!any) first = node.time;
-    last = node.time;
-    any = true;
-  }
   const Duration& asked = record.task.problem.phases[phase].duration;
-  return asked.is_fixed() ? asked.min : last - first;
+  if (asked.is_fixed()) return asked.min;
+  const PhaseSpan span = phase_span(record.plan.trajectory, phase).value_or(PhaseSpan{});
+  return span.end - span.start;
 }
 
 Json problem_to_json(const PlanRecord& record) {

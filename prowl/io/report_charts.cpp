@@ -62,7 +62,7 @@ class Charts {
     }
     const char* const angles[] = {"roll", "pitch", "yaw"};
     for (int i = 0; i < 3; ++i) {
-      charts.push_back(chart(angles[i], "rad", [i](const auto& p) { return roll_pitch_yaw(p.q)(i); }));
+      charts.push_back(chart(angles[i], "rad", [i](const auto& p) { return rpy_from_rotation(base_rotation(p.q))(i); }));
     }
     for (int i = 0; i < 3; ++i) {
       charts.push_back(chart(fmt::format("velocity {} (base frame)", kAxes[i]), "m/s", [i](const auto& p) { return p.v(i); }));
@@ -131,11 +131,6 @@ class Charts {
 
   const std::string& joint(int j) const { return robot_.joint_names()[static_cast<std::size_t>(j)]; }
   bool prismatic(int j) const { return robot_.joint_is_prismatic()[static_cast<std::size_t>(j)]; }
-
-  static Eigen::Vector3d roll_pitch_yaw(const Eigen::VectorXd& q) {
-    const Eigen::Matrix3d R = base_rotation(q);
-    return {std::atan2(R(2, 1), R(2, 2)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(1, 0), R(0, 0))};
-  }
 
   double worst_joint(const TrajectoryPoint& p, Share share) const {
     double worst = 0.0;

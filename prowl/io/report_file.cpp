@@ -9,6 +9,7 @@
 #include "prowl/io/plan_json.hpp"
 #include "prowl/io/report_json.hpp"
 #include "prowl/io/report_motion.hpp"
+#include "prowl/trajectory/phase_span.hpp"
 
 namespace prowl {
 namespace {
@@ -25,17 +26,15 @@ constexpr double kGainStep = 0.02;  ///< [s]
 Json phases_json(const MotionProblem& problem, const Trajectory& trajectory) {
   Json phases = Json::array();
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const std::optional<PhaseSpan> span = phase_span(trajectory, p);
+    if (!span) continue;
     Json contacts = Json::array();
     for (const PhaseContact& held : problem.phases[p].contacts) {
       contacts.push_back({{"contact", held.contact}, {"surface", held.surface}});
     }
-    const auto of_phase = [p](const TrajectoryPoint& node) { return node.phase == static_cast<int>(p); };
-    const auto first = std::find_if(trajectory.nodes.begin(), trajectory.nodes.end(), of_phase);
-    const auto last = std::find_if(trajectory.nodes.rbegin(), trajectory.nodes.rend(), of_phase);
-    if (first == trajectory.nodes.end()) continue;
     phases.push_back({{"name", problem.phases[p].name},
-                      {"start", first->time},
-                      {"end", last->time},
+                      {"start", span->start},
+                      {"end", span->end},
                       {"intervals", problem.phases[p].intervals},
                       {"contacts", contacts}});
   }

@@ -85,11 +85,6 @@ int find_name(const TomlValue& value, const std::string& what, const std::vector
   return static_cast<int>(found - names.begin());
 }
 
-/// The inverse of rotation_from_rpy.
-Eigen::Vector3d rpy_of(const Eigen::Matrix3d& R) {
-  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), std::atan2(R(1, 0), R(0, 0))};
-}
-
 /// Takes a posture from the level ground, z = 0, to a surface: turned the shortest way, what was at the origin at its point.
 void put_on(const Surface& surface, TaskStart& start) {
   const Eigen::Matrix3d turn =
@@ -97,7 +92,7 @@ void put_on(const Surface& surface, TaskStart& start) {
   const Eigen::Matrix3d R = turn * base_rotation(start.q);
   start.q.head<3>() = (surface.point + turn * start.q.head<3>()).eval();
   set_base_rotation(start.q, R);
-  start.rpy = rpy_of(R);
+  start.rpy = rpy_from_rotation(R);
 }
 
 TaskStart read_start(const TomlTable& root, const RobotModel& robot, const SourceText& robot_file,

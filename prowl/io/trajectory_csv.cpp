@@ -174,9 +174,8 @@ Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& s
 }
 
 Trajectory sample_uniformly(const Trajectory& trajectory, double step) {
-  constexpr double kMostSamples = 1e7;  // some gigabytes
   const double end = trajectory.duration();
-  if (!(step > 0.0) || end / step > kMostSamples) throw InputError(fmt::format("step: {} s is too fine for a motion of {} s", step, end));
+  if (!(step > 0.0) || end / step > kMostUniformSamples) throw InputError(fmt::format("step: {} s is too fine for a motion of {} s", step, end));
   Trajectory samples;
   for (long i = 0; static_cast<double>(i) * step < end - 1e-9 * step; ++i) {
     samples.nodes.push_back(sample(trajectory, static_cast<double>(i) * step));

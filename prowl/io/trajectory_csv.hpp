@@ -19,6 +19,9 @@ std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& tr
 /// the problem with its contacts, all numbers finite, and the last line whole.
 Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source);
 
+/// Most samples of a motion that is written with a uniform step: some gigabytes of text.
+constexpr double kMostUniformSamples = 1e7;
+
 /// Points at 0, step, 2 step, ... and the end; at a phase switch the point of the later phase.
 Trajectory sample_uniformly(const Trajectory& trajectory, double step);
 

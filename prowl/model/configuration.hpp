@@ -21,5 +21,7 @@ inline Eigen::Matrix3d base_rotation(const Eigen::VectorXd& q) { return base_qua
 void set_base_rotation(Eigen::VectorXd& q, const Eigen::Matrix3d& R);
 /// R = Rz(yaw) Ry(pitch) Rx(roll), angles (roll, pitch, yaw) [rad].
 Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy);
+/// Its inverse: pitch in [-pi/2, pi/2]; where |pitch| = pi/2, some roll and yaw that give R.
+Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R);
 
 }  // namespace prowl

@@ -22,7 +22,6 @@ namespace {
 using Kind = RobotWarning::Kind;
 using Warnings = std::vector<RobotWarning>;
 
-constexpr double kNoRealLimit = 1000.0;  // [N m, N, rad/s, m/s, m]: what files write that know no limit
 constexpr double kLevel = 1e-3;          // [m]
 constexpr double kRelative = 1e-3;       // of masses and limits, left against right
 constexpr double kTinyMass = 1e-5;       // of the robot's mass

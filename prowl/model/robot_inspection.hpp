@@ -8,6 +8,9 @@
 
 namespace prowl {
 
+/// What files write that know no limit, or more [N m, N, rad/s, m/s, m].
+constexpr double kNoRealLimit = 1000.0;
+
 /// Something about a robot that can be planned with, but is probably not meant.
 struct RobotWarning {
   enum class Kind {

@@ -27,7 +27,7 @@ Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {
   if (leg.joints.size() < kSoleJoints) return R;
   Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
   double best = std::cos(kSnap);
-  for (const LinkFrame& link : pose.links()) {
+  for (const RobotLink& link : pose.links()) {
     if (link.body != leg.foot) continue;
     const Eigen::Matrix3d axes = R * link.placement.rotation();
     for (int i = 0; i < 6; ++i) {
@@ -42,10 +42,10 @@ Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {
 }
 
 /// The link of the foot whose origin is nearest to a point of the body.
-const LinkFrame& nearest_link(const RobotPose& pose, int body, const Eigen::Vector3d& point, const std::string& preferred) {
-  const LinkFrame* nearest = nullptr;
+const RobotLink& nearest_link(const RobotPose& pose, int body, const Eigen::Vector3d& point, const std::string& preferred) {
+  const RobotLink* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (const LinkFrame& link : pose.links()) {
+  for (const RobotLink& link : pose.links()) {
     if (link.body != body) continue;
     constexpr double kTie = 1e-3;  // [m]
     const double distance = (link.placement.translation() - point).norm() - (link.name == preferred ? kTie : 0.0);
@@ -57,7 +57,7 @@ const LinkFrame& nearest_link(const RobotPose& pose, int body, const Eigen::Vect
   return *nearest;
 }
 
-ContactPoint contact_at(const LinkFrame& link, const std::string& name, const Eigen::Vector3d& in_body, double radius) {
+ContactPoint contact_at(const RobotLink& link, const std::string& name, const Eigen::Vector3d& in_body, double radius) {
   const Eigen::Vector3d offset = link.placement.inverse() * in_body;
   return {name, link.name, rounded(radius), offset.unaryExpr([](double x) { return rounded(x); })};
 }
@@ -107,7 +107,7 @@ class FootFinder {
     const bool are_corners = touching.size() == 4 && std::set(corners.begin(), corners.end()).size() == 4;
     for (const FootShape* shape : touching) {
       const Eigen::Vector3d center = shape->points.col(0);
-      const LinkFrame& link = nearest_link(pose_, leg_.foot, center, shape->link);
+      const RobotLink& link = nearest_link(pose_, leg_.foot, center, shape->link);
       std::string name = link.name;
       if (are_corners) {
         name += corners[foot.contacts.size()];
@@ -134,7 +134,7 @@ class FootFinder {
     const double height = all.row(2).minCoeff();
     const Eigen::Vector2d middle = 0.5 * (rectangle->lower + rectangle->upper);
     const auto in_body = [&](double x, double y) -> Eigen::Vector3d { return level_.transpose() * Eigen::Vector3d(x, y, height); };
-    const LinkFrame& link = nearest_link(pose_, leg_.foot, in_body(middle.x(), middle.y()), "");
+    const RobotLink& link = nearest_link(pose_, leg_.foot, in_body(middle.x(), middle.y()), "");
     FootContacts foot;
     for (const double x : {rectangle->upper.x(), rectangle->lower.x()}) {
       for (const double y : {rectangle->upper.y(), rectangle->lower.y()}) {
@@ -156,7 +156,7 @@ class FootFinder {
     const Eigen::Matrix3Xd points = levelled(*shape);
     Eigen::Index at = 0;
     const double bottom = points.row(2).minCoeff(&at);
-    const LinkFrame& link = nearest_link(pose_, leg_.foot, shape->points.col(at), shape->link);
+    const RobotLink& link = nearest_link(pose_, leg_.foot, shape->points.col(at), shape->link);
     const Eigen::Vector3d origin = level_ * link.placement.translation();
     const double radius = origin.z() - bottom;
     const double reach = (pose_.body(leg_.foot).translation() - pose_.joint(leg_.joints.front())).norm() + radius;
@@ -174,8 +174,8 @@ class FootFinder {
 
   /// Without a shape: the lowest frame of the foot.
   FootContacts bare_frame() const {
-    const LinkFrame* lowest = nullptr;
-    for (const LinkFrame& link : pose_.links()) {
+    const RobotLink* lowest = nullptr;
+    for (const RobotLink& link : pose_.links()) {
       if (link.body != leg_.foot) continue;
       if (lowest == nullptr || (level_ * (link.placement.translation() - lowest->placement.translation())).z() < 0.0) lowest = &link;
     }

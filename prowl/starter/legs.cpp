@@ -45,7 +45,7 @@ std::vector<Limb> find_limbs(const BodyTree& tree) {
 void find_lowest_points(const RobotPose& pose, std::vector<Limb>& limbs) {
   for (Limb& limb : limbs) {
     limb.lowest = pose.body(limb.end).translation();
-    for (const LinkFrame& link : pose.links()) {
+    for (const RobotLink& link : pose.links()) {
       if (link.body != limb.end) continue;
       const Eigen::Vector3d origin = pose.point(link.body, link.placement.translation());
       if (origin.z() < limb.lowest.z()) limb.lowest = origin;

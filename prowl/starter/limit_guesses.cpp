@@ -7,11 +7,12 @@
 #include <numbers>
 
 #include "prowl/error.hpp"
+#include "prowl/model/robot_inspection.hpp"
+#include "prowl/starter/rounding.hpp"
 
 namespace prowl {
 namespace {
 
-constexpr double kNoRealTorque = 1000.0;             // [N m], as prowl/model/robot_inspection.cpp has it
 constexpr double kTurn = 2.0 * std::numbers::pi;     // [rad]; a range beyond is none
 constexpr double kStraight = 0.1, kMostBent = 2.6;   // [rad], of a knee
 constexpr double kSwing = 1.5;                       // [rad], of other joints of legs, either way
@@ -23,8 +24,6 @@ double two_digits(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)) - 1.0);
   return unit * std::ceil(x / unit);
 }
-
-double hundredths(double x) { return std::round(100.0 * x) / 100.0; }
 
 std::pair<double, double> range_of(int joint, const Knee* knee, const StandingPosture& posture) {
   const double now = posture.joints(joint);
@@ -49,7 +48,7 @@ std::map<std::string, JointLimits> usable_limits(const UrdfOutline& outline) {
       usable.position_upper = std::numbers::pi;
     }
     if (!(joint.velocity > 0.0)) usable.velocity = kVelocity;
-    if (!(joint.effort > 0.0)) usable.torque = kNoRealTorque;
+    if (!(joint.effort > 0.0)) usable.torque = kNoRealLimit;
     if (usable.position_lower || usable.velocity || usable.torque) limits[joint.joint] = usable;
   }
   return limits;
@@ -75,7 +74,7 @@ std::vector<LimitGuess> guess_limits(const RobotModel& robot, const UrdfOutline&
     if (!found->has_range() || is_endless) guess.position = range_of(j, knee, posture);
     if (!(found->velocity > 0.0)) guess.velocity = kVelocity;
     if (!(found->effort > 0.0)) guess.torque = two_digits(kTorqueOfStanding * (in_leg ? all_legs : std::abs(standing_torque(j))));
-    guess.torque_is_no_limit = found->effort >= kNoRealTorque;
+    guess.torque_is_no_limit = found->effort >= kNoRealLimit;
     if (guess.position || guess.velocity || guess.torque || guess.torque_is_no_limit) guesses.push_back(guess);
   }
   return guesses;

@@ -13,6 +13,7 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/leg_kinematics.hpp"
+#include "prowl/starter/rounding.hpp"
 
 namespace prowl {
 namespace {
@@ -30,8 +31,6 @@ constexpr double kUnbalanced = 0.01;               // of the weight
 
 // The weight of torques goes with 1 / mass^2: docs/adding-a-robot.md. HyQ's and Talos's tasks have these.
 constexpr double kHyqMass = 86.8, kHyqWeight = 1e-5, kWeightOnSoles = 3e-5;
-
-double hundredths(double x) { return 0.01 * std::round(100.0 * x) + 0.0; }
 
 double one_digit(double x) {
   const double unit = std::pow(10.0, std::floor(std::log10(x)));
@@ -57,9 +56,7 @@ std::vector<ContactTarget> standing_places(const RobotModel& robot) {
 bool can_rest(const RobotModel& robot, bool soles, const Eigen::Vector3d& shift, const Eigen::Vector3d& turn) {
   Eigen::VectorXd q = robot.nominal_configuration();
   q.head<3>() += shift;
-  const Eigen::Matrix3d R = (Eigen::AngleAxisd(turn.z(), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(turn.y(), Eigen::Vector3d::UnitY()) *
-                             Eigen::AngleAxisd(turn.x(), Eigen::Vector3d::UnitX())).toRotationMatrix();
-  set_base_rotation(q, R * base_rotation(q));
+  set_base_rotation(q, rotation_from_rpy(turn) * base_rotation(q));
   const InverseKinematics ik = inverse_kinematics(robot, q, standing_places(robot));
   if (ik.residual > (soles ? kFittedSoles : kFitted)) return false;
   const Eigen::VectorXd joints = ik.q.tail(robot.nu());

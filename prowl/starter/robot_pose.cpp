@@ -10,7 +10,7 @@ namespace prowl {
 RobotPose::RobotPose(const RobotModel& robot, const Eigen::Matrix3d& upright)
     : robot_(robot),
       tree_(body_tree(robot)),
-      links_(link_frames(robot)),
+      links_(link_tree(robot)),
       placements_(robot),
       q_(Eigen::VectorXd::Zero(robot.nq())) {
   set_base_rotation(q_, upright);

@@ -6,7 +6,7 @@
 
 #include "prowl/model/body_placements.hpp"
 #include "prowl/model/body_tree.hpp"
-#include "prowl/model/link_frames.hpp"
+#include "prowl/model/link_tree.hpp"
 #include "prowl/model/robot_model.hpp"
 
 namespace prowl {
@@ -23,7 +23,7 @@ class RobotPose {
   const Eigen::VectorXd& q() const { return q_; }  ///< nq
   const RobotModel& robot() const { return robot_; }
   const BodyTree& tree() const { return tree_; }
-  const std::vector<LinkFrame>& links() const { return links_; }
+  const std::vector<RobotLink>& links() const { return links_; }
   const Eigen::Isometry3d& body(int index) const { return (*bodies_)[static_cast<std::size_t>(index)]; }
   Eigen::Vector3d point(int body_index, const Eigen::Vector3d& in_body) const { return body(body_index) * in_body; }
   Eigen::Vector3d contact(std::size_t index) const;       ///< of robot().contacts() [m]
@@ -34,7 +34,7 @@ class RobotPose {
  private:
   const RobotModel& robot_;
   BodyTree tree_;
-  std::vector<LinkFrame> links_;
+  std::vector<RobotLink> links_;
   BodyPlacements placements_;
   Eigen::VectorXd q_;
   const std::vector<Eigen::Isometry3d>* bodies_ = nullptr;

@@ -138,8 +138,7 @@ std::string step_phases(const NewTask& task) {
 
 /// Roll, pitch and yaw of a base that has `rpy` already and is turned by `turn` about the world's axes.
 Eigen::Vector3d turned(const Eigen::Vector3d& rpy, const Eigen::Vector3d& turn) {
-  const Eigen::Matrix3d R = rotation_from_rpy(turn) * rotation_from_rpy(rpy);
-  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), std::atan2(R(1, 0), R(0, 0))};
+  return rpy_from_rotation(rotation_from_rpy(turn) * rotation_from_rpy(rpy));
 }
 
 std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double duration) {

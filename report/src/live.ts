@@ -1,4 +1,4 @@
-import type { Iterate, Phase, ReportData } from "./data";
+import type { Iterate, ReportData } from "./data";
 import { el, short } from "./dom";
 
 /// What the page shows of a motion, and what changes from iterate to iterate.
@@ -61,7 +61,7 @@ export class Live {
   }
   private draw(): void {
     const chosen: Shown | null | undefined = this.iterates[Number(this.slider.value)] ?? this.result;
-    if (chosen) this.show({ phases: chosen.phases as Phase[], plan: chosen.plan, charts: chosen.charts });
+    if (chosen) this.show({ phases: chosen.phases, plan: chosen.plan, charts: chosen.charts });
     this.describe();
   }
   private describe(): void {
