@@ -17,6 +17,8 @@ struct Formulation {
   std::string transcription = "trapezoid";
   std::string contact = "stabilised";
   std::string orientation = "se3";
+
+  bool operator==(const Formulation&) const = default;
 };
 
 /// What may be chosen; the default first.
@@ -28,6 +30,10 @@ const std::vector<std::string>& orientation_names();
 /// Of the problem on a mesh, about a guess with one point a node. Throws InputError if there is no such choice, if two of the
 /// four do not go together, or if the problem asks for something that the formulation has not.
 std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const MotionProblem& problem,
+                                            const Mesh& mesh, const Trajectory& guess);
+
+/// The same, but as a collocation in coordinates also where the choice is the default: to check the one by the other.
+std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem,
                                             const Mesh& mesh, const Trajectory& guess);
 
 }  // namespace prowl

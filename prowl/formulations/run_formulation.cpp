@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "prowl/error.hpp"
-#include "prowl/formulations/subdivided.hpp"
 #include "prowl/transcription/initial_guess.hpp"
 
 namespace prowl {
@@ -33,11 +32,10 @@ FormulationRun judge_formulation(const MotionProblem& problem, const Formulation
                      .jacobian_nonzeros = nlp.jacobian_pattern().size(),
                      .hessian_nonzeros = nlp.hessian_pattern().size(),
                      .result = std::move(result),
-                     .problem = subdivided(problem, nlp.parts()),
                      .motion = {},
                      .certificate = {}};
-  run.motion = nlp.motion(run.result.z);
-  run.certificate = certify(run.problem, run.motion);
+  run.motion = nlp.unpack(run.result.z);
+  run.certificate = certify(problem, run.motion);
   return run;
 }
 

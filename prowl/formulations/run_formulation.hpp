@@ -14,7 +14,6 @@ struct FormulationRun {
   int num_variables = 0, num_constraints = 0;
   int jacobian_nonzeros = 0, hessian_nonzeros = 0;  ///< places of the patterns; of the Hessian the lower triangle
   SolveResult result;
-  MotionProblem problem;  ///< on the mesh of the motion: that of the program in MotionNlp::parts() parts
   Trajectory motion;
   Certificate certificate;
 

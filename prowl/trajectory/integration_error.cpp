@@ -12,10 +12,10 @@ namespace {
 
 /// |ẋ - f(x, τ)| of the interpolated motion at left.time + s.
 Eigen::VectorXd residual(const MeshInterval& interval, double s, ConstrainedDynamicsOracle& dynamics) {
-  const TrajectoryPoint point = interpolate(interval.left, interval.right, s);
+  const TrajectoryPoint point = interval.at(s);
   const Eigen::Index nv = point.v.size();
   Eigen::VectorXd residual(2 * nv);
-  residual.head(nv) = interpolated_rate(interval.left, interval.right, s) - tangent_rate(point);
+  residual.head(nv) = interval.rate(s) - tangent_rate(point);
   residual.tail(nv) = point.a - dynamics.evaluate(point.q, point.v, point.tau).a;
   return residual.cwiseAbs();
 }

@@ -40,10 +40,10 @@ State state_rate(const State& x, const Eigen::VectorXd& tau, ConstrainedDynamics
 
 EndState reintegrate(const MeshInterval& interval, ConstrainedDynamicsOracle& dynamics) {
   namespace odeint = boost::numeric::odeint;
-  const auto& [left, right] = interval;
+  const TrajectoryPoint& left = interval.left;
   const double h = interval.step();
   const auto rate = [&](const State& x, State& x_rate, double t) {
-    x_rate = state_rate(x, (1 - t / h) * left.tau + t / h * right.tau, dynamics);
+    x_rate = state_rate(x, interval.torque(t), dynamics);
   };
 
   State x(left.q.data(), left.q.data() + left.q.size());

@@ -168,7 +168,7 @@ std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const
     const double h = interval.step();
     const int pieces = std::max(Limits::grid_intervals, static_cast<int>(std::ceil(h / Limits::grid_step)));
     for (int i = 0; i <= pieces; ++i) {
-      const TrajectoryPoint point = interpolate(interval.left, interval.right, h * i / pieces);
+      const TrajectoryPoint point = interval.at(h * i / pieces);
       const auto points = dynamics[point.phase].contact_points(point.q, point.v);
       contacts.record(point, points);
       swings.record(point, points);

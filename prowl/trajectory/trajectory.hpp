@@ -13,9 +13,18 @@ struct TrajectoryPoint {
   Eigen::VectorXd force;  ///< 3 per contact of the ROBOT (robot order), world frame [N]; zero where not in contact
 };
 
+/// How a motion runs between two nodes.
+enum class Interpolation {
+  trapezoid,  ///< interpolate(), below
+  hermite,    ///< cubics through position and velocity, velocity and acceleration: hermite_interval.hpp
+};
+
 /// A motion at the nodes of its mesh: the nodes of each phase in order, so a phase switch has two at one time.
 struct Trajectory {
   std::vector<TrajectoryPoint> nodes;
+  Interpolation interpolation = Interpolation::trapezoid;
+  /// Of hermite: torque in the middle of each mesh interval [N m], with which it is quadratic; empty: linear.
+  std::vector<Eigen::VectorXd> middle_torques = {};
 
   bool empty() const { return nodes.empty(); }
   double duration() const { return nodes.empty() ? 0.0 : nodes.back().time; }

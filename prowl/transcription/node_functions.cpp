@@ -36,12 +36,13 @@ std::vector<int> contacts_of(const Phase& phase) {
 }  // namespace
 
 NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                             const PhaseContacts& contacts)
+                             const PhaseContacts& contacts, const StabilisationOfStep& stabilisation)
     : nv_(problem.robot.nv()),
       nu_(problem.robot.nu()),
       num_chosen_(static_cast<int>(contacts.chosen_rows.size())),
       intervals_(phase_of(problem, phase).intervals),
       free_duration_(!phase_of(problem, phase).duration.is_fixed()),
+      stabilisation_(stabilisation),
       torques_(problem.robot),
       placement_(problem, schedule, phase, contacts.landing),
       cost_(problem),
@@ -105,11 +106,11 @@ std::string NodeFunctions::describe_row(int k, int row) const {
          (unloads(k, contact) ? ", force before it opens" : ", friction cone");
 }
 
-// kd = 2/h, kp = 1/h² pull a contact's error down by three from node to node: docs/transcription.md. h = T / intervals.
+// h = T / intervals.
 Eigen::Vector2d NodeFunctions::gains(double duration, int derivative) const {
   const double n = intervals_, T = duration;
-  const Eigen::Vector2d at(2.0 * n / T, n * n / (T * T));
-  if (derivative == 0) return at;
+  const Eigen::Vector2d at(stabilisation_.rate * n / T, stabilisation_.stiffness * n * n / (T * T));
+  if (derivative == 0) return at + Eigen::Vector2d(stabilisation_.damping, stabilisation_.spring);
   if (derivative == 1) return {-at(0) / T, -2.0 * at(1) / T};
   return {2.0 * at(0) / (T * T), 6.0 * at(1) / (T * T)};
 }

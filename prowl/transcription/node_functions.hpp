@@ -22,6 +22,15 @@ struct PhaseContacts {
   std::vector<LandingAxes> landing;  ///< one a contact of the phase
 };
 
+/// Gains kd = rate / h + damping and kp = stiffness / h^2 + spring that a step h pulls contacts back with
+/// (docs/transcription.md#contacts). These of the trapezoid take an error down by three from node to node.
+struct StabilisationOfStep {
+  double rate = 2.0;
+  double stiffness = 1.0;
+  double damping = 0.0;  ///< [1/s]
+  double spring = 0.0;   ///< [1/s^2]
+};
+
 /// What is evaluated at one node. Derivatives are in the variables of the node (base position, theta, joints | v | a |
 /// tau | w) and then in what its phase shares (duration, if free | two surface coordinates of each contact that landed).
 struct NodeValues {
@@ -44,7 +53,8 @@ struct NodeValues {
 /// the node already (the last one of their owner), unless contacts lose rank.
 class NodeFunctions {
  public:
-  NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts);
+  NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts,
+                const StabilisationOfStep& stabilisation = {});
 
   int num_variables() const { return 3 * nv_ + nu_ + num_chosen_; }        ///< of a node
   int num_shared() const { return (free_duration_ ? 1 : 0) + num_places(); }
@@ -52,8 +62,10 @@ class NodeFunctions {
   bool has_free_duration() const { return free_duration_; }
   /// Contacts of the phase whose place is shared variables, in their order: places in the phase's list.
   const std::vector<int>& landed() const { return landed_; }
+  const std::vector<Eigen::Matrix<double, 3, 2>>& landed_axes() const { return landed_axes_; }  ///< of anchors in places
 
   int num_rows(int k) const { return placement_row(k) + placement_.count(k); }
+  int placement_row(int k) const { return torque_row(k) + torques_.count(); }  ///< the first about places
   double lower(int k, int row) const;
   double upper(int k, int row) const;
   std::string describe_row(int k, int row) const;
@@ -69,6 +81,13 @@ class NodeFunctions {
   /// evaluation of the dynamics.
   void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values,
                  Eigen::MatrixXd& hessian);
+
+  /// Gains (kd, kp) of a step, their first and second derivatives in the duration of the phase.
+  Eigen::Vector2d gains(double duration, int derivative) const;
+  /// Of the last evaluation: where the dynamics were evaluated, and the kinematics there.
+  const DynamicsPoint& at() const { return at_; }
+  const RigidBodyTerms& terms() const { return dynamics_.terms(); }
+
   void use_hessian(HessianKind kind) { hessian_kind_ = kind; }  ///< of the above; exact, if not said otherwise
   HessianKind hessian_kind() const { return hessian_kind_; }
 
@@ -79,11 +98,8 @@ class NodeFunctions {
   bool unloads(int k, int contact) const { return k == intervals_ && opens_[static_cast<std::size_t>(contact)]; }
   int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of them all
   int torque_row(int k) const { return contact_row(k, num_contacts()); }
-  int placement_row(int k) const { return torque_row(k) + torques_.count(); }
 
   void set_point(const NodePoint& point);
-  /// Gains (kd, kp) of a step, their first and second derivatives in the duration of the phase.
-  Eigen::Vector2d gains(double duration, int derivative) const;
   void fill_rows(const NodePoint& point, NodeValues& values);
   void fill_derivatives(const NodePoint& point, NodeValues& values);
   /// Columns of a block of derivatives of residual or forces in all columns.
@@ -100,6 +116,7 @@ class NodeFunctions {
   int nv_, nu_, num_chosen_, intervals_;
   HessianKind hessian_kind_ = HessianKind::exact;
   bool free_duration_;
+  StabilisationOfStep stabilisation_;
   std::vector<std::string> contact_names_, force_names_;
   std::vector<bool> opens_;
   std::vector<int> landed_;

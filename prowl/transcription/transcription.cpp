@@ -7,7 +7,7 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
-#include "prowl/transcription/independent_contacts.hpp"
+#include "prowl/transcription/phase_setup.hpp"
 #include "prowl/transcription/stagewise_transcription.hpp"
 #include "prowl/transcription/transcription_bounds.hpp"
 
@@ -19,16 +19,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-std::vector<PhaseContacts> contacts_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
-                                              const Mesh& mesh, const Trajectory& guess) {
-  std::vector<PhaseContacts> contacts;
-  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const VectorXd& q = guess.nodes[static_cast<std::size_t>(mesh.index({p, 0}))].q;
-    contacts.push_back(phase_contacts(problem, schedule, p, q));
-  }
-  return contacts;
-}
 
 std::vector<NodeFunctions> functions_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
                                                const std::vector<PhaseContacts>& contacts) {
@@ -55,27 +45,6 @@ std::vector<int> rows_of_nodes(const std::vector<NodeFunctions>& phases, const M
   std::vector<int> rows;
   for (const MeshNode& node : mesh.nodes) rows.push_back(phases[static_cast<std::size_t>(node.phase)].num_rows(node.node));
   return rows;
-}
-
-/// Anchors of each phase's contacts, those that land at the origin of their surface coordinates: a contact that is held
-/// from the start stays at the place that the start has.
-std::vector<VectorXd> anchor_origins(const MotionProblem& problem, const ContactSchedule& schedule) {
-  RigidBodyTerms terms(problem.robot);
-  terms.update_kinematics(problem.start_configuration());
-  std::vector<VectorXd> origins;
-  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
-    const auto& contacts = problem.phases[p].contacts;
-    VectorXd& anchors = origins.emplace_back(3 * static_cast<Index>(contacts.size()));
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const Stance& stance =
-          schedule.stances()[static_cast<std::size_t>(schedule.stance(static_cast<int>(p), static_cast<int>(i)))];
-      const double radius = problem.robot.contacts()[static_cast<std::size_t>(stance.contact)].radius;
-      anchors.segment<3>(static_cast<Index>(3 * i)) =
-          stance.lands() ? problem.surfaces[static_cast<std::size_t>(stance.surface)].at({0.0, 0.0}, radius)
-                         : terms.contact_position(stance.contact);
-    }
-  }
-  return origins;
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+#include "prowl/transcription/phase_setup.hpp"
+
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/transcription/independent_contacts.hpp"
+
+namespace prowl {
+
+std::vector<PhaseContacts> contacts_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
+                                              const Mesh& mesh, const Trajectory& guess) {
+  std::vector<PhaseContacts> contacts;
+  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
+    const Eigen::VectorXd& q = guess.nodes[static_cast<std::size_t>(mesh.index({p, 0}))].q;
+    contacts.push_back(phase_contacts(problem, schedule, p, q));
+  }
+  return contacts;
+}
+
+std::vector<Eigen::VectorXd> anchor_origins(const MotionProblem& problem, const ContactSchedule& schedule) {
+  RigidBodyTerms terms(problem.robot);
+  terms.update_kinematics(problem.start_configuration());
+  std::vector<Eigen::VectorXd> origins;
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const auto& contacts = problem.phases[p].contacts;
+    Eigen::VectorXd& anchors = origins.emplace_back(3 * static_cast<Eigen::Index>(contacts.size()));
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Stance& stance =
+          schedule.stances()[static_cast<std::size_t>(schedule.stance(static_cast<int>(p), static_cast<int>(i)))];
+      const double radius = problem.robot.contacts()[static_cast<std::size_t>(stance.contact)].radius;
+      anchors.segment<3>(static_cast<Eigen::Index>(3 * i)) =
+          stance.lands() ? problem.surfaces[static_cast<std::size_t>(stance.surface)].at({0.0, 0.0}, radius)
+                         : terms.contact_position(stance.contact);
+    }
+  }
+  return origins;
+}
+
+}  // namespace prowl

@@ -1,0 +1,160 @@
+#include "prowl/formulations/collocation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "prowl/dynamics/forward_dynamics.hpp"
+#include "prowl/error.hpp"
+#include "prowl/formulations/formulation.hpp"
+#include "prowl/nlp/derivative_check.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "tests/support/everything_problem.hpp"
+#include "tests/support/random_point.hpp"
+#include "tests/support/robots.hpp"
+
+namespace prowl {
+namespace {
+
+using test::everything;
+using test::free_phase;
+using test::phase_on;
+
+MotionProblem two_phases() {
+  return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 1), phase_on("three", {0, 1, 3}, 0.2, 1)});
+}
+
+MotionProblem one_phase() { return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 1)}); }
+
+/// Contacts that open and land, durations and places that are variables.
+MotionProblem a_step() {
+  MotionProblem problem =
+      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 1), phase_on("lifted", {1, 2, 3}, 0.2, 1),
+                               free_phase("landed", {0, 1, 2, 3}, 1)});
+  problem.swing_clearance = 0.05;
+  problem.running_cost.time_weight = 2.3;
+  return problem;
+}
+
+void expect_derivatives(const MotionProblem& problem, const Formulation& formulation) {
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  const auto nlp = make_collocation(formulation, problem, mesh, guess);
+  std::mt19937 rng(5);
+  const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.02);
+  const Eigen::VectorXd multipliers = test::random_vector(rng, nlp->num_constraints(), 2.0);
+  // Accelerations that are solved for have lost four digits to rounding: differences of them need a larger step than others.
+  const DerivativeReport report = check_derivatives(*nlp, z, 1.7, multipliers, {.step = 2e-4});
+  EXPECT_LT(report.worst(), 1e-6) << report.summary();
+  EXPECT_TRUE(report.pattern_faults.empty()) << report.pattern_faults.front();
+}
+
+TEST(Collocation, DerivativesOfEachDynamicsAreThoseOfDifferences) {
+  for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+    SCOPED_TRACE(dynamics);
+    expect_derivatives(two_phases(), {.dynamics = dynamics});
+  }
+}
+
+TEST(Collocation, DerivativesOfEachRuleAreThoseOfDifferences) {
+  for (const std::string& rule : {"hermite-simpson", "hermite-simpson-separated"}) {
+    for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+      SCOPED_TRACE(rule + ", " + dynamics);
+      expect_derivatives(one_phase(), {.dynamics = dynamics, .transcription = rule});
+    }
+  }
+  expect_derivatives(one_phase(), {.dynamics = "forward", .transcription = "rk4"});
+}
+
+TEST(Collocation, DerivativesOfEachWayToKeepContactsAreThoseOfDifferences) {
+  for (const std::string& contact : contact_names()) {
+    SCOPED_TRACE(contact);
+    expect_derivatives(one_phase(), {.contact = contact});
+  }
+}
+
+TEST(Collocation, DerivativesHoldForEulerAngles) {
+  expect_derivatives(one_phase(), {.dynamics = "forward", .contact = "distance", .orientation = "euler"});
+  expect_derivatives(one_phase(), {.transcription = "hermite-simpson", .orientation = "euler"});
+}
+
+TEST(Collocation, DerivativesHoldForFreeDurationsAndPlaces) {
+  expect_derivatives(a_step(), {.dynamics = "kkt"});
+  expect_derivatives(a_step(), {.dynamics = "forward", .transcription = "hermite-simpson"});
+  expect_derivatives(a_step(), {.dynamics = "forward", .transcription = "rk4"});
+}
+
+/// A motion in and out again is the same motion.
+TEST(Collocation, UnpacksWhatItPacked) {
+  const MotionProblem problem = a_step();
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  for (const std::string& orientation : orientation_names()) {
+    for (const std::string& rule : {"trapezoid", "hermite-simpson-separated"}) {
+      const auto nlp = make_collocation({.transcription = rule, .orientation = orientation}, problem, mesh, guess);
+      const Trajectory back = nlp->unpack(nlp->pack(guess));
+      ASSERT_EQ(back.nodes.size(), guess.nodes.size());
+      for (std::size_t k = 0; k < back.nodes.size(); ++k) {
+        EXPECT_LT(difference(back.nodes[k].q, guess.nodes[k].q).norm(), 1e-12);
+        EXPECT_LT((back.nodes[k].v - guess.nodes[k].v).norm(), 1e-12);
+        EXPECT_LT((back.nodes[k].a - guess.nodes[k].a).norm(), 1e-12);
+        EXPECT_LT((back.nodes[k].tau - guess.nodes[k].tau).norm(), 1e-12);
+        EXPECT_NEAR(back.nodes[k].time, guess.nodes[k].time, 1e-12);
+      }
+    }
+  }
+}
+
+/// The acceleration that the forward form eliminates is that of the paper's formula, where contacts are not stabilised.
+TEST(Collocation, ForwardFormHasThePapersAcceleration) {
+  const MotionProblem problem = two_phases();
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  const auto nlp = make_collocation({.dynamics = "forward", .contact = "distance"}, problem, mesh, guess);
+  std::mt19937 rng(6);
+  const Trajectory motion = nlp->unpack(nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.2));
+  for (const TrajectoryPoint& point : motion.nodes) {
+    ForwardDynamics dynamics(problem.robot, point.phase == 0 ? std::vector{0, 1, 2, 3} : std::vector{0, 1, 3});
+    dynamics.evaluate(point.q, point.v, point.tau);
+    EXPECT_LT((point.a - dynamics.acceleration()).norm(), 1e-9 * dynamics.acceleration().norm());
+  }
+}
+
+/// HyQ on four feet, a node inside: 36 states and 12 torques, and nothing else but the step that the paper counts with them.
+TEST(Collocation, ForwardFormHasThePapersVariables) {
+  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 1.0, 5)});
+  const Mesh mesh = make_mesh(problem);
+  const auto nlp = make_collocation({.dynamics = "forward", .contact = "distance"}, problem, mesh, initial_guess(problem, mesh));
+  EXPECT_EQ(nlp->num_variables(), 6 * 48);
+  // Over each interval 36 defects; a node 4 cones, and each but the first 4 distances.
+  EXPECT_EQ(nlp->num_constraints(), 5 * 36 + 6 * 4 + 5 * 4);
+}
+
+TEST(Collocation, RefusesWhatDoesNotGoTogether) {
+  const MotionProblem problem = two_phases();
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  EXPECT_THROW(make_formulation({.transcription = "rk4"}, problem, mesh, guess), InputError);
+  EXPECT_THROW(make_formulation({.transcription = "simpson"}, problem, mesh, guess), InputError);
+}
+
+TEST(Collocation, SaysWhatRowsAndVariablesAre) {
+  const MotionProblem problem = a_step();
+  const Mesh mesh = make_mesh(problem);
+  const auto nlp = make_collocation({.dynamics = "kkt", .transcription = "hermite-simpson"}, problem, mesh, initial_guess(problem, mesh));
+  std::vector<std::string> rows, variables;
+  for (int i = 0; i < nlp->num_constraints(); ++i) rows.push_back(nlp->describe_constraint(i));
+  for (int i = 0; i < nlp->num_variables(); ++i) variables.push_back(nlp->describe_variable(i));
+  using testing::Contains;
+  using testing::HasSubstr;
+  for (const char* what : {"phase 1 'four', node 0, t = 0.000 s, lf_foot, acceleration x", "friction cone in the interval",
+                           "phase 2 'lifted', node 1", "base x, position across the phase switch", "lh_foot, friction cone"}) {
+    EXPECT_THAT(rows, Contains(HasSubstr(what)));
+  }
+  for (const char* what : {"phase 1 'four', duration", "place 2 of lf_foot", "in the interval after it, torque lf_haa_joint",
+                           "acceleration base z", "force 12"}) {
+    EXPECT_THAT(variables, Contains(HasSubstr(what)));
+  }
+}
+
+}  // namespace
+}  // namespace prowl
