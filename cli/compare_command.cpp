@@ -70,13 +70,11 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
   return tasks;
 }
 
-/// A combination that cannot be run is a line of the table, too.
+/// A combination that cannot be run is a line of the table, too, and takes nothing from the others.
 void run(const MotionProblem& problem, const SolverOptions& options, HessianKind hessian, ComparedRun& line) {
   try {
     line.run = run_formulation(problem, line.formulation, *make_solver(line.solver), options, hessian);
-  } catch (const InputError& error) {
-    line.reason = error.what();
-  } catch (const NumericalError& error) {
+  } catch (const Error& error) {
     line.reason = error.what();
   }
 }
