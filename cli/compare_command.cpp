@@ -109,9 +109,10 @@ CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>
 
 /// Throws InputError if no combination can be run: a table of nothing but reasons is a mistake of who asked.
 void check_any_ran(const CompareRecord& record) {
-  if (record.runs.empty() || std::ranges::any_of(record.runs, [](const ComparedRun& line) { return line.run.has_value(); })) return;
-  const std::string which = record.asked == 1 ? "this combination cannot be run" : fmt::format("none of {} combinations can be run; the first", record.asked);
-  throw InputError(fmt::format("{}: {}", which, record.runs.front().reason));
+  if (std::ranges::any_of(record.runs, [](const ComparedRun& line) { return line.run.has_value(); })) return;
+  const std::string& reason = record.runs.front().reason;
+  if (record.asked == 1) throw InputError("this combination cannot be run: " + reason);
+  throw InputError(fmt::format("none of {} combinations can be run; the first: {}", record.asked, reason));
 }
 
 int run_compare(const CompareArguments& arguments) {
@@ -166,7 +167,8 @@ void add_compare_command(CLI::App& app, int& status) {
   verb->add_option("--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare")->type_name("DIR");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb, {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt", "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},
+  set_footer(*verb, {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",
+                     "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},
              "0 if all were run, whatever came of them: the table tells; 2 bad input, also if no\n"
              "combination can be run; 4 files; 130 interrupted (Ctrl-C keeps the runs that have finished).");
   verb->callback([arguments, &status] { status = run_compare(*arguments); });

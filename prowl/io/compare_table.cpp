@@ -111,8 +111,10 @@ std::vector<Column> outcome() {
       {"reintegration_error", "re-integration [-]", of_check("re-integration"), "{:.2g}"},
       {"contact_drift_m", "drift [mm]", of_check("contact drift"), "{:.2g}", 1e3},
       {"contact_velocity_m_s", "contact velocity [mm/s]", of_check("contact velocity"), "{:.2g}", 1e3},
-      {"node_contact_velocity_m_s", "J v [mm/s]", of_run([](const Run& run) -> Cell { return run.contacts.velocity; }), "{:.2g}", 1e3},
-      {"node_contact_acceleration_m_s2", "d(J v)/dt [mm/s²]", of_run([](const Run& run) -> Cell { return run.contacts.acceleration; }), "{:.2g}", 1e3},
+      {"node_contact_velocity_m_s", "J v [mm/s]",
+       of_run([](const Run& run) -> Cell { return run.contacts.velocity; }), "{:.2g}", 1e3},
+      {"node_contact_acceleration_m_s2", "d(J v)/dt [mm/s²]",
+       of_run([](const Run& run) -> Cell { return run.contacts.acceleration; }), "{:.2g}", 1e3},
       {"note", "note", note},
   };
 }
@@ -216,18 +218,20 @@ std::string markdown_heading(const CompareRecord& record) {
   std::vector<std::string> same;
   for (const Column& column : columns()) {
     if (column.kind != Column::Kind::choice || !is_the_same_in_all(record, column)) continue;
-    same.push_back(fmt::format("{} {}", column.heading, std::visit(MarkdownText{column}, column.value(record, record.runs.front()))));
+    const std::string value = std::visit(MarkdownText{column}, column.value(record, record.runs.front()));
+    same.push_back(column.heading + " " + value);
   }
-  std::string text = fmt::format("In all lines: {}; tolerance {:g}, at most {} iterations and {:g} s each.\n", fmt::join(same, ", "),
-                                 record.options.tolerance, record.options.max_iterations, record.options.max_seconds);
-  if (record.interrupted()) text += fmt::format("\nInterrupted: {} of {} runs were finished.\n", record.runs.size(), record.asked);
-  return text;
+  const SolverOptions& options = record.options;
+  std::string text = fmt::format("In all lines: {}; tolerance {:g}, at most {} iterations and {:g} s each.\n",
+                                 fmt::join(same, ", "), options.tolerance, options.max_iterations, options.max_seconds);
+  if (!record.interrupted()) return text;
+  return text + fmt::format("\nInterrupted: {} of {} runs were finished.\n", record.runs.size(), record.asked);
 }
 
 }  // namespace
 
 std::string compare_markdown(const CompareRecord& record) {
-  if (record.runs.empty()) return fmt::format("Nothing was run of {} {}.\n", markdown_text(record.robot), markdown_text(record.task));
+  if (record.runs.empty()) return "Nothing was run.\n";
   std::vector<std::string> lines(record.runs.size() + 2, "|");
   for (const Column& column : columns()) {
     if (!is_shown(record, column)) continue;

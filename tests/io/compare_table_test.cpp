@@ -163,7 +163,9 @@ TEST(CompareTable, HasALineForWhatWasNotRun) {
   EXPECT_EQ(line.at("status"), "not run");
   EXPECT_EQ(line.at("note"), reason);
   EXPECT_EQ(line.at("intervals"), 8);
-  for (const char* key : {"variables", "iterations", "cost", "grade", "worst_check", "contact_drift_m"}) EXPECT_TRUE(line.at(key).is_null()) << key;
+  for (const char* key : {"variables", "iterations", "cost", "grade", "worst_check", "contact_drift_m"}) {
+    EXPECT_TRUE(line.at(key).is_null()) << key;
+  }
   const Rows markdown = read_markdown(compare_markdown(record));
   ASSERT_EQ(markdown.size(), 4u);
   EXPECT_EQ(cell(markdown, "solver", 3), "fatrop");
@@ -219,7 +221,8 @@ TEST(CompareTable, LinesUp) {
   std::istringstream lines(compare_markdown(record));
   std::vector<std::size_t> widths;
   for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("|")) widths.push_back(static_cast<std::size_t>(std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; })));
+    const auto characters = std::ranges::count_if(line, [](char c) { return (c & 0xC0) != 0x80; });
+    if (line.starts_with("|")) widths.push_back(static_cast<std::size_t>(characters));
   }
   ASSERT_EQ(widths.size(), 4u);
   EXPECT_THAT(widths, ElementsAre(widths[0], widths[0], widths[0], widths[0]));
