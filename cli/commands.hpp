@@ -13,6 +13,7 @@ void add_check_command(CLI::App& app, int& status);
 void add_robot_command(CLI::App& app, int& status);
 void add_simulate_command(CLI::App& app, int& status);
 void add_sweep_command(CLI::App& app, int& status);
+void add_compare_command(CLI::App& app, int& status);
 void add_figures_command(CLI::App& app, int& status);
 void add_report_command(CLI::App& app, int& status);
 void add_view_command(CLI::App& app, int& status);

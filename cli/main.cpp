@@ -75,6 +75,7 @@ int run(int argc, char** argv) {
              "  prowl plan tasks/hyq/crouch.toml     plan a motion into out/hyq_crouch\n"
              "  prowl check out/hyq_crouch           check it again\n"
              "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
+             "  prowl compare tasks/hyq/hold.toml --solver riccati,ipopt   the same problem solved in several ways, in one table\n"
              "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
              "  prowl report out/hyq_crouch          replay it in a browser\n"
              "  prowl view tasks/hyq/walk.toml       look at the iterates in a browser while it is planned\n"
@@ -86,6 +87,7 @@ int run(int argc, char** argv) {
   add_robot_command(app, status);
   add_simulate_command(app, status);
   add_sweep_command(app, status);
+  add_compare_command(app, status);
   add_figures_command(app, status);
   add_report_command(app, status);
   add_view_command(app, status);

@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -14,7 +12,6 @@
 #include "progress.hpp"
 #include "progress_bar.hpp"
 #include "prowl/error.hpp"
-#include "prowl/io/file_keys.hpp"
 #include "prowl/io/phase_table.hpp"
 #include "prowl/io/plan_brief.hpp"
 #include "prowl/io/plan_directory.hpp"
@@ -41,21 +38,12 @@ struct PlanArguments {
   bool print_phases = false;
   bool one_mesh = false;
   int threads = 1;
-  std::string hessian = "exact";
+  HessianKind hessian = HessianKind::exact;
   bool no_gains = false;
   bool report = false;
 };
 
 constexpr int kMostThreads = 256;
-
-/// A finite number > 0; CLI11's own check lets NaN through.
-const CLI::Validator kPositive(
-    [](const std::string& text) {
-      double value = 0.0;
-      const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
-      return ok ? std::string{} : fmt::format("{} is not allowed; need a finite number > 0", text);
-    },
-    "NUMBER > 0");
 
 /// The motion of --warm-start, once it is known to fit.
 Trajectory read_start(const PlanArguments& arguments, const MotionProblem& problem) {
@@ -125,7 +113,7 @@ int run_plan(const PlanArguments& arguments) {
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
   options.solver.threads = arguments.threads;
-  options.hessian = arguments.hessian == "exact" ? HessianKind::exact : HessianKind::gauss_newton;
+  options.hessian = arguments.hessian;
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
@@ -151,32 +139,22 @@ int run_plan(const PlanArguments& arguments) {
 
 void add_plan_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<PlanArguments>();
-  const FileKeys& keys = task_file_keys();
   CLI::App* const verb = app.add_subcommand("plan", "Plan the motion of a task file and check it");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   verb->add_option("--out", arguments->out, "Folder for the result; default out/FOLDER_TASK")->type_name("DIR");
   add_json(*verb, arguments->json);
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
-      ->check(kPositive)->type_name("S");
+      ->check(positive_number())->type_name("S");
   verb->add_option("--solver", arguments->solver, "Who solves it; default riccati")
       ->check(CLI::IsMember({"riccati", "fatrop", "ipopt"}))->type_name("NAME");
   verb->add_option("--threads", arguments->threads,
                    "Threads that evaluate the problem, with riccati and ipopt; default 1. The result is the same")
       ->check(CLI::Range(1, kMostThreads))->type_name("N");
-  verb->add_option("--hessian", arguments->hessian, "Second derivatives: exact (default), or gauss-newton: of the cost alone")
-      ->check(CLI::IsMember({"exact", "gauss-newton"}))->type_name("NAME");
-  verb->add_option("--max-time", arguments->overrides.max_seconds,
-                   key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
-      ->check(kPositive)->type_name("S");
-  verb->add_option("--max-iterations", arguments->overrides.max_iterations,
-                   key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()))->type_name("N");
-  verb->add_option("--tolerance", arguments->overrides.tolerance,
-                   key_meaning(keys, "solver", "tolerance") + "; in place of solver.tolerance")
-      ->check(CLI::Range(1e-12, 1e-2))->type_name("X");
+  add_hessian(*verb, arguments->hessian);
+  add_solver_limits(*verb, arguments->overrides);
   verb->add_option("--intervals", arguments->overrides.intervals,
                    "Mesh intervals in all, shared out over the phases as in the task file")
-      ->check(CLI::Range(1, 10000))->type_name("N");
+      ->check(CLI::Range(1, kMostIntervals))->type_name("N");
   verb->add_flag("--no-gains", arguments->no_gains, "Leave out the feedback gains, tracker.bin");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");

@@ -1,6 +1,12 @@
 #include "shared_options.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
 #include "output.hpp"
+#include "prowl/io/file_keys.hpp"
 
 namespace prowl::cli {
 
@@ -16,6 +22,34 @@ void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
 void add_json(CLI::App& verb, bool& json) {
   verb.add_flag("--json", json, "Print one JSON object on stdout, for errors too");
   verb.add_flag_callback("--quiet", be_quiet, "No progress on stderr; warnings and errors stay");
+}
+
+void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
+  const FileKeys& keys = task_file_keys();
+  verb.add_option("--max-time", overrides.max_seconds, key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
+      ->check(positive_number())->type_name("S");
+  verb.add_option("--max-iterations", overrides.max_iterations,
+                  key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()))->type_name("N");
+  verb.add_option("--tolerance", overrides.tolerance, key_meaning(keys, "solver", "tolerance") + "; in place of solver.tolerance")
+      ->check(CLI::Range(1e-12, 1e-2))->type_name("X");
+}
+
+void add_hessian(CLI::App& verb, HessianKind& hessian) {
+  const std::string exact = to_string(HessianKind::exact), gauss_newton = to_string(HessianKind::gauss_newton);
+  verb.add_option_function<std::string>("--hessian", [&hessian, exact](const std::string& name) {
+        hessian = name == exact ? HessianKind::exact : HessianKind::gauss_newton;
+      }, "Second derivatives: exact (default), or gauss-newton: of the cost alone")
+      ->check(CLI::IsMember({exact, gauss_newton}))->type_name("NAME");
+}
+
+CLI::Validator positive_number() {
+  return {[](const std::string& text) {
+            double value = 0.0;
+            const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
+            return ok ? std::string{} : fmt::format("{} is not allowed; need a finite number > 0", text);
+          },
+          "NUMBER > 0"};
 }
 
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status) {

@@ -4,12 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "prowl/io/task_file.hpp"
+#include "prowl/transcription/hessian_kind.hpp"
+
 namespace prowl::cli {
 
 // Options that several verbs have, in the same words.
 void add_plan_directory(CLI::App& verb, std::string& directory);  ///< the folder that prowl plan wrote; required
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
 void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet
+void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);          ///< --max-time, --max-iterations, --tolerance
+void add_hessian(CLI::App& verb, HessianKind& hessian);                    ///< --hessian
+
+constexpr int kMostIntervals = 10000;  ///< of --intervals
+
+/// A finite number > 0; CLI11's own check lets NaN through.
+CLI::Validator positive_number();
 
 /// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status);

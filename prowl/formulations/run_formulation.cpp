@@ -9,11 +9,13 @@
 
 namespace prowl {
 
+double share_of_limit(const CertificateCheck& check) {
+  if (std::isnan(check.worst)) return std::numeric_limits<double>::infinity();
+  return check.worst == 0.0 ? 0.0 : check.worst / check.limit;  // some limits are 0
+}
+
 const CertificateCheck* FormulationRun::worst_check() const {
-  const auto share = [](const CertificateCheck& check) {
-    return std::isnan(check.worst) ? std::numeric_limits<double>::infinity() : check.worst / check.limit;
-  };
-  const auto worst = std::ranges::max_element(certificate.checks, {}, share);
+  const auto worst = std::ranges::max_element(certificate.checks, {}, share_of_limit);
   return worst == certificate.checks.end() ? nullptr : &*worst;
 }
 
@@ -33,18 +35,21 @@ FormulationRun judge_formulation(const MotionProblem& problem, const Formulation
                      .hessian_nonzeros = nlp.hessian_pattern().size(),
                      .result = std::move(result),
                      .motion = {},
-                     .certificate = {}};
+                     .certificate = {},
+                     .contacts = {}};
   run.motion = nlp.unpack(run.result.z);
   run.certificate = certify(problem, run.motion);
+  run.contacts = contact_motion(problem, run.motion);
   return run;
 }
 
 FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
-                               const SolverOptions& options) {
+                               const SolverOptions& options, HessianKind hessian) {
   validate(problem);
   const Mesh mesh = make_mesh(problem);
   const Trajectory guess = initial_guess(problem, mesh);
   const std::unique_ptr<MotionNlp> nlp = make_formulation(formulation, problem, mesh, guess);
+  nlp->use_hessian(hessian);
   if (const auto reason = solver.why_unsupported(*nlp)) throw InputError(*reason);
   return judge_formulation(problem, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options), solver.name());
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prowl/formulations/contact_motion.hpp"
 #include "prowl/formulations/formulation.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/trajectory/certificate.hpp"
@@ -16,6 +17,7 @@ struct FormulationRun {
   SolveResult result;
   Trajectory motion;
   Certificate certificate;
+  ContactMotion contacts;  ///< of the motion
 
   double variables_per_node() const { return static_cast<double>(num_variables) / nodes; }
   double constraints_per_node() const { return static_cast<double>(num_constraints) / nodes; }
@@ -26,10 +28,13 @@ struct FormulationRun {
   const CertificateCheck* check(const std::string& name) const;
 };
 
+/// worst / limit of a check: above 1 it fails. Infinite for NaN, 0 for what is 0 and has to be.
+double share_of_limit(const CertificateCheck& check);
+
 /// Solves the problem on its own mesh, from the guess that its task alone gives, and judges the motion. Throws InputError as
 /// make_formulation() does, and if the solver cannot take such a program.
 FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
-                               const SolverOptions& options);
+                               const SolverOptions& options, HessianKind hessian = HessianKind::exact);
 /// The same for a program that somebody else has solved.
 FormulationRun judge_formulation(const MotionProblem& problem, const Formulation& formulation, MotionNlp& nlp,
                                  SolveResult result, std::string solver);

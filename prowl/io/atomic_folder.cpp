@@ -142,7 +142,7 @@ void check_replaceable(const fs::path& folder, const std::set<std::string>& own_
     for (const auto& entry : fs::recursive_directory_iterator(path, error)) {
       const std::string name = entry.path().lexically_relative(path).generic_string();
       if (is_own(name, entry, own_names)) continue;
-      throw FileError(fmt::format("{}: would be replaced, but holds {}, which is not part of a plan; need another --out",
+      throw FileError(fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another --out",
                                   folder.string(), name));
     }
     if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));

@@ -62,7 +62,7 @@ TEST_F(Help, ShowsExamplesThatRun) {
       "PATH=\"$(dirname $prowl):$PATH\"; mkdir -p ~/.local/share/bash-completion/completions ~/.zfunc ~/.config/fish/completions; ";
   const std::string text = test::kHyqFile;
   folder_.write("new.toml", text.substr(0, text.find("contact = [")) + text.substr(text.find("[nominal")));
-  const std::set<std::string> ours = {"plan", "check", "robot", "simulate", "sweep", "figures", "report", "completion"};
+  const std::set<std::string> ours = {"plan", "check", "robot", "simulate", "sweep", "compare", "figures", "report", "completion"};
   int ran = 0;
   for (const std::string& verb : test::verbs(help(""))) {
     for (const std::string& example : examples(help(verb))) {

@@ -47,6 +47,10 @@ TEST_F(JsonOutput, OfResults) {
   expect_files(object("simulate", "out $dirs --report"), 3);
   EXPECT_EQ(run("$prowl simulate out $dirs --push 0.5 0 500 0 --json | grep -c exit_status.*8").out, "1\n") << "not a success";
   expect_files(object("sweep", "out $dirs --n 2 --breakdown 0"), 1);
+  const json compared = object("compare", "hold.toml $dirs --out compared");
+  expect_files(compared, 3);
+  EXPECT_EQ(compared.at("robot"), "HyQ");
+  EXPECT_EQ(compared.at("runs").size(), 1u);
   expect_files(object("report", "out $dirs"), 1);
   const json figures = object("figures", "out $dirs");
   EXPECT_EQ(figures.at("figures").size(), 6u - 1u) << "HyQ without limit curves";

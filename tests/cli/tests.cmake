@@ -1,5 +1,5 @@
 if(PROWL_BUILD_CLI)
-  foreach(name command completion doctor help json new progress screen simulate sweep)
+  foreach(name command compare completion doctor help json new progress screen simulate sweep)
     prowl_test(cli/${name} prowl::io nlohmann_json::nlohmann_json)
     target_compile_definitions(cli_${name}_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
     add_dependencies(cli_${name}_test prowl_cli)

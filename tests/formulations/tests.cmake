@@ -1,3 +1,5 @@
 prowl_test(formulations/base_chart prowl::formulations)
 prowl_test(formulations/collocation prowl::formulations)
 prowl_test(formulations/order prowl::formulations prowl::solvers)
+prowl_test(formulations/contact_motion prowl::formulations)
+prowl_test(formulations/run_formulation prowl::prowl)

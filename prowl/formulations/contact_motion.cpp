@@ -1,0 +1,32 @@
+#include "prowl/formulations/contact_motion.hpp"
+
+#include <algorithm>
+
+#include "prowl/dynamics/contact_kinematics.hpp"
+
+namespace prowl {
+
+ContactMotion contact_motion(const MotionProblem& problem, const Trajectory& motion) {
+  RigidBodyTerms terms(problem.robot);
+  std::vector<ContactKinematics> held;  // of each phase
+  for (const Phase& phase : problem.phases) {
+    std::vector<int> contacts;
+    for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
+    held.emplace_back(std::move(contacts));
+  }
+  ContactMotion worst;
+  for (const TrajectoryPoint& node : motion.nodes) {
+    ContactKinematics& contacts = held[static_cast<std::size_t>(node.phase)];
+    terms.update_kinematics(node.q);
+    contacts.set_configuration(terms);
+    contacts.set_motion(node.v, node.a);
+    const Eigen::VectorXd velocity = contacts.jacobian() * node.v;
+    for (Eigen::Index row = 0; row < velocity.size(); row += 3) {
+      worst.velocity = std::max(worst.velocity, velocity.segment<3>(row).norm());
+      worst.acceleration = std::max(worst.acceleration, contacts.acceleration().segment<3>(row).norm());
+    }
+  }
+  return worst;
+}
+
+}  // namespace prowl
