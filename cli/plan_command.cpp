@@ -146,7 +146,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
       ->check(positive_number())->type_name("S");
   verb->add_option("--solver", arguments->solver, "Who solves it; default riccati")
-      ->check(CLI::IsMember({"riccati", "fatrop", "ipopt"}))->type_name("NAME");
+      ->check(CLI::IsMember(solver_names()))->type_name("NAME");
   verb->add_option("--threads", arguments->threads,
                    "Threads that evaluate the problem, with riccati and ipopt; default 1. The result is the same")
       ->check(CLI::Range(1, kMostThreads))->type_name("N");

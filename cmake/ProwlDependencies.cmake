@@ -51,6 +51,11 @@ foreach(name fatrop blasfeo)
 endforeach()
 target_link_libraries(prowl_dep_fatrop INTERFACE prowl_dep_blasfeo)
 
+add_library(prowl_dep_uno SHARED IMPORTED)
+set_target_properties(prowl_dep_uno PROPERTIES
+  IMPORTED_LOCATION ${PROWL_CASADI}/libuno.so
+  INTERFACE_INCLUDE_DIRECTORIES ${PROWL_CASADI}/include)
+
 # MuJoCo comes without one too; the soname of its library carries the version.
 set(PROWL_MUJOCO ${PROWL_SITE_PACKAGES}/mujoco)
 file(GLOB mujoco_library ${PROWL_MUJOCO}/libmujoco.so.*)

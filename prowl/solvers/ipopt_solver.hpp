@@ -4,7 +4,10 @@
 
 namespace prowl {
 
-/// Ipopt 3.14 (Wächter, Biegler 2006: primal-dual interior point, filter line search) with MUMPS and the exact Hessian.
+/// Who solves Ipopt's linear systems: MUMPS, or SPRAL's SSIDS (Hogg, Ovtchinnikov, Scott 2016).
+enum class IpoptLinearSolver { mumps, spral };
+
+/// Ipopt 3.14 (Wächter, Biegler 2006: primal-dual interior point, filter line search) with the exact Hessian.
 ///
 /// - Only Ipopt's "Solve_Succeeded" is `converged`; its "acceptable level" allows violations of 1e-2 and is switched
 /// off.
@@ -12,14 +15,21 @@ namespace prowl {
 /// as
 ///   `evaluation_failed`, with constraint or variable in the message.
 /// - Stopped early, it returns its best iterate: of least violation, and of least cost among those within tolerance.
-/// - Same problem, same start, same machine: same iterates (fixed elimination ordering, one thread in BLAS).
+/// - Same problem, same start, same machine: same iterates (fixed elimination ordering, one thread in BLAS). With SPRAL that
+///   holds for a build without OpenMP, as in the casadi wheel. One with OpenMP wants OMP_CANCELLATION=TRUE in the environment
+///   before the program starts, which Prowl does not set, and may add in another order.
 class IpoptSolver : public NlpSolver {
  public:
+  explicit IpoptSolver(IpoptLinearSolver linear_solver = IpoptLinearSolver::mumps) : linear_solver_(linear_solver) {}
+
   std::string name() const override;
   std::string version() const override;
   std::optional<std::string> why_unsupported(Nlp& nlp) const override;
   /// Throws InputError only if an option or the size of z_start makes no sense.
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
+
+ private:
+  IpoptLinearSolver linear_solver_;
 };
 
 }  // namespace prowl

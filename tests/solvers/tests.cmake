@@ -1,5 +1,7 @@
 prowl_test(solvers/guarded_nlp prowl::solvers)
-prowl_test(solvers/ipopt_solver prowl::solvers)
+prowl_test(solvers/program_solvers prowl::solvers)
+prowl_test(solvers/ipopt_without_spral prowl::solvers)
+prowl_test(solvers/uno_solver prowl::solvers)
 prowl_test(solvers/chain_solvers prowl::solvers)
 prowl_test(solvers/riccati_solver prowl::solvers)
 prowl_test(solvers/stage_kkt prowl::solvers)

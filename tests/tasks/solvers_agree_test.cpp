@@ -1,11 +1,11 @@
-// Fatrop, Riccati and Ipopt find the same motion of the shipped tasks of HyQ, on few intervals.
+// All solvers find the same motion of the shipped tasks of HyQ, on few intervals.
 #include <gtest/gtest.h>
 
 #include "../io/test_files.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/solvers/fatrop_solver.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
 
 namespace prowl {
@@ -25,18 +25,34 @@ void expect_same_motion(const Plan& plan, const Plan& ipopt) {
   }
 }
 
-TEST_P(SolversAgree, OnTheMotion) {
-  const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + GetParam() + ".toml";
-  Task task = read_task_file(file, test::test_search(), {.intervals = 24});
+void expect_agreement(const std::string& name, int intervals, const std::vector<std::string>& solvers) {
+  const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml";
+  Task task = read_task_file(file, test::test_search(), {.intervals = intervals});
   task.solver.tolerance = 1e-8;
   const Plan ipopt = make_plan(task.problem, IpoptSolver(), {.solver = task.solver});
   ASSERT_EQ(ipopt.result.status, SolveStatus::converged) << ipopt.result.message;
-  const Plan fatrop = make_plan(task.problem, FatropSolver(), {.solver = task.solver});
-  EXPECT_EQ(fatrop.solver, "Fatrop");
-  expect_same_motion(fatrop, ipopt);
-  const Plan riccati = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
-  EXPECT_EQ(riccati.solver, "Riccati");
-  expect_same_motion(riccati, ipopt);
+  for (const std::string& solver : solvers) expect_same_motion(make_plan(task.problem, *make_solver(solver), {.solver = task.solver}), ipopt);
+}
+
+TEST_P(SolversAgree, OnTheMotion) { expect_agreement(GetParam(), 24, {"fatrop", "riccati", "ipopt-spral"}); }
+
+/// Its quadratic programs are dense in what is free: with 24 intervals a step takes minutes.
+TEST(UnoAgrees, OnFewerIntervals) {
+  expect_agreement("stand", 6, {"uno"});
+  expect_agreement("crouch", 6, {"uno"});
+  expect_agreement("balance", 12, {"uno"});
+  expect_agreement("step", 12, {"uno"});
+}
+
+/// Iterates that differ in the last digit part ways where the Hessian is indefinite: step, with 24 intervals.
+TEST(Spral, DoesTheSameTwice) {
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml", test::test_search(), {.intervals = 24});
+  const std::unique_ptr<NlpSolver> solver = make_solver("ipopt-spral");
+  const Plan first = make_plan(task.problem, *solver, {.solver = task.solver});
+  const Plan second = make_plan(task.problem, *solver, {.solver = task.solver});
+  ASSERT_EQ(first.result.status, SolveStatus::converged) << first.result.message;
+  EXPECT_EQ(first.result.iterations, second.result.iterations);
+  EXPECT_EQ(first.result.z, second.result.z);
 }
 
 /// Newton's method and Gauss and Newton's have one solution; the latter takes longer to it.

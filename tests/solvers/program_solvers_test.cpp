@@ -1,17 +1,17 @@
-#include "prowl/solvers/ipopt_solver.hpp"
-
+// Laws of the solvers that take every program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
 
 #include "prowl/error.hpp"
-#include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/solvers/make_solver.hpp"
 #include "tests/nlp/test_problems.hpp"
 
 namespace prowl {
@@ -27,14 +27,23 @@ SolverOptions tight() {
   return options;
 }
 
-SolveResult solve(Nlp& nlp, const VectorXd& start = Hs071::start(), const SolverOptions& options = tight()) {
-  return IpoptSolver().solve(nlp, start, options);
-}
+class ProgramSolvers : public ::testing::TestWithParam<const char*> {
+ protected:
+  const std::unique_ptr<NlpSolver> solver = make_solver(GetParam());
+  SolveResult solve(Nlp& nlp, const VectorXd& start = Hs071::start(), const SolverOptions& options = tight()) const {
+    return solver->solve(nlp, start, options);
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, ProgramSolvers, ::testing::Values("ipopt", "ipopt-spral", "uno"), [](const auto& info) {
+  std::string name = info.param;
+  std::erase(name, '-');
+  return name;
+});
 
 double largest(const VectorXd& v) { return v.lpNorm<Eigen::Infinity>(); }
 
 // Optimum and multipliers of Hock, Schittkowski 1981; the multipliers follow from the KKT conditions at the optimum.
-TEST(IpoptSolver, FindsTheOptimumOfHs071AndItsMultipliers) {
+TEST_P(ProgramSolvers, FindTheOptimumOfHs071AndItsMultipliers) {
   Hs071 nlp;
   const SolveResult result = solve(nlp);
   ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
@@ -57,7 +66,7 @@ TEST(IpoptSolver, FindsTheOptimumOfHs071AndItsMultipliers) {
   EXPECT_NEAR(result.multipliers[1], 0.16146857, 1e-7);
 }
 
-TEST(IpoptSolver, TakesTheSameStepsEveryTime) {
+TEST_P(ProgramSolvers, TakeTheSameStepsEveryTime) {
   Hs071 nlp;
   const SolveResult first = solve(nlp);
   const SolveResult second = solve(nlp);
@@ -65,7 +74,36 @@ TEST(IpoptSolver, TakesTheSameStepsEveryTime) {
   EXPECT_EQ(first.iterations, second.iterations);
 }
 
-TEST(IpoptSolver, KeepsFixedVariablesWhereTheyAre) {
+TEST_P(ProgramSolvers, SolveInTwoThreadsAtOnce) {
+  Hs071 nlp;
+  const SolveResult alone = solve(nlp);
+  std::vector<SolveResult> results(2);
+  std::vector<std::thread> threads;
+  for (SolveResult& result : results) {
+    threads.emplace_back([&result, this] {
+      Hs071 own;
+      for (int i = 0; i < 50; ++i) result = solve(own);
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const SolveResult& result : results) EXPECT_EQ(result.z, alone.z);
+}
+
+/// Not even warnings: of fixed variables, of a problem without a solution.
+TEST_P(ProgramSolvers, PrintNothing) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Hs071 nlp;
+  solve(nlp);
+  nlp.z_lower[2] = nlp.z_upper[2] = 3.0;
+  solve(nlp);
+  nlp.g_lower[1] = nlp.g_upper[1] = 150.0;
+  solve(nlp);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_P(ProgramSolvers, KeepFixedVariablesWhereTheyAre) {
   Hs071 nlp;
   nlp.z_lower[2] = nlp.z_upper[2] = 3.0;
   const SolveResult result = solve(nlp);
@@ -75,7 +113,7 @@ TEST(IpoptSolver, KeepsFixedVariablesWhereTheyAre) {
   EXPECT_GT(result.cost, 17.1) << "less freedom cannot cost less";
 }
 
-TEST(IpoptSolver, SaysThatAProblemIsInfeasible) {
+TEST_P(ProgramSolvers, SayThatAProblemIsInfeasible) {
   Hs071 nlp;
   nlp.g_lower[1] = nlp.g_upper[1] = 150.0;  // |x|^2 is at most 100
   const SolveResult result = solve(nlp);
@@ -83,7 +121,7 @@ TEST(IpoptSolver, SaysThatAProblemIsInfeasible) {
   EXPECT_NEAR(result.constraint_violation, 50.0, 1e-3);
 }
 
-TEST(IpoptSolver, StopsAtTheIterationLimitWithItsBestIterate) {
+TEST_P(ProgramSolvers, StopAtTheIterationLimitWithTheirBestIterate) {
   Hs071 nlp;
   SolverOptions options = tight();
   options.max_iterations = 3;
@@ -98,7 +136,7 @@ TEST(IpoptSolver, StopsAtTheIterationLimitWithItsBestIterate) {
   ASSERT_EQ(result.z.size(), 4);
 }
 
-TEST(IpoptSolver, ReportsEveryIterationInUnitsOfTheProblem) {
+TEST_P(ProgramSolvers, ReportEveryIterationInUnitsOfTheProblem) {
   Hs071 nlp;
   SolverOptions options = tight();
   std::vector<SolveProgress> seen;
@@ -108,7 +146,7 @@ TEST(IpoptSolver, ReportsEveryIterationInUnitsOfTheProblem) {
   for (size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i].iteration, static_cast<int>(i));
   // |x|^2 = 52 at the start instead of 40; Ipopt moves it a little off the bounds.
   EXPECT_GT(seen.front().constraint_violation, 10.0);
-  EXPECT_LT(seen.front().constraint_violation, 12.0);
+  EXPECT_LE(seen.front().constraint_violation, 12.0);
   EXPECT_NEAR(seen.back().cost, result.cost, 1e-6);
   EXPECT_LT(seen.back().dual_violation, 1e-7);
 }
@@ -120,7 +158,7 @@ struct Slow : Hs071 {
   }
 };
 
-TEST(IpoptSolver, StopsAtTheTimeLimit) {
+TEST_P(ProgramSolvers, StopAtTheTimeLimit) {
   Slow nlp;
   SolverOptions options = tight();
   options.max_seconds = 0.12;
@@ -130,7 +168,7 @@ TEST(IpoptSolver, StopsAtTheTimeLimit) {
   EXPECT_LT(result.seconds, 2.0);
 }
 
-TEST(IpoptSolver, StopsWithinAnIterationOfAnInterrupt) {
+TEST_P(ProgramSolvers, StopWithinAnIterationOfAnInterrupt) {
   Hs071 nlp;
   std::atomic<bool> interrupt = false;
   int last = -1;
@@ -164,14 +202,14 @@ struct Unbounded : test::TestNlp {
   int evaluations = 0, failing_evaluation = 0;
 };
 
-TEST(IpoptSolver, DoesNotCallAnUnboundedProblemSolved) {
+TEST_P(ProgramSolvers, DoNotCallAnUnboundedProblemSolved) {
   Unbounded nlp;
   const SolveResult result = solve(nlp, VectorXd::Zero(1));
   EXPECT_EQ(result.status, SolveStatus::solver_failed);
   EXPECT_THAT(result.message, HasSubstr("diverge"));
 }
 
-TEST(IpoptSolver, DoesNotBlameAnEvaluationThatItGotAwayFrom) {
+TEST_P(ProgramSolvers, DoNotBlameAnEvaluationThatTheyGotAwayFrom) {
   Unbounded nlp;
   nlp.failing_evaluation = 3;
   const SolveResult result = solve(nlp, VectorXd::Zero(1));
@@ -181,7 +219,7 @@ TEST(IpoptSolver, DoesNotBlameAnEvaluationThatItGotAwayFrom) {
 }
 
 // So steep that Ipopt, which relaxes bounds a little, ends outside.
-TEST(IpoptSolver, StaysInsideTheBoundsOfTheVariables) {
+TEST_P(ProgramSolvers, StayInsideTheBoundsOfTheVariables) {
   Unbounded nlp;
   nlp.slope = 1e4;
   nlp.z_upper[0] = 2.0;
@@ -191,7 +229,7 @@ TEST(IpoptSolver, StaysInsideTheBoundsOfTheVariables) {
   EXPECT_LE(result.z[0], 2.0);
 }
 
-TEST(IpoptSolver, RefusesAStartThatIsNotFinite) {
+TEST_P(ProgramSolvers, RefuseAStartThatIsNotFinite) {
   Hs071 nlp;
   const SolveResult result = solve(nlp, Eigen::Vector4d(1.0, 5.0, NAN, 1.0));
   EXPECT_EQ(result.status, SolveStatus::evaluation_failed);
@@ -229,14 +267,14 @@ struct Failing : Hs071 {
   }
 };
 
-TEST(IpoptSolver, SaysWhichConstraintIsNan) {
+TEST_P(ProgramSolvers, SayWhichConstraintIsNan) {
   Failing nlp;
   const SolveResult result = solve(nlp);
   EXPECT_EQ(result.status, SolveStatus::evaluation_failed);
   EXPECT_THAT(result.message, HasSubstr("constraint 1"));
 }
 
-TEST(IpoptSolver, FindsNanInEveryDerivative) {
+TEST_P(ProgramSolvers, FindNanInEveryDerivative) {
   for (const auto where : {Failing::Where::gradient, Failing::Where::jacobian, Failing::Where::hessian}) {
     Failing nlp;
     nlp.where = where;
@@ -246,7 +284,7 @@ TEST(IpoptSolver, FindsNanInEveryDerivative) {
   }
 }
 
-TEST(IpoptSolver, FindsNanThatComesLate) {
+TEST_P(ProgramSolvers, FindNanThatComesLate) {
   Failing nlp;
   nlp.where = Failing::Where::jacobian;
   nlp.x2_limit = 3.9;  // the optimum has x2 = 3.82
@@ -277,7 +315,7 @@ struct Overshoot : test::TestNlp {
   int refused = 0;
 };
 
-TEST(IpoptSolver, ShortensAStepToAPointThatCannotBeEvaluated) {
+TEST_P(ProgramSolvers, ShortenAStepToAPointThatCannotBeEvaluated) {
   Overshoot nlp;
   const SolveResult result = solve(nlp, VectorXd::Constant(1, 3.0));
   EXPECT_EQ(result.status, SolveStatus::converged) << result.message;
@@ -285,7 +323,7 @@ TEST(IpoptSolver, ShortensAStepToAPointThatCannotBeEvaluated) {
   EXPECT_GT(nlp.refused, 0) << "no trial point was refused, so the test checks nothing";
 }
 
-TEST(IpoptSolver, ReportsANumericalErrorAsAFailedEvaluation) {
+TEST_P(ProgramSolvers, ReportANumericalErrorAsAFailedEvaluation) {
   Failing nlp;
   nlp.how = Failing::How::numerical_error;
   const SolveResult result = solve(nlp);
@@ -293,7 +331,7 @@ TEST(IpoptSolver, ReportsANumericalErrorAsAFailedEvaluation) {
   EXPECT_THAT(result.message, HasSubstr("mass matrix is singular"));
 }
 
-TEST(IpoptSolver, StopsAtAnyOtherException) {
+TEST_P(ProgramSolvers, StopAtAnyOtherException) {
   for (const double limit : {Hs071::kInfinity, 3.9}) {
     Failing nlp;
     nlp.how = Failing::How::logic_error;
@@ -304,17 +342,17 @@ TEST(IpoptSolver, StopsAtAnyOtherException) {
   }
 }
 
-TEST(IpoptSolver, NamesBoundsThatCannotHold) {
+TEST_P(ProgramSolvers, NameBoundsThatCannotHold) {
   Hs071 nlp;
-  EXPECT_EQ(IpoptSolver().why_unsupported(nlp), std::nullopt);
+  EXPECT_EQ(solver->why_unsupported(nlp), std::nullopt);
   nlp.g_lower[1] = 41.0;
-  EXPECT_THAT(IpoptSolver().why_unsupported(nlp).value_or(""), HasSubstr("constraint 1"));
+  EXPECT_THAT(solver->why_unsupported(nlp).value_or(""), HasSubstr("constraint 1"));
   nlp = {};
   nlp.z_upper[3] = NAN;
-  EXPECT_THAT(IpoptSolver().why_unsupported(nlp).value_or(""), HasSubstr("variable 3"));
+  EXPECT_THAT(solver->why_unsupported(nlp).value_or(""), HasSubstr("variable 3"));
 }
 
-TEST(IpoptSolver, RefusesArgumentsThatMakeNoSense) {
+TEST_P(ProgramSolvers, RefuseArgumentsThatMakeNoSense) {
   Hs071 nlp;
   SolverOptions options;
   options.tolerance = -1.0;
