@@ -12,6 +12,20 @@ void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_start, const Solve
   throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
 }
 
+std::optional<std::string> why_empty(const Nlp& nlp) {
+  const auto why = [](const auto& lower, const auto& upper, auto describe) -> std::optional<std::string> {
+    for (int i = 0; i < lower.size(); ++i) {
+      if (lower(i) <= upper(i)) continue;  // false for NaN too
+      return fmt::format("{}: bounds [{}, {}] leave nothing", describe(i), lower(i), upper(i));
+    }
+    return std::nullopt;
+  };
+  if (auto reason = why(nlp.variable_lower(), nlp.variable_upper(), [&](int i) { return nlp.describe_variable(i); })) {
+    return reason;
+  }
+  return why(nlp.constraint_lower(), nlp.constraint_upper(), [&](int i) { return nlp.describe_constraint(i); });
+}
+
 std::optional<std::string> why_no_chain(Nlp& nlp, const std::string& solver) {
   const StagewiseNlp* stages = nlp.stagewise();
   if (!stages) return solver + " needs a problem that is a chain of stages, and this one is not";
