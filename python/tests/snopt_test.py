@@ -2,11 +2,13 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import prowl
+import prowl._drake_snopt
 import prowl.snopt
 
 
@@ -107,3 +109,11 @@ def test_options_of_snopt_are_passed_on(drake):
     full = prowl.snopt.solve(program, options={"Hessian full memory": ""})
     assert full.status == plain.status == "converged"
     assert full.iterations < plain.iterations, "a whole quasi-Newton matrix knows more than the last ten updates"
+
+
+def test_the_version_to_install_is_the_one_that_is_tested():
+    root = Path(__file__).resolve().parents[2]
+    pinned = (root / "cli/snopt/requirements.txt").read_text().split()
+    assert prowl._drake_snopt.DRAKE in pinned
+    for name in ("cli/drake_snopt.cpp", "docs/solvers.md", "docs/python.md"):
+        assert prowl._drake_snopt.DRAKE in (root / name).read_text(), name
