@@ -100,6 +100,7 @@ class Conversation {
     result.status = status_of(told.at("status"));
     result.message = told.at("message");
     result.iterations = told.at("iterations");
+    result.times.cpu = told.at("cpu_seconds");
     result.z.resize(nlp_.num_variables());
     if (told.at("has_multipliers").get<bool>()) result.multipliers.resize(nlp_.num_constraints());
     receive(result.z.data(), bytes(result.z));
@@ -165,8 +166,9 @@ SolveResult DrakeSnopt::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpt
   if (result.z.size() == 0) result.z = z_start;
   judge(nlp, options.tolerance, name(), result);
   if (result.multipliers.size() == nlp.num_constraints()) result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
-  result.times = guarded.times();
-  result.times.cpu = cpu_seconds() - cpu_start;
+  SolveTimes here = guarded.times();
+  here.cpu = cpu_seconds() - cpu_start;
+  result.times += here;
   result.seconds = wall_seconds() - start;
   return result;
 }

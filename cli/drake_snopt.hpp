@@ -14,7 +14,7 @@ namespace prowl::cli {
 /// - on_iteration is told of evaluations; SNOPT's major iterations are known at the end.
 /// - An evaluation that fails ends the solve: Drake has no way to tell SNOPT to take a shorter step.
 /// - Interrupts and time are looked at ten times a second, and end the process; what comes back then is the point of least
-///   violation that was evaluated, without a number of iterations.
+///   violation that was evaluated, without a number of iterations and the CPU time of that process.
 class DrakeSnopt : public NlpSolver {
  public:
   /// A Python with numpy and pydrake.

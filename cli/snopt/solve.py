@@ -17,6 +17,7 @@ import os
 import signal
 import struct
 import sys
+import time
 from pathlib import Path
 from typing import BinaryIO
 
@@ -26,9 +27,8 @@ try:
     import _drake_snopt as snopt
     import numpy as np
     import pydrake.solvers  # noqa: F401
-except ModuleNotFoundError as missing:
-    print(f"{sys.executable}: {missing.name} is missing", file=sys.stderr)
-    sys.exit(3)
+except ModuleNotFoundError:
+    sys.exit(3)  # Prowl says what to install
 
 
 class Line:
@@ -71,9 +71,10 @@ def main() -> None:
     line = Line()
     line.send(b"!")
     program, tolerance, max_iterations = read_program(line)
+    begin = time.process_time()
     found = snopt.minimise(program, tolerance=tolerance, max_iterations=max_iterations, max_seconds=float("inf"))
     told = {"status": found.status, "message": found.message, "iterations": found.iterations,
-            "has_multipliers": found.multipliers is not None}
+            "cpu_seconds": time.process_time() - begin, "has_multipliers": found.multipliers is not None}
     multipliers = b"" if found.multipliers is None else np.ascontiguousarray(found.multipliers).tobytes()
     line.send(b"r", json.dumps(told).encode(), b"\n", np.ascontiguousarray(found.z).tobytes(), multipliers)
 

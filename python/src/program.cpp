@@ -9,24 +9,17 @@
 #include "bindings.hpp"
 #include "motion.hpp"
 #include "prowl/error.hpp"
+#include "prowl/formulations/guess.hpp"
 #include "prowl/formulations/run_formulation.hpp"
-#include "prowl/formulations/straight_guess.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/nlp/dual_violation.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 
 namespace prowl::python {
 namespace {
 
 using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Places = std::pair<Integers, Integers>;
-
-Trajectory make_guess(const std::string& name, const MotionProblem& problem, const Mesh& mesh) {
-  if (name == "smooth") return initial_guess(problem, mesh);
-  if (name == "straight") return straight_guess(problem, mesh);
-  throw InputError(fmt::format("guess: \"{}\" is not allowed; need one of smooth, straight", name));
-}
 
 /// What a point of a program is worth: a FormulationRun of no solver.
 struct JudgedPoint {
@@ -179,7 +172,7 @@ void bind_program(nb::module_& module) {
            },
            nb::arg("task"), nb::kw_only(), nb::arg("dynamics") = dynamics_names().front(),
            nb::arg("transcription") = transcription_names().front(), nb::arg("contact") = contact_names().front(),
-           nb::arg("orientation") = orientation_names().front(), nb::arg("guess") = "smooth")
+           nb::arg("orientation") = orientation_names().front(), nb::arg("guess") = guess_names().front())
       .def_prop_ro("task", &Program::task, nb::rv_policy::reference_internal)
       .def_prop_ro("dynamics", [](const Program& p) { return p.formulation().dynamics; })
       .def_prop_ro("transcription", [](const Program& p) { return p.formulation().transcription; })
