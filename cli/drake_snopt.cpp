@@ -48,7 +48,7 @@ class Conversation {
       Got got = receive(&word, 1);
       if (got == Got::all && word == 'r') return result();
       if (got == Got::all) got = receive(z.data(), bytes(z));
-      if (got == Got::stopped) return best_so_far(*why_stop(), "stopped on request or at the time limit");
+      if (got == Got::stopped) return stopped(*why_stop());
       if (got == Got::end || !answer(z)) return ended();
     }
   }
@@ -123,6 +123,10 @@ class Conversation {
     result.message = std::move(message);
     result.z = best_z_;
     return result;
+  }
+
+  SolveResult stopped(SolveStatus why) const {
+    return best_so_far(why, why == SolveStatus::interrupted ? "stopped on request" : "time limit reached");
   }
 
   SolveResult ended() {

@@ -13,9 +13,9 @@ using SnoptFunction = void(int* status, int* n, double x[], int* need_values, in
 }
 
 /// The C functions of snopt-interface (github.com/snopt/snopt-interface, include/snopt.h) that SnoptSolver needs, out of a
-/// library that is loaded at run time. Those of initialisation changed their names and arguments from version to version: of
-/// these f_sninitx (SNOPT7.jl of the same authors) or else f_sninitf will do; the older f_sninit is not told apart by its
-/// name, and is not used.
+/// library that is loaded at run time. Those of initialisation changed their names and arguments from version to version. Of
+/// these f_sninitx (as SNOPT7.jl of the same authors calls it) or else f_sninitf will do. The older f_sninit has had three sets
+/// of arguments under one name, and libraries that have nothing newer pass all arguments by address: those are not used.
 class SnoptLibrary {
  public:
   /// A path, or a name that the dynamic linker looks for.
