@@ -5,12 +5,14 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "drake_snopt.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
 #include "interrupt.hpp"
 #include "json_result.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
+#include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/compare_table.hpp"
@@ -30,6 +32,8 @@ struct CompareArguments {
   std::string task, out;
   std::vector<std::string> package_dirs;
   Names dynamics, transcriptions, contacts, orientations, solvers;  ///< empty: the first of those that there are
+  std::optional<std::string> snopt_library;
+  std::string python = default_python(), guess = guess_names().front();
   std::vector<int> intervals;                                       ///< empty: as in the task file
   TaskOverrides overrides;
   HessianKind hessian = HessianKind::exact;
@@ -37,6 +41,18 @@ struct CompareArguments {
 };
 
 constexpr const char* kAll = "all";
+constexpr const char* kSnopt = "snopt";
+
+/// Those of prowl plan, and SNOPT, which does not come with Prowl.
+Names all_solver_names() {
+  Names names = solver_names();
+  names.push_back(kSnopt);
+  return names;
+}
+
+std::unique_ptr<NlpSolver> solver_of(const CompareArguments& arguments, const std::string& name) {
+  return name == kSnopt ? make_snopt(arguments.snopt_library, arguments.python) : make_solver(name);
+}
 
 /// What was asked for of what there is.
 Names chosen(const Names& asked, const Names& there_is) {
@@ -52,7 +68,7 @@ std::vector<ComparedRun> combinations(const CompareArguments& arguments, const M
     for (const std::string& transcription : chosen(arguments.transcriptions, transcription_names()))
       for (const std::string& contact : chosen(arguments.contacts, contact_names()))
         for (const std::string& orientation : chosen(arguments.orientations, orientation_names()))
-          for (const std::string& solver : chosen(arguments.solvers, solver_names()))
+          for (const std::string& solver : chosen(arguments.solvers, all_solver_names()))
             lines.push_back({{dynamics, transcription, contact, orientation}, solver, intervals, nodes});
   return lines;
 }
@@ -71,9 +87,9 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
 }
 
 /// A combination that cannot be run is a line of the table, too, and takes nothing from the others.
-void run(const MotionProblem& problem, const SolverOptions& options, HessianKind hessian, ComparedRun& line) {
+void run(const CompareArguments& arguments, const MotionProblem& problem, const SolverOptions& options, ComparedRun& line) {
   try {
-    line.run = run_formulation(problem, line.formulation, *make_solver(line.solver), options, hessian);
+    line.run = run_formulation(problem, line.formulation, *solver_of(arguments, line.solver), options, arguments.hessian, arguments.guess);
   } catch (const Error& error) {
     line.reason = error.what();
   }
@@ -86,7 +102,7 @@ CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>
   const std::vector<Task> tasks = read_tasks(arguments);
   const Task& task = tasks.front();
   CompareRecord record{.task = task.problem.name, .robot = task.problem.robot.name(), .options = task.solver,
-                       .hessian = arguments.hessian, .versions = versions()};
+                       .hessian = arguments.hessian, .guess = arguments.guess, .versions = versions()};
   record.options.interrupt = &interrupted;
   std::vector<std::pair<const MotionProblem*, ComparedRun>> lines;
   for (const Task& on_mesh : tasks) {
@@ -98,7 +114,7 @@ CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>
   ProgressBar bar("runs", record.asked);
   for (auto& [problem, line] : lines) {
     bar.show(static_cast<int>(record.runs.size()));
-    run(*problem, record.options, arguments.hessian, line);
+    run(arguments, *problem, record.options, line);
     if (was_interrupted(line)) break;
     record.runs.push_back(std::move(line));
     if (interrupted) break;
@@ -158,12 +174,17 @@ void add_compare_command(CLI::App& app, int& status) {
   add_names(*verb, "--transcription", arguments->transcriptions, transcription_names(), "Rules of integration");
   add_names(*verb, "--contact", arguments->contacts, contact_names(), "Forms of the contact constraint");
   add_names(*verb, "--orientation", arguments->orientations, orientation_names(), "Coordinates of the base's orientation");
-  add_names(*verb, "--solver", arguments->solvers, solver_names(), "Who solves it");
+  add_names(*verb, "--solver", arguments->solvers, all_solver_names(), "Who solves it");
   verb->add_option("--intervals", arguments->intervals,
                    "Meshes: intervals in all, shared out over the phases as in the task file; with commas between")
       ->check(CLI::Range(1, kMostIntervals))->type_name("LIST")->delimiter(',')->expected(1)->take_all();
   add_solver_limits(*verb, arguments->overrides);
   add_hessian(*verb, arguments->hessian);
+  verb->add_option("--guess", arguments->guess, "What all start from: smooth (default), or straight lines from posture to posture")
+      ->check(CLI::IsMember(guess_names()))->type_name("NAME");
+  verb->add_option("--snopt-library", arguments->snopt_library, "Your own SNOPT; default libsnopt7.so if there is one, else Drake's")
+      ->type_name("FILE");
+  verb->add_option("--python", arguments->python, "Python with Drake, for its SNOPT; default " + arguments->python)->type_name("PATH");
   verb->add_option("--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare")->type_name("DIR");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);

@@ -16,13 +16,6 @@ namespace fs = std::filesystem;
 
 constexpr int kNoLibrary = 3;
 
-fs::path find_script(const std::string& script) {
-  std::error_code ignored;
-  const fs::path path = share_folder() / script;
-  if (!fs::exists(path, ignored)) throw FileError(fmt::format("{}: missing; it belongs to this program", path.string()));
-  return path;
-}
-
 }  // namespace
 
 std::string default_python() {
@@ -30,9 +23,16 @@ std::string default_python() {
   return python ? python : PROWL_PYTHON;
 }
 
+std::vector<std::string> script_command(const std::string& python, const std::string& script) {
+  std::error_code ignored;
+  const fs::path path = share_folder() / script;
+  if (!fs::exists(path, ignored)) throw FileError(fmt::format("{}: missing; it belongs to this program", path.string()));
+  return {python, "-B", path.string()};
+}
+
 void run_script(const Python& python, const std::string& script, const std::vector<std::string>& arguments,
                 const std::function<void(const std::string&)>& on_line) {
-  std::vector<std::string> command = {python.program, "-B", find_script(script).string()};
+  std::vector<std::string> command = script_command(python.program, script);
   command.insert(command.end(), arguments.begin(), arguments.end());
   const int status = run_program(command, on_line);
   if (status == kNoLibrary) {

@@ -14,6 +14,9 @@ struct Python {
   std::string libraries;  ///< that the script needs, for messages
 };
 
+/// That runs share/prowl/`script`, in a build as well as installed. Throws FileError if the script is missing.
+std::vector<std::string> script_command(const std::string& python, const std::string& script);
+
 /// Runs share/prowl/`script`, in a build as well as installed, and waits for it; a script that finds no library ends with status 3.
 /// Throws InputError if Python or a library is missing, FileError if the script is, Error for any other failure.
 /// `on_line` gets every line that it prints.

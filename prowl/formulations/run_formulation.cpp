@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "prowl/error.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 
 namespace prowl {
 
@@ -44,10 +43,10 @@ FormulationRun judge_formulation(const MotionProblem& problem, const Formulation
 }
 
 FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
-                               const SolverOptions& options, HessianKind hessian) {
+                               const SolverOptions& options, HessianKind hessian, const std::string& guess_name) {
   validate(problem);
   const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
+  const Trajectory guess = make_guess(guess_name, problem, mesh);
   const std::unique_ptr<MotionNlp> nlp = make_formulation(formulation, problem, mesh, guess);
   nlp->use_hessian(hessian);
   if (const auto reason = solver.why_unsupported(*nlp)) throw InputError(*reason);

@@ -2,6 +2,7 @@
 
 #include "prowl/formulations/contact_motion.hpp"
 #include "prowl/formulations/formulation.hpp"
+#include "prowl/formulations/guess.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/trajectory/certificate.hpp"
 
@@ -31,10 +32,11 @@ struct FormulationRun {
 /// worst / limit of a check: above 1 it fails. Infinite for NaN, 0 for what is 0 and has to be.
 double share_of_limit(const CertificateCheck& check);
 
-/// Solves the problem on its own mesh, from the guess that its task alone gives, and judges the motion. Throws InputError as
-/// make_formulation() does, and if the solver cannot take such a program.
+/// Solves the problem on its own mesh, from a guess that its task alone gives, and judges the motion. Throws InputError as
+/// make_formulation() and make_guess() do, and if the solver cannot take such a program.
 FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
-                               const SolverOptions& options, HessianKind hessian = HessianKind::exact);
+                               const SolverOptions& options, HessianKind hessian = HessianKind::exact,
+                               const std::string& guess = guess_names().front());
 /// The same for a program that somebody else has solved.
 FormulationRun judge_formulation(const MotionProblem& problem, const Formulation& formulation, MotionNlp& nlp,
                                  SolveResult result, std::string solver);

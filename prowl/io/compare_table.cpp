@@ -71,6 +71,7 @@ std::vector<Column> choices() {
   add("orientation", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.orientation; });
   add("solver", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.solver; });
   add("hessian", [](const CompareRecord& record, const ComparedRun&) -> Cell { return to_string(record.hessian); });
+  add("guess", [](const CompareRecord& record, const ComparedRun&) -> Cell { return record.guess; });
   return columns;
 }
 
@@ -259,6 +260,7 @@ std::string compare_json(const CompareRecord& record) {
                {"name", record.task},
                {"robot", record.robot},
                {"hessian", to_string(record.hessian)},
+               {"guess", record.guess},
                {"tolerance", record.options.tolerance},
                {"max_iterations", record.options.max_iterations},
                {"max_time_s", record.options.max_seconds},

@@ -23,6 +23,7 @@ struct CompareRecord {
   std::string task, robot;  ///< names
   SolverOptions options;    ///< of each run
   HessianKind hessian = HessianKind::exact;
+  std::string guess = guess_names().front();
   int asked = 0;                                     ///< lines; more than there are below if it was interrupted
   std::map<std::string, std::string> versions = {};  ///< "prowl" -> "0.1.0", "Ipopt" -> ...
   std::vector<ComparedRun> runs = {};

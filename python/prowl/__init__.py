@@ -27,10 +27,12 @@ from ._prowl import (
     FileError,
     InputError,
     Interrupted,
+    JudgedPoint,
     Motion,
     NumericalError,
     Phase,
     Plan,
+    Program,
     Progress,
     Robot,
     Simulation,
@@ -51,7 +53,7 @@ del _notebook
 
 __all__ = [
     "Certificate", "Check", "Contact", "Derivatives", "Dynamics", "Error", "ErrorMeasure", "Evaluation", "FileError",
-    "InputError", "Interrupted", "Motion", "NumericalError", "Phase", "Plan", "Progress", "Robot", "Simulation", "Task", "Tracker",
+    "InputError", "Interrupted", "JudgedPoint", "Motion", "NumericalError", "Phase", "Plan", "Program", "Progress", "Robot", "Simulation", "Task", "Tracker",
     "__version__", "difference", "integrate", "parse_robot", "parse_task", "read_plan", "read_robot", "read_task",
     "shipped_robots", "shipped_tasks", "simulate", "solve", "solver_names", "versions",
 ]

@@ -15,5 +15,6 @@ void bind_plan(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
 void bind_solve(nanobind::module_& module);
 void bind_dynamics(nanobind::module_& module);
+void bind_program(nanobind::module_& module);
 
 }  // namespace prowl::python

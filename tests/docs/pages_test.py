@@ -94,9 +94,9 @@ class Pages(unittest.TestCase):
                     with self.subTest(block=block.place):
                         tomllib.loads(block.text)
 
-    def test_both_requirements_pin_the_same(self):
+    def test_all_requirements_pin_the_same(self):
         pins = {}
-        for name in ("requirements.txt", "site/requirements.txt"):
+        for name in ("requirements.txt", "site/requirements.txt", "cli/snopt/requirements.txt"):
             for line in (ROOT / name).read_text(encoding="utf-8").splitlines():
                 if line and not line.startswith("#"):
                     package, _, version = line.partition("==")

@@ -234,7 +234,7 @@ TEST(CompareTable, SaysOnceWhatIsTheSame) {
   finer.nodes = 17;
   const std::string text = compare_markdown(record_of({finished(), finer}));
   EXPECT_THAT(text, HasSubstr("task stand, robot HyQ, dynamics inverse, transcription trapezoid, contact stabilised, orientation se3, "
-                              "solver riccati, hessian exact; tolerance 1e-06, at most 300 iterations and 300 s each."));
+                              "solver riccati, hessian exact, guess smooth; tolerance 1e-06, at most 300 iterations and 300 s each."));
   const Rows markdown = read_markdown(text);
   EXPECT_EQ(cell(markdown, "intervals", 2), "8");
   EXPECT_EQ(cell(markdown, "intervals", 3), "16");

@@ -1,0 +1,23 @@
+#include "prowl/formulations/guess.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "prowl/error.hpp"
+#include "prowl/formulations/straight_guess.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+
+namespace prowl {
+
+const std::vector<std::string>& guess_names() {
+  static const std::vector<std::string> names = {"smooth", "straight"};
+  return names;
+}
+
+Trajectory make_guess(const std::string& name, const MotionProblem& problem, const Mesh& mesh) {
+  if (name == "smooth") return initial_guess(problem, mesh);
+  if (name == "straight") return straight_guess(problem, mesh);
+  throw InputError(fmt::format("guess: \"{}\" is not allowed; need one of {}", name, fmt::join(guess_names(), ", ")));
+}
+
+}  // namespace prowl

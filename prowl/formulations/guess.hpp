@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/trajectory/trajectory.hpp"
+#include "prowl/transcription/mesh.hpp"
+
+namespace prowl {
+
+/// What a solver may start from, the default first: "smooth" (initial_guess) and "straight" (straight_guess).
+const std::vector<std::string>& guess_names();
+
+/// Throws InputError that lists the names for any other.
+Trajectory make_guess(const std::string& name, const MotionProblem& problem, const Mesh& mesh);
+
+}  // namespace prowl

@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/unique_ptr.h>
+
+#include <mutex>
+#include <type_traits>
+
+#include "bindings.hpp"
+#include "motion.hpp"
+#include "prowl/error.hpp"
+#include "prowl/formulations/guess.hpp"
+#include "prowl/formulations/run_formulation.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/nlp/dual_violation.hpp"
+
+namespace prowl::python {
+namespace {
+
+using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Places = std::pair<Integers, Integers>;
+
+/// What a point of a program is worth: a FormulationRun of no solver.
+struct JudgedPoint {
+  FormulationRun run;
+  Motion motion;
+};
+
+/// prowl.Program: one motion problem as a nonlinear program. The functions of an Nlp share work space, so that calls wait for
+/// each other; the GIL is released meanwhile.
+class Program {
+ public:
+  Program(const Task& task, const Formulation& formulation, const std::string& guess_name)
+      : task_(task), formulation_(formulation) {
+    const nb::gil_scoped_release others_may_run;
+    validate(task_.problem);
+    const Mesh mesh = make_mesh(task_.problem);
+    const Trajectory guess = make_guess(guess_name, task_.problem, mesh);
+    nlp_ = make_formulation(formulation_, task_.problem, mesh, guess);
+    start_ = nlp_->pack(guess);
+    nodes_ = mesh.size();
+  }
+
+  const Task& task() const { return task_; }
+  const Formulation& formulation() const { return formulation_; }
+  const MotionNlp& nlp() const { return *nlp_; }
+  const Eigen::VectorXd& start() const { return start_; }
+  int nodes() const { return nodes_; }
+
+  double cost(const Numbers& z) {
+    return locked([&] { return nlp_->cost(point(z)); });
+  }
+  Array cost_gradient(const Numbers& z) {
+    return filled(nlp_->num_variables(), [&](auto& values) { nlp_->cost_gradient(point(z), values); });
+  }
+  Array constraints(const Numbers& z) {
+    return filled(nlp_->num_constraints(), [&](auto& values) { nlp_->constraints(point(z), values); });
+  }
+  Array jacobian(const Numbers& z) {
+    return filled(nlp_->jacobian_pattern().size(), [&](auto& values) { nlp_->jacobian(point(z), values); });
+  }
+  Array hessian(const Numbers& z, double cost_factor, const Numbers& multipliers) {
+    return filled(nlp_->hessian_pattern().size(), [&](auto& values) {
+      nlp_->hessian(point(z), cost_factor, vector(multipliers, nlp_->num_constraints(), "multipliers"), values);
+    });
+  }
+  double dual_violation(const Numbers& z, const Numbers& multipliers) {
+    return locked([&] {
+      return prowl::dual_violation(*nlp_, point(z), vector(multipliers, nlp_->num_constraints(), "multipliers"));
+    });
+  }
+  std::string describe_variable(int index) const {
+    check_index(index, nlp_->num_variables());
+    return nlp_->describe_variable(index);
+  }
+  std::string describe_constraint(int row) const {
+    check_index(row, nlp_->num_constraints());
+    return nlp_->describe_constraint(row);
+  }
+
+  JudgedPoint judge(const Numbers& z) {
+    return locked([&] {
+      SolveResult result;
+      result.z = point(z);
+      Eigen::VectorXd rows(nlp_->num_constraints());
+      nlp_->constraints(result.z, rows);
+      result.cost = nlp_->cost(result.z);
+      result.constraint_violation = constraint_violation(*nlp_, result.z, rows);
+      FormulationRun run = judge_formulation(task_.problem, formulation_, *nlp_, std::move(result), "");
+      Motion motion(run.motion);
+      return JudgedPoint{std::move(run), std::move(motion)};
+    });
+  }
+
+ private:
+  static Eigen::VectorXd vector(const Numbers& values, int size, const char* name) {
+    if (static_cast<int>(values.size()) == size) return Eigen::Map<const Eigen::VectorXd>(values.data(), size);
+    throw InputError(fmt::format("{}: shape ({}) is not allowed; need ({})", name, values.size(), size));
+  }
+  Eigen::VectorXd point(const Numbers& z) const { return vector(z, nlp_->num_variables(), "z"); }
+  static void check_index(int index, int size) {
+    if (index < 0 || index >= size) throw InputError(fmt::format("{} is not allowed; need 0 to {}", index, size - 1));
+  }
+
+  template <class Evaluate>
+  std::invoke_result_t<const Evaluate&> locked(const Evaluate& evaluate) {
+    const nb::gil_scoped_release others_may_run;
+    const std::lock_guard lock(busy_);
+    return evaluate();
+  }
+  template <class Evaluate>
+  Array filled(int size, const Evaluate& evaluate) {
+    Eigen::VectorXd values(size);
+    locked([&] { evaluate(values); });
+    return new_array(values);
+  }
+
+  Task task_;
+  Formulation formulation_;
+  std::unique_ptr<MotionNlp> nlp_;
+  Eigen::VectorXd start_;
+  int nodes_ = 0;
+  std::mutex busy_;
+};
+
+Vector numbers(nb::handle self, const Eigen::VectorXd& values) { return view(values, self); }
+
+Places places(nb::handle self, const SparsityPattern& pattern) {
+  const auto integers = [&](const std::vector<int>& values) { return Integers(values.data(), {values.size()}, self); };
+  return {integers(pattern.rows), integers(pattern.cols)};
+}
+
+const Program& program(nb::handle self) { return nb::cast<const Program&>(self); }
+
+void bind_judged_point(nb::module_& module) {
+  nb::class_<JudgedPoint>(module, "JudgedPoint", "What a point of a Program is worth.")
+      .def_prop_ro("cost", [](const JudgedPoint& p) { return p.run.result.cost; })
+      .def_prop_ro("constraint_violation", [](const JudgedPoint& p) { return p.run.result.constraint_violation; },
+                   "Largest, of the program's rows and bounds, unscaled.")
+      .def_prop_ro("certificate", [](const JudgedPoint& p) -> const Certificate& { return p.run.certificate; },
+                   nb::rv_policy::reference_internal, "Of the motion, by code that shares nothing with the program.")
+      .def_ro("motion", &JudgedPoint::motion, nb::rv_policy::reference_internal,
+              "The motion that the program means by this point; where its rule is not the trapezoid, with nodes between its own.")
+      .def("check", [](const JudgedPoint& p, const std::string& name) { return p.run.check(name); }, nb::arg("name"),
+           nb::rv_policy::reference_internal, nb::sig("def check(self, name: str) -> Check | None"),
+           "One check of the certificate by its name, such as \"contact drift\"; None if the motion has nothing for it.")
+      .def_prop_ro("worst_check", [](const JudgedPoint& p) { return p.run.worst_check(); }, nb::rv_policy::reference_internal,
+                   nb::sig("def worst_check(self) -> Check | None"),
+                   "The check that is furthest beyond its limit, or nearest to it.")
+      .def("__repr__", [](const JudgedPoint& p) {
+        return fmt::format("<prowl.JudgedPoint cost {:.6g}, violation {:.2e}, certificate {}>", p.run.result.cost,
+                           p.run.result.constraint_violation, to_string(p.run.certificate.grade));
+      });
+}
+
+}  // namespace
+
+void bind_program(nb::module_& module) {
+  bind_judged_point(module);
+  nb::class_<Program>(module, "Program",
+                      "A task as a nonlinear program (docs/formulations.md): minimise cost(z), variable_lower <= z <= variable_upper,\n"
+                      "constraint_lower <= constraints(z) <= constraint_upper, with exact derivatives, for a solver of one's own.\n"
+                      "Bounds are +-inf where there is none. Sparse matrices have fixed places, (rows, columns), and values in their\n"
+                      "order. Functions may raise NumericalError. They release the GIL and wait for each other.\n\n"
+                      "guess: \"smooth\", what `prowl plan` starts from, or \"straight\", straight lines from posture to posture with the\n"
+                      "torques of standing.")
+      .def("__init__",
+           [](Program* self, const Task& task, const std::string& dynamics, const std::string& transcription,
+              const std::string& contact, const std::string& orientation, const std::string& guess) {
+             new (self) Program(task, {dynamics, transcription, contact, orientation}, guess);
+           },
+           nb::arg("task"), nb::kw_only(), nb::arg("dynamics") = dynamics_names().front(),
+           nb::arg("transcription") = transcription_names().front(), nb::arg("contact") = contact_names().front(),
+           nb::arg("orientation") = orientation_names().front(), nb::arg("guess") = guess_names().front())
+      .def_prop_ro("task", &Program::task, nb::rv_policy::reference_internal)
+      .def_prop_ro("dynamics", [](const Program& p) { return p.formulation().dynamics; })
+      .def_prop_ro("transcription", [](const Program& p) { return p.formulation().transcription; })
+      .def_prop_ro("contact", [](const Program& p) { return p.formulation().contact; })
+      .def_prop_ro("orientation", [](const Program& p) { return p.formulation().orientation; })
+      .def_prop_ro("nodes", &Program::nodes, "Of the mesh.")
+      .def_prop_ro("num_variables", [](const Program& p) { return p.nlp().num_variables(); })
+      .def_prop_ro("num_constraints", [](const Program& p) { return p.nlp().num_constraints(); })
+      .def_prop_ro("start", [](nb::handle self) { return numbers(self, program(self).start()); }, "The guess, z.")
+      .def_prop_ro("variable_lower", [](nb::handle self) { return numbers(self, program(self).nlp().variable_lower()); })
+      .def_prop_ro("variable_upper", [](nb::handle self) { return numbers(self, program(self).nlp().variable_upper()); })
+      .def_prop_ro("constraint_lower", [](nb::handle self) { return numbers(self, program(self).nlp().constraint_lower()); })
+      .def_prop_ro("constraint_upper", [](nb::handle self) { return numbers(self, program(self).nlp().constraint_upper()); })
+      .def_prop_ro("jacobian_pattern", [](nb::handle self) { return places(self, program(self).nlp().jacobian_pattern()); },
+                   "(rows, columns); no place twice.")
+      .def_prop_ro("hessian_pattern", [](nb::handle self) { return places(self, program(self).nlp().hessian_pattern()); },
+                   "(rows, columns) of the lower triangle.")
+      .def("cost", &Program::cost, nb::arg("z"))
+      .def("cost_gradient", &Program::cost_gradient, nb::arg("z"), "(num_variables)")
+      .def("constraints", &Program::constraints, nb::arg("z"), "(num_constraints)")
+      .def("jacobian", &Program::jacobian, nb::arg("z"), "Values at the places of jacobian_pattern.")
+      .def("hessian", &Program::hessian, nb::arg("z"), nb::arg("cost_factor"), nb::arg("multipliers"),
+           "Of cost_factor cost + multipliers . constraints, at the places of hessian_pattern.")
+      .def("dual_violation", &Program::dual_violation, nb::arg("z"), nb::arg("multipliers"),
+           "How far a z within its bounds is from stationary: |clip(z - gradient, lower, upper) - z| at its largest, of the gradient of\n"
+           "cost + multipliers . constraints.")
+      .def("describe_variable", &Program::describe_variable, nb::arg("index"), "In the words of the task.")
+      .def("describe_constraint", &Program::describe_constraint, nb::arg("row"), "In the words of the task.")
+      .def("judge", &Program::judge, nb::arg("z"), "Cost, violation, motion and certificate of a point, whoever found it.")
+      .def("__repr__", [](const Program& p) {
+        return fmt::format("<prowl.Program {}: {}, {}, {}, {}: {} variables, {} constraints>", p.task().problem.name,
+                           p.formulation().dynamics, p.formulation().transcription, p.formulation().contact,
+                           p.formulation().orientation, p.nlp().num_variables(), p.nlp().num_constraints());
+      });
+}
+
+}  // namespace prowl::python

@@ -1,0 +1,119 @@
+"""SNOPT, the solver of the paper, on programs of Prowl: Drake's wheel has it."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import prowl
+import prowl._drake_snopt
+import prowl.snopt
+
+
+def test_without_drake_the_error_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pydrake.solvers", None)  # as if it could not be found
+    with pytest.raises(prowl.InputError, match=r"pip install drake==[\d.]+$") as caught:
+        prowl.snopt.solve(prowl.Program(prowl.read_task("hyq/stand", intervals=5)))
+    assert caught.value.__cause__ is not None
+
+
+def test_prowl_itself_does_not_import_drake():
+    subprocess.run([sys.executable, "-c", "import sys, prowl, prowl.snopt; sys.exit('pydrake' in sys.modules)"], check=True)
+
+
+def test_what_makes_no_sense_is_refused():
+    program = prowl.Program(prowl.read_task("hyq/stand", intervals=5))
+    with pytest.raises(prowl.InputError, match=r"start: shape \(3,\) is not allowed"):
+        prowl.snopt.solve(program, start=np.zeros(3))
+    with pytest.raises(prowl.InputError, match="tolerance: 0"):
+        prowl.snopt.solve(program, tolerance=0.0)
+
+
+@pytest.fixture(scope="module")
+def drake() -> None:
+    pytest.importorskip("pydrake.solvers", reason="PROWL_WITH_SNOPT=1 scripts/setup")
+
+
+@pytest.fixture(scope="module", params=[("stand", 5), ("crouch", 6)], ids=lambda param: param[0])
+def task(request, drake) -> prowl.Task:
+    name, intervals = request.param
+    return prowl.read_task(f"hyq/{name}", intervals=intervals)
+
+
+@pytest.mark.parametrize("guess", ["smooth", "straight"])
+def test_it_finds_what_ipopt_finds(task, guess):
+    program = prowl.Program(task, guess=guess)
+    result = prowl.snopt.solve(program)
+    assert (result.status, result.info) == ("converged", 1), result.message
+    judged = program.judge(result.z)
+    assert judged.constraint_violation < 1e-6
+    # Two codes, two measures of optimality: the costs agree to what both leave over, no further.
+    plan = prowl.solve(task, solver="ipopt", coarse_first=False, gains=False, progress=False)
+    assert plan.status == "converged"
+    np.testing.assert_allclose(judged.cost, plan.cost, rtol=1e-4)
+    # An optimum, whoever says so: multipliers of the right sign that leave no gradient.
+    assert program.dual_violation(result.z, result.multipliers) < 1e-3
+    assert program.dual_violation(result.z, -result.multipliers) > 1e-2
+    # All it tells is of one run.
+    assert 10 < result.iterations < result.evaluations and result.seconds > 0.0
+    assert "SNOPTA EXIT   0 -- finished successfully" in result.summary
+    given = program.jacobian_pattern[0].size + program.num_variables
+    assert f"{given}   out of   {given}   first  derivatives" in result.summary, "exact and sparse"
+
+
+def test_a_problem_without_a_solution_is_a_status(drake):
+    task = prowl.read_task("hyq/stand")
+    text = task.text.replace("base_displacement_m = [0.05, 0.03, -0.05]", "base_displacement_m = [0.0, 0.0, 0.6]")
+    assert text != task.text
+    program = prowl.Program(prowl.parse_task(text, folder=task.path.parent, intervals=1))
+    result = prowl.snopt.solve(program)
+    assert result.status == "infeasible" and 11 <= result.info <= 16
+    assert program.judge(result.z).constraint_violation > 0.1
+
+
+def test_limits_stop_it_with_its_best_point(drake):
+    program = prowl.Program(prowl.read_task("hyq/stand", intervals=5), guess="straight")
+    short = prowl.snopt.solve(program, max_iterations=3)
+    assert (short.status, short.iterations) == ("iteration_limit", 3)
+    assert program.judge(short.z).constraint_violation <= program.judge(program.start).constraint_violation
+    late = prowl.snopt.solve(program, max_seconds=0.05)
+    assert late.status == "time_limit" and late.info == 0
+
+
+def test_what_an_evaluation_raises_ends_the_solve(drake):
+    program = prowl.Program(prowl.read_task("hyq/stand", intervals=5))
+
+    class Enough(Exception):
+        pass
+
+    seen = []
+
+    def watch(count: int, cost: float, violation: float) -> None:
+        seen.append((count, cost, violation))
+        if count == 5:
+            raise Enough
+
+    with pytest.raises(Enough):
+        prowl.snopt.solve(program, on_evaluation=watch)
+    assert [count for count, _, _ in seen] == [1, 2, 3, 4, 5]
+    np.testing.assert_allclose(seen[0][1], program.cost(program.start))
+    with pytest.raises(KeyboardInterrupt):
+        prowl.snopt.solve(program, on_evaluation=lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+
+
+def test_options_of_snopt_are_passed_on(drake):
+    program = prowl.Program(prowl.read_task("hyq/stand", intervals=5))
+    plain = prowl.snopt.solve(program)
+    full = prowl.snopt.solve(program, options={"Hessian full memory": ""})
+    assert full.status == plain.status == "converged"
+    assert full.iterations < plain.iterations, "a whole quasi-Newton matrix knows more than the last ten updates"
+
+
+def test_the_version_to_install_is_the_one_that_is_tested():
+    root = Path(__file__).resolve().parents[2]
+    pinned = (root / "cli/snopt/requirements.txt").read_text().split()
+    assert prowl._drake_snopt.DRAKE in pinned
+    for name in ("cli/drake_snopt.cpp", "docs/solvers.md", "docs/python.md"):
+        assert prowl._drake_snopt.DRAKE in (root / name).read_text(), name
