@@ -37,7 +37,7 @@ struct Verb {
   std::vector<Verb> verbs;
 };
 
-/// From "DIR", "TASK.toml", "NAME:{riccati,fatrop,ipopt}".
+/// From "DIR", "TASK.toml", "NAME:{riccati,fatrop,...}".
 Value value_of(const std::string& type) {
   const auto has = [&type](const char* word) { return type.find(word) != std::string::npos; };
   Value value{.is_toml = has(".toml"), .is_folder = has("DIR"), .is_file = has("FILE") || has("PATH") || has("URDF"), .choices = {}};

@@ -7,9 +7,7 @@
 #include "prowl/error.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/solvers/fatrop_solver.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -105,7 +103,9 @@ Finding check_solver(const NlpSolver& solver, const Task& task) {
 
 std::vector<Finding> check_solvers() {
   const Task task = tiny_task();
-  return {check_solver(RiccatiSolver(), task), check_solver(FatropSolver(), task), check_solver(IpoptSolver(), task)};
+  std::vector<Finding> findings;
+  for (const std::string& name : solver_names()) findings.push_back(check_solver(*make_solver(name), task));
+  return findings;
 }
 
 }  // namespace prowl::cli

@@ -4,15 +4,14 @@
 
 #include <Eigen/Core>
 #include <cstdlib>
+#include <memory>
 #include <sstream>
 #include <string_view>
 
 #include "program_path.hpp"
 #include "prowl/error.hpp"
 #include "prowl/simulation/physics.hpp"
-#include "prowl/solvers/fatrop_solver.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -53,14 +52,17 @@ void check_processor() {
 }
 
 std::map<std::string, std::string> versions() {
-  return {{"prowl", PROWL_VERSION},
-          {"Riccati", RiccatiSolver().version()},
-          {"Ipopt", IpoptSolver().version()},
-          {"Fatrop", FatropSolver().version()},
-          {"MuJoCo", Physics::version()},
-          {"Pinocchio", PROWL_PINOCCHIO_VERSION},
-          {"vector instructions", PROWL_SIMD},
-          {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  std::map<std::string, std::string> all = {
+      {"prowl", PROWL_VERSION},
+      {"MuJoCo", Physics::version()},
+      {"Pinocchio", PROWL_PINOCCHIO_VERSION},
+      {"vector instructions", PROWL_SIMD},
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  for (const std::string& name : solver_names()) {
+    const std::unique_ptr<NlpSolver> solver = make_solver(name);
+    all[solver->name()] = solver->version();
+  }
+  return all;
 }
 
 }  // namespace prowl::cli

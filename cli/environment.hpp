@@ -15,7 +15,7 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs);
 /// Throws InputError if this processor lacks the instructions that the build uses (PROWL_SIMD).
 void check_processor();
 
-/// "prowl", "Riccati", "vector instructions", "Ipopt", "Fatrop", "Pinocchio", "Eigen" -> version.
+/// "prowl", "vector instructions", "Pinocchio", "MuJoCo", "Eigen" and the name of each solver -> version.
 std::map<std::string, std::string> versions();
 
 }  // namespace prowl::cli

@@ -30,7 +30,7 @@ struct PlanArguments {
   std::string task;
   std::string out;
   std::string warm_start;
-  std::string solver = "riccati";
+  std::string solver = solver_names().front();
   std::vector<std::string> package_dirs;
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
@@ -94,7 +94,7 @@ int run_plan(const PlanArguments& arguments) {
     return kPassed;
   }
   if (arguments.solver == "fatrop" && arguments.threads > 1) {
-    throw InputError("--threads: Fatrop evaluates one stage at a time; leave it out, or take --solver riccati or ipopt");
+    throw InputError("--threads: Fatrop evaluates one stage at a time; leave it out, or take another --solver");
   }
   const std::filesystem::path out = arguments.out.empty() ? "out" / std::filesystem::path(task_slug(arguments.task))
                                                           : std::filesystem::path(arguments.out);
@@ -145,10 +145,10 @@ void add_plan_command(CLI::App& app, int& status) {
   add_json(*verb, arguments->json);
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
       ->check(positive_number())->type_name("S");
-  verb->add_option("--solver", arguments->solver, "Who solves it; default riccati")
+  verb->add_option("--solver", arguments->solver, "Who solves it; default " + arguments->solver)
       ->check(CLI::IsMember(solver_names()))->type_name("NAME");
   verb->add_option("--threads", arguments->threads,
-                   "Threads that evaluate the problem, with riccati and ipopt; default 1. The result is the same")
+                   "Threads that evaluate the problem, not with fatrop; default 1. The result is the same")
       ->check(CLI::Range(1, kMostThreads))->type_name("N");
   add_hessian(*verb, arguments->hessian);
   add_solver_limits(*verb, arguments->overrides);

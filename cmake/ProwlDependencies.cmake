@@ -51,6 +51,11 @@ foreach(name fatrop blasfeo)
 endforeach()
 target_link_libraries(prowl_dep_fatrop INTERFACE prowl_dep_blasfeo)
 
+# Uno comes with its header and no CMake package. To be linked after Ipopt: both libraries show a SPRAL, Uno's with OpenMP, and
+# the first to be found serves both.
+if(NOT EXISTS ${PROWL_CASADI}/include/uno/Uno_C_API.h OR NOT EXISTS ${PROWL_CASADI}/libuno.so)
+  message(FATAL_ERROR "No Uno in ${PROWL_CASADI}: run scripts/setup.")
+endif()
 add_library(prowl_dep_uno SHARED IMPORTED)
 set_target_properties(prowl_dep_uno PROPERTIES
   IMPORTED_LOCATION ${PROWL_CASADI}/libuno.so

@@ -32,7 +32,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--quick", action="store_true", help="a smoke test of less than 3 minutes: stand only, coarse, no repetitions")
     parser.add_argument("--tasks", type=_list, default=TASKS, metavar="NAME,...", help=f"of tasks/hyq; default {','.join(TASKS)}")
     parser.add_argument("--solvers", type=_list, metavar="NAME,...",
-                        help="of Prowl, names of `prowl plan --solver`; default: all that it lists but ipopt")
+                        help="of Prowl, names of `prowl plan --solver`; default: those that go by stages, riccati and fatrop")
     parser.add_argument("--peers", type=_list, default=PEERS, metavar="NAME,...", help=f"default {','.join(PEERS)}; none: --peers=")
     parser.add_argument("--steps", type=_numbers, default=[0.02, 0.04, 0.01], metavar="S,...",
                         help="Euler steps of the peers [s]; the first is the one that Prowl is compared at; default 0.02,0.04,0.01")

@@ -38,7 +38,7 @@ class Benchmark:
                          *(path for folder in wheels for path in folder.glob("lib/python3*/site-packages/cmeel.prefix/share"))]
         self.prowl = ProwlCommand(options.prowl, self.packages, options.time_limit)
         known = self.prowl.solvers()
-        self.solvers = options.solvers if options.solvers is not None else [name for name in known if name != "ipopt"]
+        self.solvers = options.solvers if options.solvers is not None else [name for name in known if name in ("riccati", "fatrop")]
         if unknown := set(self.solvers) - set(known):
             raise SystemExit(f"bench: --solvers {','.join(sorted(unknown))}: {options.prowl} has {','.join(known)}")
         self.lines = open(options.out / "results.jsonl", "w")

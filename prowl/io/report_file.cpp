@@ -9,6 +9,7 @@
 #include "prowl/io/plan_json.hpp"
 #include "prowl/io/report_json.hpp"
 #include "prowl/io/report_motion.hpp"
+#include "prowl/solvers/make_solver.hpp"
 #include "prowl/trajectory/phase_span.hpp"
 
 namespace prowl {
@@ -56,7 +57,8 @@ std::string plan_command(const PlanRecord& record) {
   std::string command = "prowl plan " + shell_quoted(record.task.task_file.path.string());
   std::string solver = record.plan.solver;
   std::transform(solver.begin(), solver.end(), solver.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (solver == "fatrop" || solver == "ipopt") command += " --solver " + solver;
+  const std::vector<std::string>& names = solver_names();
+  if (solver != names.front() && std::find(names.begin(), names.end(), solver) != names.end()) command += " --solver " + solver;
   if (overrides.intervals) command += fmt::format(" --intervals {}", *overrides.intervals);
   if (overrides.max_iterations) command += fmt::format(" --max-iterations {}", *overrides.max_iterations);
   if (overrides.max_seconds) command += fmt::format(" --max-time {}", *overrides.max_seconds);

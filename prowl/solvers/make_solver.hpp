@@ -8,7 +8,7 @@
 
 namespace prowl {
 
-const std::vector<std::string>& solver_names();  ///< "riccati", "fatrop", "ipopt"; the first is the default
+const std::vector<std::string>& solver_names();  ///< the first is the default
 
 /// Throws InputError that lists the names for any other.
 std::unique_ptr<NlpSolver> make_solver(const std::string& name);

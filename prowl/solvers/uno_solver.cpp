@@ -139,9 +139,7 @@ class UnoProblem {
 UnoProblem& problem_of(void* self) { return *static_cast<UnoProblem*>(self); }
 uno_int failed(bool good) { return good ? 0 : 1; }
 
-uno_int give_cost(uno_int, const double* z, double* value, void* self) {
-  return failed(problem_of(self).cost(z, *value));
-}
+uno_int give_cost(uno_int, const double* z, double* value, void* self) { return failed(problem_of(self).cost(z, *value)); }
 uno_int give_gradient(uno_int, const double* z, double* gradient, void* self) {
   return failed(problem_of(self).cost_gradient(z, gradient));
 }
@@ -161,6 +159,8 @@ uno_int tell_iteration(uno_int, uno_int, const double* z, const double*, const d
   problem_of(self).iterate(z, stationarity);
   return 1;
 }
+
+uno_int discard(const char*, uno_int length, void*) { return length; }
 
 struct Outcome {
   SolveStatus status;
@@ -216,9 +216,18 @@ Handle configured_solver(const SolverOptions& options, UnoProblem& problem) {
   return solver;
 }
 
+/// Uno warns of fixed variables before it has read its option "logger", once in a process.
+struct Silence {
+  Silence() { uno_set_logger_stream_callback(&discard, nullptr); }
+  ~Silence() { uno_reset_logger_stream(); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+};
+
 void run_uno(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options, UnoProblem& problem, SolveResult& result) {
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
+  const Silence silence;
   const Handle model = make_model(nlp, z_start, problem), solver = configured_solver(options, problem);
   uno_optimize(solver.get(), model.get());
 
@@ -271,8 +280,7 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
     result.message = fmt::format("{}; {}", result.message, guarded.failure());
   }
   if (result.z.size() == 0) {
-    const bool has_begun = problem.best().z.size() > 0;
-    result.z = has_begun ? problem.best().z : z_start;
+    result.z = problem.best().z.size() > 0 ? problem.best().z : z_start;
     result.dual_violation = problem.best().dual_violation;
   }
   if (guarded.broken()) {

@@ -42,7 +42,7 @@ def solve(task: _prowl.Task, *, solver: str = "riccati", threads: int = 1, coars
           on_iteration: Callable[[_prowl.Progress], object] | None = None) -> _prowl.Plan:
     """Plans the motion of a task and checks it.
 
-    solver: "riccati", "fatrop" or "ipopt". threads: that evaluate the problem; the result is the same. coarse_first: coarser
+    solver: one of solver_names(). threads: that evaluate the problem; the result is the same. coarse_first: coarser
     meshes first. start_from: an earlier plan of the same robot and phases. gains: also design feedback gains, for a plan
     that is good. progress: show iterations with tqdm; None does so in a terminal and in a notebook if tqdm is installed.
     on_iteration: called with a Progress after each iteration; what it raises ends the solve and is raised here.

