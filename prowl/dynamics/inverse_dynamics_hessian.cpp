@@ -1,7 +1,6 @@
 #include "prowl/dynamics/inverse_dynamics_hessian.hpp"
 
-#include <Eigen/Geometry>
-
+#include "prowl/dynamics/spatial_cross.hpp"
 #include "prowl/model/so3.hpp"
 
 namespace prowl {
@@ -13,24 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 constexpr Index kBaseDofs = 6;
 constexpr Index kFirstRotation = 3;  ///< inverse dynamics do not depend on the place of the base
-
-SpatialVector spatial(const Vector3d& linear, const Vector3d& angular) {
-  SpatialVector result;
-  result << linear, angular;
-  return result;
-}
-
-/// Motion x motion.
-SpatialVector cross(const SpatialVector& a, const SpatialVector& b) {
-  const Vector3d a_linear = a.head<3>(), a_angular = a.tail<3>(), b_linear = b.head<3>(), b_angular = b.tail<3>();
-  return spatial(a_angular.cross(b_linear) + a_linear.cross(b_angular), a_angular.cross(b_angular));
-}
-
-/// Motion x* force.
-SpatialVector cross_force(const SpatialVector& a, const SpatialVector& f) {
-  const Vector3d a_linear = a.head<3>(), a_angular = a.tail<3>(), force = f.head<3>(), moment = f.tail<3>();
-  return spatial(a_angular.cross(force), a_linear.cross(force) + a_angular.cross(moment));
-}
 
 }  // namespace
 

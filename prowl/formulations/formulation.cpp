@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "prowl/error.hpp"
+#include "prowl/formulations/centroidal_nlp.hpp"
 #include "prowl/formulations/collocation.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/transcription/transcription.hpp"
@@ -50,7 +51,11 @@ void check(const char* what, const std::string& name, const std::vector<std::str
 }  // namespace
 
 const std::vector<std::string>& dynamics_names() {
-  static const std::vector<std::string> names = names_of(dynamics_forms(), &DynamicsForm::name);
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = names_of(dynamics_forms(), &DynamicsForm::name);
+    all.push_back("centroidal");
+    return all;
+  }();
   return names;
 }
 
@@ -87,6 +92,7 @@ std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, cons
   check("contact", formulation.contact, contact_names());
   check("orientation", formulation.orientation, orientation_names());
   if (formulation == Formulation{}) return std::make_unique<Transcription>(problem, mesh, guess);
+  if (formulation.dynamics == "centroidal") return make_centroidal(formulation, problem, mesh, guess);
   return make_collocation(formulation, problem, mesh, guess);
 }
 

@@ -14,13 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. A sharper tip costs iterations where a foot is
-/// about to lift. Each contact has to carry eps / friction, so less where friction is low or contacts are many: all
-/// together no more than a fifth of the weight.
-double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts) {
-  return problem.robot.weight() * std::min(0.01, 0.2 * friction / static_cast<double>(contacts));
-}
-
 constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
 
 const Phase& phase_of(const MotionProblem& problem, int phase) {
@@ -34,6 +27,10 @@ std::vector<int> contacts_of(const Phase& phase) {
 }
 
 }  // namespace
+
+double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts) {
+  return problem.robot.weight() * std::min(0.01, 0.2 * friction / static_cast<double>(contacts));
+}
 
 NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                              const PhaseContacts& contacts, const StabilisationOfStep& stabilisation)

@@ -16,6 +16,11 @@
 
 namespace prowl {
 
+/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. A sharper tip costs iterations where a foot is
+/// about to lift. Each contact has to carry eps / friction, so less where friction is low or contacts are many: all
+/// together no more than a fifth of the weight.
+double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts);
+
 /// How the contacts of a phase depend on each other, settled once: see independent_contacts.hpp.
 struct PhaseContacts {
   std::vector<int> chosen_rows;      ///< rows of the contact Jacobian whose forces are variables

@@ -25,13 +25,13 @@ double clearance_profile(const Swing& swing, double s) {
 }  // namespace
 
 PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                             const std::vector<LandingAxes>& landing)
+                             const std::vector<LandingAxes>& landing, int intervals_at_rest)
     : length_(problem.robot.size()), speed_(std::sqrt(RobotModel::kGravity * length_)),
       kinematics_({}), at_rest_(Eigen::VectorXd::Zero(problem.robot.nv())), second_(problem.robot.nv()) {
   rows_.resize(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(phase)].intervals) + 1);
   add_landing(problem, schedule, phase, landing);
   for (const Swing& swing : schedule.swings()) {
-    if (swing.first_phase <= phase && phase <= swing.last_phase) add_clearance(problem, schedule, phase, swing);
+    if (swing.first_phase <= phase && phase <= swing.last_phase) add_clearance(problem, schedule, phase, swing, intervals_at_rest);
   }
   kinematics_ = ContactKinematics(points_);
 }
@@ -76,8 +76,9 @@ void PlacementRows::add_landing(const MotionProblem& problem, const ContactSched
 // Surfaces without an edge are passed during the whole swing. A patch is passed while the foot is near it, and where that
 // is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the second.
 void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                                  const Swing& swing) {
+                                  const Swing& swing, int intervals_at_rest) {
   const int total = nodes_of(problem, swing.first_phase, swing.last_phase);
+  const int moving = swing.after < 0 ? total : std::max(total - intervals_at_rest, 1);
   const int before = nodes_of(problem, swing.first_phase, phase - 1);
   const int intervals = problem.phases[static_cast<std::size_t>(phase)].intervals;
   const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
@@ -90,12 +91,13 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
     if (k == 0 && phase == swing.first_phase) continue;
     if (k == intervals && !is_last_phase) continue;
     const double progress = static_cast<double>(before + k) / total;
+    const double risen = std::min(static_cast<double>(before + k) / moving, 1.0);
     for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
       const Surface& surface = problem.surfaces[static_cast<std::size_t>(s)];
       const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5) ||
                           (s == surface_of(swing.after) && progress >= 0.5);
       if (!passes) continue;
-      const double height = problem.swing_clearance * clearance_profile(swing, progress);
+      const double height = problem.swing_clearance * clearance_profile(swing, risen);
       rows_[static_cast<std::size_t>(k)].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,
                                                     surface.normal.dot(surface.point) + contact.radius,
                                                     height / length_, 1.0 / length_,

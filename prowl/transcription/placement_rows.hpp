@@ -23,9 +23,10 @@ struct LandingAxes {
 /// Lengths are divided by the size l of the robot, velocities by sqrt(g l).
 class PlacementRows {
  public:
-  /// `landing`: one for each contact of the phase; of no meaning for those that do not land.
+  /// `landing`: one for each contact of the phase; of no meaning for those that do not land. `intervals_at_rest`: in which a contact
+  /// that lands is down already; backward Euler, where the velocity at a node is that of the interval before it, needs one.
   PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                const std::vector<LandingAxes>& landing);
+                const std::vector<LandingAxes>& landing, int intervals_at_rest = 0);
 
   int most_rows() const;  ///< over all nodes
   int count(int k) const { return static_cast<int>(rows_[static_cast<std::size_t>(k)].size()); }
@@ -57,7 +58,8 @@ class PlacementRows {
   const Row& at(int k, int row) const { return rows_[static_cast<std::size_t>(k)][static_cast<std::size_t>(row)]; }
   void add_landing(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                    const std::vector<LandingAxes>& landing);
-  void add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const Swing& swing);
+  void add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const Swing& swing,
+                     int intervals_at_rest);
   int point_of(int contact);
 
   double length_, speed_;

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "prowl/dynamics/inverse_dynamics_hessian.hpp"
+#include "prowl/model/body_placements.hpp"
+#include "prowl/model/body_tree.hpp"
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Centre of mass of a robot and its momentum, with exact first and second derivatives, from the masses of its bodies alone:
+///
+///   r = com(q)         [m], world frame
+///   A_G(q) v           (linear [kg m/s], angular about the centre of mass [kg m^2/s]), world axes
+///
+/// (Orin, Goswami, Lee, "Centroidal dynamics of a humanoid robot", 2013.) Derivatives in q are with respect to the tangent of
+/// configuration.hpp. With (P, k0) the momentum about the base's origin o, r from there, I_i the inertia of all that is behind
+/// joint i, B_i its momentum, S_i the motion of the joint at v_i = 1, V_i the velocity of the body before it:
+///
+///   angular part = k0 - r x P
+///   d(P, k0)/dv_i = I_i S_i,    d(P, k0)/dq_i = F_i = S_i x* B_i + I_i (V_i x S_i)
+///
+/// since turning joint i carries along what is behind it, but not the velocity V_i. By the same rule, for l at or before i in the
+/// chain, E_l = V_l x S_l and any fixed motion y:
+///
+///   d2 y.(P, k0) / dq_l dq_i = (y x S_l).F_i + E_l.N_i,    N_i = I_i (y x S_i) + S_i x* I_i y
+///   d2 y.(P, k0) / dq_l dv_i = (y x S_l).I_i S_i,          d2 y.(P, k0) / dv_l dq_i = S_l.N_i
+class CentroidalKinematics {
+ public:
+  using Vector3 = Eigen::Vector3d;
+  using Columns3 = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+  /// `robot` must live as long as this.
+  explicit CentroidalKinematics(const RobotModel& robot);
+
+  /// Sets q and v, at which the rest is evaluated.
+  void update(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+
+  const Vector3& com() const { return com_; }
+  const Columns3& com_dq() const { return com_dq_; }                    ///< 3 x nv
+  const SpatialVector& momentum() const { return momentum_; }
+  const SpatialColumns& momentum_dq() const { return momentum_dq_; }    ///< 6 x nv
+  const SpatialColumns& momentum_dv() const { return momentum_dv_; }    ///< A_G, 6 x nv
+
+  /// Adds the second derivatives of  on_com . r + on_momentum . A_G v  (linear in v) to nv x nv blocks; entry (i, j) of qv is
+  /// that in q_i and v_j.
+  void add_hessian(const Vector3& on_com, const SpatialVector& on_momentum, Eigen::Ref<Eigen::MatrixXd> qq,
+                   Eigen::Ref<Eigen::MatrixXd> qv) const;
+
+ private:
+  struct Link {
+    SpatialVector before = SpatialVector::Zero(), velocity;  ///< of the body before the joint, of the body
+    WorldInertia inertia;                                    ///< of all that is behind the joint
+    SpatialVector momentum;                                  ///< likewise
+  };
+  void set_motion(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  void add_up();
+  const Link& link_of(Eigen::Index dof) const { return links_[dof < 6 ? 0 : static_cast<std::size_t>(dof - 5)]; }
+
+  BodyTree tree_;
+  BodyPlacements placements_;
+  double mass_;
+  std::vector<Link> links_;   ///< one a body; the base's "joint" is what moves all
+  SpatialColumns S_, E_;      ///< motions about the base's origin, world axes
+  SpatialColumns I_S_, F_;    ///< d(P, k0)/dv, d(P, k0)/dq
+  Vector3 com_, arm_;         ///< arm: of the centre of mass from the base's origin
+  Columns3 com_dq_;
+  SpatialVector momentum_;
+  SpatialColumns momentum_dq_, momentum_dv_;
+};
+
+}  // namespace prowl

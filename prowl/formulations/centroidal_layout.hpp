@@ -1,0 +1,51 @@
+#pragma once
+
+#include <vector>
+
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/transcription/mesh.hpp"
+
+namespace prowl {
+
+/// Places among the variables of one node: q first (base position, theta, joints), then v, and so on as listed. What makes
+/// the motion from one node to the next is a variable where an interval ends; the first node of a phase has none of it (-1).
+struct CentroidalColumns {
+  CentroidalColumns(int nv, int contacts, bool ends_interval);
+
+  int v, com, com_velocity, momentum, contacts;
+  int com_acceleration, momentum_rate, forces;
+  int size;
+  bool ends_interval() const { return forces >= 0; }
+};
+
+/// Where everything is in the decision variables z and in the constraints g of the centroidal program.
+///
+/// z: for each node of the mesh its variables, then for each phase of free duration its duration.
+/// g: for each node its rows (CentroidalNode); for each interval (q, nv | h | r | r' | no sliding), for each phase switch
+///    (continuity of q, nv | of v, nv | of r'): h and r follow from q and v.
+class CentroidalLayout {
+ public:
+  /// `rows` of each node, `sliding_rows` of an interval of each phase.
+  CentroidalLayout(const MotionProblem& problem, const Mesh& mesh, const std::vector<int>& rows,
+                   const std::vector<int>& sliding_rows);
+
+  int num_variables() const { return num_variables_; }
+  int num_constraints() const { return link_rows_.back(); }
+  int num_nodes() const { return static_cast<int>(nodes_.size()); }
+  int num_links() const { return num_nodes() - 1; }
+
+  int node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }  ///< first variable of node k
+  const CentroidalColumns& columns(int k) const { return columns_[static_cast<std::size_t>(k)]; }
+  int first_shared() const { return first_shared_; }
+  int duration(int phase) const { return durations_[static_cast<std::size_t>(phase)]; }  ///< -1 if it is fixed
+
+  int node_row(int k) const { return node_rows_[static_cast<std::size_t>(k)]; }  ///< first row of node k
+  int link_row(int k) const { return link_rows_[static_cast<std::size_t>(k)]; }  ///< of nodes k and k + 1; or the end
+
+ private:
+  int num_variables_ = 0, first_shared_ = 0;
+  std::vector<CentroidalColumns> columns_;
+  std::vector<int> nodes_, durations_, node_rows_, link_rows_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,310 @@
+#include "prowl/formulations/centroidal_nlp.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+#include <set>
+
+#include "../io/test_files.hpp"
+#include "prowl/error.hpp"
+#include "prowl/formulations/inverse_dynamics_check.hpp"
+#include "prowl/formulations/run_formulation.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/nlp/derivative_check.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "tests/support/everything_problem.hpp"
+#include "tests/support/random_vector.hpp"
+#include "tests/support/standing_problem.hpp"
+
+namespace prowl {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using test::everything;
+using test::free_phase;
+using test::phase_on;
+
+constexpr std::size_t kContacts = 4;
+
+CentroidalNlp make_nlp(const MotionProblem& problem) {
+  const Mesh mesh = make_mesh(problem);
+  return {problem, mesh, initial_guess(problem, mesh)};
+}
+
+MotionProblem task_problem(const std::string& name) {
+  return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test::test_search()).problem;
+}
+
+FormulationRun solve(const MotionProblem& problem, const std::string& dynamics) {
+  return run_formulation(problem, {.dynamics = dynamics}, IpoptSolver(), {});
+}
+
+void expect_derivatives(const MotionProblem& problem, double size_of_multipliers = 2.0) {
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  CentroidalNlp nlp(problem, mesh, guess);
+  std::mt19937 rng(5);
+  const VectorXd z = nlp.pack(guess) + test::random_vector(rng, nlp.num_variables(), 0.1);
+  const VectorXd multipliers = test::random_vector(rng, nlp.num_constraints(), size_of_multipliers);
+  const DerivativeReport report = check_derivatives(nlp, z, 1.7, multipliers);
+  EXPECT_LT(report.worst(), 1e-6) << report.summary();
+  EXPECT_TRUE(report.pattern_faults.empty()) << report.pattern_faults.front();
+}
+
+TEST(CentroidalNlp, DerivativesAndPatternsAreThoseOfDifferences) {
+  const RobotModel hyq = test::hyq();
+  expect_derivatives(everything(hyq, {phase_on("four", {0, 1, 2, 3}, 0.3, 2)}));
+  expect_derivatives(everything(hyq, {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)}));
+  expect_derivatives(everything(hyq, {phase_on("hind", {1, 3}, 0.3, 1), phase_on("flight", {}, 0.2, 1)}));
+}
+
+TEST(CentroidalNlp, DerivativesHoldForVelocitiesThatTheTaskBinds) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  problem.boundary_conditions[1].velocity_lower.head<6>().setZero();
+  problem.boundary_conditions[1].velocity_upper.head<6>().setZero();
+  EXPECT_EQ(make_nlp(problem).num_constraints(),
+            make_nlp(everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)})).num_constraints() + 3);
+  expect_derivatives(problem);
+}
+
+TEST(CentroidalNlp, DerivativesHoldForFreeDurationsAndContactsThatOpenAndLand) {
+  MotionProblem problem =
+      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
+                               free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)});
+  problem.running_cost.time_weight = 2.3;
+  problem.swing_clearance = 0.05;
+  problem.surfaces.push_back({.name = "step", .point = {0.4, 0.3, 0.1}, .normal = {0.1, 0.0, 1.0},
+                              .patch = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}});
+  problem.surfaces[1].normal.normalize();
+  problem.phases[2].contacts[0].surface = 1;
+  expect_derivatives(problem);
+  problem.friction_model = FrictionModel::pyramid;
+  problem.phases[2].contacts[0].place = problem.surfaces[1].point;
+  expect_derivatives(problem);
+}
+
+TEST(CentroidalNlp, DerivativesHoldForFlatFeet) {
+  MotionProblem problem = everything(test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1),
+                                                     free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});
+  problem.running_cost.force_weight *= 0.1;  // heavier than HyQ: a cost of the same size, against rounding
+  expect_derivatives(problem, 0.5);
+}
+
+TEST(CentroidalNlp, WithoutItsRowsTheHessianIsThatOfTheCost) {
+  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  CentroidalNlp nlp(problem, mesh, guess);
+  const VectorXd z = nlp.pack(guess);
+  VectorXd exact(nlp.hessian_pattern().size()), gauss_newton = exact, of_cost = exact;
+  std::mt19937 rng(5);
+  const VectorXd multipliers = test::random_vector(rng, nlp.num_constraints(), 2.0);
+  nlp.hessian(z, 1.3, VectorXd::Zero(nlp.num_constraints()), of_cost);
+  nlp.hessian(z, 1.3, multipliers, exact);
+  nlp.use_hessian(HessianKind::gauss_newton);
+  nlp.hessian(z, 1.3, multipliers, gauss_newton);
+  EXPECT_EQ(gauss_newton, of_cost);
+  EXPECT_GT((exact - of_cost).norm(), 1.0);
+}
+
+int sum(const std::vector<RowGroup>& groups) {
+  return std::accumulate(groups.begin(), groups.end(), 0, [](int total, const RowGroup& group) { return total + group.count; });
+}
+
+testing::Matcher<RowGroup> group(const std::string& name, int count) {
+  return testing::AllOf(testing::Field(&RowGroup::name, name), testing::Field(&RowGroup::count, count));
+}
+
+/// Pardo et al. 2016, table I: 76 variables, the step among them, and 63 constraints a node for HyQ on four feet.
+TEST(CentroidalNlp, CountsOfANodeAreThoseOfThePaper) {
+  CentroidalNlp nlp = make_nlp(task_problem("hyq/crouch"));
+  const std::vector<RowGroup> variables = nlp.variable_groups(7), constraints = nlp.constraint_groups(7);
+  EXPECT_THAT(variables, testing::ElementsAre(group("q", 18), group("v", 18), group("r", 3), group("r'", 3), group("h", 3),
+                                              group("c", 12), group("r''", 3), group("h'", 3), group("f", 12)));
+  EXPECT_EQ(sum(variables) + 1, 76);
+  EXPECT_THAT(constraints,
+              testing::ElementsAre(group("m r'' = sum f + m g", 3), group("h' = sum (c - r) x f", 3), group("h = A_G(q) v", 3),
+                                   group("r = com(q)", 3), group("c = p(q)", 12),
+                                   group("distance of contacts to their surfaces", 4), group("friction", 4),
+                                   group("q by backward Euler", 18), group("h by backward Euler", 3),
+                                   group("r by the trapezoid", 3), group("r' by backward Euler", 3),
+                                   group("contacts do not slide", 8)));
+  EXPECT_EQ(sum(constraints) - 4, 63);
+}
+
+TEST(CentroidalNlp, GroupsAreAllThatThereIs) {
+  MotionProblem problem = everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
+                                                   phase_on("landed", {0, 1, 2, 3}, 0.2, 2)});
+  CentroidalNlp nlp = make_nlp(problem);
+  int variables = 1, constraints = 0;  // the free duration
+  for (int k = 0; k < make_mesh(problem).size(); ++k) {
+    variables += sum(nlp.variable_groups(k));
+    constraints += sum(nlp.constraint_groups(k));
+  }
+  EXPECT_EQ(variables, nlp.num_variables());
+  EXPECT_EQ(constraints, nlp.num_constraints());
+}
+
+TEST(CentroidalNlp, SaysInWordsWhatRowsAndVariablesAre) {
+  MotionProblem problem = everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2)});
+  CentroidalNlp nlp = make_nlp(problem);
+  std::vector<std::string> rows, variables;
+  for (int i = 0; i < nlp.num_constraints(); ++i) rows.push_back(nlp.describe_constraint(i));
+  for (int i = 0; i < nlp.num_variables(); ++i) variables.push_back(nlp.describe_variable(i));
+  EXPECT_EQ(std::set(rows.begin(), rows.end()).size(), rows.size());
+  EXPECT_EQ(std::set(variables.begin(), variables.end()).size(), variables.size());
+  EXPECT_THAT(rows, testing::IsSupersetOf({"phase 1 'four', node 1, forces, z, t = 0.175 s",
+                                           "phase 1 'four', node 2, lf_foot, force before it opens, x, t = 0.350 s",
+                                           "phase 1 'four', node 1, lh_foot, sliding along axis 2 of floor, t = 0.175 s",
+                                           "phase 2 'lifted', node 0, q across the phase switch, base x, t = 0.350 s"}));
+  EXPECT_THAT(variables, testing::IsSupersetOf({"phase 1 'four', node 1, f z of rf_foot, t = 0.175 s",
+                                                "phase 1 'four', node 0, v lf_kfe_joint, t = 0.000 s",
+                                                "phase 1 'four', duration"}));
+}
+
+TEST(CentroidalNlp, UnpackUndoesPack) {
+  const MotionProblem problem = everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 3), phase_on("two", {0, 3}, 0.2, 2)});
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  CentroidalNlp nlp(problem, mesh, guess);
+  const Trajectory motion = nlp.unpack(nlp.pack(guess));
+  for (int k = 0; k < mesh.size(); ++k) {
+    const TrajectoryPoint &was = guess.nodes[static_cast<std::size_t>(k)], &is = motion.nodes[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(is.time, was.time, 1e-12);
+    EXPECT_LT((is.q - was.q).norm(), 1e-12);
+    EXPECT_LT((is.v - was.v).norm(), 1e-12);
+    if (mesh.nodes[static_cast<std::size_t>(k)].node > 0) EXPECT_LT((is.force - was.force).norm(), 1e-9);
+  }
+  VectorXd z = nlp.pack(guess);
+  z(3) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(nlp.unpack(z), NumericalError);
+}
+
+TEST(CentroidalNlp, RefusesWhatItCannotSay) {
+  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, -0.05});
+  EXPECT_NO_THROW(make_nlp(problem));
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  EXPECT_THROW(make_centroidal({.dynamics = "centroidal", .transcription = "rk4"}, problem, mesh, guess), InputError);
+  problem.boundary_conditions[1].torque_upper.setConstant(10.0);
+  EXPECT_THROW(make_nlp(problem), InputError);
+}
+
+/// Forces, moments and momenta of a motion by its q, v and forces alone.
+struct Balance {
+  Vector3d com, momentum, force, moment;
+};
+std::vector<Balance> balance(const MotionProblem& problem, const Trajectory& motion) {
+  CentroidalKinematics kinematics(problem.robot);
+  RigidBodyTerms terms(problem.robot);
+  std::vector<Balance> balances;
+  for (const TrajectoryPoint& point : motion.nodes) {
+    kinematics.update(point.q, point.v);
+    terms.update_kinematics(point.q);
+    Balance& now = balances.emplace_back(
+        Balance{kinematics.com(), kinematics.momentum().tail<3>(), -problem.robot.weight() * Vector3d::UnitZ(), Vector3d::Zero()});
+    for (std::size_t c = 0; c < kContacts; ++c) {
+      const Vector3d f = point.force.segment<3>(static_cast<Eigen::Index>(3 * c));
+      now.force += f;
+      now.moment += (terms.contact_position(static_cast<int>(c)) - now.com).cross(f);
+    }
+  }
+  return balances;
+}
+
+/// Over two steps of the trapezoid for r and of backward Euler for r', second differences of r are the mean of two forces.
+void expect_balance(const MotionProblem& problem, const Trajectory& motion) {
+  const std::vector<Balance> at = balance(problem, motion);
+  const double dt = motion.nodes[1].time, weight = problem.robot.weight();
+  for (std::size_t k = 2; k < at.size(); ++k) {
+    const Vector3d acceleration = (at[k].com - 2.0 * at[k - 1].com + at[k - 2].com) / (dt * dt);
+    if (k > 2) {
+      EXPECT_LT((problem.robot.mass() * acceleration - 0.5 * (at[k].force + at[k - 1].force)).norm(), 1e-3 * weight) << k;
+    }
+    EXPECT_LT(((at[k].momentum - at[k - 1].momentum) / dt - at[k].moment).norm(), 1e-4 * weight) << k;
+  }
+}
+
+double drift(const MotionProblem& problem, const Trajectory& motion) {
+  RigidBodyTerms terms(problem.robot);
+  std::vector<Vector3d> places;
+  double worst = 0.0;
+  for (const TrajectoryPoint& point : motion.nodes) {
+    terms.update_kinematics(point.q);
+    for (int c = 0; c < static_cast<int>(kContacts); ++c) {
+      if (places.size() < kContacts) places.push_back(terms.contact_position(c));
+      worst = std::max(worst, (terms.contact_position(c) - places[static_cast<std::size_t>(c)]).norm());
+    }
+  }
+  return worst;
+}
+
+TEST(CentroidalNlp, StandsAndCrouchesWithTheForcesThatItsMomentumNeeds) {
+  for (const char* name : {"hyq/stand", "hyq/crouch"}) {
+    const MotionProblem problem = task_problem(name);
+    const FormulationRun run = solve(problem, "centroidal");
+    ASSERT_EQ(run.result.status, SolveStatus::converged) << name;
+    expect_balance(problem, run.motion);
+    EXPECT_LT(drift(problem, run.motion), 1e-5) << name;
+    // Start, goals and joint limits are the certificate's to judge; the motion between its nodes is first order.
+    for (const char* check : {"start", "goal", "joint position beyond limit", "joint velocity", "friction cone"}) {
+      for (const CertificateCheck& done : run.certificate.checks) {
+        if (done.name.starts_with(check)) EXPECT_TRUE(done.passed) << name << ", " << done.name << " " << done.worst;
+      }
+    }
+  }
+}
+
+/// Its motion costs a whole robot hardly more than the best that a whole-body program finds, and what it leaves on the base goes
+/// down with the step.
+TEST(CentroidalNlp, InverseDynamicsAgreeWithItBetterOnAFinerMesh) {
+  MotionProblem problem = task_problem("hyq/stand");
+  const FormulationRun whole_body = solve(problem, "inverse");
+  const InverseDynamicsCheck itself = check_by_inverse_dynamics(problem, whole_body.motion);
+  EXPECT_NEAR(itself.cost, whole_body.result.cost, 1e-5 * whole_body.result.cost);
+  EXPECT_LT(itself.worst_base_force, 1e-5);
+  EXPECT_LT(itself.worst_base_moment, 1e-5);
+
+  const InverseDynamicsCheck coarse = check_by_inverse_dynamics(problem, solve(problem, "centroidal").motion);
+  EXPECT_GT(coarse.cost, whole_body.result.cost);
+  EXPECT_LT(coarse.cost, 1.03 * whole_body.result.cost);
+  EXPECT_GT(coarse.mean_base_force, 0.0);
+  problem.phases[0].intervals *= 2;
+  problem.boundary_conditions[1].at.node *= 2;
+  const InverseDynamicsCheck fine = check_by_inverse_dynamics(problem, solve(problem, "centroidal").motion);
+  EXPECT_LT(fine.mean_base_force, 0.6 * coarse.mean_base_force);
+  EXPECT_LT(fine.cost, coarse.cost);
+}
+
+/// A fifth of the step's mesh: its contact opens, swings over its clearance, and lands at rest where the task has it.
+TEST(CentroidalNlp, Steps) {
+  MotionProblem problem = task_problem("hyq/step");
+  for (Phase& phase : problem.phases) phase.intervals /= 5;
+  problem.boundary_conditions[1].at.node /= 5;
+  const FormulationRun run = solve(problem, "centroidal");
+  ASSERT_EQ(run.result.status, SolveStatus::converged);
+  const Mesh mesh = make_mesh(problem);
+  const int lf = problem.robot.contact_index("lf_foot");
+  const TrajectoryPoint& landing = run.motion.nodes[static_cast<std::size_t>(mesh.index({2, 0}))];
+  const TrajectoryPoint& before = run.motion.nodes[static_cast<std::size_t>(mesh.index({0, problem.phases[0].intervals}))];
+  const TrajectoryPoint& middle = run.motion.nodes[static_cast<std::size_t>(mesh.index({1, problem.phases[1].intervals / 2}))];
+  RigidBodyTerms terms(problem.robot);
+  ContactKinematics foot({lf});
+  terms.update_kinematics(landing.q);
+  foot.set_configuration(terms);
+  const double radius = problem.robot.contacts()[static_cast<std::size_t>(lf)].radius;
+  EXPECT_LT((foot.positions() - *problem.phases[2].contacts[0].place - radius * Vector3d::UnitZ()).norm(), 1e-5);
+  EXPECT_LT((foot.jacobian() * landing.v).norm(), 1e-5);
+  EXPECT_LT(before.force.segment<3>(3 * lf).norm(), 1e-3);
+  terms.update_kinematics(middle.q);
+  EXPECT_GT(terms.contact_position(lf).z() - radius, 0.95 * problem.swing_clearance);
+  const double best = solve(problem, "inverse").result.cost;
+  EXPECT_NEAR(check_by_inverse_dynamics(problem, run.motion).cost, best, 0.02 * best);
+}
+
+}  // namespace
+}  // namespace prowl
