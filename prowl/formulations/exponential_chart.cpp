@@ -15,21 +15,29 @@ using Eigen::Vector3d;
 
 /// g(s), s = |e|², and its first two derivatives, of  Jr⁻¹ ω = ω + 1/2 e × ω + g e × (e × ω).
 /// g = 1/s − (1 + cos t) / (2 t sin t) with t = √s; as a power series Σ 2 ζ(2n) / (2π)²ⁿ sⁿ⁻¹, which has no cancellation at 0.
-std::array<double, 3> series(double s) {
-  constexpr int kTerms = 48;  // (t / 2π)²ⁿ is below rounding for t up to 4.4 rad
-  constexpr double kPeriod = 4.0 * std::numbers::pi * std::numbers::pi;
-  std::array<double, 3> g{};
-  double factor = 1.0 / kPeriod;  // (2π)⁻²ⁿ
-  double power = 1.0, power_d = 0.0, power_dd = 0.0;  // sⁿ⁻¹ and its derivatives
+constexpr int kTerms = 48;  // (t / 2π)²ⁿ is below rounding for t up to 4.4 rad
+
+std::array<double, kTerms> coefficients() {
+  std::array<double, kTerms> c{};
+  double factor = 1.0;
   for (int n = 1; n <= kTerms; ++n) {
-    const double c = 2.0 * std::riemann_zeta(2.0 * n) * factor;
+    factor /= 4.0 * std::numbers::pi * std::numbers::pi;
+    c[static_cast<std::size_t>(n - 1)] = 2.0 * std::riemann_zeta(2.0 * n) * factor;
+  }
+  return c;
+}
+
+std::array<double, 3> series(double s) {
+  static const std::array<double, kTerms> all = coefficients();
+  std::array<double, 3> g{};
+  double power = 1.0, power_d = 0.0, power_dd = 0.0;  // sⁿ⁻¹ and its derivatives
+  for (const double c : all) {
     g[0] += c * power;
     g[1] += c * power_d;
     g[2] += c * power_dd;
     power_dd = s * power_dd + 2.0 * power_d;
     power_d = s * power_d + power;
     power *= s;
-    factor /= kPeriod;
   }
   return g;
 }

@@ -1,5 +1,6 @@
 #include "prowl/formulations/program_graph.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace prowl {
@@ -49,6 +50,13 @@ ProgramGraph::Vector ProgramGraph::call(Function& function, std::vector<Vector> 
     call.terms.push_back({1.0, 0, input});
     rows.middleRows(row, size(input)) = pattern(input);
     row += size(input);
+  }
+  call.is_direct = std::ranges::all_of(inputs, [this](Vector v) { return node(v).kind == Kind::variables; });
+  for (const Vector input : inputs) {
+    for (int i = 0; call.is_direct && i < size(input); ++i) call.active.push_back(node(input).first + i);
+  }
+  for (int j = 0; !call.is_direct && j < num_locals_; ++j) {
+    if (rows.col(j).maxCoeff() > 0.0F) call.active.push_back(j);
   }
   Pattern depends(call.size, function.num_inputs());
   for (int i = 0; i < depends.rows(); ++i) {
@@ -143,15 +151,20 @@ void ProgramGraph::evaluate_call(Node& call, bool with_derivatives) {
     return;
   }
   call.function->evaluate_with_derivatives(call.inputs, call.value, call.slope);
-  call.derivative.noalias() = call.slope * gathered(call.terms, call.function->num_inputs());
+  call.derivative.setZero(call.size, num_locals_);
+  if (call.is_direct) {
+    call.derivative(Eigen::all, call.active) = call.slope;
+  } else {
+    call.derivative(Eigen::all, call.active) = call.slope * gathered(call);
+  }
 }
 
-MatrixXd ProgramGraph::gathered(const std::vector<Term>& inputs, int rows) const {
-  MatrixXd result(rows, num_locals_);
+MatrixXd ProgramGraph::gathered(const Node& call) const {
+  MatrixXd result(call.function->num_inputs(), static_cast<Index>(call.active.size()));
   Index row = 0;
-  for (const Term& input : inputs) {
+  for (const Term& input : call.terms) {
     const MatrixXd& derivative = node(input.vector).derivative;
-    result.middleRows(row, derivative.rows()) = derivative;
+    result.middleRows(row, derivative.rows()) = derivative(Eigen::all, call.active);
     row += derivative.rows();
   }
   return result;
@@ -192,8 +205,12 @@ void ProgramGraph::pull_back_call(Node& call, MatrixXd& result) {
   if (call.weights.isZero(0.0)) return;
   MatrixXd inner;
   call.function->hessian(call.inputs, call.weights, inner);
-  const MatrixXd slope = gathered(call.terms, call.function->num_inputs());
-  result.noalias() += slope.transpose() * (inner * slope);
+  if (call.is_direct) {
+    result(call.active, call.active) += inner;
+  } else {
+    const MatrixXd slope = gathered(call);
+    result(call.active, call.active) += slope.transpose() * (inner * slope);
+  }
   const VectorXd on_inputs = call.slope.transpose() * call.weights;
   Index row = 0;
   for (const Term& input : call.terms) {

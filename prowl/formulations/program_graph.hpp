@@ -68,6 +68,8 @@ class ProgramGraph {
     int first = 0;
     std::vector<Term> terms = {};         ///< of a sum; of slice and call their inputs
     Function* function = nullptr;
+    std::vector<int> active = {};  ///< of a call: local variables that its inputs depend on
+    bool is_direct = false;        ///< of a call: its inputs are those variables themselves
     Pattern pattern = {};
     Eigen::VectorXd value = {}, weights = {}, inputs = {};
     Eigen::MatrixXd derivative = {}, slope = {};  ///< in the local variables; of the function
@@ -81,7 +83,8 @@ class ProgramGraph {
   void evaluate_call(Node& node, bool with_derivatives);
   void pull_back_sum(const Node& node, Eigen::MatrixXd& result);
   void pull_back_call(Node& node, Eigen::MatrixXd& result);
-  Eigen::MatrixXd gathered(const std::vector<Term>& inputs, int rows) const;
+  /// Derivatives of a call's inputs in its active variables.
+  Eigen::MatrixXd gathered(const Node& call) const;
 
   int num_locals_;
   StepSize step_;
