@@ -23,13 +23,15 @@ MotionProblem two_phases() {
   return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 1), phase_on("three", {0, 1, 3}, 0.2, 1)});
 }
 
-MotionProblem one_phase() { return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 1)}); }
+// Steps of 0.1 s: an explicit rule bends so much over longer ones that differences are not good to 1e-6.
+MotionProblem one_phase() { return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.1, 1)}); }
 
 /// Contacts that open and land, durations and places that are variables.
 MotionProblem a_step() {
   MotionProblem problem =
-      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 1), phase_on("lifted", {1, 2, 3}, 0.2, 1),
+      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 1), phase_on("lifted", {1, 2, 3}, 0.1, 1),
                                free_phase("landed", {0, 1, 2, 3}, 1)});
+  problem.phases.front().duration = problem.phases.back().duration = {0.05, 0.15};
   problem.swing_clearance = 0.05;
   problem.running_cost.time_weight = 2.3;
   return problem;
@@ -42,9 +44,11 @@ void expect_derivatives(const MotionProblem& problem, const Formulation& formula
   std::mt19937 rng(5);
   const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.02);
   const Eigen::VectorXd multipliers = test::random_vector(rng, nlp->num_constraints(), 2.0);
-  // Accelerations that are solved for have lost four digits to rounding: differences of them need a larger step than others.
+  // The forward form solves for accelerations with a matrix of condition 1e5: gradients have lost as many digits to rounding, and
+  // their differences more. With half the step they are twice as far off (seen), as rounding is.
+  const double tolerance = formulation.dynamics == "forward" ? 1e-5 : 1e-6;
   const DerivativeReport report = check_derivatives(*nlp, z, 1.7, multipliers, {.step = 2e-4});
-  EXPECT_LT(report.worst(), 1e-6) << report.summary();
+  EXPECT_LT(report.worst(), tolerance) << report.summary();
   EXPECT_TRUE(report.pattern_faults.empty()) << report.pattern_faults.front();
 }
 
