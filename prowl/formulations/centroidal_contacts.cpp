@@ -56,14 +56,16 @@ CentroidalContacts centroidal_contacts(const MotionProblem& problem, const Conta
         const double height = landed ? on_surface : surface.normal.dot(terms.contact_position(contact.contact));
         result.distance.push_back({i, axes.col(axis), height, point.name + ", distance to " + surface.name});
       } else {
-        result.sliding.push_back({i, axes.col(axis), 0.0, fmt::format("{}, sliding along axis {} of {}", point.name, axis + 1, surface.name)});
+        result.sliding.push_back({i, axes.col(axis), 0.0,
+                                  fmt::format("{}, sliding along axis {} of {}", point.name, axis + 1, surface.name)});
       }
     }
     if (!schedule.lands(phase, i)) continue;
     for (const int axis : landing[static_cast<std::size_t>(i)].place) {
       if (axis != kNormal && !contact.place) continue;
       const double place = axis == kNormal ? on_surface : axes.col(axis).dot(*contact.place);
-      result.landing.push_back({i, axes.col(axis), place, fmt::format("{}, landing, axis {} of {}", point.name, axis + 1, surface.name)});
+      result.landing.push_back({i, axes.col(axis), place,
+                                fmt::format("{}, landing, axis {} of {}", point.name, axis + 1, surface.name)});
     }
   }
   return result;

@@ -17,9 +17,9 @@ struct HeldDirection {
   std::string what;
 };
 
-/// How the contacts of a phase are on their surfaces, as Dai, Valenzuela, Tedrake 2014 have it: at a distance of zero at the
-/// nodes, and not sliding from node to node. Of contacts that depend on each other (flat feet) as many directions as are
-/// independent.
+/// How the contacts of a phase are on their surfaces, as Dai, Valenzuela, Tedrake 2014 have it: at a distance of zero
+/// at the nodes, and not sliding from node to node. Of contacts that depend on each other (flat feet) as many
+/// directions as are independent.
 struct CentroidalContacts {
   std::vector<HeldDirection> landing;   ///< at the first node: normals of contacts that land, and where the task puts them
   std::vector<HeldDirection> distance;  ///< at every other node: normals. From where the start has it, if it never landed

@@ -43,7 +43,8 @@ std::vector<RowGroup> CentroidalNlp::constraint_groups(int k) const {
 
 std::string CentroidalNlp::describe_node(int k) const {
   const MeshNode& at = mesh_node(k);
-  return fmt::format("phase {} '{}', node {}", at.phase + 1, problem_.phases[static_cast<std::size_t>(at.phase)].name, at.node);
+  const Phase& phase = problem_.phases[static_cast<std::size_t>(at.phase)];
+  return fmt::format("phase {} '{}', node {}", at.phase + 1, phase.name, at.node);
 }
 
 std::string CentroidalNlp::describe_constraint(int row) const {
@@ -69,7 +70,8 @@ std::string CentroidalNlp::describe_constraint(int row) const {
 
 std::string CentroidalNlp::describe_variable(int index) const {
   for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
-    if (layout_.duration(static_cast<int>(p)) == index) return fmt::format("phase {} '{}', duration", p + 1, problem_.phases[p].name);
+    if (layout_.duration(static_cast<int>(p)) != index) continue;
+    return fmt::format("phase {} '{}', duration", p + 1, problem_.phases[p].name);
   }
   int k = 0;
   while (k + 1 < layout_.num_nodes() && index >= layout_.node(k + 1)) ++k;

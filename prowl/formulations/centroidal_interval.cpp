@@ -40,7 +40,8 @@ VectorXd CentroidalInterval::rows() const {
   const CentroidalColumns &at0 = start_.columns, &at1 = end_.columns;
   VectorXd rows(num_rows(nv_, static_cast<int>(sliding_.size())));
   rows.head(nv_) = euler_.value().head(nv_);
-  rows.segment<3>(nv_) = (of(end_, at1.momentum) - of(start_, at0.momentum) - step_ * of(end_, at1.momentum_rate)) / scale_.momentum;
+  rows.segment<3>(nv_) = (of(end_, at1.momentum) - of(start_, at0.momentum) -
+                          step_ * of(end_, at1.momentum_rate)) / scale_.momentum;
   rows.segment<3>(nv_ + 3) = (of(end_, at1.com) - of(start_, at0.com) -
                               0.5 * step_ * (of(start_, at0.com_velocity) + of(end_, at1.com_velocity))) / scale_.length;
   rows.segment<3>(nv_ + 6) = (of(end_, at1.com_velocity) - of(start_, at0.com_velocity) -
@@ -53,7 +54,8 @@ VectorXd CentroidalInterval::rows() const {
   return rows;
 }
 
-void CentroidalInterval::add_jacobian(int row, int start, int end, int duration, double share, SparseEntries& jacobian) const {
+void CentroidalInterval::add_jacobian(int row, int start, int end, int duration, double share,
+                                      SparseEntries& jacobian) const {
   const CentroidalColumns &at0 = start_.columns, &at1 = end_.columns;
   const BaseDefects::Matrix3x12 rotation = euler_.rotation_derivative();  // theta0, w0, theta1, w1
   jacobian.diagonal(row, start, 3, -1.0);

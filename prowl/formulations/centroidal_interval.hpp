@@ -9,13 +9,13 @@
 
 namespace prowl {
 
-/// From one node to the next over a step dt, as Dai, Valenzuela, Tedrake 2014, eq. (7d) to (7g), have it: q, h and r' by backward
-/// Euler, r by the trapezoid. On SE(3) backward Euler is
+/// From one node to the next over a step dt, as Dai, Valenzuela, Tedrake 2014, eq. (7d) to (7g), have it: q, h and r'
+/// by backward Euler, r by the trapezoid. On SE(3) backward Euler is
 ///
 ///   p1 - p0 - dt R1 v1 = 0,   log( R0' R1 exp(-dt w1) ) = 0,   joints1 - joints0 - dt rates1 = 0
 ///
-/// which is the trapezoid over 2 dt from a start at rest, by whose derivatives it goes. Also here: contacts do not slide, and the
-/// cost of the accelerations that the steps of v mean, for all but the base's linear one.
+/// which is the trapezoid over 2 dt from a start at rest, by whose derivatives it goes. Also here: contacts do not
+/// slide, and the cost of the accelerations that the steps of v mean, for all but the base's linear one.
 class CentroidalInterval {
  public:
   struct End {
@@ -31,16 +31,16 @@ class CentroidalInterval {
   static std::vector<RowGroup> row_groups(int nv, int sliding);
 
   Eigen::VectorXd rows() const;
-  /// Derivatives in x of the start (columns from `start`) and of the end; and in the step, per unit of a variable `duration`
-  /// of which the step is a share, or none if that is negative.
+  /// Derivatives in x of the start (columns from `start`) and of the end; and in the step, per unit of a variable
+  /// `duration` of which the step is a share, or none if that is negative.
   void add_jacobian(int row, int start, int end, int duration, double share, SparseEntries& jacobian) const;
 
   double cost() const;
   /// Adds the gradient in x of both ends and in the step.
   void add_cost_gradient(Eigen::Ref<Eigen::VectorXd> start, Eigen::Ref<Eigen::VectorXd> end, double& step) const;
 
-  /// Adds the Hessian of cost_factor * cost + multipliers . rows to that of both ends (with the duration as their last variable) and
-  /// gives what is between them.
+  /// Adds the Hessian of cost_factor * cost + multipliers . rows to that of both ends (with the duration as their last
+  /// variable) and gives what is between them.
   struct Between {
     Eigen::Matrix<double, 6, 3> turn;  ///< (theta, angular velocity) of the end, theta of the start
     Eigen::VectorXd v;                 ///< v of the end with the same entry of v of the start; from entry 3 on

@@ -99,8 +99,8 @@ void CentroidalKinematics::add_up() {
   }
 }
 
-// With r moving too, on_momentum = (y_linear, lambda):  lambda . (k0 - r x P)  has  -lambda x r  on P,  lambda x P  on r, and
-// -lambda . (dr x dP) between them.
+// With r moving too, on_momentum = (y_linear, lambda):  lambda . (k0 - r x P)  has  -lambda x r  on P,  lambda x P  on
+// r, and -lambda . (dr x dP) between them.
 void CentroidalKinematics::add_hessian(const Vector3& on_com, const SpatialVector& on_momentum,
                                        Eigen::Ref<Eigen::MatrixXd> qq, Eigen::Ref<Eigen::MatrixXd> qv) const {
   const Vector3d lambda = on_momentum.tail<3>();

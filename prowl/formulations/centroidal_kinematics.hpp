@@ -10,20 +10,22 @@
 
 namespace prowl {
 
-/// Centre of mass of a robot and its momentum, with exact first and second derivatives, from the masses of its bodies alone:
+/// Centre of mass of a robot and its momentum, with exact first and second derivatives, from the masses of its bodies
+/// alone:
 ///
 ///   r = com(q)         [m], world frame
 ///   A_G(q) v           (linear [kg m/s], angular about the centre of mass [kg m^2/s]), world axes
 ///
-/// (Orin, Goswami, Lee, "Centroidal dynamics of a humanoid robot", 2013.) Derivatives in q are with respect to the tangent of
-/// configuration.hpp. With (P, k0) the momentum about the base's origin o, r from there, I_i the inertia of all that is behind
-/// joint i, B_i its momentum, S_i the motion of the joint at v_i = 1, V_i the velocity of the body before it:
+/// (Orin, Goswami, Lee, "Centroidal dynamics of a humanoid robot", 2013.) Derivatives in q are with respect to the
+/// tangent of configuration.hpp. With (P, k0) the momentum about the base's origin o, r from there, I_i the inertia of
+/// all that is behind joint i, B_i its momentum, S_i the motion of the joint at v_i = 1, V_i the velocity of the body
+/// before it:
 ///
 ///   angular part = k0 - r x P
 ///   d(P, k0)/dv_i = I_i S_i,    d(P, k0)/dq_i = F_i = S_i x* B_i + I_i (V_i x S_i)
 ///
-/// since turning joint i carries along what is behind it, but not the velocity V_i. By the same rule, for l at or before i in the
-/// chain, E_l = V_l x S_l and any fixed motion y:
+/// since turning joint i carries along what is behind it, but not the velocity V_i. By the same rule, for l at or
+/// before i in the chain, E_l = V_l x S_l and any fixed motion y:
 ///
 ///   d2 y.(P, k0) / dq_l dq_i = (y x S_l).F_i + E_l.N_i,    N_i = I_i (y x S_i) + S_i x* I_i y
 ///   d2 y.(P, k0) / dq_l dv_i = (y x S_l).I_i S_i,          d2 y.(P, k0) / dv_l dq_i = S_l.N_i
@@ -44,8 +46,8 @@ class CentroidalKinematics {
   const SpatialColumns& momentum_dq() const { return momentum_dq_; }    ///< 6 x nv
   const SpatialColumns& momentum_dv() const { return momentum_dv_; }    ///< A_G, 6 x nv
 
-  /// Adds the second derivatives of  on_com . r + on_momentum . A_G v  (linear in v) to nv x nv blocks; entry (i, j) of qv is
-  /// that in q_i and v_j.
+  /// Adds the second derivatives of  on_com . r + on_momentum . A_G v  (linear in v) to nv x nv blocks; entry (i, j) of
+  /// qv is that in q_i and v_j.
   void add_hessian(const Vector3& on_com, const SpatialVector& on_momentum, Eigen::Ref<Eigen::MatrixXd> qq,
                    Eigen::Ref<Eigen::MatrixXd> qv) const;
 

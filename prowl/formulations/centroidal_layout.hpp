@@ -7,8 +7,9 @@
 
 namespace prowl {
 
-/// Places among the variables of one node: q first (base position, theta, joints), then v, and so on as listed. What makes
-/// the motion from one node to the next is a variable where an interval ends; the first node of a phase has none of it (-1).
+/// Places among the variables of one node: q first (base position, theta, joints), then v, and so on as listed. What
+/// makes the motion from one node to the next is a variable where an interval ends; the first node of a phase has none
+/// of it (-1).
 struct CentroidalColumns {
   CentroidalColumns(int nv, int contacts, bool ends_interval);
 
@@ -20,8 +21,8 @@ struct CentroidalColumns {
 
 /// Where everything is in the decision variables z and in the constraints g of the centroidal program.
 ///
-/// z: for each node of the mesh its variables, then for each phase of free duration its duration.
-/// g: for each node its rows (CentroidalNode); for each interval (q, nv | h | r | r' | no sliding), for each phase switch
+/// z: for each node of the mesh its variables, then for each phase of free duration its duration. g: for each node its
+/// rows (CentroidalNode); for each interval (q, nv | h | r | r' | no sliding), for each phase switch
 ///    (continuity of q, nv | of v, nv | of r'): h and r follow from q and v.
 class CentroidalLayout {
  public:

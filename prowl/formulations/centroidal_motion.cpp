@@ -43,7 +43,8 @@ std::deque<CentroidalNode> nodes_of_phases(const MotionProblem& problem, const M
     const VectorXd& q = guess.nodes[static_cast<std::size_t>(mesh.index({p, 0}))].q;
     std::vector<bool> ties(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(p)].intervals) + 1, false);
     for (const BoundaryCondition& condition : problem.boundary_conditions) {
-      if (condition.at.phase == p && binds_base_velocity(condition)) ties[static_cast<std::size_t>(condition.at.node)] = true;
+      if (condition.at.phase != p || !binds_base_velocity(condition)) continue;
+      ties[static_cast<std::size_t>(condition.at.node)] = true;
     }
     const std::vector<LandingAxes> landing = phase_contacts(problem, schedule, p, q).landing;
     phases.emplace_back(problem, schedule, p, landing, centroidal_contacts(problem, schedule, p, q, landing), ties);
@@ -90,10 +91,11 @@ CentroidalNlp::CentroidalNlp(const MotionProblem& problem, const Mesh& mesh, con
   set_patterns(guess);
 }
 
-// Start, goals, joint and velocity limits and durations are those of the trapezoid's program, where q and v have the same form.
+// Start, goals, joint and velocity limits and durations are those of the trapezoid's program, where q and v have the
+// same form.
 void CentroidalNlp::set_bounds() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::vector<int> none(static_cast<std::size_t>(std::max(mesh_.size(), static_cast<int>(problem_.phases.size()))), 0);
+  const std::vector<int> none(static_cast<std::size_t>(mesh_.size()), 0);  // more than there are phases
   const ContactSchedule schedule(problem_);
   const DecisionLayout other(problem_, schedule, mesh_, none, none);
   const VariableBounds bounds = variable_bounds(problem_, schedule, mesh_, other);
@@ -167,7 +169,8 @@ Trajectory CentroidalNlp::unpack(const VectorXd& z) {
   double time = 0.0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     if (k > 0 && is_interval(k - 1)) time += step(z, k);
-    // Forces and accelerations are those of the interval that ends in a node; a first node has those of the interval after it.
+    // Forces and accelerations are those of the interval that ends in a node; a first node has those of the interval
+    // after it.
     const int end = layout_.columns(k).ends_interval() ? k : k + 1;
     const CentroidalColumns& at = layout_.columns(end);
     const auto velocity = [&](int i) { return z.segment(layout_.node(i) + layout_.columns(i).v, nv); };
@@ -192,8 +195,8 @@ std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const
   const Formulation own{.dynamics = formulation.dynamics};
   const auto check = [](const char* what, const std::string& name, const std::string& needed) {
     if (name == needed) return;
-    throw InputError(fmt::format("{}: \"{}\" does not go with dynamics \"centroidal\", which have a rule of their own; need \"{}\"",
-                                 what, name, needed));
+    throw InputError(fmt::format("{}: \"{}\" does not go with dynamics \"centroidal\", which have a rule of their own; "
+                                 "need \"{}\"", what, name, needed));
   };
   check("transcription", formulation.transcription, own.transcription);
   check("contact", formulation.contact, own.contact);

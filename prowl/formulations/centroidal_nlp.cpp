@@ -169,7 +169,8 @@ void CentroidalNlp::hessian(const VectorXd& z, double cost_factor, const VectorX
     const int row = layout_.link_row(k);
     blocks.between[static_cast<std::size_t>(k)] =
         interval(z, k).add_hessian(cost_factor, on_rows.segment(row, layout_.link_row(k + 1) - row), share(k),
-                                   blocks.nodes[static_cast<std::size_t>(k)], blocks.nodes[static_cast<std::size_t>(k) + 1]);
+                                   blocks.nodes[static_cast<std::size_t>(k)],
+                                   blocks.nodes[static_cast<std::size_t>(k) + 1]);
   }
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const MatrixXd& block = blocks.nodes[static_cast<std::size_t>(k)];

@@ -14,25 +14,25 @@
 
 namespace prowl {
 
-/// Centroidal dynamics with full kinematics: a motion problem in which contact forces move the centre of mass and turn the
-/// robot, and q only follows. Dai, Valenzuela, Tedrake, "Whole-body motion planning with centroidal dynamics and full kinematics",
-/// Humanoids 2014, sec. II-D, with the contacts of each phase known.
+/// Centroidal dynamics with full kinematics: a motion problem in which contact forces move the centre of mass and turn
+/// the robot, and q only follows. Dai, Valenzuela, Tedrake, "Whole-body motion planning with centroidal dynamics and
+/// full kinematics", Humanoids 2014, sec. II-D, with the contacts of each phase known.
 ///
-/// Variables of a node: q, v | centre of mass r, r', r'' | angular momentum h about it, h' | for each contact its position c and
-/// its force f. Rows: CentroidalNode, CentroidalInterval. Joint torques are unknown to it: limits and costs on them do not count,
-/// the rest of the task does. The running cost is the sum over the intervals of step times cost at their end; of accelerations,
-/// r'' stands for the base's linear one, and differences of v for all others.
+/// Variables of a node: q, v | centre of mass r, r', r'' | angular momentum h about it, h' | for each contact its
+/// position c and its force f. Rows: CentroidalNode, CentroidalInterval. Joint torques are unknown to it: limits and
+/// costs on them do not count, the rest of the task does. The running cost is the sum over the intervals of step times
+/// cost at their end; of accelerations, r'' stands for the base's linear one, and differences of v for all others.
 class CentroidalNlp : public MotionNlp {
  public:
-  /// `guess` (one point a node) fixes the chart of the base's rotation at each node. Throws InputError if bounds contradict
-  /// each other, or if the task asks for torques.
+  /// `guess` (one point a node) fixes the chart of the base's rotation at each node. Throws InputError if bounds
+  /// contradict each other, or if the task asks for torques.
   CentroidalNlp(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess);
   CentroidalNlp(const CentroidalNlp&) = delete;  // its nodes refer to its problem
   CentroidalNlp& operator=(const CentroidalNlp&) = delete;
 
   Eigen::VectorXd pack(const Trajectory& trajectory) const override;
-  /// a is the program's own rate of v, (v_k - v_k-1) / dt, constant over an interval as forces are; tau what inverse dynamics make of
-  /// it with the planned forces. What these leave on the base: InverseDynamics.
+  /// a is the program's own rate of v, (v_k - v_k-1) / dt, constant over an interval as forces are; tau what inverse
+  /// dynamics make of it with the planned forces. What these leave on the base: InverseDynamics.
   Trajectory unpack(const Eigen::VectorXd& z) override;
 
   int num_variables() const override { return layout_.num_variables(); }
@@ -55,8 +55,8 @@ class CentroidalNlp : public MotionNlp {
   std::string describe_variable(int index) const override;
   void use_hessian(HessianKind kind) override { hessian_kind_ = kind; }
 
-  /// Row by row what node k adds to the program: its variables; its rows and those of the interval (or phase switch) that ends in
-  /// it. Durations of phases, which nodes share, are not among them.
+  /// Row by row what node k adds to the program: its variables; its rows and those of the interval (or phase switch)
+  /// that ends in it. Durations of phases, which nodes share, are not among them.
   std::vector<RowGroup> variable_groups(int k) const;
   std::vector<RowGroup> constraint_groups(int k) const;
 
@@ -96,7 +96,8 @@ class CentroidalNlp : public MotionNlp {
   HessianKind hessian_kind_ = HessianKind::exact;
   Eigen::VectorXd variable_lower_, variable_upper_, constraint_lower_, constraint_upper_;
   SparsityPattern jacobian_pattern_, hessian_pattern_;
-  std::vector<std::vector<std::pair<int, int>>> node_places_;  ///< of each node's Hessian, lower triangle, with the duration
+  /// Of each node's Hessian: lower triangle, with the duration as the last variable.
+  std::vector<std::vector<std::pair<int, int>>> node_places_;
 
   // What was evaluated last, and where.
   Eigen::VectorXd evaluated_at_;
@@ -105,8 +106,8 @@ class CentroidalNlp : public MotionNlp {
   SparseEntries jacobian_;
 };
 
-/// As make_formulation(). Rules of integration, contact and orientation are its own: throws InputError if another one than the
-/// default of the other dynamics is asked for.
+/// As make_formulation(). Rules of integration, contact and orientation are its own: throws InputError if another one
+/// than the default of the other dynamics is asked for.
 std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
                                            const Trajectory& guess);
 

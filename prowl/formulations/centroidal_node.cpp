@@ -194,7 +194,8 @@ void CentroidalNode::evaluate(const CentroidalPoint& point, CentroidalValues& va
     rows.segment<3>(first_row(k, newton)) = force / scale_.force;
     rows.segment<3>(first_row(k, moment)) = turning / (scale_.force * scale_.length);
   }
-  rows.segment<3>(first_row(k, momentum)) = (x.segment<3>(at.momentum) - kinematics_.momentum().tail<3>()) / scale_.momentum;
+  rows.segment<3>(first_row(k, momentum)) =
+      (x.segment<3>(at.momentum) - kinematics_.momentum().tail<3>()) / scale_.momentum;
   rows.segment<3>(first_row(k, com)) = (r - kinematics_.com()) / scale_.length;
   rows.segment(first_row(k, positions), c.size()) = (c - points_.positions()) / scale_.length;
   for (int i = 0; i < count(k, distance); ++i) {

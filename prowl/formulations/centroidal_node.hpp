@@ -58,8 +58,8 @@ struct CentroidalValues {
 ///   rest, place and clearance of contacts (PlacementRows)
 class CentroidalNode {
  public:
-  /// `landing` as PlacementRows has it; `ties` for each node of the phase whether r' is tied to v there. The problem must
-  /// live as long as this.
+  /// `landing` as PlacementRows has it; `ties` for each node of the phase whether r' is tied to v there. The problem
+  /// must live as long as this.
   CentroidalNode(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                  std::vector<LandingAxes> landing, CentroidalContacts contacts, std::vector<bool> ties);
 
@@ -77,7 +77,8 @@ class CentroidalNode {
   /// After evaluate() at the same point.
   void add_derivatives(const CentroidalPoint& point, CentroidalValues& values);
   /// After both: Hessian of cost_factor * cost + multipliers . rows in x and the duration, symmetric.
-  void hessian(const CentroidalPoint& point, double cost_factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
+  void hessian(const CentroidalPoint& point, double cost_factor, const Eigen::VectorXd& multipliers,
+               Eigen::MatrixXd& result);
   /// Where it may have something, but for the duration: set to true.
   void mark_hessian(int k, Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& marks) const;
 

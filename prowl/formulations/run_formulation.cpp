@@ -35,10 +35,12 @@ FormulationRun judge_formulation(const MotionProblem& problem, const Formulation
                      .result = std::move(result),
                      .motion = {},
                      .certificate = {},
-                     .contacts = {}};
+                     .contacts = {},
+                     .inverse_dynamics = {}};
   run.motion = nlp.unpack(run.result.z);
   run.certificate = certify(problem, run.motion);
   run.contacts = contact_motion(problem, run.motion);
+  run.inverse_dynamics = check_by_inverse_dynamics(problem, run.motion);
   return run;
 }
 

@@ -3,6 +3,7 @@
 #include "prowl/formulations/contact_motion.hpp"
 #include "prowl/formulations/formulation.hpp"
 #include "prowl/formulations/guess.hpp"
+#include "prowl/formulations/inverse_dynamics_check.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/trajectory/certificate.hpp"
 
@@ -18,7 +19,8 @@ struct FormulationRun {
   SolveResult result;
   Trajectory motion;
   Certificate certificate;
-  ContactMotion contacts;  ///< of the motion
+  ContactMotion contacts;                 ///< of the motion
+  InverseDynamicsCheck inverse_dynamics;  ///< likewise
 
   double variables_per_node() const { return static_cast<double>(num_variables) / nodes; }
   double constraints_per_node() const { return static_cast<double>(num_constraints) / nodes; }

@@ -116,6 +116,11 @@ std::vector<Column> outcome() {
        of_run([](const Run& run) -> Cell { return run.contacts.velocity; }), "{:.2g}", 1e3},
       {"node_contact_acceleration_m_s2", "d(J v)/dt [mm/s²]",
        of_run([](const Run& run) -> Cell { return run.contacts.acceleration; }), "{:.2g}", 1e3},
+      {"task_cost", "task's cost", of_run([](const Run& run) -> Cell { return run.inverse_dynamics.cost; }), "{:.7g}"},
+      {"inverse_dynamics_torque_share", "torque [of limit]",
+       of_run([](const Run& run) -> Cell { return run.inverse_dynamics.worst_torque; })},
+      {"base_force_share_of_weight", "left on the base [weight]",
+       of_run([](const Run& run) -> Cell { return run.inverse_dynamics.worst_base_force; }), "{:.2g}"},
       {"note", "note", note},
   };
 }

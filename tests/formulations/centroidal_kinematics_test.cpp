@@ -67,14 +67,17 @@ TEST(CentroidalKinematics, FirstDerivativesAreThoseOfDifferences) {
   constexpr double kStep = 1e-5;
   for (Eigen::Index i = 0; i < robot.nv(); ++i) {
     const VectorXd step = kStep * unit(robot.nv(), i);
-    const VectorXd in_q = (values(kinematics, integrate(q, step), v) - values(kinematics, integrate(q, -step), v)) / (2 * kStep);
-    const VectorXd in_v = (values(kinematics, q, v + step) - values(kinematics, q, v - step)) / (2 * kStep);
+    const auto at = [&](const VectorXd& in_q, const VectorXd& in_v) { return values(kinematics, integrate(q, in_q), v + in_v); };
+    const VectorXd none = VectorXd::Zero(robot.nv());
+    const VectorXd in_q = (at(step, none) - at(-step, none)) / (2 * kStep);
+    const VectorXd in_v = (at(none, step) - at(none, -step)) / (2 * kStep);
     EXPECT_LT((slope.col(i) - in_q).norm(), 1e-7 * robot.mass()) << i;
     EXPECT_LT((slope.col(robot.nv() + i) - in_v).norm(), 1e-7 * robot.mass()) << i;
   }
 }
 
-/// The block of the base's rotation is the symmetric part of what differences of the gradient give, for rotations do not commute.
+/// The block of the base's rotation is the symmetric part of what differences of the gradient give, for rotations do
+/// not commute.
 TEST(CentroidalKinematics, SecondDerivativesAreThoseOfDifferences) {
   for (const RobotModel& robot : {test::hyq(), test::talos()}) {
     CentroidalKinematics kinematics(robot);
@@ -89,8 +92,8 @@ TEST(CentroidalKinematics, SecondDerivativesAreThoseOfDifferences) {
     constexpr double kStep = 1e-5;
     for (Eigen::Index i = 0; i < nv; ++i) {
       const VectorXd step = kStep * unit(nv, i);
-      const VectorXd bend = (slopes(kinematics, integrate(q, step), v) - slopes(kinematics, integrate(q, -step), v)).transpose() *
-                            lambda / (2 * kStep);
+      const MatrixXd change = slopes(kinematics, integrate(q, step), v) - slopes(kinematics, integrate(q, -step), v);
+      const VectorXd bend = change.transpose() * lambda / (2 * kStep);
       qq_difference.row(i) = bend.head(nv).transpose();
       qv_difference.row(i) = bend.tail(nv).transpose();
     }

@@ -112,7 +112,7 @@ TEST(CentroidalNlp, WithoutItsRowsTheHessianIsThatOfTheCost) {
 }
 
 int sum(const std::vector<RowGroup>& groups) {
-  return std::accumulate(groups.begin(), groups.end(), 0, [](int total, const RowGroup& group) { return total + group.count; });
+  return std::accumulate(groups.begin(), groups.end(), 0, [](int total, const RowGroup& of) { return total + of.count; });
 }
 
 testing::Matcher<RowGroup> group(const std::string& name, int count) {
@@ -127,8 +127,8 @@ TEST(CentroidalNlp, CountsOfANodeAreThoseOfThePaper) {
                                               group("c", 12), group("r''", 3), group("h'", 3), group("f", 12)));
   EXPECT_EQ(sum(variables) + 1, 76);
   EXPECT_THAT(constraints,
-              testing::ElementsAre(group("m r'' = sum f + m g", 3), group("h' = sum (c - r) x f", 3), group("h = A_G(q) v", 3),
-                                   group("r = com(q)", 3), group("c = p(q)", 12),
+              testing::ElementsAre(group("m r'' = sum f + m g", 3), group("h' = sum (c - r) x f", 3),
+                                   group("h = A_G(q) v", 3), group("r = com(q)", 3), group("c = p(q)", 12),
                                    group("distance of contacts to their surfaces", 4), group("friction", 4),
                                    group("q by backward Euler", 18), group("h by backward Euler", 3),
                                    group("r by the trapezoid", 3), group("r' by backward Euler", 3),
@@ -137,8 +137,9 @@ TEST(CentroidalNlp, CountsOfANodeAreThoseOfThePaper) {
 }
 
 TEST(CentroidalNlp, GroupsAreAllThatThereIs) {
-  MotionProblem problem = everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
-                                                   phase_on("landed", {0, 1, 2, 3}, 0.2, 2)});
+  const MotionProblem problem =
+      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
+                               phase_on("landed", {0, 1, 2, 3}, 0.2, 2)});
   CentroidalNlp nlp = make_nlp(problem);
   int variables = 1, constraints = 0;  // the free duration
   for (int k = 0; k < make_mesh(problem).size(); ++k) {
@@ -150,7 +151,8 @@ TEST(CentroidalNlp, GroupsAreAllThatThereIs) {
 }
 
 TEST(CentroidalNlp, SaysInWordsWhatRowsAndVariablesAre) {
-  MotionProblem problem = everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2)});
+  const MotionProblem problem =
+      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2)});
   CentroidalNlp nlp = make_nlp(problem);
   std::vector<std::string> rows, variables;
   for (int i = 0; i < nlp.num_constraints(); ++i) rows.push_back(nlp.describe_constraint(i));
@@ -167,7 +169,8 @@ TEST(CentroidalNlp, SaysInWordsWhatRowsAndVariablesAre) {
 }
 
 TEST(CentroidalNlp, UnpackUndoesPack) {
-  const MotionProblem problem = everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 3), phase_on("two", {0, 3}, 0.2, 2)});
+  const MotionProblem problem =
+      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 3), phase_on("two", {0, 3}, 0.2, 2)});
   const Mesh mesh = make_mesh(problem);
   const Trajectory guess = initial_guess(problem, mesh);
   CentroidalNlp nlp(problem, mesh, guess);
@@ -205,8 +208,8 @@ std::vector<Balance> balance(const MotionProblem& problem, const Trajectory& mot
   for (const TrajectoryPoint& point : motion.nodes) {
     kinematics.update(point.q, point.v);
     terms.update_kinematics(point.q);
-    Balance& now = balances.emplace_back(
-        Balance{kinematics.com(), kinematics.momentum().tail<3>(), -problem.robot.weight() * Vector3d::UnitZ(), Vector3d::Zero()});
+    Balance& now = balances.emplace_back(Balance{kinematics.com(), kinematics.momentum().tail<3>(),
+                                                 -problem.robot.weight() * Vector3d::UnitZ(), Vector3d::Zero()});
     for (std::size_t c = 0; c < kContacts; ++c) {
       const Vector3d f = point.force.segment<3>(static_cast<Eigen::Index>(3 * c));
       now.force += f;
@@ -216,7 +219,8 @@ std::vector<Balance> balance(const MotionProblem& problem, const Trajectory& mot
   return balances;
 }
 
-/// Over two steps of the trapezoid for r and of backward Euler for r', second differences of r are the mean of two forces.
+/// Over two steps of the trapezoid for r and of backward Euler for r', second differences of r are the mean of two
+/// forces.
 void expect_balance(const MotionProblem& problem, const Trajectory& motion) {
   const std::vector<Balance> at = balance(problem, motion);
   const double dt = motion.nodes[1].time, weight = problem.robot.weight();
@@ -259,8 +263,8 @@ TEST(CentroidalNlp, StandsAndCrouchesWithTheForcesThatItsMomentumNeeds) {
   }
 }
 
-/// Its motion costs a whole robot hardly more than the best that a whole-body program finds, and what it leaves on the base goes
-/// down with the step.
+/// Its motion costs a whole robot hardly more than the best that a whole-body program finds, and what it leaves on the
+/// base goes down with the step.
 TEST(CentroidalNlp, InverseDynamicsAgreeWithItBetterOnAFinerMesh) {
   MotionProblem problem = task_problem("hyq/stand");
   const FormulationRun whole_body = solve(problem, "inverse");
@@ -289,9 +293,11 @@ TEST(CentroidalNlp, Steps) {
   ASSERT_EQ(run.result.status, SolveStatus::converged);
   const Mesh mesh = make_mesh(problem);
   const int lf = problem.robot.contact_index("lf_foot");
-  const TrajectoryPoint& landing = run.motion.nodes[static_cast<std::size_t>(mesh.index({2, 0}))];
-  const TrajectoryPoint& before = run.motion.nodes[static_cast<std::size_t>(mesh.index({0, problem.phases[0].intervals}))];
-  const TrajectoryPoint& middle = run.motion.nodes[static_cast<std::size_t>(mesh.index({1, problem.phases[1].intervals / 2}))];
+  const auto at = [&](int phase, int node) -> const TrajectoryPoint& {
+    return run.motion.nodes[static_cast<std::size_t>(mesh.index({phase, node}))];
+  };
+  const TrajectoryPoint &landing = at(2, 0), &before = at(0, problem.phases[0].intervals);
+  const TrajectoryPoint& middle = at(1, problem.phases[1].intervals / 2);
   RigidBodyTerms terms(problem.robot);
   ContactKinematics foot({lf});
   terms.update_kinematics(landing.q);

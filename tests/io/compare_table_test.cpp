@@ -24,7 +24,9 @@ using Rows = std::vector<std::vector<std::string>>;
 ComparedRun finished() {
   FormulationRun run{.formulation = {}, .solver = "Riccati", .nodes = 9, .num_variables = 594, .num_constraints = 540,
                      .jacobian_nonzeros = 12870, .hessian_nonzeros = 13446, .result = {},
-                     .motion = {}, .certificate = {}, .contacts = {1.0 / 3.0 * 1e-3, 1e-300}};
+                     .motion = {}, .certificate = {}, .contacts = {1.0 / 3.0 * 1e-3, 1e-300},
+                     .inverse_dynamics = {}};
+  run.inverse_dynamics = {.worst_torque = 2.0 / 3.0, .worst_base_force = 1e-7 / 3.0, .cost = 1e7 / 3.0};
   run.result.status = SolveStatus::converged;
   run.result.cost = std::numbers::pi * 1e7;
   run.result.iterations = 7;
@@ -121,6 +123,9 @@ TEST(CompareTable, KeepsNumbersAsTheyAre) {
   EXPECT_EQ(number("evaluation_seconds"), 0.01 + 0.02);
   EXPECT_EQ(number("node_contact_velocity_m_s"), run.contacts.velocity);
   EXPECT_EQ(cell(csv, "node_contact_acceleration_m_s2", 1), "1e-300");
+  EXPECT_EQ(number("task_cost"), 1e7 / 3.0);
+  EXPECT_EQ(number("inverse_dynamics_torque_share"), 2.0 / 3.0);
+  EXPECT_EQ(number("base_force_share_of_weight"), 1e-7 / 3.0);
   EXPECT_EQ(number("contact_drift_m"), 1.23e-4);
   EXPECT_EQ(number("reintegration_error"), 4.5e-5);
   EXPECT_EQ(number("variables_per_node"), 66.0);
