@@ -9,15 +9,12 @@ enum class IpoptLinearSolver { mumps, spral };
 
 /// Ipopt 3.14 (Wächter, Biegler 2006: primal-dual interior point, filter line search) with the exact Hessian.
 ///
-/// - Only Ipopt's "Solve_Succeeded" is `converged`; its "acceptable level" allows violations of 1e-2 and is switched
-/// off.
-/// - An evaluation that fails at a trial point shortens the step; one that Ipopt cannot step away from ends the solve
-/// as
+/// - Only Ipopt's "Solve_Succeeded" is `converged`; its "acceptable level" allows violations of 1e-2 and is switched off.
+/// - An evaluation that fails at a trial point shortens the step; one that Ipopt cannot step away from ends the solve as
 ///   `evaluation_failed`, with constraint or variable in the message.
 /// - Stopped early, it returns its best iterate: of least violation, and of least cost among those within tolerance.
 /// - Same problem, same start, same machine: same iterates (fixed elimination ordering, one thread in BLAS). With SPRAL that
-///   holds for a build without OpenMP, as in the casadi wheel. One with OpenMP wants OMP_CANCELLATION=TRUE in the environment
-///   before the program starts, which Prowl does not set, and may add in another order.
+///   is so for a build without OpenMP, as in the casadi wheel; one with OpenMP was not tried.
 class IpoptSolver : public NlpSolver {
  public:
   explicit IpoptSolver(IpoptLinearSolver linear_solver = IpoptLinearSolver::mumps) : linear_solver_(linear_solver) {}
