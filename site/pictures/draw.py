@@ -10,11 +10,12 @@ import style
 
 style.use()
 import concepts  # noqa: E402  after the choice of a backend
+import formulations  # noqa: E402
 import how_to  # noqa: E402
 from plans import Planner  # noqa: E402
 
 PICTURES = {"projection": concepts.projection, "phases": concepts.phases, "mesh": concepts.mesh, "margins": concepts.margins,
-            "slope": how_to.slope, "wall": how_to.wall, "gains": how_to.gains}
+            "slope": how_to.slope, "wall": how_to.wall, "gains": how_to.gains, "orders": formulations.orders}
 
 
 def main() -> None:

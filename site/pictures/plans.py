@@ -52,6 +52,10 @@ class Planner:
         path.write_text(block.text.replace('"../robots/', f'"{ROOT}/robots/'), encoding="utf-8")
         return self._plan(path, options, good=True)
 
+    def output_of(self, program: str) -> str:
+        """Of a program of the build that prowl is in."""
+        return subprocess.run([self._prowl.resolve().parents[1] / program], capture_output=True, text=True, check=True).stdout
+
     def _plan(self, task: pathlib.Path, options: tuple, good: bool) -> Plan:
         folder = self._work / "-".join([task.parent.name, task.stem, *(option.strip("-") for option in options)])
         if not folder.exists():

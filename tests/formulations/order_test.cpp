@@ -2,114 +2,30 @@
 
 #include <cmath>
 
-#include "prowl/dynamics/static_equilibrium.hpp"
-#include "prowl/formulations/formulation.hpp"
-#include "prowl/model/configuration.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
-#include "tests/support/standing_problem.hpp"
+#include "tests/support/given_torques.hpp"
 
-// How fast what a rule makes of given torques goes to the true motion: torques linear in time over all of it, so that every rule
-// has them exactly, no goal and no cost. A square system of equations; no limit is active.
+// How fast what a rule makes of given torques goes to the true motion.
 
 namespace prowl {
 namespace {
 
-constexpr double kDuration = 0.4;  // [s]
-
-/// HyQ sinks, leans and turns.
-Eigen::VectorXd torques(const MotionProblem& problem, double t) {
-  std::vector<int> contacts;
-  for (const PhaseContact& held : problem.phases[0].contacts) contacts.push_back(held.contact);
-  Eigen::VectorXd tau = static_equilibrium(problem.robot, problem.start_configuration(), contacts).tau;
-  const Eigen::VectorXd change = Eigen::VectorXd::LinSpaced(tau.size(), -4.0, 6.0);
-  return 0.95 * tau + t / kDuration * change;
-}
-
-MotionProblem falling(int intervals) {
-  MotionProblem problem = test::standing_problem(test::hyq(), 0.0, 2.0);
-  problem.phases[0].duration = {kDuration, kDuration};
-  problem.phases[0].intervals = intervals;
-  BoundaryCondition& start = problem.boundary_conditions.front();
-  start.torque_lower = start.torque_upper = torques(problem, 0.0);
-  for (int k = 1; k <= intervals; ++k) {
-    auto given = BoundaryCondition::unbounded(problem.robot, "torque", {0, k}, problem.start_configuration());
-    given.torque_lower = given.torque_upper = torques(problem, kDuration * k / intervals);
-    problem.boundary_conditions.push_back(given);
-  }
-  return problem;
-}
-
-/// The program with the torques in the middle of intervals given, too.
-struct Given : MotionNlp {
-  Given(std::unique_ptr<MotionNlp> program, const MotionProblem& problem) : inner(std::move(program)), lower(inner->variable_lower()), upper(inner->variable_upper()) {
-    const int intervals = problem.phases[0].intervals;
-    for (int k = 0; k < intervals; ++k) {
-      const Eigen::VectorXd tau = torques(problem, kDuration * (k + 0.5) / intervals);
-      for (int j = 0; j < num_variables(); ++j) {
-        const std::string name = describe_variable(j), at = "node " + std::to_string(k) + ",";
-        if (name.find(at) == std::string::npos || name.find("in the interval after it, torque") == std::string::npos) continue;
-        for (int i = 0; i < tau.size(); ++i) {
-          if (name.ends_with(problem.robot.joint_names()[static_cast<std::size_t>(i)])) lower(j) = upper(j) = tau(i);
-        }
-      }
-    }
-  }
-  Eigen::VectorXd pack(const Trajectory& t) const override { return inner->pack(t); }
-  Trajectory unpack(const Eigen::VectorXd& z) override { return inner->unpack(z); }
-  void use_hessian(HessianKind kind) override { inner->use_hessian(kind); }
-  int num_variables() const override { return inner->num_variables(); }
-  int num_constraints() const override { return inner->num_constraints(); }
-  const Eigen::VectorXd& variable_lower() const override { return lower; }
-  const Eigen::VectorXd& variable_upper() const override { return upper; }
-  const Eigen::VectorXd& constraint_lower() const override { return inner->constraint_lower(); }
-  const Eigen::VectorXd& constraint_upper() const override { return inner->constraint_upper(); }
-  const SparsityPattern& jacobian_pattern() const override { return inner->jacobian_pattern(); }
-  const SparsityPattern& hessian_pattern() const override { return inner->hessian_pattern(); }
-  double cost(const Eigen::VectorXd& z) override { return inner->cost(z); }
-  void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override { inner->cost_gradient(z, g); }
-  void constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override { inner->constraints(z, g); }
-  void jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> v) override { inner->jacobian(z, v); }
-  void hessian(const Eigen::VectorXd& z, double f, const Eigen::VectorXd& m, Eigen::Ref<Eigen::VectorXd> v) override { inner->hessian(z, f, m, v); }
-  std::string describe_constraint(int row) const override { return inner->describe_constraint(row); }
-  std::string describe_variable(int index) const override { return inner->describe_variable(index); }
-
-  std::unique_ptr<MotionNlp> inner;
-  Eigen::VectorXd lower, upper;
-};
-
-TrajectoryPoint end_of(const Formulation& formulation, int intervals) {
-  const MotionProblem problem = falling(intervals);
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Given nlp(make_collocation(formulation, problem, mesh, guess), problem);
-  const SolveResult result = IpoptSolver().solve(nlp, nlp.pack(guess), {.tolerance = 1e-11, .max_iterations = 60});
-  EXPECT_EQ(result.status, SolveStatus::converged) << formulation.transcription << ", " << intervals << ": " << result.message;
-  return nlp.unpack(result.z).nodes.back();
-}
-
-struct Error {
-  double q, v;
-};
-
-Error error(const TrajectoryPoint& a, const TrajectoryPoint& b) {
-  return {difference(a.q, b.q).cwiseAbs().maxCoeff(), (a.v - b.v).cwiseAbs().maxCoeff()};
-}
+using test::end_of_given_motion;
+using test::state_error;
+using test::StateError;
 
 void expect_order(double order, const Formulation& formulation, const TrajectoryPoint& truth) {
-  const Error coarse = error(end_of(formulation, 8), truth), fine = error(end_of(formulation, 16), truth);
-  const double q = std::log2(coarse.q / fine.q), v = std::log2(coarse.v / fine.v);
-  std::printf("%s, %s: q %.2e -> %.2e, slope %.2f; v %.2e -> %.2e, slope %.2f\n", formulation.dynamics.c_str(),
-              formulation.transcription.c_str(), coarse.q, fine.q, q, coarse.v, fine.v, v);
-  EXPECT_NEAR(q, order, 0.35);
-  EXPECT_NEAR(v, order, 0.35);
+  const StateError coarse = state_error(end_of_given_motion(formulation, 8), truth);
+  const StateError fine = state_error(end_of_given_motion(formulation, 16), truth);
+  SCOPED_TRACE(formulation.dynamics + ", " + formulation.transcription);
+  EXPECT_NEAR(std::log2(coarse.q / fine.q), order, 0.35) << coarse.q << " -> " << fine.q;
+  EXPECT_NEAR(std::log2(coarse.v / fine.v), order, 0.35) << coarse.v << " -> " << fine.v;
 }
 
 TEST(Order, TrapezoidIsOfOrderTwoHermiteSimpsonAndRungeKuttaOfOrderFour) {
-  const TrajectoryPoint truth = end_of({.transcription = "hermite-simpson"}, 128);
-  // The motion is one: far from where it began, without a limit.
-  const MotionProblem problem = falling(1);
-  EXPECT_GT(error(truth, {.q = problem.start_configuration(), .v = Eigen::VectorXd::Zero(problem.robot.nv())}).q, 0.02);
+  const TrajectoryPoint truth = end_of_given_motion({.transcription = "hermite-simpson"}, 128);
+  const MotionProblem problem = test::given_motion(1);
+  const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(problem.robot.nv());
+  EXPECT_GT(state_error(truth, {.q = problem.start_configuration(), .v = at_rest}).q, 0.02) << "nothing moves";
   expect_order(2.0, {}, truth);
   expect_order(2.0, {.dynamics = "forward"}, truth);
   for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "prowl/dynamics/static_equilibrium.hpp"
+#include "prowl/formulations/formulation.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "tests/support/standing_problem.hpp"
+
+/// What a rule of integration makes of given torques: they are linear in time over all of the motion, so that every rule has them
+/// exactly, and there is no goal and no cost. A square system of equations; no limit is active.
+namespace prowl::test {
+
+constexpr double kGivenDuration = 0.4;  // [s]
+
+/// HyQ sinks, leans and turns.
+inline Eigen::VectorXd given_torques(const MotionProblem& problem, double t) {
+  std::vector<int> contacts;
+  for (const PhaseContact& held : problem.phases[0].contacts) contacts.push_back(held.contact);
+  Eigen::VectorXd tau = static_equilibrium(problem.robot, problem.start_configuration(), contacts).tau;
+  const Eigen::VectorXd change = Eigen::VectorXd::LinSpaced(tau.size(), -4.0, 6.0);
+  return 0.95 * tau + t / kGivenDuration * change;
+}
+
+inline MotionProblem given_motion(int intervals) {
+  MotionProblem problem = standing_problem(hyq(), 0.0, 2.0);
+  problem.phases[0].duration = {kGivenDuration, kGivenDuration};
+  problem.phases[0].intervals = intervals;
+  BoundaryCondition& start = problem.boundary_conditions.front();
+  start.torque_lower = start.torque_upper = given_torques(problem, 0.0);
+  for (int k = 1; k <= intervals; ++k) {
+    auto given = BoundaryCondition::unbounded(problem.robot, "torque", {0, k}, problem.start_configuration());
+    given.torque_lower = given.torque_upper = given_torques(problem, kGivenDuration * k / intervals);
+    problem.boundary_conditions.push_back(given);
+  }
+  return problem;
+}
+
+/// The program with the torques in the middle of intervals given, too.
+struct GivenTorques : MotionNlp {
+  GivenTorques(std::unique_ptr<MotionNlp> program, const MotionProblem& problem)
+      : inner(std::move(program)), lower(inner->variable_lower()), upper(inner->variable_upper()) {
+    const int intervals = problem.phases[0].intervals;
+    for (int k = 0; k < intervals; ++k) {
+      const Eigen::VectorXd tau = given_torques(problem, kGivenDuration * (k + 0.5) / intervals);
+      for (int j = 0; j < num_variables(); ++j) {
+        const std::string name = describe_variable(j), at = "node " + std::to_string(k) + ",";
+        if (name.find(at) == std::string::npos || name.find("in the interval after it, torque") == std::string::npos) {
+          continue;
+        }
+        for (int i = 0; i < tau.size(); ++i) {
+          if (name.ends_with(problem.robot.joint_names()[static_cast<std::size_t>(i)])) lower(j) = upper(j) = tau(i);
+        }
+      }
+    }
+  }
+  Eigen::VectorXd pack(const Trajectory& t) const override { return inner->pack(t); }
+  Trajectory unpack(const Eigen::VectorXd& z) override { return inner->unpack(z); }
+  void use_hessian(HessianKind kind) override { inner->use_hessian(kind); }
+  int num_variables() const override { return inner->num_variables(); }
+  int num_constraints() const override { return inner->num_constraints(); }
+  const Eigen::VectorXd& variable_lower() const override { return lower; }
+  const Eigen::VectorXd& variable_upper() const override { return upper; }
+  const Eigen::VectorXd& constraint_lower() const override { return inner->constraint_lower(); }
+  const Eigen::VectorXd& constraint_upper() const override { return inner->constraint_upper(); }
+  const SparsityPattern& jacobian_pattern() const override { return inner->jacobian_pattern(); }
+  const SparsityPattern& hessian_pattern() const override { return inner->hessian_pattern(); }
+  double cost(const Eigen::VectorXd& z) override { return inner->cost(z); }
+  void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override {
+    inner->cost_gradient(z, g);
+  }
+  void constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override { inner->constraints(z, g); }
+  void jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> v) override { inner->jacobian(z, v); }
+  void hessian(const Eigen::VectorXd& z, double f, const Eigen::VectorXd& m, Eigen::Ref<Eigen::VectorXd> v) override {
+    inner->hessian(z, f, m, v);
+  }
+  std::string describe_constraint(int row) const override { return inner->describe_constraint(row); }
+  std::string describe_variable(int index) const override { return inner->describe_variable(index); }
+
+  std::unique_ptr<MotionNlp> inner;
+  Eigen::VectorXd lower, upper;
+};
+
+/// Where the motion is at its end. Throws std::runtime_error if the equations are not solved.
+inline TrajectoryPoint end_of_given_motion(const Formulation& formulation, int intervals) {
+  const MotionProblem problem = given_motion(intervals);
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  GivenTorques nlp(make_collocation(formulation, problem, mesh, guess), problem);
+  const SolveResult result = IpoptSolver().solve(nlp, nlp.pack(guess), {.tolerance = 1e-11, .max_iterations = 60});
+  if (result.status != SolveStatus::converged) throw std::runtime_error(formulation.transcription + ": " + result.message);
+  return nlp.unpack(result.z).nodes.back();
+}
+
+struct StateError {
+  double q, v;
+};
+
+/// The largest differences.
+inline StateError state_error(const TrajectoryPoint& a, const TrajectoryPoint& b) {
+  return {difference(a.q, b.q).cwiseAbs().maxCoeff(), (a.v - b.v).cwiseAbs().maxCoeff()};
+}
+
+}  // namespace prowl::test

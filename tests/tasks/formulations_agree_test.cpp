@@ -1,0 +1,53 @@
+// All whole-body formulations find the same motion of HyQ's crouch, each on a mesh that its rule needs to pass the certificate.
+#include <gtest/gtest.h>
+
+#include "../io/test_files.hpp"
+#include "prowl/formulations/run_formulation.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+
+namespace prowl {
+namespace {
+
+FormulationRun crouch(const Formulation& formulation, int intervals) {
+  const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml";
+  const Task task = read_task_file(file, test::test_search(), {.intervals = intervals});
+  return run_formulation(task.problem, formulation, IpoptSolver(), task.solver);
+}
+
+void expect_agreement(const Formulation& formulation, int intervals, double cost) {
+  SCOPED_TRACE(formulation.dynamics + ", " + formulation.transcription + ", " + formulation.orientation);
+  const FormulationRun run = crouch(formulation, intervals);
+  ASSERT_EQ(run.result.status, SolveStatus::converged) << run.result.message;
+  EXPECT_NE(run.certificate.grade, Grade::failed) << run.worst_check()->name;
+  EXPECT_NEAR(run.result.cost, cost, 0.01 * cost);
+}
+
+TEST(FormulationsAgree, OnTheCostOfCrouchAndPassTheCertificate) {
+  const FormulationRun fine = crouch({.transcription = "hermite-simpson-separated"}, 40);
+  ASSERT_EQ(fine.result.status, SolveStatus::converged) << fine.result.message;
+  for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+    expect_agreement({.dynamics = dynamics}, 80, fine.result.cost);
+    expect_agreement({.dynamics = dynamics, .transcription = "hermite-simpson"}, 20, fine.result.cost);
+  }
+  expect_agreement({.transcription = "hermite-simpson-separated"}, 20, fine.result.cost);
+  expect_agreement({.dynamics = "forward", .transcription = "rk4"}, 40, fine.result.cost);
+}
+
+/// Away from the singularity the coordinates of the base's rotation make no difference.
+TEST(FormulationsAgree, WithEulerAngles) {
+  for (const std::string& dynamics : {"inverse", "forward"}) {
+    const Formulation se3{.dynamics = dynamics, .transcription = "hermite-simpson"};
+    Formulation euler = se3;
+    euler.orientation = "euler";
+    const FormulationRun a = crouch(se3, 20), b = crouch(euler, 20);
+    ASSERT_EQ(b.result.status, SolveStatus::converged) << b.result.message;
+    EXPECT_NEAR(b.result.cost, a.result.cost, 1e-5 * a.result.cost);
+    for (std::size_t k = 0; k < a.motion.nodes.size(); ++k) {
+      EXPECT_LT((a.motion.nodes[k].q - b.motion.nodes[k].q).cwiseAbs().maxCoeff(), 1e-4);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace prowl
