@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "python_script.hpp"
@@ -93,9 +94,14 @@ class Conversation {
 
   /// A line of JSON, z, and the multipliers if there are any.
   SolveResult result() {
+    // It is there or on its way: nothing stops it now.
+    const auto all = [this](void* data, std::size_t size) {
+      return process_.receive(data, size, [] { return false; }) == Got::all;
+    };
     std::string line;
-    for (char c = 0; receive(&c, 1) == Got::all && c != '\n';) line += c;
-    const nlohmann::json told = nlohmann::json::parse(line);
+    for (char c = 0; all(&c, 1) && c != '\n';) line += c;
+    const nlohmann::json told = nlohmann::json::parse(line, nullptr, false);
+    if (told.is_discarded()) return ended();
     SolveResult result;
     result.status = status_of(told.at("status"));
     result.message = told.at("message");
@@ -103,8 +109,7 @@ class Conversation {
     result.times.cpu = told.at("cpu_seconds");
     result.z.resize(nlp_.num_variables());
     if (told.at("has_multipliers").get<bool>()) result.multipliers.resize(nlp_.num_constraints());
-    receive(result.z.data(), bytes(result.z));
-    receive(result.multipliers.data(), bytes(result.multipliers));
+    if (!all(result.z.data(), bytes(result.z)) || !all(result.multipliers.data(), bytes(result.multipliers))) return ended();
     if (result.status == SolveStatus::evaluation_failed) result.message = guarded_.failure();
     return result;
   }
@@ -168,8 +173,14 @@ SolveResult DrakeSnopt::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpt
   }
   if (conversation.exit_status() && !is_ready) throw Error(result.message);
   if (result.z.size() == 0) result.z = z_start;
-  judge(nlp, options.tolerance, name(), result);
-  if (result.multipliers.size() == nlp.num_constraints()) result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
+  if (guarded.broken()) {
+    result.status = SolveStatus::solver_failed;
+    result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
+  } else {
+    judge(nlp, options.tolerance, name(), result);
+  }
+  const bool has_multipliers = result.multipliers.size() == nlp.num_constraints();
+  if (result.status == SolveStatus::converged && has_multipliers) result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
   SolveTimes here = guarded.times();
   here.cpu = cpu_seconds() - cpu_start;
   result.times += here;

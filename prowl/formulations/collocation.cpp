@@ -1,6 +1,8 @@
 #include "prowl/formulations/collocation.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <limits>
 #include <numeric>
 
 #include "prowl/error.hpp"
@@ -32,12 +34,21 @@ Collocation::Collocation(const MotionProblem& problem, const Mesh& mesh, const T
   if (form_.rule->is_explicit() && has_acceleration()) {
     throw InputError("transcription: " + form_.rule->name() + " needs dynamics = \"forward\": it evaluates accelerations");
   }
+  for (const Phase& phase : problem_.phases) {
+    const double step = phase.duration.max / phase.intervals;
+    if (!form_.contact.stabilised || step <= form_.rule->longest_stabilised_step()) continue;
+    throw InputError(fmt::format("transcription: {} cannot keep contacts over steps of {:.3g} s; need at most {} s, or another contact form",
+                                 form_.rule->name(), step, form_.rule->longest_stabilised_step()));
+  }
   const std::vector<VectorXd> origins = anchor_origins(problem_, schedule_);
   std::vector<PhaseContacts> contacts = contacts_of_phases(problem_, schedule_, mesh_, guess);
   for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
     const int phase = static_cast<int>(p);
     if (!contacts[p].chosen_rows.empty() && !form_.contact.stabilised) {
       throw InputError("contact: \"" + form_.contact.name + "\" needs contacts that do not depend on each other");
+    }
+    if (!contacts[p].chosen_rows.empty() && form_.dynamics.has_forces) {
+      throw InputError("dynamics: \"" + form_.dynamics.name + "\" needs contacts that do not depend on each other");
     }
     if (form_.dynamics.has_forces) contacts[p].chosen_rows = all_rows(problem_.phases[p]);
     const ContactRows rows(problem_, phase,

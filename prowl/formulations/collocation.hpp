@@ -30,8 +30,9 @@ struct CollocationForm {
 /// g: for each node its rows, for each interval those of the rule, for each phase switch continuity of x and v.
 class Collocation : public MotionNlp {
  public:
-  /// Throws InputError if the choices do not go together, or the problem binds the base's rotation in part (a chart for all nodes has
-  /// no bounds for that), or forward dynamics meet dependent contacts.
+  /// Throws InputError if the choices do not go together, if steps are too long for the rule's gains, if the problem binds the base's
+  /// rotation in part (a chart for all nodes has no bounds for that), or if contacts depend on each other and forces are variables or
+  /// contacts are not stabilised.
   Collocation(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess, CollocationForm form);
   Collocation(const Collocation&) = delete;
   Collocation& operator=(const Collocation&) = delete;

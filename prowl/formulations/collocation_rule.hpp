@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ class CollocationRule {
   virtual double left_share() const = 0;
   virtual double right_share() const = 0;
   virtual StabilisationOfStep stabilisation() const = 0;
+  /// With steps longer than this the gains above make errors of contacts grow [s].
+  virtual double longest_stabilised_step() const { return std::numeric_limits<double>::infinity(); }
   virtual void add_to(IntervalProgram& interval) const = 0;
 };
 

@@ -10,8 +10,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kGravity = 9.81;  // [m/s^2], of a scale only
-
 std::vector<int> contacts_of(const Phase& phase) {
   std::vector<int> contacts;
   for (const PhaseContact& held : phase.contacts) contacts.push_back(held.contact);
@@ -23,8 +21,8 @@ std::vector<int> contacts_of(const Phase& phase) {
 ContactRows::ContactRows(const MotionProblem& problem, int phase, Kinds kinds)
     : kinds_(kinds),
       length_(problem.robot.size()),
-      speed_(std::sqrt(kGravity * length_)),
-      acceleration_(kGravity),
+      speed_(std::sqrt(RobotModel::kGravity * length_)),
+      acceleration_(RobotModel::kGravity),
       kinematics_(contacts_of(problem.phases[static_cast<std::size_t>(phase)])),
       at_rest_(VectorXd::Zero(problem.robot.nv())),
       hessian_(problem.robot.nv()) {

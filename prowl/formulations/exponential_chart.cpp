@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "prowl/error.hpp"
 #include "prowl/formulations/base_chart.hpp"
 #include "prowl/model/so3.hpp"
 
@@ -15,7 +16,8 @@ using Eigen::Vector3d;
 
 /// g(s), s = |e|², and its first two derivatives, of  Jr⁻¹ ω = ω + 1/2 e × ω + g e × (e × ω).
 /// g = 1/s − (1 + cos t) / (2 t sin t) with t = √s; as a power series Σ 2 ζ(2n) / (2π)²ⁿ sⁿ⁻¹, which has no cancellation at 0.
-constexpr int kTerms = 48;  // (t / 2π)²ⁿ is below rounding for t up to 4.4 rad
+constexpr double kLongest = 4.4;  // [rad]
+constexpr int kTerms = 48;        // (t / 2π)²ⁿ is below rounding for t up to kLongest
 
 std::array<double, kTerms> coefficients() {
   std::array<double, kTerms> c{};
@@ -54,7 +56,9 @@ class ExponentialChart : public BaseChart {
     if (angle == 0.0) return e;
     // The other rotation vector of the same rotation.
     const Vector3d other = (1.0 - 2.0 * std::numbers::pi / angle) * e;
-    return (other - near).norm() < (e - near).norm() ? other : e;
+    const Vector3d chosen = (other - near).norm() < (e - near).norm() ? other : e;
+    if (chosen.norm() > kLongest) throw InputError("orientation: the base turns further than a rotation vector from the start reaches, 4.4 rad");
+    return chosen;
   }
 
   Matrix3d rate(const Vector3d& e) const override { return so3::right_jacobian(e); }

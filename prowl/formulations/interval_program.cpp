@@ -1,7 +1,5 @@
 #include "prowl/formulations/interval_program.hpp"
 
-#include <limits>
-
 #include "prowl/formulations/rate_function.hpp"
 
 namespace prowl {

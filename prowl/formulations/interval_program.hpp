@@ -33,8 +33,6 @@ class IntervalProgram {
   /// vector = 0; `what` for messages, e.g. "position".
   void equal_zero(Vector vector, const std::string& what);
 
-  int num_dofs() const { return node_.num_dofs(); }
-
  private:
   ProgramPiece& piece_;
   ChartedNode& node_;

@@ -26,8 +26,6 @@ class PointFunction : public Function {
   int num_outputs() const override { return acceleration_size() + static_cast<int>(rows_.size()) + 1; }
   int acceleration_size() const { return eliminates_ ? nv_ : 0; }
   const std::vector<int>& rows() const { return rows_; }
-  const Instant& instant() const { return instant_; }
-  ChartedNode& node() { return node_; }
 
   void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& y) override;
   void evaluate_with_derivatives(const Eigen::VectorXd& x, Eigen::VectorXd& y, Eigen::MatrixXd& dy) override;

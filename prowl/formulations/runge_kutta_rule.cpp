@@ -13,8 +13,9 @@ class RungeKuttaRule : public CollocationRule {
   double left_share() const override { return 1.0 / 6.0; }
   double right_share() const override { return 0.0; }
   /// A double root at −10/s, whatever the step. Gains that grow with 1/h would take the order away: stages are off their contacts by
-  /// O(h²), and 2/h of that in an acceleration leaves order one in v (seen in a test). The rule is stable to −2.78/h.
+  /// O(h²), and 2/h of that in an acceleration leaves order one in v (seen in a test).
   StabilisationOfStep stabilisation() const override { return {0.0, 0.0, 20.0, 100.0}; }
+  double longest_stabilised_step() const override { return 0.278; }  // the rule is stable to −2.78/h
 
   void add_to(IntervalProgram& interval) const override {
     using Point = IntervalProgram::Point;

@@ -253,7 +253,11 @@ SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   } else {
     result.z = problem.best().size() > 0 ? problem.best() : z_start;
   }
-  judge(nlp, options.tolerance, "SNOPT", result);
+  if (guarded.broken()) {
+    result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
+  } else {
+    judge(nlp, options.tolerance, "SNOPT", result);
+  }
   if (result.status == SolveStatus::converged) result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
   result.times = guarded.times();
   result.times.cpu = cpu_seconds() - cpu_start;

@@ -13,8 +13,8 @@ namespace prowl {
 /// - `converged` means that Uno has found a point that meets the KKT conditions, and that the point, as the Nlp sees it, is
 ///   within tolerance.
 /// - A value or derivative that cannot be had at a trial point makes the trust region smaller; one that Uno cannot get away
-///   from ends the solve as `evaluation_failed`. Limits and interrupts are looked at in every product with the Hessian, so
-///   that a long quadratic program does not keep them waiting.
+///   from ends the solve as `evaluation_failed`. Limits and interrupts are looked at in every product with the Hessian; a
+///   quadratic program that still looks for a feasible point has none, and keeps them waiting.
 /// - Stopped early, it returns its best iterate, as IpoptSolver does.
 /// - One thread but for evaluations, fixed order of operations: same problem, same start, same machine, same iterates.
 /// - BQPD keeps its work in globals: one solve at a time in a process, others wait for it.

@@ -5,6 +5,7 @@
 #include "prowl/formulations/run_formulation.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/transcription/initial_guess.hpp"
 
 namespace prowl {
 namespace {
@@ -32,6 +33,26 @@ TEST(FormulationsAgree, OnTheCostOfCrouchAndPassTheCertificate) {
   }
   expect_agreement({.transcription = "hermite-simpson-separated"}, 20, fine.result.cost);
   expect_agreement({.dynamics = "forward", .transcription = "rk4"}, 40, fine.result.cost);
+}
+
+/// What prowl plan solves, and the same choices as a collocation in coordinates: two programs by two codes.
+TEST(FormulationsAgree, ByBothCodesOfTheDefault) {
+  const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml";
+  const Task task = read_task_file(file, test::test_search(), {.intervals = 20});
+  const Mesh mesh = make_mesh(task.problem);
+  const Trajectory guess = initial_guess(task.problem, mesh);
+  const auto solved = [&](MotionNlp& nlp) {
+    const SolveResult result = IpoptSolver().solve(nlp, nlp.pack(guess), task.solver);
+    EXPECT_EQ(result.status, SolveStatus::converged) << result.message;
+    return std::pair(result.cost, nlp.unpack(result.z));
+  };
+  const auto [cost, motion] = solved(*make_formulation({}, task.problem, mesh, guess));
+  const auto [cost_again, motion_again] = solved(*make_collocation({}, task.problem, mesh, guess));
+  EXPECT_NEAR(cost_again, cost, 1e-5 * cost);
+  for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
+    EXPECT_LT((motion.nodes[k].q - motion_again.nodes[k].q).cwiseAbs().maxCoeff(), 1e-4);
+    EXPECT_LT((motion.nodes[k].tau - motion_again.nodes[k].tau).cwiseAbs().maxCoeff(), 0.05);  // [N m]
+  }
 }
 
 /// Away from the singularity the coordinates of the base's rotation make no difference.
