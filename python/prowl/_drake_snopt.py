@@ -44,6 +44,11 @@ _INFO = {
 # A block of rows is evaluated with derivatives in all variables of the block: narrow ones keep those arrays small.
 _WIDEST_BLOCK = 160
 
+# Up to so many variables SNOPT keeps the whole quasi-Newton matrix. It takes half the iterations or fewer than with the last ten updates,
+# its default beyond 75, and where the paper's contact rows slow it down it is what makes it end; on larger programs the n² numbers
+# take more time than that saves (docs/solvers.md).
+_MOST_FOR_FULL_MEMORY = 500
+
 # Drake opens "Print file" as this Fortran unit and lets SNOPT write no more than its name there; the summary, which has the
 # number of iterations, goes to any unit that one names.
 _PRINT_UNIT = 10
@@ -207,6 +212,7 @@ def _options(program: Program, tolerance: float, max_iterations: int, print_file
         "Major iterations limit": max_iterations,
         "Iterations limit": 1_000_000,  # minor ones: the limit is on the major ones
         "Superbasics limit": program.start.size + 1,  # the default ends programs with more than 500 degrees of freedom
+        "Hessian full memory" if program.start.size <= _MOST_FOR_FULL_MEMORY else "Hessian limited memory": "",
         "Derivative option": 1,  # all are given
         "Verify level": -1,  # and not to be checked by differences
         "Print file": print_file,

@@ -105,10 +105,49 @@ def test_what_an_evaluation_raises_ends_the_solve(drake):
 
 def test_options_of_snopt_are_passed_on(drake):
     program = prowl.Program(prowl.read_task("hyq/stand", intervals=5))
-    plain = prowl.snopt.solve(program)
-    full = prowl.snopt.solve(program, options={"Hessian full memory": ""})
-    assert full.status == plain.status == "converged"
-    assert full.iterations < plain.iterations, "a whole quasi-Newton matrix knows more than the last ten updates"
+    result = prowl.snopt.solve(program, options={"Major iterations limit": 4})
+    assert (result.status, result.info, result.iterations) == ("iteration_limit", 32, 4)
+
+
+PAPER = {"dynamics": "forward", "transcription": "trapezoid", "orientation": "euler", "guess": "straight"}
+
+
+def heights_of_feet(program: prowl.Program, z: np.ndarray) -> np.ndarray:
+    """At the nodes, above where they are at the start (nodes, feet)."""
+    heights = prowl.Dynamics(program.task.robot).contact_positions(program.judge(z).motion.q)[..., 2]
+    return heights - heights[0]
+
+
+def test_it_solves_the_papers_formulation_with_feet_within_5_mm(task):
+    """Pardo et al. 2016: forward dynamics, trapezoid, Euler angles, distance of the feet from the ground; six nodes, 2 s."""
+    program = prowl.Program(task, contact="distance-5mm", **PAPER)
+    result = prowl.snopt.solve(program)
+    assert result.status == "converged", result.message
+    assert program.dual_violation(result.z, result.multipliers) < 1e-4
+    judged = program.judge(result.z)
+    assert judged.constraint_violation < 1e-6
+    default = prowl.Program(task)
+    optimum = prowl.snopt.solve(default)
+    np.testing.assert_allclose(judged.cost, default.judge(optimum.z).cost, rtol=5e-3)
+    off = np.abs(heights_of_feet(program, result.z)).max()
+    assert 1e-4 < off < 5e-3 + 1e-6, "more than a rounding error, so that to forbid it is to ask for something else"
+
+
+def test_exact_distances_and_velocities_are_more_than_there_is_to_choose(task):
+    program = prowl.Program(task, contact="distance-velocity", **PAPER)
+    result = prowl.snopt.solve(program)
+    assert result.status in ("infeasible", "solver_failed"), result.message
+    assert result.info in (13, 41), "nonlinear infeasibilities minimised, or no better point to be found"
+    assert program.judge(result.z).constraint_violation > 1e-4
+
+
+def test_exact_distances_alone_are_dear(drake):
+    program = prowl.Program(prowl.read_task("hyq/stand", intervals=5), contact="distance", **PAPER)
+    result = prowl.snopt.solve(program)
+    judged = program.judge(result.z)
+    assert judged.constraint_violation < 1e-6
+    assert np.abs(heights_of_feet(program, result.z)).max() < 1e-6
+    assert judged.cost > 2 * 0.056, "at three times the cost that 5 mm make possible"
 
 
 def test_the_version_to_install_is_the_one_that_is_tested():
