@@ -22,6 +22,7 @@ def orders(planner) -> plt.Figure:
             axes.loglog(steps, errors[-1] * (steps / steps[-1]) ** order, "--", color=GREY, linewidth=1, zorder=0)
         axes.set_xticks(steps, [f"{step:g}" for step in steps])
         axes.minorticks_off()
+        axes.set_ylim(1e-10, 1.0)  # the legend is below the curves
         axes.set_xlabel("step [s]")
         axes.set_title(title)
         axes.grid(True, which="major")
