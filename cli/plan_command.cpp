@@ -76,7 +76,8 @@ void add_feedback(PlanRecord& record) {
 }
 
 /// A line for each mesh on stderr. The problem is then on the last one.
-Plan make_refined(MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options, const MeshTolerance& tolerance) {
+Plan make_refined(MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
+                  const MeshTolerance& tolerance) {
   RefineOptions refine{.tolerance = tolerance};
   refine.on_round = [&](const RefineRound& round) { print_progress(in_words(round, tolerance)); };
   RefinedPlan refined = make_refined_plan(problem, solver, options, refine);
@@ -177,7 +178,10 @@ void add_plan_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
-  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--refine", "--no-gains", "--report"}) phases->excludes(unused);
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--refine", 
+                             "--no-gains", "--report"}) {
+    phases->excludes(unused);
+  }
   set_footer(*verb, {"prowl plan tasks/hyq/crouch.toml", "prowl plan tasks/hyq/balance.toml --print-phases",
                      "prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out out/stand",
                      "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120",

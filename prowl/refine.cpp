@@ -1,4 +1,5 @@
-#include "prowl/refine.hpp"
+    const bool is_better =
+        now.meets_tolerance || now.too_coarse() < fewest_ || now.worst() < kClearly * least_;#include "prowl/refine.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@
 namespace prowl {
 namespace {
 
-constexpr int kPatience = 3;           // rounds without progress: where the motion has kinks, some pass before all are found
+constexpr int kPatience = 3;           // rounds without progress: some pass before all kinks of a motion are found
 constexpr double kWorthMerging = 0.8;  // of the intervals: to save fewer, another solve does not pay
 constexpr int kMostIntervals = 10000;  // more would be gigabytes of memory
 
@@ -29,7 +30,9 @@ struct Candidate {
 
   int intervals() const { return static_cast<int>(parts.size()); }
   double worst() const { return *std::ranges::max_element(parts); }
-  int too_coarse() const { return static_cast<int>(std::ranges::count_if(parts, [](double part) { return part > 1.0; })); }
+  int too_coarse() const {
+    return static_cast<int>(std::ranges::count_if(parts, [](double part) { return part > 1.0; }));
+  }
 
   void judge(const MeshTolerance& tolerance) {
     parts = error_parts(plan.certificate, tolerance);
@@ -44,7 +47,8 @@ struct Candidate {
 /// Solves one mesh after the other, each from the motion of the last, and keeps the books of all.
 class Meshes {
  public:
-  Meshes(const NlpSolver& solver, const PlanOptions& options) : solver_(solver), options_(options), coarse_first_(options.coarse_first) {
+  Meshes(const NlpSolver& solver, const PlanOptions& options)
+      : solver_(solver), options_(options), coarse_first_(options.coarse_first) {
     options_.coarse_first = false;
   }
 
@@ -109,7 +113,8 @@ class Progress {
 };
 
 std::string hint(const Candidate& best, const std::string& stopped) {
-  return fmt::format("mesh refinement stopped, {}: {} of {} intervals are off by more than the tolerance, the worst by {:.3g} times",
+  return fmt::format("mesh refinement stopped, {}: {} of {} intervals are off by more than the tolerance, the worst by "
+                     "{:.3g} times",
                      stopped, best.too_coarse(), best.intervals(), best.worst());
 }
 
@@ -123,9 +128,11 @@ RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& sol
   std::optional<Candidate> best;
   std::string stopped;
   for (int round = 1; now.plan.result.status == SolveStatus::converged; ++round) {
+    const Certificate& certificate = now.plan.certificate;
+    if (certificate.interval_errors.empty()) break;  // a motion that is none
     now.judge(refine.tolerance);
     if (refine.on_round) {
-      refine.on_round({now.intervals(), now.plan.result.iterations, mesh_errors(now.plan.certificate), now.too_coarse()});
+      refine.on_round({now.intervals(), now.plan.result.iterations, mesh_errors(certificate), now.too_coarse()});
     }
     if (!best || now.is_better_than(*best)) best = now;
     MotionProblem next = refined(now.problem, now.parts);

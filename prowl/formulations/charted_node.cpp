@@ -86,7 +86,8 @@ void ChartedNode::evaluate(const Instant& at, const VectorXd& columns, Values& v
   contact_rows_.evaluate(functions_.terms(), functions_.at(), values.rows.tail(contact_rows_.count()));
 }
 
-void ChartedNode::gather(const ContactRows::Derivatives& derivatives, const NodePoint& where, Eigen::Ref<MatrixXd> rows) const {
+void ChartedNode::gather(const ContactRows::Derivatives& derivatives, const NodePoint& where,
+                         Eigen::Ref<MatrixXd> rows) const {
   const int nv = problem_.robot.nv();
   rows.setZero();
   rows.leftCols(nv) = derivatives.q;

@@ -45,7 +45,8 @@ std::string mesh_advice(const PlanRecord& record) {
   if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error))
     return "";
   if (!fails_by_mesh_only(record.plan.certificate)) return "";
-  const bool is_even = std::ranges::all_of(record.task.problem.phases, [](const Phase& phase) { return phase.shares.empty(); });
+  const auto has_equal_steps = [](const Phase& phase) { return phase.shares.empty(); };
+  const bool is_even = std::ranges::all_of(record.task.problem.phases, has_equal_steps);
   std::string text;
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;

@@ -251,7 +251,8 @@ MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
   constexpr int kMostIntervals = 10000;  // of a phase, as in a task file
   const std::vector<Reader> phases = plan.object("problem").list("phases");
   if (phases.size() != problem.phases.size()) {
-    throw InputError(fmt::format("{}.problem.phases: {} phases; the task has {}", plan.where(), phases.size(), problem.phases.size()));
+    throw InputError(fmt::format("{}.problem.phases: {} phases; the task has {}", plan.where(), phases.size(),
+                                 problem.phases.size()));
   }
   std::vector<Steps> steps;
   for (const Reader& phase : phases) {

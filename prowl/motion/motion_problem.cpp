@@ -84,7 +84,8 @@ void check_shares(const std::string& field, const Phase& phase) {
   const std::vector<double>& shares = phase.shares;
   if (shares.empty()) return;
   if (std::ssize(shares) != phase.intervals) {
-    refuse("{}: {} of them are not allowed; need one for each of the {} intervals, or none", field, shares.size(), phase.intervals);
+    refuse("{}: {} of them are not allowed; need one for each of the {} intervals, or none", field, shares.size(),
+           phase.intervals);
   }
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (!(shares[i] > 0.0)) refuse("{}[{}]: {} is not allowed; need a part of the phase, > 0", field, i, shares[i]);

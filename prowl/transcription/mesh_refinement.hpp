@@ -24,8 +24,8 @@ MeshTolerance mesh_tolerance(double reintegration);
 MeshTolerance mesh_errors(const Certificate& certificate);
 
 /// Of each mesh interval, the larger of its errors as a part of what it may be: none is above 1 where the mesh is fine enough;
-/// infinite where an error is not finite. If only the sum over a second is too large, each interval may have less than the worst one: with error c in
-/// each piece the sum goes with c^(2/3), for there are c^(-1/3) pieces.
+/// infinite where an error is not finite. If only the sum over a second is too large, each interval may have less than the worst
+/// one has: with error c in each piece the sum goes with c^(2/3), for there are c^(-1/3) pieces.
 std::vector<double> error_parts(const Certificate& certificate, const MeshTolerance& tolerance);
 
 /// The problem on a mesh that suits these errors, one part an interval. The error of a step of the trapezoid falls with its cube,

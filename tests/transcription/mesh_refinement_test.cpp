@@ -124,7 +124,7 @@ TEST(ErrorParts, AreTheLargerOfBothErrors) {
   EXPECT_THAT(error_parts(with_errors({std::nan(""), kInfinity}, 0.0, 0.0), tolerance), Each(kInfinity));
 }
 
-/// Where only the sum is too large, intervals have to be off by less than the worst is, so that the sum of all that equal errors leave is right:
+/// Where only the sum is too large, intervals have to be off by less than the worst is, so that the sum of equal errors is right:
 /// n intervals of error e become n (e/c)^(1/3) of error c.
 TEST(ErrorParts, KeepTheSumOverASecond) {
   const MeshTolerance tolerance{.local = 1e-4, .second = 3e-3, .reintegration = 5e-4};
