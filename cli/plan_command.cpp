@@ -20,6 +20,7 @@
 #include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
+#include "refine_option.hpp"
 #include "shared_options.hpp"
 #include "wrap.hpp"
 
@@ -34,6 +35,7 @@ struct PlanArguments {
   std::vector<std::string> package_dirs;
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
+  std::optional<MeshTolerance> refine;
   bool json = false;
   bool print_phases = false;
   bool one_mesh = false;
@@ -71,6 +73,16 @@ void add_feedback(PlanRecord& record) {
   } catch (const NumericalError& error) {
     print_message(fmt::format("note: {}\n", error.what()));
   }
+}
+
+/// A line for each mesh on stderr. The problem is then on the last one.
+Plan make_refined(MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
+                  const MeshTolerance& tolerance) {
+  RefineOptions refine{.tolerance = tolerance};
+  refine.on_round = [&](const RefineRound& round) { print_progress(in_words(round, tolerance)); };
+  RefinedPlan refined = make_refined_plan(problem, solver, options, refine);
+  problem = std::move(refined.problem);
+  return std::move(refined.plan);
 }
 
 /// Those of its files that a new plan's folder has.
@@ -117,7 +129,8 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
-  Plan plan = make_plan(task.problem, *make_solver(arguments.solver), options);
+  Plan plan = arguments.refine ? make_refined(task.problem, *make_solver(arguments.solver), options, *arguments.refine)
+                               : make_plan(task.problem, *make_solver(arguments.solver), options);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
                     .feedback = {}, .iterations = progress.iterations(), .warm_start = arguments.warm_start};
@@ -155,6 +168,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--intervals", arguments->overrides.intervals,
                    "Mesh intervals in all, shared out over the phases as in the task file")
       ->check(CLI::Range(1, kMostIntervals))->type_name("N");
+  add_refine(*verb, arguments->refine);
   verb->add_flag("--no-gains", arguments->no_gains, "Leave out the feedback gains, tracker.bin");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
@@ -164,10 +178,14 @@ void add_plan_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
-  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--no-gains", "--report"}) phases->excludes(unused);
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--refine", 
+                             "--no-gains", "--report"}) {
+    phases->excludes(unused);
+  }
   set_footer(*verb, {"prowl plan tasks/hyq/crouch.toml", "prowl plan tasks/hyq/balance.toml --print-phases",
                      "prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out out/stand",
-                     "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120"},
+                     "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120",
+                     "prowl plan tasks/hyq/step.toml --refine", "prowl plan tasks/hyq/crouch.toml --refine certified"},
              "0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
              "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"
              "130 interrupted (Ctrl-C keeps the best motion so far, marked as not finished).");

@@ -31,7 +31,7 @@ TimeRange time_of(const MotionProblem& problem, NodeRef at) {
     time.last += part * duration.max;
   };
   for (int p = 0; p < at.phase; ++p) add(p, 1.0);
-  add(at.phase, static_cast<double>(at.node) / problem.phases[static_cast<std::size_t>(at.phase)].intervals);
+  add(at.phase, problem.phases[static_cast<std::size_t>(at.phase)].node_time(at.node, 1.0));
   return time;
 }
 

@@ -86,14 +86,15 @@ void ChartedNode::evaluate(const Instant& at, const VectorXd& columns, Values& v
   contact_rows_.evaluate(functions_.terms(), functions_.at(), values.rows.tail(contact_rows_.count()));
 }
 
-void ChartedNode::gather(const ContactRows::Derivatives& derivatives, double duration, Eigen::Ref<MatrixXd> rows) const {
+void ChartedNode::gather(const ContactRows::Derivatives& derivatives, const NodePoint& where,
+                         Eigen::Ref<MatrixXd> rows) const {
   const int nv = problem_.robot.nv();
   rows.setZero();
   rows.leftCols(nv) = derivatives.q;
   rows.middleCols(nv, nv) = derivatives.v;
   rows.middleCols(2 * nv, nv) = derivatives.a;
   if (functions_.has_free_duration()) {
-    rows.col(functions_.num_variables()) = derivatives.gains * functions_.gains(duration, 1);
+    rows.col(functions_.num_variables()) = derivatives.gains * functions_.gains(where, 1);
   }
   for (std::size_t l = 0; l < functions_.landed().size(); ++l) {
     rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)) =
@@ -114,7 +115,7 @@ void ChartedNode::evaluate_with_derivatives(const Instant& at, const VectorXd& c
   values.rows_jacobian.topRows(own) = inner_.rows_jacobian;
   contact_rows_.evaluate(functions_.terms(), functions_.at(), values.rows.tail(extra));
   contact_rows_.derivatives(functions_.at(), contact_derivatives_);
-  gather(contact_derivatives_, where.duration, values.rows_jacobian.bottomRows(extra));
+  gather(contact_derivatives_, where, values.rows_jacobian.bottomRows(extra));
 
   const Matrix3d E = chart_.rate(columns.segment<3>(3));
   values.rows_jacobian.middleCols<3>(3) = (values.rows_jacobian.middleCols<3>(3) * E).eval();
@@ -134,7 +135,7 @@ void ChartedNode::add_contact_hessian(const NodePoint& where, const VectorXd& mu
   add_both(0, 2 * nv, h.qa);
   if (!functions_.has_free_duration() || h.de.isZero(0.0)) return;
   const int duration = functions_.num_variables();
-  const Eigen::Vector2d slope = functions_.gains(where.duration, 1);
+  const Eigen::Vector2d slope = functions_.gains(where, 1);
   add_both(0, duration, h.qgains * slope);
   add_both(nv, duration, h.vgains * slope);
   for (std::size_t l = 0; l < functions_.landed().size(); ++l) {
@@ -142,7 +143,7 @@ void ChartedNode::add_contact_hessian(const NodePoint& where, const VectorXd& mu
         functions_.landed_axes()[l].transpose() * h.de.segment<3>(3 * functions_.landed()[l]);
     add_both(first_place() + static_cast<Index>(2 * l), duration, -slope(1) * on_place);
   }
-  result(duration, duration) += contact_rows_.on_gains(functions_.at()).dot(functions_.gains(where.duration, 2));
+  result(duration, duration) += contact_rows_.on_gains(functions_.at()).dot(functions_.gains(where, 2));
 }
 
 void ChartedNode::hessian(const Instant& at, const VectorXd& columns, double cost_factor, const VectorXd& multipliers,

@@ -57,7 +57,8 @@ class ChartedNode {
 
  private:
   NodePoint point(const Instant& at, const Eigen::VectorXd& columns) const;
-  void gather(const ContactRows::Derivatives& derivatives, double duration, Eigen::Ref<Eigen::MatrixXd> rows) const;
+  void gather(const ContactRows::Derivatives& derivatives, const NodePoint& where,
+              Eigen::Ref<Eigen::MatrixXd> rows) const;
   void add_contact_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
 
   const Phase& phase() const { return problem_.phases[static_cast<std::size_t>(phase_)]; }

@@ -92,6 +92,9 @@ std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, cons
   check("contact", formulation.contact, contact_names());
   check("orientation", formulation.orientation, orientation_names());
   if (formulation == Formulation{}) return std::make_unique<Transcription>(problem, mesh, guess);
+  if (std::ranges::any_of(problem.phases, [](const Phase& phase) { return !phase.shares.empty(); })) {
+    throw InputError("phases.shares: only the default formulation takes steps of different length within a phase");
+  }
   if (formulation.dynamics == "centroidal") return make_centroidal(formulation, problem, mesh, guess);
   return make_collocation(formulation, problem, mesh, guess);
 }

@@ -45,14 +45,20 @@ std::string mesh_advice(const PlanRecord& record) {
   if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error))
     return "";
   if (!fails_by_mesh_only(record.plan.certificate)) return "";
+  const auto has_equal_steps = [](const Phase& phase) { return phase.shares.empty(); };
+  const bool is_even = std::ranges::all_of(record.task.problem.phases, has_equal_steps);
   std::string text;
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;
-    const double needed = static_cast<double>(errors.size()) * std::cbrt(kMargin * worst->error / goal);
-    const std::optional<int> intervals = intervals_option(record.task, needed);
-    const std::string option =
-        intervals ? fmt::format("--intervals {}", *intervals) : fmt::format("more than {} intervals", kMostIntervals);
-    text += fmt::format("for grade {} ({:g}) about {}\n", grade, goal, option);
+    std::string option = fmt::format("--refine {}", grade);
+    if (is_even) {
+      const double needed = static_cast<double>(errors.size()) * std::cbrt(kMargin * worst->error / goal);
+      const std::optional<int> intervals = intervals_option(record.task, needed);
+      option = fmt::format("{}, or {}",
+                           intervals ? fmt::format("about --intervals {}", *intervals)
+                                     : fmt::format("about more than {} intervals", kMostIntervals), option);
+    }
+    text += fmt::format("for grade {} ({:g}) {}\n", grade, goal, option);
   };
   advise("draft", CertificateLimits::integration_error_draft);
   advise("certified", CertificateLimits::integration_error_certified);

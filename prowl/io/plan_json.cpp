@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "prowl/error.hpp"
 #include "prowl/io/json_text.hpp"
 #include "prowl/trajectory/phase_span.hpp"
+#include "prowl/transcription/remesh.hpp"
 
 namespace prowl {
 namespace {
@@ -16,8 +18,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Of schema/plan.schema.json; whoever changes the keys counts it up, and keeps what read_version promises.
-constexpr int kSchemaVersion = 2;
-constexpr int kOldestVersion = 1;  ///< plans of before 2026-11-22: solver may lack the keys that came since
+constexpr int kSchemaVersion = 3;
+constexpr int kOldestVersion = 1;  ///< solver may lack the keys that came since; before 3 phases have equal steps
 
 /// As planned [s].
 double phase_duration(const PlanRecord& record, std::size_t phase) {
@@ -39,6 +41,7 @@ Json problem_to_json(const PlanRecord& record) {
     phases.push_back({{"name", phase.name},
                       {"duration_s", phase_duration(record, p)},
                       {"intervals", phase.intervals},
+                      {"shares", phase.shares},
                       {"contacts", contacts}});
   }
   return {{"robot", problem.robot.name()},
@@ -215,7 +218,7 @@ Grade read_grade(const Reader& certificate) {
   certificate.fail("grade", "failed, draft or certified");
 }
 
-Certificate read_certificate(const Reader& json) {
+Certificate read_certificate(const Reader& json, int version) {
   Certificate certificate;
   certificate.passed = json.flag("passed");
   certificate.grade = read_grade(json);
@@ -233,13 +236,41 @@ Certificate read_certificate(const Reader& json) {
     certificate.interval_errors.push_back({.start = interval.number("start_s"),
                                            .end = interval.number("end_s"),
                                            .error = interval.number("error"),
-                                           .where = interval.text("where")});
+                                           .where = interval.text("where"),
+                                           .reintegration = version < 3 ? 0.0 : interval.number("reintegration")});
   }
   certificate.redundant_contacts = json.texts("redundant_contacts");
   for (const Reader& phase : json.list("contact_ranks")) {
     certificate.contact_ranks.push_back({phase.text("phase"), phase.integer("rows"), phase.integer("rank")});
   }
   return certificate;
+}
+
+/// The mesh of the plan: that of the task, unless it was refined.
+MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
+  constexpr int kMostIntervals = 10000;  // of a phase, as in a task file
+  const std::vector<Reader> phases = plan.object("problem").list("phases");
+  if (phases.size() != problem.phases.size()) {
+    throw InputError(fmt::format("{}.problem.phases: {} phases; the task has {}", plan.where(), phases.size(),
+                                 problem.phases.size()));
+  }
+  std::vector<Steps> steps;
+  for (const Reader& phase : phases) {
+    const int intervals = phase.integer("intervals");
+    if (intervals < 1 || intervals > kMostIntervals) phase.fail("intervals", fmt::format("1 to {}", kMostIntervals));
+    Steps shares = phase.numbers("shares");
+    if (shares.empty()) shares.assign(static_cast<std::size_t>(intervals), 1.0);
+    const auto is_step = [](double share) { return share > 0.0 && std::isfinite(share); };
+    if (std::ssize(shares) != intervals || !std::ranges::all_of(shares, is_step)) {
+      phase.fail("shares", fmt::format("{} numbers > 0, or none", intervals));
+    }
+    steps.push_back(std::move(shares));
+  }
+  try {
+    return on_mesh(std::move(problem), steps);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}.problem.phases: {}", plan.where(), error.what()));
+  }
 }
 
 TaskOverrides read_overrides(const Reader& json) {
@@ -363,7 +394,8 @@ nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
     intervals.push_back({{"start_s", interval.start},
                          {"end_s", interval.end},
                          {"error", interval.error},
-                         {"where", interval.where}});
+                         {"where", interval.where},
+                         {"reintegration", interval.reintegration}});
   }
   Json ranks = Json::array();
   for (const ContactRank& rank : certificate.contact_ranks) {
@@ -424,13 +456,14 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                     "the copy in plan.json is used",
                     source.path.string(), robot.urdf.string()));
   }
+  if (version >= 3) record.task.problem = on_mesh_of(plan, std::move(record.task.problem));
   record.plan.result = read_result(plan, version);
   record.plan.solver = plan.object("solver").text("name");
   record.plan.levels = read_levels(plan.object("solver"), version);
   record.plan.hessian = read_hessian(plan.object("solver"), version);
   record.iterations = read_convergence(plan.object("solver"), version);
   record.warm_start = plan.object("solver").text("warm_start");
-  record.plan.certificate = read_certificate(plan.object("certificate"));
+  record.plan.certificate = read_certificate(plan.object("certificate"), version);
   record.plan.reasons = plan.texts("reasons");
   record.plan.hints = plan.texts("hints");
   record.plan.num_variables = plan.object("problem").integer("variables");

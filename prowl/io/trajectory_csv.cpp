@@ -94,8 +94,8 @@ void check_row(const std::string& where, const MotionProblem& problem, std::size
   }
 }
 
-/// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in equal steps, as long as it may
-/// last. Returns its end [s].
+/// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in its steps, as long as it may last.
+/// Returns its end [s].
 double check_times(const std::string& file, const Phase& phase, double begin, const TrajectoryPoint* first,
                    std::size_t line) {
   constexpr double kRounding = 1e-9;  // of the time
@@ -107,7 +107,7 @@ double check_times(const std::string& file, const Phase& phase, double begin, co
                                  phase.duration.min, phase.duration.max));
   }
   for (int node = 0; node <= phase.intervals; ++node) {
-    const double time = begin + duration * node / phase.intervals;
+    const double time = begin + phase.node_time(node, duration);
     if (std::abs(first[node].time - time) <= slack) continue;
     throw InputError(fmt::format("{}:{}: time_s: {} is not allowed; need {}, as in the task's mesh", file,
                                  line + static_cast<std::size_t>(node), first[node].time, time));

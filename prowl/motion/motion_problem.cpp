@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
@@ -22,7 +23,7 @@ using Eigen::VectorXd;
 constexpr double kOnSurface = 1e-3;   // [m]
 constexpr double kAtRest = 1e-3;      // [m/s]
 constexpr double kUnitLength = 1e-6;  // [-]
-constexpr double kRounding = 1e-9;    // [rad, m, rad/s, m/s, N m]
+constexpr double kRounding = 1e-9;    // [rad, m, rad/s, m/s, N m, parts of a phase]
 
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
@@ -79,12 +80,27 @@ void check_place(const MotionProblem& problem, const std::string& field, const P
   }
 }
 
+void check_shares(const std::string& field, const Phase& phase) {
+  const std::vector<double>& shares = phase.shares;
+  if (shares.empty()) return;
+  if (std::ssize(shares) != phase.intervals) {
+    refuse("{}: {} of them are not allowed; need one for each of the {} intervals, or none", field, shares.size(),
+           phase.intervals);
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (!(shares[i] > 0.0)) refuse("{}[{}]: {} is not allowed; need a part of the phase, > 0", field, i, shares[i]);
+  }
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  if (!(std::abs(sum - 1.0) <= kRounding)) refuse("{}: {} in all is not allowed; need 1", field, sum);
+}
+
 void check_phase(const MotionProblem& problem, const std::string& field, const Phase& phase) {
   const Duration& duration = phase.duration;
   if (!(duration.min > 0.0) || !(duration.min <= duration.max) || !std::isfinite(duration.max)) {
     refuse("{}.duration: {} to {} is not allowed; need 0 < min <= max [s]", field, duration.min, duration.max);
   }
   if (phase.intervals < 1) refuse("{}.intervals: {} is not allowed; need 1 or more", field, phase.intervals);
+  check_shares(field + ".shares", phase);
   std::set<int> used;
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const std::string contact = fmt::format("{}.contacts[{}]", field, i);

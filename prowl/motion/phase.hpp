@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,12 +23,25 @@ struct Duration {
   bool is_fixed() const { return min == max; }
 };
 
-/// A time with one set of contacts, cut into equal mesh intervals.
+/// A time with one set of contacts, cut into mesh intervals.
 struct Phase {
   std::string name;
   std::vector<PhaseContact> contacts;
   Duration duration;
   int intervals = 1;
+  /// What each interval takes of the phase's duration: one an interval, > 0, 1 in all. Empty: all the same.
+  std::vector<double> shares = {};
+
+  /// Length of interval i, 0 ... intervals - 1, of a phase that lasts so long [s].
+  double step(int i, double lasting) const {
+    return shares.empty() ? lasting / intervals : lasting * shares[static_cast<std::size_t>(i)];
+  }
+  /// From the start of a phase that lasts so long to its node k, 0 ... intervals [s]. The last is at the end exactly.
+  double node_time(int k, double lasting) const {
+    if (k == intervals) return lasting;
+    if (shares.empty()) return lasting * k / intervals;
+    return lasting * std::accumulate(shares.begin(), shares.begin() + k, 0.0);
+  }
 };
 
 /// Node of a phase, 0 ... intervals. The last node of a phase and the first of the next are two nodes at one time.

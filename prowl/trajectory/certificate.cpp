@@ -78,11 +78,15 @@ Certificate certify(const MotionProblem& problem, const Trajectory& trajectory) 
 
   PhaseDynamics dynamics = phase_dynamics(problem);
   const IntegrationErrors errors = integration_errors(problem.robot, trajectory, dynamics);
+  const ReintegrationErrors reintegrated = reintegration_errors(problem.robot, trajectory, dynamics);
   certificate.interval_errors = errors.intervals;
+  for (std::size_t i = 0; i < reintegrated.intervals.size(); ++i) {
+    certificate.interval_errors[i].reintegration = reintegrated.intervals[i];
+  }
   find_redundant_contacts(problem, trajectory, dynamics, certificate);
   const ContactPlaces places = contact_places(problem, trajectory, dynamics);
   for (const auto& group :
-       {errors.checks, {reintegration_check(problem.robot, trajectory, dynamics)},
+       {errors.checks, {reintegrated.check},
         node_checks(problem, trajectory), contact_event_checks(problem, trajectory, places, dynamics),
         sampled_limits(problem, trajectory, places, dynamics)}) {
     checks.insert(checks.end(), group.begin(), group.end());

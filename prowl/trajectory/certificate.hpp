@@ -53,11 +53,12 @@ struct CertificateCheck {
   double certified_limit = 0.0;  ///< what grade certified asks of `worst`; <= limit, most often the same
 };
 
-/// Local integration error of one mesh interval: its largest coordinate.
+/// How far one mesh interval is off, at its largest coordinate, scaled [-].
 struct IntervalError {
   double start = 0.0, end = 0.0;  ///< [s]
-  double error = 0.0;             ///< scaled [-]
-  std::string where;              ///< coordinate of the state
+  double error = 0.0;             ///< local integration error
+  std::string where;              ///< its coordinate of the state
+  double reintegration = 0.0;     ///< of the state at its end, against the true motion from its start
 };
 
 /// Rows of the contact Jacobian of a phase, and how many of them are independent. The forces of `rank` combinations follow from

@@ -65,18 +65,21 @@ EndState reintegrate(const MeshInterval& interval, ConstrainedDynamicsOracle& dy
 
 }  // namespace
 
-CertificateCheck reintegration_check(const RobotModel& robot, const Trajectory& trajectory, PhaseDynamics& dynamics) {
+ReintegrationErrors reintegration_errors(const RobotModel& robot, const Trajectory& trajectory, PhaseDynamics& dynamics) {
   const Eigen::VectorXd scale = state_scale(trajectory);
   WorstCase worst("re-integration", "-", CertificateLimits::reintegration_draft,
                   CertificateLimits::reintegration_certified);
+  ReintegrationErrors result;
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
     const EndState end = reintegrate(interval, dynamics[interval.left.phase]);
     const Eigen::VectorXd delta = scaled_difference(end.q, end.v, interval.right.q, interval.right.v, scale);
     Eigen::Index i = 0;
     const double largest = delta.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(&i);
+    result.intervals.push_back(largest);
     worst.record(largest, interval.left.time, state_name(robot, i));
   }
-  return worst.check();
+  result.check = worst.check();
+  return result;
 }
 
 }  // namespace prowl

@@ -31,14 +31,12 @@ Mesh make_mesh(const MotionProblem& problem) {
     const Phase& phase = problem.phases[p];
     const double duration = phase.duration.is_fixed() ? phase.duration.min
                                                       : 0.5 * (phase.duration.min + phase.duration.max);
-    const double h = duration / phase.intervals;
     for (int k = 0; k <= phase.intervals; ++k) {
-      // From the whole duration, not by adding steps: the last node falls on the end of the phase exactly.
       mesh.nodes.push_back({.phase = static_cast<int>(p),
                             .node = k,
-                            .time = phase_start + duration * k / phase.intervals,
-                            .h_in = k > 0 ? h : 0.0,
-                            .h_out = k < phase.intervals ? h : 0.0});
+                            .time = phase_start + phase.node_time(k, duration),
+                            .h_in = k > 0 ? phase.step(k - 1, duration) : 0.0,
+                            .h_out = k < phase.intervals ? phase.step(k, duration) : 0.0});
     }
     phase_start = mesh.nodes.back().time;
   }

@@ -28,7 +28,7 @@ struct Mesh {
 /// For each phase what its number of intervals has to be a multiple of, so that every goal keeps its node.
 std::vector<int> interval_divisors(const MotionProblem& problem);
 
-/// Equal steps within each phase. A phase of free duration gets the middle of its range.
+/// Steps as Phase::shares has them. A phase of free duration gets the middle of its range.
 Mesh make_mesh(const MotionProblem& problem);
 
 }  // namespace prowl

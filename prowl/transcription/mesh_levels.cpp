@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/remesh.hpp"
 
 namespace prowl {
 
@@ -17,18 +18,14 @@ constexpr int kSmallMesh = 48;
 
 MotionProblem coarsened(const MotionProblem& problem) {
   const std::vector<int> divisors = interval_divisors(problem);
-  MotionProblem coarse = problem;
+  std::vector<Steps> steps;
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const int intervals = problem.phases[p].intervals;
     const int wanted = std::max((intervals + kCoarser - 1) / kCoarser, kLeastIntervals);
     const int multiple = divisors[p] * ((wanted + divisors[p] - 1) / divisors[p]);
-    coarse.phases[p].intervals = std::min(intervals, multiple);
+    steps.push_back(steps_with(problem.phases[p], std::min(intervals, multiple)));
   }
-  for (BoundaryCondition& condition : coarse.boundary_conditions) {
-    const auto p = static_cast<std::size_t>(condition.at.phase);
-    condition.at.node = condition.at.node * coarse.phases[p].intervals / problem.phases[p].intervals;
-  }
-  return coarse;
+  return on_mesh(problem, steps);
 }
 
 }  // namespace

@@ -26,6 +26,28 @@ std::vector<int> contacts_of(const Phase& phase) {
   return contacts;
 }
 
+/// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start of the
+/// motion to the one after the node (other phases at the middle of their durations).
+///
+/// Not shorter than the step after: then the explicit half of the trapezoid at most halves an error, and the implicit half makes
+/// it smaller whatever the gain. Gains for the step before let errors grow where steps do. And not shorter than the steps before:
+/// what contacts are off by after long steps would have to be gone within a short one, at a speed that the certificate
+/// sees. docs/transcription.md, "Steps of different length".
+std::vector<double> per_gain_step(const MotionProblem& problem, int phase) {
+  std::vector<double> result;
+  double longest = 0.0;  // [s]
+  for (int p = 0; p <= phase; ++p) {
+    const Phase& here = phase_of(problem, p);
+    const double duration = 0.5 * (here.duration.min + here.duration.max);
+    result.clear();
+    for (int k = 0; k <= here.intervals; ++k) {
+      longest = std::max(longest, here.step(std::min(k, here.intervals - 1), duration));
+      result.push_back(duration / longest);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts) {
@@ -40,6 +62,7 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
       intervals_(phase_of(problem, phase).intervals),
       free_duration_(!phase_of(problem, phase).duration.is_fixed()),
       stabilisation_(stabilisation),
+      per_gain_step_(per_gain_step(problem, phase)),
       torques_(problem.robot),
       placement_(problem, schedule, phase, contacts.landing),
       cost_(problem),
@@ -103,9 +126,9 @@ std::string NodeFunctions::describe_row(int k, int row) const {
          (unloads(k, contact) ? ", force before it opens" : ", friction cone");
 }
 
-// h = T / intervals.
-Eigen::Vector2d NodeFunctions::gains(double duration, int derivative) const {
-  const double n = intervals_, T = duration;
+// h = T / n.
+Eigen::Vector2d NodeFunctions::gains(const NodePoint& point, int derivative) const {
+  const double n = per_gain_step_[static_cast<std::size_t>(point.node)], T = point.duration;
   const Eigen::Vector2d at(stabilisation_.rate * n / T, stabilisation_.stiffness * n * n / (T * T));
   if (derivative == 0) return at + Eigen::Vector2d(stabilisation_.damping, stabilisation_.spring);
   if (derivative == 1) return {-at(0) / T, -2.0 * at(1) / T};
@@ -113,7 +136,7 @@ Eigen::Vector2d NodeFunctions::gains(double duration, int derivative) const {
 }
 
 void NodeFunctions::set_point(const NodePoint& point) {
-  const Eigen::Vector2d g = gains(point.duration, 0);
+  const Eigen::Vector2d g = gains(point, 0);
   at_.q = point.q;
   at_.v = point.v;
   at_.a = point.a;
@@ -157,10 +180,10 @@ void NodeFunctions::evaluate_with_derivatives(const NodePoint& point, NodeValues
   fill_derivatives(point, values);
 }
 
-void NodeFunctions::gather(const PointDerivatives& derivatives, double duration, Eigen::Ref<MatrixXd> result) const {
+void NodeFunctions::gather(const PointDerivatives& derivatives, const NodePoint& point, Eigen::Ref<MatrixXd> result) const {
   result.leftCols(num_variables()) << derivatives.q, derivatives.v, derivatives.a, derivatives.tau, derivatives.w;
-  if (free_duration_) result.col(num_variables()).noalias() = derivatives.gains.lazyProduct(gains(duration, 1));
-  const double kp = gains(duration, 0)(1);
+  if (free_duration_) result.col(num_variables()).noalias() = derivatives.gains.lazyProduct(gains(point, 1));
+  const double kp = gains(point, 0)(1);
   for (std::size_t l = 0; l < landed_.size(); ++l) {
     result.middleCols<2>(first_place() + static_cast<Index>(2 * l)).noalias() =
         derivatives.e.middleCols<3>(3 * landed_[l]).lazyProduct(-kp * landed_axes_[l]);
@@ -171,10 +194,10 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
   const int k = point.node;
   MatrixXd& jacobian = values.rows_jacobian;
   jacobian.resize(num_rows(k), num_columns());
-  gather(dynamics_.residual_derivatives(), point.duration, jacobian.topRows(nv_));
+  gather(dynamics_.residual_derivatives(), point, jacobian.topRows(nv_));
   jacobian.topRows(nv_).array().colwise() *= dynamics_scale_.array();
   forces_jacobian_.resize(values.forces.size(), num_columns());
-  gather(dynamics_.force_derivatives(), point.duration, forces_jacobian_);
+  gather(dynamics_.force_derivatives(), point, forces_jacobian_);
   for (int i = 0; i < num_contacts(); ++i) {
     const auto force = forces_jacobian_.middleRows<3>(3 * i);
     const int row = contact_row(k, i);
@@ -296,7 +319,7 @@ void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd&
   }
   if (!free_duration_) return;
   const int duration = num_variables();
-  const Eigen::Vector2d slope = gains(point.duration, 1);
+  const Eigen::Vector2d slope = gains(point, 1);
   q_rows.col(duration).noalias() += inner.qgains.lazyProduct(slope);
   result.col(duration).segment(nv_, nv_).noalias() += inner.vgains.lazyProduct(slope);
   for (std::size_t l = 0; l < landed_.size(); ++l) {
@@ -305,7 +328,7 @@ void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd&
   }
   const Eigen::Vector2d on_gains(inner.vgains.col(0).dot(point.v),
                                  inner.de.dot(dynamics_.kinematics().positions() - point.anchors));
-  result(duration, duration) += on_gains.dot(gains(point.duration, 2));
+  result(duration, duration) += on_gains.dot(gains(point, 2));
 }
 
 // Torque limits, and places of contacts.

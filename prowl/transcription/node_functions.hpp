@@ -87,8 +87,8 @@ class NodeFunctions {
   void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values,
                  Eigen::MatrixXd& hessian);
 
-  /// Gains (kd, kp) of a step, their first and second derivatives in the duration of the phase.
-  Eigen::Vector2d gains(double duration, int derivative) const;
+  /// Gains (kd, kp) at a node, their first and second derivatives in the duration of the phase.
+  Eigen::Vector2d gains(const NodePoint& point, int derivative) const;
   /// Of the last evaluation: where the dynamics were evaluated, and the kinematics there.
   const DynamicsPoint& at() const { return at_; }
   const RigidBodyTerms& terms() const { return dynamics_.terms(); }
@@ -108,7 +108,7 @@ class NodeFunctions {
   void fill_rows(const NodePoint& point, NodeValues& values);
   void fill_derivatives(const NodePoint& point, NodeValues& values);
   /// Columns of a block of derivatives of residual or forces in all columns.
-  void gather(const PointDerivatives& derivatives, double duration, Eigen::Ref<Eigen::MatrixXd> result) const;
+  void gather(const PointDerivatives& derivatives, const NodePoint& point, Eigen::Ref<Eigen::MatrixXd> result) const;
   // Parts of the Hessian, after fill_derivatives(). They fill its upper triangle; what is below is of no meaning until
   // the end.
   void add_cost_hessian(const NodePoint& point, double cost_factor, Eigen::MatrixXd& result);
@@ -122,6 +122,7 @@ class NodeFunctions {
   HessianKind hessian_kind_ = HessianKind::exact;
   bool free_duration_;
   StabilisationOfStep stabilisation_;
+  std::vector<double> per_gain_step_;  ///< at each node, duration of the phase / step that its gains are for
   std::vector<std::string> contact_names_, force_names_;
   std::vector<bool> opens_;
   std::vector<int> landed_;

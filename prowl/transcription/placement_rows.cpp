@@ -8,10 +8,15 @@ namespace prowl {
 
 namespace {
 
-int nodes_of(const MotionProblem& problem, int first_phase, int last_phase) {
-  int intervals = 0;
-  for (int p = first_phase; p <= last_phase; ++p) intervals += problem.phases[static_cast<std::size_t>(p)].intervals;
-  return intervals;
+/// How long these phases last together, those of free duration the middle of their range [s]: progress of a swing must not
+/// depend on the mesh.
+double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
+  double time = 0.0;
+  for (int p = first_phase; p <= last_phase; ++p) {
+    const Duration& duration = problem.phases[static_cast<std::size_t>(p)].duration;
+    time += 0.5 * (duration.min + duration.max);
+  }
+  return time;
 }
 
 /// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at the end of one that does not
@@ -77,10 +82,15 @@ void PlacementRows::add_landing(const MotionProblem& problem, const ContactSched
 // is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the second.
 void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                                   const Swing& swing, int intervals_at_rest) {
-  const int total = nodes_of(problem, swing.first_phase, swing.last_phase);
-  const int moving = swing.after < 0 ? total : std::max(total - intervals_at_rest, 1);
-  const int before = nodes_of(problem, swing.first_phase, phase - 1);
-  const int intervals = problem.phases[static_cast<std::size_t>(phase)].intervals;
+  const double total = time_of(problem, swing.first_phase, swing.last_phase);
+  const double before = time_of(problem, swing.first_phase, phase - 1) / total;
+  const double part = time_of(problem, phase, phase) / total;
+  const Phase& asked = problem.phases[static_cast<std::size_t>(phase)];
+  const int intervals = asked.intervals;
+  const Phase& last = problem.phases[static_cast<std::size_t>(swing.last_phase)];
+  const double last_step = last.step(last.intervals - 1, time_of(problem, swing.last_phase, swing.last_phase)) / total;
+  const double at_rest = swing.after < 0 ? 0.0 : intervals_at_rest * last_step;
+  const double moving = at_rest < 1.0 ? 1.0 - at_rest : 1.0;
   const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
   const auto surface_of = [&](int stance) {
     return stance < 0 ? -1 : schedule.stances()[static_cast<std::size_t>(stance)].surface;
@@ -90,8 +100,8 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
     // The first node of a swing is where it left, the last where it lands; of a switch in between one node is enough.
     if (k == 0 && phase == swing.first_phase) continue;
     if (k == intervals && !is_last_phase) continue;
-    const double progress = static_cast<double>(before + k) / total;
-    const double risen = std::min(static_cast<double>(before + k) / moving, 1.0);
+    const double progress = before + asked.node_time(k, part);
+    const double risen = std::min(progress / moving, 1.0);
     for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
       const Surface& surface = problem.surfaces[static_cast<std::size_t>(s)];
       const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5) ||

@@ -46,13 +46,13 @@ Trajectory resample(const Trajectory& motion, const MotionProblem& problem, cons
   for (const MeshNode& node : mesh.nodes) {
     const Phase& phase = problem.phases[static_cast<std::size_t>(node.phase)];
     const Trajectory& old = phases[static_cast<std::size_t>(node.phase)];
-    const double fraction = static_cast<double>(node.node) / phase.intervals;
+    const double fraction = phase.node_time(node.node, 1.0);
     const double old_start = old.nodes.front().time, old_duration = old.duration() - old_start;
     const double duration = std::clamp(old_duration, phase.duration.min, phase.duration.max);
     TrajectoryPoint point = sample(old, old_start + fraction * old_duration);
     point.v *= old_duration / duration;
     point.a *= old_duration / duration * (old_duration / duration);
-    point.time = phase_start + fraction * duration;
+    point.time = phase_start + phase.node_time(node.node, duration);
     if (node.node == phase.intervals) phase_start = point.time;
     result.nodes.push_back(std::move(point));
   }

@@ -6,8 +6,8 @@
 
 namespace prowl {
 
-/// A motion with the phases of the problem, at the nodes of another mesh of it: node i of n of a phase gets the point at
-/// the same fraction of that phase. A phase of another duration than the problem allows is stretched or compressed to
+/// A motion with the phases of the problem, at the nodes of another mesh of it: each node gets the point at the same
+/// fraction of its phase. A phase of another duration than the problem allows is stretched or compressed to
 /// what it allows: rates with the inverse of the time, accelerations with its square, torques and forces as they are.
 ///
 /// What the problem asks for otherwise (start, goals, limits) is not looked at: the result is a point to start a solver

@@ -7,6 +7,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/remesh.hpp"
 
 namespace prowl {
 namespace {
@@ -27,6 +28,21 @@ void check_nodes(const MotionProblem& problem, const Trajectory& motion) {
 Duration longer(const Duration& duration, double by, double planned) {
   if (duration.is_fixed()) return {planned + by, planned + by};
   return {duration.min + by > 0.0 ? duration.min + by : std::min(duration.min, planned + by), duration.max + by};
+}
+
+/// The first interval goes; what comes at the end is as long as the last one. A single phase keeps its length: what goes at its
+/// start comes back at its end.
+void shift_intervals(std::vector<Phase>& phases) {
+  Steps first = steps_with(phases.front(), phases.front().intervals);
+  if (phases.size() == 1) {
+    first.push_back(first.front());
+  } else {
+    Steps last = steps_with(phases.back(), phases.back().intervals);
+    last.push_back(last.back());
+    set_steps(phases.back(), last);
+  }
+  first.erase(first.begin());
+  set_steps(phases.front(), first);
 }
 
 /// Goals of the first phase come one node earlier, those at the end of the last phase stay there.
@@ -64,8 +80,6 @@ ShiftedHorizon shift_horizon(const MotionProblem& problem, const Trajectory& mot
   check_nodes(problem, motion);
   const std::vector<TrajectoryPoint>& nodes = motion.nodes;
   const double first_step = nodes[1].time - nodes[0].time;
-  const double last_step = nodes.back().time - nodes[nodes.size() - 2].time;
-
   ShiftedHorizon shifted{problem, {}, {}};
   std::vector<Phase>& phases = shifted.problem.phases;
   const auto planned = [&](int phase) {
@@ -73,9 +87,9 @@ ShiftedHorizon shift_horizon(const MotionProblem& problem, const Trajectory& mot
     return std::prev(ends.end())->time - ends.begin()->time;
   };
   const int last = static_cast<int>(phases.size()) - 1;
-  phases.front().intervals -= 1;
-  phases.back().intervals += 1;
-  if (last > 0) {  // a single phase keeps its length
+  const double last_step = last > 0 ? nodes.back().time - nodes[nodes.size() - 2].time : first_step;
+  shift_intervals(phases);
+  if (last > 0) {
     phases.front().duration = longer(problem.phases.front().duration, -first_step, planned(0));
     phases.back().duration = longer(problem.phases.back().duration, last_step, planned(last));
   }

@@ -155,10 +155,10 @@ void StagewiseTranscription::set_functions(int k) {
   }
 }
 
-HalfTime StagewiseTranscription::half_time(int k, double h, const VectorXd& node) const {
-  if (h == 0.0) return {};
+HalfTime StagewiseTranscription::half_time(int k, int i, const VectorXd& node) const {
   const Phase& phase = flat_.problem_.phases[static_cast<std::size_t>(flat_.phase_of(k))];
-  const double slope = 0.5 / phase.intervals;
+  if (i < 0 || i == phase.intervals) return {};
+  const double slope = 0.5 * phase.step(i, 1.0);
   if (!flat_.functions(k).has_free_duration()) return {slope * phase.duration.min, slope, -1};
   const int column = flat_.layout_.node_size(k);  // the first of what is shared
   return {slope * node(column), slope, column};
@@ -171,7 +171,7 @@ void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, VectorXd& st
     state(stage.variables[i]) = ux(static_cast<Index>(i)) * stage.unit(static_cast<Index>(i));
   }
   arrival.set(flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(),
-              half_time(k, flat_.mesh_node(k).h_in, state), state);
+              half_time(k, flat_.mesh_node(k).node - 1, state), state);
 }
 
 void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
@@ -183,7 +183,7 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
   const VectorXd& node = stage.node();
   if (stage.num_next() > 0) {
     stage.departure.set(flat_.charts_[static_cast<std::size_t>(k)], flat_.charts_[static_cast<std::size_t>(k) + 1],
-                        flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).h_out, node), node);
+                        flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).node, node), node);
   }
   flat_.set_point(k, node, stage.point);
 }
@@ -474,7 +474,7 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
   for (int k = 0; k < num_stages(); ++k) {
     VectorXd node(stage(k).fixed.size());
     for (Index i = 0; i < node.size(); ++i) node(i) = z(flat_.column(k, static_cast<int>(i)));
-    const double s = half_time(k, flat_.mesh_node(k).h_in, node).s;
+    const double s = half_time(k, flat_.mesh_node(k).node - 1, node).s;
     const VectorXd state = Arrival::state(flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(), s, node);
     result.push_back(state(stage(k).variables).cwiseQuotient(stage(k).unit));
   }

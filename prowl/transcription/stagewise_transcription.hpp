@@ -122,8 +122,8 @@ class StagewiseTranscription : public StagewiseNlp {
   /// Bounds on a variable of node k. Both nodes of a phase switch have one q and v: the first has the bounds of both.
   std::pair<double, double> bounds(int k, int variable) const;
 
-  /// Half the step `h` of the mesh on one side of node k.
-  HalfTime half_time(int k, double h, const Eigen::VectorXd& node) const;
+  /// Half of interval i of the phase of node k, which is on one side of it; there is none at the ends of the phase.
+  HalfTime half_time(int k, int i, const Eigen::VectorXd& node) const;
   void set_arrival(int k, const Eigen::VectorXd& ux, Eigen::VectorXd& state, Arrival& arrival) const;
   /// Sets the point; what was evaluated elsewhere is forgotten.
   void move_to(int k, const Eigen::VectorXd& ux);

@@ -126,7 +126,11 @@ double Transcription::duration(const VectorXd& z, int phase) const {
 
 double Transcription::step(const VectorXd& z, int k) const {
   const int phase = phase_of(k);
-  return duration(z, phase) / problem_.phases[static_cast<std::size_t>(phase)].intervals;
+  return problem_.phases[static_cast<std::size_t>(phase)].step(mesh_node(k).node, duration(z, phase));
+}
+
+double Transcription::step_per_duration(int k) const {
+  return problem_.phases[static_cast<std::size_t>(phase_of(k))].step(mesh_node(k).node, 1.0);
 }
 
 NodePoint Transcription::node_point(const VectorXd& z, int k) const {
@@ -160,8 +164,9 @@ void Transcription::set_point(int k, const VectorXd& node, NodePoint& point) con
     point.anchors.segment<3>(3 * i) += problem_.surfaces[static_cast<std::size_t>(surface)].axes() * node.segment<2>(shared);
     shared += 2;
   }
-  const double share = 0.5 * ((mesh_node.h_in > 0.0) + (mesh_node.h_out > 0.0));
-  point.cost_weight = share * point.duration / asked.intervals;
+  const double step_in = mesh_node.h_in > 0.0 ? asked.step(point.node - 1, point.duration) : 0.0;
+  const double step_out = mesh_node.h_out > 0.0 ? asked.step(point.node, point.duration) : 0.0;
+  point.cost_weight = 0.5 * (step_in + step_out);
   point.terminal_weight = k + 1 == layout_.num_nodes() ? 1.0 : 0.0;
 }
 
@@ -263,9 +268,7 @@ void Transcription::visit_jacobian(const VectorXd& z, Emit emit) const {
         d_theta[end] = defects.position_dtheta(end);
         d_v[end] = defects.position_dv(end);
       }
-      if (free_duration >= 0) {
-        d_duration = defects.d_step() / problem_.phases[static_cast<std::size_t>(phase_of(k))].intervals;
-      }
+      if (free_duration >= 0) d_duration = step_per_duration(k) * defects.d_step();
     }
     for (const int end : {0, 1}) {
       const int node = k + end;
@@ -360,7 +363,7 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
     const IntervalDefects::Hessian bent = interval(z, k).hessian(multipliers.segment(layout_.link_row(k), 2 * nv));
     links[static_cast<std::size_t>(k)] = bent.link;
     const int free_duration = layout_.duration(phase_of(k));
-    const double per_step = 1.0 / problem_.phases[static_cast<std::size_t>(phase_of(k))].intervals;
+    const double per_duration = step_per_duration(k);
     for (const int end : {0, 1}) {
       MatrixXd& node = nodes[static_cast<std::size_t>(k + end)];
       node.block<3, 3>(3, nv) += bent.theta_v[end];
@@ -370,11 +373,11 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
         for (int j = 0; j < 6; ++j) node(place(i), place(j)) += bent.turn[end](i, j);
       }
       if (free_duration < 0) continue;
-      node.row(layout_.node_size(k + end)).head(3 * nv) += per_step * bent.step[end].transpose();
+      node.row(layout_.node_size(k + end)).head(3 * nv) += per_duration * bent.step[end].transpose();
     }
     if (free_duration < 0) continue;
     const int d = free_duration - layout_.first_shared();
-    shared(d, d) += per_step * per_step * bent.step_step;
+    shared(d, d) += per_duration * per_duration * bent.step_step;
   }
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const std::vector<int>& variables = shared_[static_cast<std::size_t>(phase_of(k))];
@@ -430,11 +433,11 @@ Trajectory Transcription::unpack(const VectorXd& z) {
   double phase_start = 0.0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const MeshNode& node = mesh_node(k);
-    const int intervals = problem_.phases[static_cast<std::size_t>(node.phase)].intervals;
+    const Phase& phase = problem_.phases[static_cast<std::size_t>(node.phase)];
     NodePoint from = node_point(z, k);
     TrajectoryPoint point;
-    point.time = phase_start + from.duration * node.node / intervals;
-    if (node.node == intervals) phase_start = point.time;
+    point.time = phase_start + phase.node_time(node.node, from.duration);
+    if (node.node == phase.intervals) phase_start = point.time;
     point.phase = node.phase;
     point.q = std::move(from.q);
     // Of the two quaternions of a rotation the one that goes on without a jump.

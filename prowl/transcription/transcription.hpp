@@ -74,7 +74,9 @@ class Transcription : public MotionNlp {
   /// Whether nodes k and k + 1 are the ends of an interval; else they are a phase switch.
   bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
   double duration(const Eigen::VectorXd& z, int phase) const;
+  /// Of the interval after node k, and its derivative in the duration of the phase.
   double step(const Eigen::VectorXd& z, int k) const;
+  double step_per_duration(int k) const;
   NodePoint node_point(const Eigen::VectorXd& z, int k) const;
   /// The same from the variables of the node and those that its phase shares, in the order of column().
   void set_point(int k, const Eigen::VectorXd& node, NodePoint& point) const;

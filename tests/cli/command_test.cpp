@@ -295,6 +295,28 @@ TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
   EXPECT_THAT(result.out, HasSubstr(" iterations on 13, 50, 200 intervals"));
 }
 
+/// Crouching needs steps that differ; its plan is read back with them.
+TEST_F(Command, RefinesTheMesh) {
+  folder_.write("bow.toml", test::kPhase + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.03, 0, -0.1]\n"
+                            "base_linear_velocity_mps = [0, 0, 0]\n[cost]\njoint_velocity = 0.1\njoint_acceleration = 0.01\ntorque = 1e-4\n");
+  const Outcome result = run("$prowl plan bow.toml $dirs --out out --refine");
+  EXPECT_EQ(result.status, 0) << result.out << result.error;
+  EXPECT_THAT(result.error, HasSubstr("5 intervals, "));
+  EXPECT_THAT(result.error, HasSubstr("0 too coarse\n"));
+  const nlohmann::json refined = plan();
+  const nlohmann::json phase = refined.at("problem").at("phases").at(0);
+  EXPECT_GT(phase.at("intervals"), 5);
+  EXPECT_EQ(phase.at("shares").size(), phase.at("intervals"));
+  EXPECT_EQ(refined.at("certificate").at("grade"), "draft");
+  EXPECT_EQ(run("$prowl check out $dirs").status, 0);
+  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out out2 --warm-start out --intervals 40 && $prowl simulate out $dirs --engine rollout").status, 0);
+  const Outcome coarse = run("$prowl plan bow.toml $dirs --out out3 --refine 0.02 --no-gains");
+  EXPECT_THAT(coarse.error, HasSubstr(" of 2.0e-02")) << "a tolerance of one's own";
+  const Outcome refused = run("$prowl plan bow.toml $dirs --refine certifed");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.error, HasSubstr("certifed is not allowed; need draft, certified or a re-integration error > 0"));
+}
+
 TEST_F(Command, TakesThreadsHessianAndTolerance) {
   const Outcome result = run("$prowl plan hold.toml $dirs --out out --threads 2 --hessian gauss-newton --tolerance 1e-7");
   EXPECT_EQ(result.status, 0) << result.error;

@@ -52,7 +52,8 @@ class PlanSchema(unittest.TestCase):
         for name, task, options, status in (("crouch", ROOT / "tasks/hyq/crouch.toml", ["--intervals", 60], (0, 7)),
                                             ("gait", ROOT / "tasks/hyq/trot.toml", [], (0,)),
                                             ("unfinished", ROOT / "tasks/hyq/step.toml", ["--max-iterations", 2, "--one-mesh"], (6,)),
-                                            ("infeasible", too_far, [], (3,))):
+                                            ("infeasible", too_far, [], (3,)),
+                                            ("refined", ROOT / "tasks/hyq/step.toml", ["--refine"], (0,))):
             done = prowl("plan", task, *options, "--out", cls.work / name)
             if done.returncode not in status:
                 raise AssertionError(f"{name}: {done.returncode}\n{done.stdout}{done.stderr}")
@@ -72,6 +73,9 @@ class PlanSchema(unittest.TestCase):
         self.assertEqual(self.plans["crouch"]["overrides"], {"intervals": 60})
         self.assertEqual(self.plans["unfinished"]["status"], "iteration_limit")
         self.assertTrue(self.plans["infeasible"]["reasons"])
+        for phase in self.plans["refined"]["problem"]["phases"]:
+            self.assertEqual(len(phase["shares"]), phase["intervals"])
+            self.assertAlmostEqual(sum(phase["shares"]), 1.0, 12)
 
     def test_no_key_may_be_added_or_missing(self):
         optional = {("overrides",), ("versions",)}
@@ -91,7 +95,7 @@ class PlanSchema(unittest.TestCase):
         self.assertGreater(tried, 150)
 
     def test_refuses_values_of_the_wrong_kind(self):
-        for path, value in (("schema_version", 1), ("schema_version", 3), ("status", "fine"), ("good", "yes"), ("certificate.grade", "A"),
+        for path, value in (("schema_version", 2), ("schema_version", 4), ("status", "fine"), ("good", "yes"), ("certificate.grade", "A"),
                             ("solver.iterations", -1), ("solver.iterations", 1.5), ("solver.hessian", "none"), ("solver.cost", "0"),
                             ("problem.joints", "lf_haa_joint"), ("versions.prowl", 1), ("overrides.intervals", "60")):
             plan = shortened(self.plans["crouch"])
@@ -109,7 +113,7 @@ class PlanSchema(unittest.TestCase):
                 self.assertIn(f"`{key}`", page, path)
 
     def test_the_command_reads_what_fits(self):
-        for name, status in (("crouch", (0, 7)), ("gait", (0,)), ("unfinished", (6,)), ("infeasible", (3, 7))):
+        for name, status in (("crouch", (0, 7)), ("gait", (0,)), ("unfinished", (6,)), ("infeasible", (3, 7)), ("refined", (0,))):
             done = prowl("check", self.work / name)
             self.assertIn(done.returncode, status, name + done.stderr)
 
@@ -117,10 +121,12 @@ class PlanSchema(unittest.TestCase):
         plan = copy.deepcopy(self.plans["crouch"])
         for key in ("hessian", "cpu_seconds", "evaluation", "convergence"):
             del plan["solver"][key]
+        for phase in plan["problem"]["phases"]:
+            del phase["shares"]
         folder = self.work / "other version"
         folder.mkdir()
         (folder / "trajectory.csv").write_bytes((self.work / "crouch/trajectory.csv").read_bytes())
-        for version, status, said in ((1, 0, ""), (2, 2, "cpu_seconds: missing"), (3, 2, "written by a newer Prowl"),
+        for version, status, said in ((1, 0, ""), (2, 2, "cpu_seconds: missing"), (3, 2, "shares: missing"), (4, 2, "written by a newer Prowl"),
                                       (0, 2, "plan again with prowl plan")):
             plan["schema_version"] = version
             (folder / "plan.json").write_text(json.dumps(plan))

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "prowl/io/trajectory_csv.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/remesh.hpp"
 #include "test_files.hpp"
 
 namespace prowl {
@@ -128,7 +130,7 @@ TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
 TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
   write_plan(out_, record_);
   const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
-  EXPECT_EQ(json.at("schema_version"), 2);
+  EXPECT_EQ(json.at("schema_version"), 3);
   EXPECT_EQ(json.at("status"), "interrupted");
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ(json.at("certificate").at("passed"), true);
@@ -181,7 +183,7 @@ TEST_F(PlanDirectory, SamplesAUniformGrid) {
 TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
-  edit("plan.json", "\"schema_version\": 2", "\"schema_version\": 4294967297");
+  edit("plan.json", "\"schema_version\": 3", "\"schema_version\": 4294967297");
   EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from "))
       << "1 modulo 2^32";
   write_plan(out_, record_);
@@ -210,7 +212,12 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
     change(json);
     folder_.write("out/plan.json", json.dump());
   };
-  const auto remove_new_keys = [](auto& json) {
+  const auto remove_shares = [](auto& json) {
+    for (auto& phase : json["problem"]["phases"]) ASSERT_EQ(phase.erase("shares"), 1u);
+    for (auto& interval : json["certificate"]["integration_errors"]) ASSERT_EQ(interval.erase("reintegration"), 1u);
+  };
+  const auto remove_new_keys = [&](auto& json) {
+    remove_shares(json);
     for (const char* key : {"hessian", "cpu_seconds", "evaluation", "convergence"}) ASSERT_EQ(json["solver"].erase(key), 1u) << key;
   };
   write_version(1, remove_new_keys);
@@ -220,14 +227,63 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   EXPECT_EQ(old.plan.trajectory.nodes.size(), record_.plan.trajectory.nodes.size());
   write_version(2, remove_new_keys);
   EXPECT_EQ(message(), "out/plan.json: plan.solver.cpu_seconds: missing");
-  write_version(3, [](auto&) {});
-  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 3, written by a newer Prowl; this one reads 1 to 2: use that Prowl, or "
+  write_version(2, remove_shares);
+  EXPECT_EQ(read_plan(out_, test::test_search()).plan.certificate.interval_errors.at(0).reintegration, 0.0);
+  write_version(3, remove_shares);
+  EXPECT_EQ(message(), "out/plan.json: plan.problem.phases[0].shares: missing");
+  write_version(4, [](auto&) {});
+  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 4, written by a newer Prowl; this one reads 1 to 3: use that Prowl, or "
                        "plan again with this one");
   write_version(0, [](auto&) {});
-  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 0 is no longer read; need 1 to 2: plan again with prowl plan, task_file in "
+  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 0 is no longer read; need 1 to 3: plan again with prowl plan, task_file in "
                        "it has the task");
-  write_version(2, [](auto& json) { json.erase("schema_version"); });
+  write_version(3, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
+}
+
+/// Another mesh than the task has: steps that differ, goals at other nodes.
+TEST_F(PlanDirectory, ReadsTheMeshThatAPlanWasRefinedTo) {
+  PlanRecord record = record_;
+  record.task.problem = on_mesh(record_.task.problem, {{1.0, 2.0, 4.0}, {1.0, 1.0}});
+  record.plan.trajectory = {};
+  for (const MeshNode& node : make_mesh(record.task.problem).nodes) {
+    record.plan.trajectory.nodes.push_back(record_.plan.trajectory.nodes[node.phase == 0 ? 0u : 6u]);
+    record.plan.trajectory.nodes.back().time = node.time;
+  }
+  write_plan(out_, record);
+  const PlanRecord read = read_plan(out_, test::test_search());
+  ASSERT_EQ(read.plan.trajectory.nodes.size(), 4u + 3u);
+  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(read.plan.trajectory.nodes[i].time, record.plan.trajectory.nodes[i].time);
+  EXPECT_NEAR(read.plan.trajectory.nodes[1].time, 2.0 / 7.0, 1e-12);
+  EXPECT_EQ(read.task.problem.phases[0].intervals, 3);
+  EXPECT_THAT(read.task.problem.phases[0].shares, testing::Pointwise(testing::DoubleNear(1e-15), {1 / 7.0, 2 / 7.0, 4 / 7.0}));
+  EXPECT_EQ(read.task.problem.phases[1].intervals, 2);
+  EXPECT_TRUE(read.task.problem.phases[1].shares.empty());
+  for (std::size_t i = 0; i < read.task.problem.boundary_conditions.size(); ++i) {
+    EXPECT_EQ(read.task.problem.boundary_conditions[i].at, record.task.problem.boundary_conditions[i].at);
+  }
+
+  const std::string csv = test::read_file(out_ / "trajectory.csv");
+  folder_.write("out/trajectory.csv", with_cell(csv, 3, 0, "0.4"));  // where equal steps of five would have it
+  EXPECT_THAT(message(), HasSubstr("out/trajectory.csv:3: time_s: 0.4 is not allowed; need 0.28571"));
+}
+
+TEST_F(PlanDirectory, RefusesAMeshThatIsNone) {
+  const auto message_with = [&](const auto& change) {
+    write_plan(out_, record_);
+    auto json = nlohmann::ordered_json::parse(test::read_file(out_ / "plan.json"));
+    change(json["problem"]["phases"]);
+    folder_.write("out/plan.json", json.dump());
+    return message();
+  };
+  EXPECT_EQ(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.5}; }),
+            "out/plan.json: plan.problem.phases[1].shares: [0.5,0.5] is not allowed; need 3 numbers > 0, or none");
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, nullptr, 0.5}; }), HasSubstr("need 3 numbers > 0, or none"));
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.7, -0.2}; }), HasSubstr("need 3 numbers > 0, or none"));
+  EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 0; }),
+            "out/plan.json: plan.problem.phases[0].intervals: 0 is not allowed; need 1 to 10000");
+  EXPECT_EQ(message_with([](auto& phases) { phases.erase(1); }), "out/plan.json: plan.problem.phases: 1 phases; the task has 2");
+  EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 7; }), "out/trajectory.csv: 10 rows; the task's mesh has 12 nodes");
 }
 
 TEST_F(PlanDirectory, IsGoodIfTheSolverConvergedAndTheCertificatePassed) {

@@ -10,6 +10,8 @@
 #include "prowl/io/task_file.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/remesh.hpp"
 #include "prowl/transcription/shift_horizon.hpp"
 
 namespace prowl {
@@ -135,6 +137,32 @@ TEST(ShiftHorizon, KeepsGoalsAtTheirTimes) {
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {  // all intervals as long as they were
     const Phase &before = problem.phases[p], &after = shifted.phases[p];
     EXPECT_NEAR(after.duration.max / after.intervals, before.duration.max / before.intervals, 1e-12) << "phase " << p;
+  }
+}
+
+/// Steps of different length, in one phase and in several: all that stay are as long as before, and what comes is as long as the last.
+TEST(ShiftHorizon, KeepsStepsOfDifferentLength) {
+  for (const char* name : {"crouch", "balance"}) {
+    Task task = read(name, 30);
+    std::vector<Steps> steps;
+    for (const Phase& phase : task.problem.phases) {
+      Steps& of_phase = steps.emplace_back();
+      for (int i = 0; i < phase.intervals; ++i) of_phase.push_back(1.0 + i % 3);
+    }
+    const MotionProblem problem = on_mesh(task.problem, steps);
+    const Plan plan = solve(problem, task);
+    ASSERT_EQ(plan.result.status, SolveStatus::converged) << plan.result.message;
+    const ShiftedHorizon shifted = shift_horizon(problem, plan.trajectory, {});
+    const Mesh before = make_mesh(problem), after = make_mesh(shifted.problem);
+    ASSERT_EQ(after.size(), before.size());
+    const auto step = [](const Mesh& mesh, int k) { return mesh.nodes[static_cast<std::size_t>(k)].h_out; };
+    for (int k = 0; k + 2 < before.size(); ++k) EXPECT_NEAR(step(after, k), step(before, k + 1), 1e-9) << name << ", node " << k;
+    const bool is_single = problem.phases.size() == 1;
+    EXPECT_NEAR(step(after, after.size() - 2), step(before, is_single ? 0 : before.size() - 2), 1e-9) << name;
+    for (std::size_t k = 0; k < after.nodes.size(); ++k) {
+      EXPECT_NEAR(shifted.start_from.nodes[k].time, after.nodes[k].time, 1e-9) << name << ", node " << k;
+    }
+    EXPECT_NO_THROW(validate(shifted.problem));
   }
 }
 

@@ -71,6 +71,24 @@ TEST(CertificateMesh, ABaseThatSlipsByLessThanADefectAtEveryNodeFails) {
   EXPECT_EQ(find(certificate, "total defect").where, "base x");
 }
 
+TEST(CertificateMesh, ReintegrationTellsWhichIntervalIsOff) {
+  Case c = standing(test::hyq(), 50);
+  c.trajectory.nodes[20].tau *= 0.99;
+  const Certificate certificate = certify(c.problem, c.trajectory);
+  const double worst = find(certificate, "re-integration").worst;
+  ASSERT_EQ(certificate.interval_errors.size(), 50u);
+  for (std::size_t i = 0; i < 50; ++i) {
+    const double error = certificate.interval_errors[i].reintegration;
+    if (i == 19 || i == 20) {
+      EXPECT_GT(error, 1e-5) << i;
+      EXPECT_LE(error, worst) << i;
+    } else {
+      EXPECT_LT(error, 1e-8) << i;
+    }
+  }
+  EXPECT_EQ(std::max(certificate.interval_errors[19].reintegration, certificate.interval_errors[20].reintegration), worst);
+}
+
 TEST(CertificateMesh, AGoodMotionPassesWithRoomToItsTotals) {
   const Case draft = test::crouching(test::hyq(), 160), certified = test::crouching(test::hyq(), 400);
   const Certificate of_draft = certify(draft.problem, draft.trajectory);

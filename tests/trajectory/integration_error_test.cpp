@@ -58,8 +58,8 @@ TEST(IntegrationError, IsOneValueAnIntervalAndSeesTheWrongOne) {
 TEST(Reintegration, FollowsAnExactMotionBetterOnAFinerMesh) {
   test::StanceMotion motion = crouch();
   PhaseDynamics dynamics = dynamics_of(motion);
-  const double coarse = reintegration_check(motion.robot(), motion.on_mesh(40), dynamics).worst;
-  const double fine = reintegration_check(motion.robot(), motion.on_mesh(80), dynamics).worst;
+  const double coarse = reintegration_errors(motion.robot(), motion.on_mesh(40), dynamics).check.worst;
+  const double fine = reintegration_errors(motion.robot(), motion.on_mesh(80), dynamics).check.worst;
   EXPECT_GT(coarse, 1e-9);
   EXPECT_GT(coarse / fine, 6.5);  // the torque is linear inside an interval: O(h³)
 }
@@ -69,7 +69,7 @@ TEST(Reintegration, IsNotFiniteRatherThanEndlessWhenTheMotionBlowsUp) {
   Trajectory trajectory = motion.on_mesh(2);
   for (TrajectoryPoint& node : trajectory.nodes) node.tau.setConstant(1e12);
   PhaseDynamics dynamics = dynamics_of(motion);
-  EXPECT_FALSE(reintegration_check(motion.robot(), trajectory, dynamics).passed);
+  EXPECT_FALSE(reintegration_errors(motion.robot(), trajectory, dynamics).check.passed);
 }
 
 }  // namespace

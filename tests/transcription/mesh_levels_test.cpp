@@ -58,5 +58,16 @@ TEST(MeshLevels, KeepEveryGoalAtItsTime) {
   }
 }
 
+TEST(MeshLevels, KeepWhereAMeshIsFine) {
+  MotionProblem problem = with_intervals({160});
+  std::vector<double>& shares = problem.phases[0].shares;
+  for (int i = 0; i < 160; ++i) shares.push_back(i < 80 ? 0.2 / 80.0 : 0.8 / 80.0);
+  const std::vector<MotionProblem> levels = mesh_levels(problem);
+  ASSERT_EQ(levels.size(), 2u);
+  const Phase& coarse = levels[0].phases[0];
+  ASSERT_EQ(coarse.intervals, 40);
+  for (int i = 0; i < 40; ++i) EXPECT_NEAR(coarse.step(i, 1.0), i < 20 ? 0.01 : 0.04, 1e-12) << i;
+}
+
 }  // namespace
 }  // namespace prowl

@@ -33,6 +33,20 @@ TEST(Mesh, CutsEachPhaseIntoEqualSteps) {
   EXPECT_DOUBLE_EQ(mesh.nodes[8].h_out, 0.4 / 3.0);
 }
 
+TEST(Mesh, HasTheStepsThatAPhaseAsksFor) {
+  MotionProblem problem = three_phases();
+  problem.phases[1].shares = {0.5, 0.2, 0.3};
+  const Mesh mesh = make_mesh(problem), equal = make_mesh(three_phases());
+  ASSERT_EQ(mesh.size(), equal.size());
+  EXPECT_NEAR(mesh.nodes[9].time - mesh.nodes[8].time, 0.2, 1e-15);
+  EXPECT_NEAR(mesh.nodes[10].time - mesh.nodes[9].time, 0.08, 1e-15);
+  for (std::size_t k = 0; k + 1 < mesh.nodes.size(); ++k) {
+    EXPECT_NEAR(mesh.nodes[k + 1].time - mesh.nodes[k].time, mesh.nodes[k].h_out, 1e-15);
+    EXPECT_EQ(mesh.nodes[k].h_out, mesh.nodes[k + 1].h_in);
+  }
+  EXPECT_EQ(mesh.nodes[11].time, equal.nodes[11].time) << "the end of the phase, exactly";
+}
+
 TEST(Mesh, PutsBothSidesOfAPhaseSwitchAtOneTime) {
   const Mesh mesh = make_mesh(three_phases());
   const MeshNode &before = mesh.nodes[7], &after = mesh.nodes[8];

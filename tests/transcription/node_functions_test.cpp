@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "prowl/model/so3.hpp"
 #include "prowl/transcription/independent_contacts.hpp"
@@ -117,6 +118,65 @@ TEST(NodeFunctions, HessianIsThatOfDifferencesOfTheGradient) {
     expect_columns(&NodePoint::a, 2 * nv, 1e-4);
     expect_columns(&NodePoint::tau, 3 * nv, 1e-3);
     expect_columns(&NodePoint::w, 3 * nv + nu, 1e-3);
+  }
+}
+
+/// Steps that shrink by any factor and grow by up to four, of two phases of random lengths.
+std::vector<double> random_steps(std::mt19937& rng, int count) {
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  std::vector<double> steps = {0.01};
+  while (std::ssize(steps) < count) {
+    const double factor = part(rng) < 0.5 ? std::pow(20.0, -part(rng)) : std::pow(4.0, part(rng));
+    steps.push_back(std::clamp(factor * steps.back(), 1e-4, 0.5));
+  }
+  return steps;
+}
+
+/// Gains (kd, kp) at each node of phases with these steps, half of them each.
+std::vector<Eigen::Vector2d> gains_on(const std::vector<double>& steps) {
+  const auto half = static_cast<std::ptrdiff_t>(steps.size() / 2);
+  MotionProblem problem = test::everything(test::hyq(), {test::phase_on("first", {0, 1, 2, 3}, 1.0, static_cast<int>(half)),
+                                                         test::phase_on("second", {0, 1}, 1.0, static_cast<int>(half))});
+  std::vector<Eigen::Vector2d> gains;
+  for (int p = 0; p < 2; ++p) {
+    Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    phase.shares.assign(steps.begin() + p * half, steps.begin() + (p + 1) * half);
+    const double duration = std::accumulate(phase.shares.begin(), phase.shares.end(), 0.0);
+    for (double& share : phase.shares) share /= duration;
+    phase.duration = {duration, duration};
+  }
+  const ContactSchedule schedule(problem);
+  for (int p = 0; p < 2; ++p) {
+    const NodeFunctions functions(problem, schedule, p, phase_contacts(problem, schedule, p, problem.robot.nominal_configuration()));
+    for (int k = 0; k <= half; ++k) {
+      gains.push_back(functions.gains({.node = k, .duration = problem.phases[static_cast<std::size_t>(p)].duration.min}, 0));
+    }
+  }
+  return gains;
+}
+
+/// The error x = (phi, phi_dot) of a contact goes by the trapezoid of phi_dot_dot = - kd phi_dot - kp phi. It neither grows nor is
+/// pulled in faster than the steps that it comes from could, whatever steps follow.
+TEST(NodeFunctions, GainsTakeAnErrorOfAContactDownOnAnyMesh) {
+  std::mt19937 rng(23);
+  const auto rate = [](const Eigen::Vector2d& gain) {
+    Eigen::Matrix2d A;
+    A << 0.0, 1.0, -gain(1), -gain(0);
+    return A;
+  };
+  for (int mesh = 0; mesh < 20; ++mesh) {
+    const std::vector<double> steps = random_steps(rng, 40);
+    const std::vector<Eigen::Vector2d> gains = gains_on(steps);
+    const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+    Eigen::Vector2d x(1.0, 0.0);
+    std::size_t node = 0;
+    for (std::size_t i = 0; i < steps.size(); ++i, ++node) {
+      if (i == steps.size() / 2) ++node;  // the other side of the phase switch
+      const Eigen::Matrix2d start = one + 0.5 * steps[i] * rate(gains[node]), end = one - 0.5 * steps[i] * rate(gains[node + 1]);
+      x = (end.inverse() * start * x).eval();
+      EXPECT_LT(std::abs(x(0)), 0.81) << "mesh " << mesh << ", interval " << i;
+      EXPECT_LT(std::abs(x(1)), 0.45 / steps[0]) << "mesh " << mesh << ", interval " << i;
+    }
   }
 }
 

@@ -58,6 +58,20 @@ TEST(Resample, IsTheSameMotionOnAnotherMesh) {
   }
 }
 
+TEST(Resample, IsTheSameMotionOnUnevenMeshes) {
+  MotionProblem coarse = two_phases(3, {0.6, 0.6}), fine = two_phases(4, {0.6, 0.6});
+  coarse.phases[0].shares = {0.5, 0.2, 0.3};
+  fine.phases[0].shares = {0.1, 0.2, 0.3, 0.4};
+  fine.phases[1].shares = {0.4, 0.1, 0.1, 0.4};
+  const Mesh mesh = make_mesh(fine);
+  const Trajectory expected = smooth_motion(fine, mesh);
+  const Trajectory found = resample(smooth_motion(coarse, make_mesh(coarse)), fine, mesh);
+  for (std::size_t k = 0; k < expected.nodes.size(); ++k) {
+    EXPECT_NEAR(found.nodes[k].time, expected.nodes[k].time, 1e-15);
+    EXPECT_LT((found.nodes[k].q - expected.nodes[k].q).norm() + (found.nodes[k].v - expected.nodes[k].v).norm(), 1e-13) << "node " << k;
+  }
+}
+
 TEST(Resample, StretchesAPhaseToWhatIsAllowed) {
   const MotionProblem problem = two_phases(4, {0.6, 0.6}), longer = two_phases(4, {0.9, 1.5});
   const Trajectory motion = smooth_motion(problem, make_mesh(problem));

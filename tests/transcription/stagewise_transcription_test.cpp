@@ -49,10 +49,16 @@ std::vector<MotionProblem> problems() {
       everything(hyq, {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                        free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)}),
       everything(test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1),
-                                 free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)})};
+                                 free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)}),
+      everything(hyq, {free_phase("four", {0, 1, 2, 3}, 3), phase_on("lifted", {1, 2, 3}, 0.2, 2),
+                       free_phase("landed", {0, 1, 2, 3}, 2)})};
   all[1].running_cost.time_weight = 2.3;
   all[1].swing_clearance = 0.05;
   all[2].running_cost.force_weight *= 0.1;
+  all[3].swing_clearance = 0.05;
+  all[3].phases[0].shares = {0.2, 0.7, 0.1};
+  all[3].phases[1].shares = {0.8, 0.2};
+  all[3].phases[2].shares = {0.4, 0.6};
   return all;
 }
 

@@ -1,5 +1,7 @@
 prowl_test(transcription/mesh prowl::transcription)
 prowl_test(transcription/mesh_levels prowl::transcription)
+prowl_test(transcription/remesh prowl::transcription)
+prowl_test(transcription/mesh_refinement prowl::transcription)
 prowl_test(transcription/resample prowl::transcription)
 prowl_test(transcription/monotone_cubic prowl::transcription)
 prowl_test(transcription/initial_guess prowl::transcription)

@@ -49,6 +49,18 @@ TEST(Transcription, DerivativesHoldForFreeDurations) {
   expect_derivatives(problem);
 }
 
+TEST(Transcription, DerivativesHoldForStepsOfDifferentLength) {
+  MotionProblem problem =
+      everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 3), phase_on("lifted", {1, 2, 3}, 0.2, 2),
+                               free_phase("landed", {0, 1, 2, 3}, 2)});
+  problem.swing_clearance = 0.05;
+  problem.running_cost.time_weight = 2.3;
+  problem.phases[0].shares = {0.2, 0.7, 0.1};
+  problem.phases[1].shares = {0.8, 0.2};
+  problem.phases[2].shares = {0.4, 0.6};
+  expect_derivatives(problem);
+}
+
 TEST(Transcription, DerivativesHoldForContactsThatOpenAndLand) {
   MotionProblem problem =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
@@ -114,6 +126,27 @@ TEST(Transcription, ClearanceGrowsFromTheStart) {
   EXPECT_NEAR(heights[0], 0.05 * 16 * 0.01 * 0.81, 1e-12);
   EXPECT_NEAR(heights[4], 0.05, 1e-12);
   EXPECT_NEAR(heights[8], heights[0], 1e-12);
+}
+
+std::vector<double> clearances(const MotionProblem& problem) {
+  const Mesh mesh = make_mesh(problem);
+  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  std::vector<double> heights;  // [m]
+  for (int row = 0; row < nlp.num_constraints(); ++row) {
+    if (nlp.describe_constraint(row).find("clearance") == std::string::npos) continue;
+    heights.push_back(nlp.constraint_lower()(row) * problem.robot.size());
+  }
+  return heights;
+}
+
+/// Through two phases, the first a quarter of the swing: whatever the nodes, a foot has to be at a height at a time.
+TEST(Transcription, ClearanceIsAMatterOfTimeNotOfNodes) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.1, 2), phase_on("still", {1, 2, 3}, 0.3, 2),
+                                                   phase_on("landed", {0, 1, 2, 3}, 0.2, 1)});
+  problem.swing_clearance = 0.05;
+  problem.phases[0].shares = {0.8, 0.2};
+  const auto at = [](double s) { return 0.05 * 16.0 * s * s * (1.0 - s) * (1.0 - s); };
+  EXPECT_THAT(clearances(problem), testing::Pointwise(testing::DoubleNear(1e-12), {at(0.2), at(0.25), at(0.625)}));
 }
 
 TEST(Transcription, DerivativesHoldForTorqueCurves) {
@@ -236,6 +269,46 @@ TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
   Transcription nlp(problem, mesh, guess);
   const double expected = 0.7 * running + state_cost(problem.terminal_cost);
   EXPECT_NEAR(nlp.cost(nlp.pack(guess)), expected, 1e-12 * expected);
+}
+
+/// Each interval with its own step.
+TEST(Transcription, CostIsTheTrapezoidOfStepsOfDifferentLength) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.4, 3)});
+  problem.boundary_conditions.resize(1);
+  problem.phases[0].shares = {0.5, 0.2, 0.3};
+  for (QuadraticCost* cost : {&problem.running_cost, &problem.terminal_cost}) {
+    cost->configuration_weight.setZero();
+    cost->velocity_weight.setZero();
+    cost->acceleration_weight.setZero();
+    cost->force_weight.setZero();
+    cost->contact_positions.clear();
+  }
+  problem.running_cost.tau_ref.setZero();
+  problem.running_cost.torque_weight.setConstant(2.0);
+  const Mesh mesh = make_mesh(problem);
+  Trajectory guess = initial_guess(problem, mesh);
+  for (int k = 0; k < 4; ++k) {
+    guess.nodes[static_cast<std::size_t>(k)].tau.setZero();
+    guess.nodes[static_cast<std::size_t>(k)].tau(0) = k + 1.0;  // costs its square
+  }
+  Transcription nlp(problem, mesh, guess);
+  const double expected = 0.5 * (0.2 * (1.0 + 4.0) + 0.08 * (4.0 + 9.0) + 0.12 * (9.0 + 16.0));
+  EXPECT_NEAR(nlp.cost(nlp.pack(guess)), expected, 1e-12);
+}
+
+TEST(Transcription, UnpacksTheTimesOfItsMesh) {
+  MotionProblem problem = everything(test::hyq(), {free_phase("a", {0, 1, 2, 3}, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
+  problem.phases[0].shares = {0.5, 0.2, 0.3};
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  Transcription nlp(problem, mesh, guess);
+  Eigen::VectorXd z = nlp.pack(guess);
+  const int duration = static_cast<int>(z.size()) - 1;
+  ASSERT_EQ(nlp.describe_variable(duration), "phase 1 'a', duration");
+  z(duration) = 0.2;
+  std::vector<double> times;
+  for (const TrajectoryPoint& node : nlp.unpack(z).nodes) times.push_back(node.time);
+  EXPECT_THAT(times, testing::Pointwise(testing::DoubleNear(1e-12), {0.0, 0.1, 0.14, 0.2, 0.2, 0.4, 0.6}));
 }
 
 /// What satisfies the defects is what interpolate() means: the certificate and the transcription read one trapezoid.

@@ -1,0 +1,158 @@
+    const bool is_better =
+        now.meets_tolerance || now.too_coarse() < fewest_ || now.worst() < kClearly * least_;#include "prowl/refine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "prowl/transcription/mesh_levels.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr int kPatience = 3;           // rounds without progress: some pass before all kinks of a motion are found
+constexpr double kWorthMerging = 0.8;  // of the intervals: to save fewer, another solve does not pay
+constexpr int kMostIntervals = 10000;  // more would be gigabytes of memory
+
+bool is_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
+  return errors.local <= tolerance.local && errors.second <= tolerance.second &&
+         errors.reintegration <= tolerance.reintegration;
+}
+
+/// A plan on its mesh, and how far that is off.
+struct Candidate {
+  MotionProblem problem;
+  Plan plan;
+  std::vector<double> parts = {};
+  bool meets_tolerance = false;
+
+  int intervals() const { return static_cast<int>(parts.size()); }
+  double worst() const { return *std::ranges::max_element(parts); }
+  int too_coarse() const {
+    return static_cast<int>(std::ranges::count_if(parts, [](double part) { return part > 1.0; }));
+  }
+
+  void judge(const MeshTolerance& tolerance) {
+    parts = error_parts(plan.certificate, tolerance);
+    meets_tolerance = is_within(mesh_errors(plan.certificate), tolerance);
+  }
+  bool is_better_than(const Candidate& other) const {
+    if (meets_tolerance != other.meets_tolerance) return meets_tolerance;
+    return meets_tolerance ? intervals() < other.intervals() : worst() < other.worst();
+  }
+};
+
+/// Solves one mesh after the other, each from the motion of the last, and keeps the books of all.
+class Meshes {
+ public:
+  Meshes(const NlpSolver& solver, const PlanOptions& options)
+      : solver_(solver), options_(options), coarse_first_(options.coarse_first) {
+    options_.coarse_first = false;
+  }
+
+  Candidate solve(MotionProblem problem) {
+    constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further mesh only says so
+    PlanOptions options = options_;
+    options.solver.max_seconds = std::max(options_.solver.max_seconds - total_.seconds, kShortestSeconds);
+    Plan plan = make_plan(problem, solver_, options);
+    levels_.insert(levels_.end(), plan.levels.begin(), plan.levels.end());
+    total_.iterations += plan.result.iterations;
+    total_.seconds += plan.result.seconds;
+    total_.times += plan.result.times;
+    return {std::move(problem), std::move(plan)};
+  }
+  Candidate solve_from(const Plan& plan, MotionProblem problem) {
+    options_.start_from = plan.trajectory;
+    options_.start_multipliers.clear();
+    return solve(std::move(problem));
+  }
+  /// From the coarsest mesh on, the first that does not fail.
+  Candidate begin(const MotionProblem& problem) {
+    const bool from_coarse = coarse_first_ && options_.start_from.empty();
+    std::optional<Candidate> first;
+    for (MotionProblem& level : from_coarse ? mesh_levels(problem) : std::vector{problem}) {
+      first = solve(std::move(level));
+      const SolveStatus status = first->plan.result.status;
+      if (status == SolveStatus::converged || status == SolveStatus::interrupted || !first->plan.reasons.empty()) break;
+    }
+    return std::move(*first);
+  }
+  /// What all meshes took, in place of what one did.
+  void enter_books(Plan& plan) const {
+    plan.levels = levels_;
+    plan.result.iterations = total_.iterations;
+    plan.result.seconds = total_.seconds;
+    plan.result.times = total_.times;
+  }
+
+ private:
+  const NlpSolver& solver_;
+  PlanOptions options_;
+  bool coarse_first_;
+  SolveResult total_;
+  std::vector<LevelResult> levels_;
+};
+
+/// Whether rounds still lead somewhere: fewer intervals are too coarse than ever before, or the worst is clearly less so.
+class Progress {
+ public:
+  bool is_over(const Candidate& now) {
+    constexpr double kClearly = 0.9;
+    const bool is_better = now.meets_tolerance || now.too_coarse() < fewest_ || now.worst() < kClearly * least_;
+    fewest_ = std::min(fewest_, now.too_coarse());
+    least_ = std::min(least_, now.worst());
+    rounds_without_ = is_better ? 0 : rounds_without_ + 1;
+    return rounds_without_ == kPatience;
+  }
+
+ private:
+  int fewest_ = std::numeric_limits<int>::max(), rounds_without_ = 0;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+std::string hint(const Candidate& best, const std::string& stopped) {
+  return fmt::format("mesh refinement stopped, {}: {} of {} intervals are off by more than the tolerance, the worst by "
+                     "{:.3g} times",
+                     stopped, best.too_coarse(), best.intervals(), best.worst());
+}
+
+}  // namespace
+
+RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
+                              const RefineOptions& refine) {
+  Meshes meshes(solver, options);
+  Progress progress;
+  Candidate now = meshes.begin(problem);
+  std::optional<Candidate> best;
+  std::string stopped;
+  for (int round = 1; now.plan.result.status == SolveStatus::converged; ++round) {
+    const Certificate& certificate = now.plan.certificate;
+    if (certificate.interval_errors.empty()) break;  // a motion that is none
+    now.judge(refine.tolerance);
+    if (refine.on_round) {
+      refine.on_round({now.intervals(), now.plan.result.iterations, mesh_errors(certificate), now.too_coarse()});
+    }
+    if (!best || now.is_better_than(*best)) best = now;
+    MotionProblem next = refined(now.problem, now.parts);
+    const int intervals = count_intervals(next);
+    if (now.meets_tolerance && intervals > kWorthMerging * now.intervals()) break;
+    if (progress.is_over(now)) stopped = fmt::format("no progress in {} rounds", kPatience);
+    if (round == refine.max_rounds) stopped = fmt::format("{} meshes", round);
+    if (intervals > kMostIntervals) stopped = fmt::format("the next mesh would have {} intervals", intervals);
+    if (!stopped.empty()) break;
+    now = meshes.solve_from(now.plan, std::move(next));
+  }
+  const SolveStatus status = now.plan.result.status;  // of the last mesh
+  if (status != SolveStatus::converged) {
+    stopped = fmt::format("no solution on {} intervals ({})", count_intervals(now.problem), to_string(status));
+  }
+  if (!best) best = std::move(now);
+  if (best->intervals() > 0 && !best->meets_tolerance) best->plan.hints.push_back(hint(*best, stopped));
+  if (status == SolveStatus::interrupted) best->plan.result.status = status;
+  meshes.enter_books(best->plan);
+  return {std::move(best->problem), std::move(best->plan), best->meets_tolerance};
+}
+
+}  // namespace prowl

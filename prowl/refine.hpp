@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+
+#include "prowl/plan.hpp"
+#include "prowl/transcription/mesh_refinement.hpp"
+
+namespace prowl {
+
+/// One mesh and what came of it.
+struct RefineRound {
+  int intervals = 0;
+  int iterations = 0;
+  MeshTolerance errors;  ///< the worst
+  int too_coarse = 0;    ///< intervals that are off by more than the tolerance
+};
+
+struct RefineOptions {
+  MeshTolerance tolerance;
+  int max_rounds = 12;  ///< meshes solved, the first one too
+  std::function<void(const RefineRound&)> on_round = {};  ///< after each mesh that converged; may be empty
+};
+
+/// A plan, and the problem on the mesh that it is of.
+struct RefinedPlan {
+  MotionProblem problem;
+  Plan plan;
+  bool meets_tolerance = false;  ///< if not, a hint of the plan tells why
+};
+
+/// As make_plan(), on meshes that follow the errors measured on the one before (mesh_refinement.hpp): from the coarsest on which
+/// make_plan() would begin, until the motion meets the tolerance and a mesh without what it has to spare would have more than four
+/// fifths of its intervals. Each motion is the guess of the next. PlanOptions::max_seconds is for all together.
+///
+/// The result is of the mesh with the fewest intervals among those that meet the tolerance, else of the one that is nearest to
+/// it. A mesh that does not converge ends it, and so does an interrupt, which the status of the result then tells.
+RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
+                              const RefineOptions& refine);
+
+}  // namespace prowl

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/trajectory/certificate.hpp"
+
+namespace prowl {
+
+/// What the integration errors of a motion may be, scaled as in the certificate [-].
+struct MeshTolerance {
+  double local = 0.0;          ///< local integration error of an interval
+  double second = 0.0;         ///< the same of one coordinate, summed over any second
+  double reintegration = 0.0;  ///< of the state at the end of an interval
+};
+
+/// What grade draft or certified asks for.
+MeshTolerance mesh_tolerance(Grade grade);
+/// For a re-integration error of one's own: the local error in the proportion that it has to it in both grades, the error in a
+/// second as in the best grade that it allows, or draft.
+MeshTolerance mesh_tolerance(double reintegration);
+
+/// The worst of a motion, as its certificate has them.
+MeshTolerance mesh_errors(const Certificate& certificate);
+
+/// Of each mesh interval, the larger of its errors as a part of what it may be: none is above 1 where the mesh is fine enough;
+/// infinite where an error is not finite. If only the sum over a second is too large, each interval may have less than the worst
+/// one has: with error c in each piece the sum goes with c^(2/3), for there are c^(-1/3) pieces.
+std::vector<double> error_parts(const Certificate& certificate, const MeshTolerance& tolerance);
+
+/// The problem on a mesh that suits these errors, one part an interval. The error of a step of the trapezoid falls with its cube,
+/// and two thirds of what it may be are aimed at:
+/// - an interval that is off by more becomes as many equal ones as that takes, at most four;
+/// - neighbours that would be off by little even as one (a quarter) become one, at most four, and no more than a quarter of
+///   their phase; a goal between them keeps its node.
+MotionProblem refined(const MotionProblem& problem, const std::vector<double>& parts);
+
+}  // namespace prowl

@@ -1,0 +1,197 @@
+// Meshes that follow the measured errors, on shipped tasks.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "../io/test_files.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/refine.hpp"
+#include "prowl/solvers/make_solver.hpp"
+#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
+#include "prowl/transcription/remesh.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+
+Task read(const std::string& name, std::optional<int> intervals = std::nullopt) {
+  return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml", test::test_search(),
+                        {.intervals = intervals});
+}
+
+RefinedPlan refine(const Task& task, const NlpSolver& solver = RiccatiSolver(), PlanOptions options = {},
+                   RefineOptions refine = {.tolerance = mesh_tolerance(Grade::draft)}) {
+  options.solver = task.solver;
+  return make_refined_plan(task.problem, solver, options, refine);
+}
+
+void expect_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
+  EXPECT_LE(errors.local, tolerance.local);
+  EXPECT_LE(errors.second, tolerance.second);
+  EXPECT_LE(errors.reintegration, tolerance.reintegration);
+}
+
+/// What the shipped mesh, of equal steps in each phase, is fine enough for; its task says that less of it fail.
+TEST(Refine, MeetsTheToleranceWithFewerIntervalsThanEqualSteps) {
+  for (const char* name : {"crouch", "step", "rear"}) {
+    const Task task = read(name);
+    const RefinedPlan refined = refine(task);
+    ASSERT_EQ(refined.plan.result.status, SolveStatus::converged) << name;
+    EXPECT_TRUE(refined.meets_tolerance) << name;
+    EXPECT_TRUE(refined.plan.certificate.passed) << name;
+    EXPECT_TRUE(refined.plan.hints.empty()) << name;
+    expect_within(mesh_errors(refined.plan.certificate), mesh_tolerance(Grade::draft));
+    const int count = count_intervals(refined.problem);
+    EXPECT_LT(count, 0.8 * count_intervals(task.problem)) << name;
+
+    Task equal = read(name, count);  // as many, equal
+    const Plan plan = make_plan(equal.problem, RiccatiSolver(), {.solver = equal.solver});
+    EXPECT_GT(mesh_errors(plan.certificate).local, mesh_tolerance(Grade::draft).local) << name;
+  }
+}
+
+TEST(Refine, GoalsKeepTheirTimes) {
+  const Task task = read("rear");  // a goal in the middle of a phase
+  const RefinedPlan refined = refine(task);
+  int inside = 0;
+  for (std::size_t i = 0; i < task.problem.boundary_conditions.size(); ++i) {
+    const NodeRef before = task.problem.boundary_conditions[i].at, after = refined.problem.boundary_conditions[i].at;
+    ASSERT_EQ(after.phase, before.phase);
+    const auto part = [&](const MotionProblem& problem, NodeRef at) {
+      return problem.phases[static_cast<std::size_t>(at.phase)].node_time(at.node, 1.0);
+    };
+    EXPECT_NEAR(part(refined.problem, after), part(task.problem, before), 1e-9);
+    inside += before.node != 0 && before.node != task.problem.phases[static_cast<std::size_t>(before.phase)].intervals;
+  }
+  EXPECT_EQ(inside, 1);
+}
+
+TEST(Refine, MergesWhatIsTooFine) {
+  const Task task = read("crouch", 320);
+  std::vector<int> intervals;
+  RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+  options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
+  const RefinedPlan refined = refine(task, RiccatiSolver(), {.coarse_first = false}, options);
+  EXPECT_TRUE(refined.meets_tolerance);
+  EXPECT_TRUE(refined.plan.certificate.passed);
+  EXPECT_EQ(intervals.front(), 320);
+  EXPECT_LT(count_intervals(refined.problem), 110);
+  EXPECT_EQ(count_intervals(refined.problem), *std::ranges::min_element(intervals)) << "the smallest that meets the tolerance";
+  EXPECT_EQ(refined.plan.levels.size(), intervals.size());
+}
+
+TEST(Refine, TakesEverySolverOfPlan) {
+  const Task task = read("step");
+  for (const char* name : {"riccati", "fatrop", "ipopt"}) {
+    const RefinedPlan refined = refine(task, *make_solver(name));
+    EXPECT_TRUE(refined.meets_tolerance) << name;
+    EXPECT_TRUE(refined.plan.certificate.passed) << name;
+    EXPECT_LT(count_intervals(refined.problem), 125) << name;
+  }
+}
+
+TEST(Refine, BooksAreOfAllMeshes) {
+  const Task task = read("step");
+  std::vector<RefineRound> rounds;
+  RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+  options.on_round = [&](const RefineRound& round) { rounds.push_back(round); };
+  const RefinedPlan refined = refine(task, RiccatiSolver(), {}, options);
+  ASSERT_GE(rounds.size(), 3u);
+  ASSERT_EQ(refined.plan.levels.size(), rounds.size());
+  int iterations = 0;
+  for (std::size_t i = 0; i < rounds.size(); ++i) {
+    EXPECT_EQ(refined.plan.levels[i].intervals, rounds[i].intervals);
+    EXPECT_EQ(refined.plan.levels[i].iterations, rounds[i].iterations);
+    EXPECT_EQ(rounds[i].too_coarse == 0, i + 1 == rounds.size());
+    iterations += rounds[i].iterations;
+  }
+  EXPECT_EQ(refined.plan.result.iterations, iterations);
+  EXPECT_LE(rounds.front().intervals, 48) << "from a coarse mesh";
+  EXPECT_GT(rounds.front().errors.local, 10.0 * rounds.back().errors.local);
+}
+
+/// Out of reach in two meshes: the better one, and word of it.
+TEST(Refine, TellsWhatItDidNotReach) {
+  const Task task = read("step");
+  const RefinedPlan refined = refine(task, RiccatiSolver(), {}, {.tolerance = mesh_tolerance(Grade::certified), .max_rounds = 2});
+  EXPECT_FALSE(refined.meets_tolerance);
+  EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
+  EXPECT_EQ(count_intervals(refined.problem), refined.plan.levels.back().intervals);
+  ASSERT_EQ(refined.plan.hints.size(), 1u);
+  EXPECT_THAT(refined.plan.hints[0], HasSubstr("mesh refinement stopped, 2 meshes: "));
+}
+
+/// Solves the first meshes, and stops on the others.
+class Failing : public NlpSolver {
+ public:
+  Failing(int solves, SolveStatus status) : left_(solves), status_(status) {}
+  std::string name() const override { return solver_.name(); }
+  std::string version() const override { return solver_.version(); }
+  std::optional<std::string> why_unsupported(Nlp& nlp) const override { return solver_.why_unsupported(nlp); }
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& start, const SolverOptions& options) const override {
+    SolveResult result = solver_.solve(nlp, start, options);
+    if (left_-- <= 0) result.status = status_;
+    return result;
+  }
+
+ private:
+  RiccatiSolver solver_;
+  mutable int left_;
+  SolveStatus status_;
+};
+
+/// What there is stays, and an interrupt is known as one.
+TEST(Refine, KeepsTheLastMotionThatConverged) {
+  const Task task = read("step");
+  for (const SolveStatus status : {SolveStatus::iteration_limit, SolveStatus::interrupted}) {
+    std::vector<int> intervals;
+    RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+    options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
+    const RefinedPlan refined = refine(task, Failing(2, status), {}, options);
+    ASSERT_EQ(intervals.size(), 2u);
+    EXPECT_FALSE(refined.meets_tolerance);
+    EXPECT_EQ(refined.plan.result.status, status == SolveStatus::interrupted ? status : SolveStatus::converged);
+    EXPECT_EQ(count_intervals(refined.problem), intervals[1]);
+    EXPECT_EQ(refined.plan.certificate.interval_errors.size(), static_cast<std::size_t>(intervals[1]));
+    EXPECT_EQ(refined.plan.levels.size(), 3u);
+    ASSERT_EQ(refined.plan.hints.size(), 1u);
+    EXPECT_THAT(refined.plan.hints[0], HasSubstr(to_string(status)));
+  }
+}
+
+/// Of the coarsest mesh, too: the next finer one is tried, from the task.
+TEST(Refine, BeginsOnTheFirstMeshThatConverges) {
+  const Task task = read("step");
+  const RefinedPlan failed = refine(task, Failing(0, SolveStatus::iteration_limit));
+  EXPECT_EQ(failed.plan.result.status, SolveStatus::iteration_limit);
+  EXPECT_EQ(failed.plan.levels.size(), mesh_levels(task.problem).size());
+  EXPECT_EQ(count_intervals(failed.problem), count_intervals(task.problem));
+}
+
+/// An uneven mesh is as good as any: no drift, the same motion.
+TEST(Refine, AMeshOfRandomStepsGivesTheSameMotion) {
+  const Task task = read("crouch", 160);
+  std::mt19937 rng(29);
+  std::uniform_real_distribution<double> step(1.0, 4.0);
+  Steps steps(160);
+  for (double& h : steps) h = step(rng);
+  const MotionProblem uneven = on_mesh(task.problem, {steps});
+  const Plan expected = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
+  const Plan plan = make_plan(uneven, RiccatiSolver(), {.solver = task.solver});
+  ASSERT_EQ(plan.result.status, SolveStatus::converged);
+  EXPECT_TRUE(plan.certificate.passed);
+  EXPECT_NEAR(plan.result.cost, expected.result.cost, 2e-3 * expected.result.cost);
+  for (double t = 0.0; t <= 2.0; t += 0.05) {
+    const TrajectoryPoint a = sample(plan.trajectory, t), b = sample(expected.trajectory, t);
+    EXPECT_LT((a.q - b.q).cwiseAbs().maxCoeff(), 1e-3) << "t = " << t;
+  }
+}
+
+}  // namespace
+}  // namespace prowl
