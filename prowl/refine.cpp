@@ -1,5 +1,4 @@
-    const bool is_better =
-        now.meets_tolerance || now.too_coarse() < fewest_ || now.worst() < kClearly * least_;#include "prowl/refine.hpp"
+#include "prowl/refine.hpp"
 
 #include <fmt/format.h>
 
