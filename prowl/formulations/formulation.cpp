@@ -4,10 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "prowl/error.hpp"
-#include "prowl/formulations/centroidal_nlp.hpp"
-#include "prowl/formulations/collocation.hpp"
+#include "prowl/formulations/centroidal/centroidal_nlp.hpp"
+#include "prowl/formulations/collocation/collocation.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/transcription/transcription.hpp"
 
@@ -15,11 +16,22 @@ namespace prowl {
 
 namespace {
 
-using MakeRule = std::unique_ptr<CollocationRule> (*)();
-using MakeChart = std::unique_ptr<BaseChart> (*)(const Eigen::Matrix3d& start);
 template <class Value>
 using Table = std::vector<std::pair<std::string, Value>>;
+using MakeProgram = std::function<std::unique_ptr<MotionNlp>(const Formulation&, const MotionProblem&, const Mesh&,
+                                                             const Trajectory& guess)>;
+using MakeRule = std::unique_ptr<CollocationRule> (*)();
+using MakeChart = std::unique_ptr<BaseChart> (*)(const Eigen::Matrix3d& start);
 
+MakeProgram collocation_with(std::unique_ptr<DynamicsForm> (*make_dynamics)());
+
+// All there is, the default first. Contact forms are rows of data: contact_forms().
+const Table<MakeProgram> kDynamics = {
+    {"inverse", collocation_with(inverse_dynamics)},
+    {"forward", collocation_with(forward_dynamics)},
+    {"kkt", collocation_with(kkt_dynamics)},
+    {"centroidal", make_centroidal},
+};
 const Table<MakeRule> kRules = {
     {"trapezoid", trapezoid_rule},
     {"hermite-simpson", hermite_simpson_rule},
@@ -31,16 +43,11 @@ const Table<MakeChart> kCharts = {
     {"euler", [](const Eigen::Matrix3d&) { return euler_chart(); }},
 };
 
-template <class Entries, class Name>
-std::vector<std::string> names_of(const Entries& entries, Name name) {
+template <class Value>
+std::vector<std::string> names_of(const Table<Value>& table) {
   std::vector<std::string> names;
-  for (const auto& entry : entries) names.push_back(entry.*name);
+  for (const auto& entry : table) names.push_back(entry.first);
   return names;
-}
-
-template <class Entries, class Name>
-const auto& find(const Entries& entries, Name name, const std::string& wanted) {
-  return *std::ranges::find(entries, wanted, name);
 }
 
 void check(const char* what, const std::string& name, const std::vector<std::string>& allowed) {
@@ -48,41 +55,49 @@ void check(const char* what, const std::string& name, const std::vector<std::str
   throw InputError(fmt::format("{}: \"{}\" is not allowed; need one of {}", what, name, fmt::join(allowed, ", ")));
 }
 
+template <class Value>
+const Value& choice(const char* what, const Table<Value>& table, const std::string& name) {
+  check(what, name, names_of(table));
+  return std::ranges::find(table, name, &Table<Value>::value_type::first)->second;
+}
+
+MakeProgram collocation_with(std::unique_ptr<DynamicsForm> (*make_dynamics)()) {
+  return [make_dynamics](const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
+                         const Trajectory& guess) {
+    check("contact", formulation.contact, contact_names());
+    CollocationForm form{.dynamics = make_dynamics(),
+                         .rule = choice("transcription", kRules, formulation.transcription)(),
+                         .contact = *std::ranges::find(contact_forms(), formulation.contact, &ContactForm::name),
+                         .chart = choice("orientation", kCharts, formulation.orientation)(
+                             base_rotation(problem.start_configuration()))};
+    return std::make_unique<Collocation>(problem, mesh, guess, std::move(form));
+  };
+}
+
 }  // namespace
 
 const std::vector<std::string>& dynamics_names() {
+  static const std::vector<std::string> names = names_of(kDynamics);
+  return names;
+}
+
+const std::vector<std::string>& transcription_names() {
+  static const std::vector<std::string> names = names_of(kRules);
+  return names;
+}
+
+const std::vector<std::string>& contact_names() {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = names_of(dynamics_forms(), &DynamicsForm::name);
-    all.push_back("centroidal");
+    std::vector<std::string> all;
+    for (const ContactForm& form : contact_forms()) all.push_back(form.name);
     return all;
   }();
   return names;
 }
 
-const std::vector<std::string>& transcription_names() {
-  static const std::vector<std::string> names = names_of(kRules, &Table<MakeRule>::value_type::first);
-  return names;
-}
-
-const std::vector<std::string>& contact_names() {
-  static const std::vector<std::string> names = names_of(contact_forms(), &ContactForm::name);
-  return names;
-}
-
 const std::vector<std::string>& orientation_names() {
-  static const std::vector<std::string> names = names_of(kCharts, &Table<MakeChart>::value_type::first);
+  static const std::vector<std::string> names = names_of(kCharts);
   return names;
-}
-
-std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem,
-                                            const Mesh& mesh, const Trajectory& guess) {
-  const auto make_rule = find(kRules, &Table<MakeRule>::value_type::first, formulation.transcription).second;
-  const auto make_chart = find(kCharts, &Table<MakeChart>::value_type::first, formulation.orientation).second;
-  CollocationForm form{.dynamics = find(dynamics_forms(), &DynamicsForm::name, formulation.dynamics),
-                       .rule = make_rule(),
-                       .contact = find(contact_forms(), &ContactForm::name, formulation.contact),
-                       .chart = make_chart(base_rotation(problem.start_configuration()))};
-  return std::make_unique<Collocation>(problem, mesh, guess, std::move(form));
 }
 
 std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const MotionProblem& problem,
@@ -92,11 +107,15 @@ std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, cons
   check("contact", formulation.contact, contact_names());
   check("orientation", formulation.orientation, orientation_names());
   if (formulation == Formulation{}) return std::make_unique<Transcription>(problem, mesh, guess);
+  return make_collocation(formulation, problem, mesh, guess);
+}
+
+std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
+                                           const Trajectory& guess) {
   if (std::ranges::any_of(problem.phases, [](const Phase& phase) { return !phase.shares.empty(); })) {
     throw InputError("phases.shares: only the default formulation takes steps of different length within a phase");
   }
-  if (formulation.dynamics == "centroidal") return make_centroidal(formulation, problem, mesh, guess);
-  return make_collocation(formulation, problem, mesh, guess);
+  return choice("dynamics", kDynamics, formulation.dynamics)(formulation, problem, mesh, guess);
 }
 
 }  // namespace prowl

@@ -1,4 +1,4 @@
-#include "prowl/formulations/base_chart.hpp"
+#include "prowl/formulations/collocation/base_chart.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "prowl/error.hpp"
-#include "prowl/formulations/rate_function.hpp"
+#include "prowl/formulations/collocation/rate_function.hpp"
 #include "prowl/model/so3.hpp"
 #include "tests/support/random_vector.hpp"
 

@@ -1,4 +1,4 @@
-#include "prowl/formulations/centroidal_kinematics.hpp"
+#include "prowl/formulations/centroidal/centroidal_kinematics.hpp"
 
 #include <gtest/gtest.h>
 

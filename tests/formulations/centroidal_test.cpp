@@ -1,4 +1,4 @@
-#include "prowl/formulations/centroidal_nlp.hpp"
+#include "prowl/formulations/centroidal/centroidal_nlp.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "prowl/formulations/collocation.hpp"
+#include "prowl/formulations/collocation/collocation.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
