@@ -52,7 +52,8 @@ FormulationRun run_formulation(const MotionProblem& problem, const Formulation& 
   const std::unique_ptr<MotionNlp> nlp = make_formulation(formulation, problem, mesh, guess);
   nlp->use_hessian(hessian);
   if (const auto reason = solver.why_unsupported(*nlp)) throw InputError(*reason);
-  return judge_formulation(problem, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options), solver.name());
+  return judge_formulation(problem, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options),
+                           solver.name() + " " + solver.version());
 }
 
 }  // namespace prowl

@@ -12,7 +12,7 @@ namespace prowl {
 /// What one formulation came to: a line of the table of `prowl compare`.
 struct FormulationRun {
   Formulation formulation;
-  std::string solver;                       ///< its name
+  std::string solver;                       ///< name and version: there are several SNOPTs
   int nodes = 0;                            ///< of the mesh
   int num_variables = 0, num_constraints = 0;
   int jacobian_nonzeros = 0, hessian_nonzeros = 0;  ///< places of the patterns; of the Hessian the lower triangle

@@ -44,7 +44,9 @@ Value of_worst(Cell (*value)(const CertificateCheck&)) {
   };
 }
 
-/// Not every solver counts iterations.
+/// Not every solver counts them.
+Cell iterations(const FormulationRun& run) { return run.result.iterations > 0 ? Cell{run.result.iterations} : Cell{}; }
+
 Cell seconds_per_iteration(const FormulationRun& run) {
   return run.result.iterations > 0 ? Cell{run.seconds_per_iteration()} : Cell{};
 }
@@ -70,6 +72,9 @@ std::vector<Column> choices() {
   add("contact", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.contact; });
   add("orientation", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.orientation; });
   add("solver", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.solver; });
+  columns.push_back({.key = "solver_version", .heading = "version", .value = of_run([](const FormulationRun& run) -> Cell {
+                       return run.solver.empty() ? Cell{} : Cell{run.solver};
+                     }), .kind = Column::Kind::choice});
   add("hessian", [](const CompareRecord& record, const ComparedRun&) -> Cell { return to_string(record.hessian); });
   add("guess", [](const CompareRecord& record, const ComparedRun&) -> Cell { return record.guess; });
   return columns;
@@ -86,7 +91,7 @@ std::vector<Column> effort() {
       {"jacobian_nonzeros", "Jacobian non-zeros", of_run([](const Run& run) -> Cell { return run.jacobian_nonzeros; })},
       {"hessian_nonzeros", "Hessian non-zeros", of_run([](const Run& run) -> Cell { return run.hessian_nonzeros; })},
       {"status", "status", status},
-      {"iterations", "iterations", of_run([](const Run& run) -> Cell { return run.result.iterations; })},
+      {"iterations", "iterations", of_run(iterations)},
       {"seconds", "time [s]", of_run([](const Run& run) -> Cell { return run.result.seconds; })},
       {"seconds_per_iteration", "an iteration [ms]", of_run(seconds_per_iteration), "{:.3g}", 1e3},
       {"cpu_seconds", "CPU [s]", of_run([](const Run& run) -> Cell { return run.result.times.cpu; })},

@@ -5,6 +5,7 @@
 
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
+#include "prowl/trajectory/hermite_interval.hpp"
 
 namespace prowl {
 
@@ -48,7 +49,11 @@ TrajectoryPoint sample(const Trajectory& trajectory, double t) {
   if (after == nodes.begin()) return nodes.front();
   const auto before = std::prev(after);  // of two nodes at one time, the later phase's
   if (after == nodes.end() || t == before->time) return *before;
-  return interpolate(*before, *after, t - before->time);
+  const double s = t - before->time;
+  if (trajectory.interpolation == Interpolation::trapezoid) return interpolate(*before, *after, s);
+  // Between the nodes before it, one a phase switch is no interval.
+  const auto interval = static_cast<std::size_t>(before - nodes.begin() - (before->phase - nodes.front().phase));
+  return hermite_point(*before, *after, trajectory.middle_torques.empty() ? nullptr : &trajectory.middle_torques[interval], s);
 }
 
 }  // namespace prowl

@@ -44,7 +44,7 @@ Eigen::VectorXd interpolated_rate(const TrajectoryPoint& left, const TrajectoryP
 /// v as such a rate: with its base velocity turned into the world.
 Eigen::VectorXd tangent_rate(const TrajectoryPoint& point);
 
-/// The motion at time t in [0, duration]; at a phase switch, the point of the later phase.
+/// The motion at time t in [0, duration], as its interpolation has it; at a phase switch, the point of the later phase.
 TrajectoryPoint sample(const Trajectory& trajectory, double t);
 
 }  // namespace prowl

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/error.hpp"
 #include "prowl/formulations/formulation.hpp"
@@ -85,6 +87,49 @@ TEST(Collocation, DerivativesHoldForFreeDurationsAndPlaces) {
   expect_derivatives(a_step(), {.dynamics = "kkt"});
   expect_derivatives(a_step(), {.dynamics = "forward", .transcription = "hermite-simpson"});
   expect_derivatives(a_step(), {.dynamics = "forward", .transcription = "rk4"});
+  expect_derivatives(a_step(), {.contact = "distance-velocity-acceleration"});
+  expect_derivatives(a_step(), {.dynamics = "forward", .contact = "distance-5mm"});
+}
+
+/// Without the bending of the rows it is the same at all multipliers, and has no direction of negative curvature.
+TEST(Collocation, GaussNewtonLeavesOutTheRows) {
+  const MotionProblem problem = a_step();
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+    SCOPED_TRACE(dynamics);
+    const auto nlp = make_collocation({.dynamics = dynamics, .orientation = "euler"}, problem, mesh, guess);
+    nlp->use_hessian(HessianKind::gauss_newton);
+    std::mt19937 rng(7);
+    const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.02);
+    const Eigen::VectorXd multipliers = test::random_vector(rng, nlp->num_constraints(), 2.0);
+    const SparsityPattern& pattern = nlp->hessian_pattern();
+    Eigen::VectorXd values(pattern.size()), without(pattern.size());
+    nlp->hessian(z, 1.7, multipliers, values);
+    nlp->hessian(z, 1.7, Eigen::VectorXd::Zero(nlp->num_constraints()), without);
+    EXPECT_EQ(values, without);
+    Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(nlp->num_variables(), nlp->num_variables());
+    for (int i = 0; i < pattern.size(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      hessian(pattern.rows[at], pattern.cols[at]) = hessian(pattern.cols[at], pattern.rows[at]) = values(i);
+    }
+    const Eigen::VectorXd curvatures = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian).eigenvalues();
+    EXPECT_GE(curvatures(0), -1e-9 * curvatures(curvatures.size() - 1));
+    EXPECT_GT(curvatures(curvatures.size() - 1), 0.0);
+  }
+}
+
+/// What a rule has in the middle of an interval comes back too, where the motion has it: cubics, and the torque there.
+TEST(Collocation, PacksWhatItUnpacked) {
+  const MotionProblem problem = a_step();
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  const auto nlp = make_collocation({.dynamics = "forward", .transcription = "hermite-simpson"}, problem, mesh, guess);
+  std::mt19937 rng(8);
+  const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.05);
+  // Of places only the nodes know, where the contact is.
+  const Eigen::Index own = z.size() - 2;
+  EXPECT_LT((nlp->pack(nlp->unpack(z)) - z).head(own).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 /// A motion in and out again is the same motion.
@@ -139,6 +184,26 @@ TEST(Collocation, RefusesWhatDoesNotGoTogether) {
   const Trajectory guess = initial_guess(problem, mesh);
   EXPECT_THROW(make_formulation({.transcription = "rk4"}, problem, mesh, guess), InputError);
   EXPECT_THROW(make_formulation({.transcription = "simpson"}, problem, mesh, guess), InputError);
+}
+
+/// The four corners of a flat foot: eight points with 24 rows, 12 of which are new.
+TEST(Collocation, TakesContactsThatDependOnEachOtherOnlyStabilisedAndWithoutForces) {
+  const MotionProblem problem = everything(test::talos(), {phase_on("feet", {0, 1, 2, 3, 4, 5, 6, 7}, 0.1, 1)});
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  expect_derivatives(problem, {.orientation = "euler"});
+  EXPECT_THROW(make_formulation({.dynamics = "kkt"}, problem, mesh, guess), InputError);
+  EXPECT_THROW(make_formulation({.dynamics = "forward", .contact = "distance"}, problem, mesh, guess), InputError);
+}
+
+TEST(Collocation, RefusesStepsOfDifferentLength) {
+  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.1, 2)});
+  problem.phases.front().shares = {0.25, 0.75};
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  EXPECT_NO_THROW(make_formulation({}, problem, mesh, guess));
+  EXPECT_THROW(make_formulation({.dynamics = "forward"}, problem, mesh, guess), InputError);
+  EXPECT_THROW(make_formulation({.dynamics = "centroidal"}, problem, mesh, guess), InputError);
 }
 
 TEST(Collocation, SaysWhatRowsAndVariablesAre) {

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "prowl/model/configuration.hpp"
+#include "prowl/trajectory/hermite_interval.hpp"
 
 namespace prowl {
 namespace {
@@ -131,6 +132,21 @@ Trajectory two_phases(std::mt19937& rng) {
   trajectory.nodes.push_back(stepped(rng, next_phase, 0.5));
   trajectory.nodes.back().phase = 1;
   return trajectory;
+}
+
+TEST(Sample, FollowsTheCubicsAndTheTorqueInTheMiddle) {
+  std::mt19937 rng(8);
+  Trajectory trajectory = two_phases(rng);
+  trajectory.interpolation = Interpolation::hermite;
+  const std::vector<TrajectoryPoint>& nodes = trajectory.nodes;
+  expect_same(sample(trajectory, 0.35), hermite_point(nodes[2], nodes[3], nullptr, 0.1), 1e-12);
+  trajectory.middle_torques = {random_vector(rng, kJoints, 10.0), random_vector(rng, kJoints, 10.0)};
+  for (const std::size_t interval : {0u, 1u}) {
+    const TrajectoryPoint &left = nodes[2 * interval], &right = nodes[2 * interval + 1];
+    const double middle = 0.5 * (left.time + right.time);
+    EXPECT_LT((sample(trajectory, middle).tau - trajectory.middle_torques[interval]).norm(), 1e-12);
+    EXPECT_GT((sample(trajectory, middle).q - interpolate(left, right, middle - left.time).q).norm(), 1e-3);
+  }
 }
 
 TEST(Sample, TakesTheLaterPhaseAtASwitch) {

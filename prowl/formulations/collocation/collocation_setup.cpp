@@ -153,9 +153,8 @@ VectorXd Collocation::pack(const Trajectory& trajectory) const {
     write_point(point, k, node_first_[at], true, near, z);
     near = z.segment<3>(node_first_[at] + 3);
     if (middle_first_[at] < 0) continue;
-    const TrajectoryPoint& next = trajectory.nodes[at + 1];
-    write_point(interpolate(point, next, 0.5 * (next.time - point.time)), k, middle_first_[at], form_.rule->middle().state,
-                near, z);
+    const double middle = 0.5 * (point.time + trajectory.nodes[at + 1].time);
+    write_point(sample(trajectory, middle), k, middle_first_[at], form_.rule->middle().state, near, z);
   }
   for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
     if (durations_[p] < 0) continue;
