@@ -52,6 +52,7 @@ def make_parser() -> argparse.ArgumentParser:
                         help="where to look for package://, as prowl's option; may be given again")
     parser.add_argument("--environment", type=pathlib.Path, default=ROOT / ".venv-peers", metavar="DIR",
                         help="virtual environment of the peers, made on first use; default .venv-peers")
+    parser.add_argument("--footprint", action="store_true", help="only print size on disk, time to start, and memory of each shipped task")
     parser.add_argument("--test", action="store_true", help="run the tests of the judge and of the task reader instead")
     return parser
 

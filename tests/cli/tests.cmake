@@ -33,7 +33,7 @@ if(PROWL_BUILD_CLI)
   endif()
 
   # What prowl writes, read by somebody else's code.
-  foreach(name exports export_command plan_schema)
+  foreach(name determinism exports export_command plan_schema)
     add_test(NAME cli/${name}
       COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/${name}_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
     set_tests_properties(cli/${name} PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
