@@ -309,7 +309,7 @@ TEST_F(Command, RefinesTheMesh) {
   EXPECT_EQ(phase.at("shares").size(), phase.at("intervals"));
   EXPECT_EQ(refined.at("certificate").at("grade"), "draft");
   EXPECT_EQ(run("$prowl check out $dirs").status, 0);
-  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out out2 --warm-start out --intervals 40 && $prowl simulate out $dirs --engine rollout").status, 0);
+  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out out2 --warm-start out --intervals 120 && $prowl simulate out $dirs --engine rollout").status, 0);
   const Outcome coarse = run("$prowl plan bow.toml $dirs --out out3 --refine 0.02 --no-gains");
   EXPECT_THAT(coarse.error, HasSubstr(" of 2.0e-02")) << "a tolerance of one's own";
   const Outcome refused = run("$prowl plan bow.toml $dirs --refine certifed");

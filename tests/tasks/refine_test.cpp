@@ -181,6 +181,10 @@ TEST(Refine, AMeshOfRandomStepsGivesTheSameMotion) {
   std::uniform_real_distribution<double> step(1.0, 4.0);
   Steps steps(160);
   for (double& h : steps) h = step(rng);
+  // The goal is in the middle of the phase, and of the steps.
+  const auto middle = steps.begin() + 80;
+  const double first = std::accumulate(steps.begin(), middle, 0.0), second = std::accumulate(middle, steps.end(), 0.0);
+  std::for_each(middle, steps.end(), [&](double& h) { h *= first / second; });
   const MotionProblem uneven = on_mesh(task.problem, {steps});
   const Plan expected = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
   const Plan plan = make_plan(uneven, RiccatiSolver(), {.solver = task.solver});
