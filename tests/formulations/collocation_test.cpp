@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/error.hpp"
 #include "prowl/formulations/formulation.hpp"
@@ -91,7 +89,7 @@ TEST(Collocation, DerivativesHoldForFreeDurationsAndPlaces) {
   expect_derivatives(a_step(), {.dynamics = "forward", .contact = "distance-5mm"});
 }
 
-/// Without the bending of the rows it is the same at all multipliers, and has no direction of negative curvature.
+/// Without the bending of the rows it is the same at all multipliers, and that of the cost alone.
 TEST(Collocation, GaussNewtonLeavesOutTheRows) {
   const MotionProblem problem = a_step();
   const Mesh mesh = make_mesh(problem);
@@ -108,14 +106,9 @@ TEST(Collocation, GaussNewtonLeavesOutTheRows) {
     nlp->hessian(z, 1.7, multipliers, values);
     nlp->hessian(z, 1.7, Eigen::VectorXd::Zero(nlp->num_constraints()), without);
     EXPECT_EQ(values, without);
-    Eigen::MatrixXd hessian = Eigen::MatrixXd::Zero(nlp->num_variables(), nlp->num_variables());
-    for (int i = 0; i < pattern.size(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      hessian(pattern.rows[at], pattern.cols[at]) = hessian(pattern.cols[at], pattern.rows[at]) = values(i);
-    }
-    const Eigen::VectorXd curvatures = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(hessian).eigenvalues();
-    EXPECT_GE(curvatures(0), -1e-9 * curvatures(curvatures.size() - 1));
-    EXPECT_GT(curvatures(curvatures.size() - 1), 0.0);
+    nlp->use_hessian(HessianKind::exact);
+    nlp->hessian(z, 1.7, multipliers, values);
+    EXPECT_GT((values - without).norm(), 1e-3 * without.norm()) << "nothing to leave out";
   }
 }
 

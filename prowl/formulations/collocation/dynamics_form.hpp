@@ -1,21 +1,29 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "prowl/formulations/collocation/point_function.hpp"
+
 namespace prowl {
 
-/// Which quantities of the dynamics are decision variables of a collocation program.
-struct DynamicsForm {
-  std::string name;
-  bool eliminates_acceleration = false;  ///< a is a function of the others; else a variable, with the dynamics as rows
-  bool has_forces = false;               ///< contact forces are variables, with J a + J̇ v = 0 as rows; else recovered
+/// Which quantities of the dynamics are decision variables of a collocation program, and how the others follow from them.
+class DynamicsForm {
+ public:
+  virtual ~DynamicsForm() = default;
+
+  virtual std::string name() const = 0;
+  /// a is a function of the others; else a variable, with the dynamics as rows.
+  virtual bool eliminates_acceleration() const { return false; }
+  /// Contact forces are variables, with J a + J̇ v = 0 as rows; else recovered.
+  virtual bool has_forces() const { return false; }
+  /// The dynamics at one instant, with these rows of the node. Where a is eliminated, none of them is of the dynamics.
+  virtual std::unique_ptr<PointFunction> at(ChartedNode& node, const Instant& instant, std::vector<int> rows) const = 0;
 };
 
-/// All there are; the default first.
-///   inverse   a, tau variables, c(q, v, a, tau) = 0: projected (docs/theory.md#inverse-form)
-///   forward   tau only, a = Mc⁻¹ (P (S' tau − h) + M C v): as Pardo et al. 2016 have it
-///   kkt       a, tau, f variables, M a + h − S' tau − J' f = 0 and J a + J̇ v = 0
-const std::vector<DynamicsForm>& dynamics_forms();
+std::unique_ptr<DynamicsForm> inverse_dynamics();
+std::unique_ptr<DynamicsForm> forward_dynamics();
+std::unique_ptr<DynamicsForm> kkt_dynamics();
 
 }  // namespace prowl

@@ -27,7 +27,7 @@ class EliminatingPoint : public PointFunction {
     VectorXd rest;
     PointFunction::evaluate(with_acceleration_, rest);
     y.resize(num_outputs());
-    y << acceleration(), rest;
+    y << with_acceleration_.segment(2 * nv_, nv_), rest;
   }
 
   void evaluate_with_derivatives(const VectorXd& x, VectorXd& y, MatrixXd& dy) override {
@@ -40,7 +40,7 @@ class EliminatingPoint : public PointFunction {
     others << J.topLeftCorner(nv_, 2 * nv_), J.topRightCorner(nv_, num_inputs() - 2 * nv_);
     acceleration_slope_ = dynamics_.solve(-others);
     y.resize(num_outputs());
-    y << acceleration(), rest;
+    y << with_acceleration_.segment(2 * nv_, nv_), rest;
     dy.resize(num_outputs(), num_inputs());
     dy << acceleration_slope_, compressed(slope);
   }
@@ -58,8 +58,6 @@ class EliminatingPoint : public PointFunction {
   }
 
  private:
-  auto acceleration() const { return with_acceleration_.segment(2 * nv_, nv_); }
-
   /// The dynamics are linear in a: one step of Newton's method from a = 0.
   void solve(const VectorXd& x) {
     if (last_inputs_.size() == x.size() && last_inputs_ == x) return;
