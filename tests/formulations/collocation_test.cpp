@@ -89,7 +89,7 @@ TEST(Collocation, DerivativesHoldForFreeDurationsAndPlaces) {
   expect_derivatives(a_step(), {.dynamics = "forward", .contact = "distance-5mm"});
 }
 
-/// Without the bending of the rows it is the same at all multipliers, and that of the cost alone.
+/// Without the bending of the rows it is the same at all multipliers.
 TEST(Collocation, GaussNewtonLeavesOutTheRows) {
   const MotionProblem problem = a_step();
   const Mesh mesh = make_mesh(problem);
