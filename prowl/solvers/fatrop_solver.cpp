@@ -359,7 +359,9 @@ std::string FatropSolver::processor() {
 }
 
 std::optional<std::string> FatropSolver::why_unsupported(Nlp& nlp) const {
-  if (auto reason = why_missing_instructions("libblasfeo.so", linear_algebra(), processor())) return reason;
+  if (const auto reason = why_missing_instructions("libblasfeo.so", linear_algebra(), processor())) {
+    return *reason + ": install the one of the pinned casadi wheel (scripts/setup), or take another --solver";
+  }
   return why_no_chain(nlp, "Fatrop");
 }
 

@@ -38,8 +38,7 @@ std::optional<std::string> why_missing_instructions(const std::string& library, 
     if (!there.contains(word)) missing += (missing.empty() ? "" : ", ") + word;
   }
   if (missing.empty()) return std::nullopt;
-  return fmt::format("{} needs {}, which this processor lacks: install one that was built for it, such as that of the pinned casadi "
-                     "wheel (scripts/setup)", library, missing);
+  return fmt::format("{} needs a processor with {}, which this one lacks", library, missing);
 }
 
 }  // namespace prowl

@@ -10,8 +10,7 @@ namespace prowl {
 std::optional<std::string> why_other_release(const std::string& library, const std::string& loaded, const std::string& built,
                                              const std::string& file);
 
-/// Why a library cannot run on this processor, with the remedy; nothing if it can. `needs` and `has`: instruction sets with blanks
-/// between, "AVX2 FMA".
+/// Why a library cannot run on this processor; nothing if it can. `needs` and `has`: instruction sets with blanks between, "AVX2 FMA".
 std::optional<std::string> why_missing_instructions(const std::string& library, const std::string& needs, const std::string& has);
 
 }  // namespace prowl

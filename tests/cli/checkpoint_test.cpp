@@ -1,6 +1,10 @@
 // Long solves as their user meets them: checkpoints, going on from them, signals and limits.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include "command.hpp"
 
 namespace prowl {
@@ -8,18 +12,31 @@ namespace {
 
 using test::Command;
 using test::Outcome;
-using testing::AllOf;
+using testing::AnyOf;
 using testing::HasSubstr;
 using testing::Not;
 
 /// HyQ bows on 200 intervals, after coarser meshes: a second or more, a dozen iterations and more.
-const std::string kBow = test::kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.02, 0, -0.1]\n";
+const std::string kBow = test::kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.02, 0, -0.04]\n";
 
 class Checkpoints : public Command {
  protected:
   Checkpoints() { folder_.write("bow.toml", kBow); }
   nlohmann::json read_plan(const std::string& name) const {
     return nlohmann::json::parse(test::read_file(folder_.path() / name / "plan.json"));
+  }
+  double largest_difference(const std::string& one, const std::string& other) const {
+    const auto numbers = [&](const std::string& name) {
+      std::string text = test::read_file(folder_.path() / name);
+      std::ranges::replace(text, ',', ' ');
+      std::istringstream rest(text.substr(text.find('\n')));
+      return std::vector<double>(std::istream_iterator<double>(rest), {});
+    };
+    const std::vector<double> a = numbers(one), b = numbers(other);
+    if (a.size() != b.size() || a.empty()) return INFINITY;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
   }
   static std::vector<int> intervals(const nlohmann::json& plan) {
     std::vector<int> all;
@@ -31,20 +48,20 @@ class Checkpoints : public Command {
 /// Every solver tells of its iterates, so that each can be stopped and gone on from, by itself or by another.
 TEST_F(Checkpoints, KeepTheBestIterateOfEverySolver) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
-    const Outcome stopped = run("$prowl plan bow.toml $dirs --intervals 40 --solver " + solver + " --out out --max-iterations 3 --one-mesh "
+    const Outcome stopped = run("$prowl plan bow.toml $dirs --intervals 20 --solver " + solver + " --out out --max-iterations 2 --one-mesh "
                                 "--checkpoint so_far --checkpoint-every 0");
     EXPECT_EQ(stopped.status, 6) << solver << stopped.error;
     const nlohmann::json checkpoint = read_plan("so_far");
     EXPECT_EQ(checkpoint.at("status"), "interrupted") << solver;
     EXPECT_EQ(checkpoint.at("good"), false);
-    EXPECT_EQ(test::read_file(folder_.path() / "so_far/trajectory.csv"), test::read_file(folder_.path() / "out/trajectory.csv"))
-        << solver << ": both are the best of the iterates";
-    EXPECT_LE(checkpoint.at("solver").at("iterations").get<int>(), 3);
+    EXPECT_LT(largest_difference("so_far/trajectory.csv", "out/trajectory.csv"), 1e-9) << solver << ": both are the best of the iterates";
+    EXPECT_LE(checkpoint.at("solver").at("iterations").get<int>(), 2);
     const Outcome check = run("$prowl check so_far $dirs");
     EXPECT_EQ(check.status, 130) << solver << check.error;
     EXPECT_THAT(check.out, HasSubstr("(as planned): not finished: interrupted"));
-    const Outcome resumed = run("$prowl plan bow.toml $dirs --intervals 40 --resume so_far --out out2 --one-mesh");
-    EXPECT_EQ(resumed.status, 0) << solver << resumed.error;
+    const Outcome resumed = run("$prowl plan bow.toml $dirs --intervals 20 --resume so_far --out out2 --one-mesh");
+    EXPECT_THAT(resumed.status, AnyOf(0, 7)) << solver << resumed.error;  // a coarse mesh
+    EXPECT_EQ(read_plan("out2").at("status"), "converged") << solver;
     EXPECT_EQ(read_plan("out2").at("solver").at("warm_start"), "so_far");
   }
 }
@@ -59,7 +76,7 @@ TEST_F(Checkpoints, GoOnWithTheirMeshAndThoseAfterIt) {
   EXPECT_EQ(read_plan("so_far").at("problem").at("phases").at(0).at("intervals"), 200);
   // A kill in the midst of the second mesh.
   const Outcome killed = run(command + "--checkpoint so_far --checkpoint-every 0 2>progress & pid=$!; "
-                             "for i in $(seq 6000); do grep -A3 'mesh of 50' progress | grep -q ' s$' && break; sleep 0.01; done; kill -9 $pid; wait $pid");
+                             "for i in $(seq 6000); do [ $(sed -n '/mesh of 50/,$p' progress | grep -c ' s$') -ge 2 ] && break; sleep 0.01; done; kill -9 $pid; wait $pid");
   ASSERT_EQ(killed.status, 137);
   const int mesh = read_plan("so_far").at("problem").at("phases").at(0).at("intervals");
   const Outcome resumed = run(command + "--resume so_far");
@@ -70,7 +87,8 @@ TEST_F(Checkpoints, GoOnWithTheirMeshAndThoseAfterIt) {
   EXPECT_NEAR(plan().at("solver").at("cost"), whole.at("solver").at("cost"), 1e-5) << "another motion than without the kill";
   // A plan that ran out of iterations serves as well, and so does a checkpoint to refine.
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --intervals 40 --max-iterations 2 --out short").status, 6);
-  EXPECT_EQ(run("$prowl plan bow.toml $dirs --intervals 40 --resume short --out out").status, 0);
+  EXPECT_EQ(run("$prowl plan bow.toml $dirs --intervals 40 --resume short --out out").status, 7) << "a coarse mesh";
+  EXPECT_EQ(plan().at("status"), "converged");
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --intervals 40 --resume short --out out --refine").status, 0);
 }
 
@@ -97,8 +115,8 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
   EXPECT_THAT(refusal("bow.toml"), HasSubstr("so_far/trajectory.csv:"));
   std::filesystem::remove(folder_.path() / "so_far/trajectory.csv");
   EXPECT_THAT(refusal("bow.toml"), HasSubstr("trajectory.csv: no such file"));
-  ASSERT_EQ(run("$prowl plan bow.toml $dirs --out good").status, 0);
-  EXPECT_THAT(run("$prowl plan bow.toml $dirs --resume good").error, HasSubstr("the plan is finished, there is nothing to go on with"));
+  ASSERT_EQ(run("$prowl plan hold.toml $dirs --out good").status, 0);
+  EXPECT_THAT(run("$prowl plan hold.toml $dirs --resume good").error, HasSubstr("the plan is finished, there is nothing to go on with"));
 
   EXPECT_THAT(run("$prowl plan bow.toml $dirs --out good --checkpoint ./good/").error, HasSubstr("need another folder"));
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --checkpoint-every 3").status, 2) << "of no checkpoint";

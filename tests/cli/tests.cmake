@@ -5,7 +5,10 @@ if(PROWL_BUILD_CLI)
     add_dependencies(cli_${name}_test prowl_cli)
   endforeach()
 
-  # Files that cannot be written, for LD_PRELOAD.
+  # For LD_PRELOAD: an older Ipopt, files that cannot be written.
+  add_library(old_ipopt SHARED ${CMAKE_CURRENT_LIST_DIR}/old_ipopt.cpp)
+  target_compile_definitions(cli_doctor_test PRIVATE PROWL_OLD_IPOPT="$<TARGET_FILE:old_ipopt>")
+  add_dependencies(cli_doctor_test old_ipopt)
   add_library(faulty_files SHARED ${CMAKE_CURRENT_LIST_DIR}/faulty_files.cpp)
   target_link_libraries(faulty_files PRIVATE ${CMAKE_DL_LIBS})
   target_compile_definitions(cli_faults_test PRIVATE PROWL_FAULTY_FILES="$<TARGET_FILE:faulty_files>")

@@ -45,7 +45,7 @@ TEST(WrongLibraries, AreNotUsed) {
   expect_refused(IpoptSolver(), "is Ipopt 3.13.4, and this Prowl was built with Ipopt 3.14");
   expect_refused(IpoptSolver(IpoptLinearSolver::spral), "is Ipopt 3.13.4");
   expect_refused(UnoSolver(), "libuno.so is Uno 3.0.0, and this Prowl was built with Uno 2.7");
-  expect_refused(FatropSolver(), "libblasfeo.so needs AVX2, FMA, which this processor lacks");
+  expect_refused(FatropSolver(), "libblasfeo.so needs a processor with AVX2, FMA, which this one lacks: install");
   EXPECT_EQ(IpoptSolver().version(), "3.13.4");
   EXPECT_TRUE(IpoptSolver::why_wrong_library().has_value());
 }
