@@ -116,6 +116,11 @@ std::vector<Finding> check_build() {
   for (const auto& [name, version] : versions()) {
     if (name == "prowl" || name == "vector instructions") continue;
     findings.push_back({.area = "build", .name = name, .text = version, .remedy = ""});
+    if (const auto reason = name == "MuJoCo" ? why_no_mujoco() : std::nullopt) {
+      findings.back().state = State::missing;
+      findings.back().text += ": " + *reason;
+      findings.back().remedy = "prowl simulate --engine rollout does without";
+    }
   }
   const std::string kernels = FatropSolver::linear_algebra();
   findings.push_back({.area = "build", .name = "BLASFEO", .text = kernels.empty() ? "generic kernels: Fatrop's linear algebra takes about twice the time of AVX2 ones (docs/solvers.md)" : "kernels for " + kernels, .remedy = ""});

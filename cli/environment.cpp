@@ -11,6 +11,8 @@
 #include "program_path.hpp"
 #include "prowl/error.hpp"
 #include "prowl/simulation/physics.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/library_release.hpp"
 #include "prowl/solvers/make_solver.hpp"
 
 namespace prowl::cli {
@@ -45,10 +47,31 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs) {
   return search;
 }
 
+std::string processor_features() {
+  std::string features;
+  if (__builtin_cpu_supports("avx")) features += " AVX";
+  if (__builtin_cpu_supports("avx2")) features += " AVX2";
+  if (__builtin_cpu_supports("fma")) features += " FMA";
+  return features.empty() ? "" : features.substr(1);
+}
+
 void check_processor() {
-  if (std::string_view(PROWL_SIMD) != "avx2") return;
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return;
-  throw InputError("this build of Prowl needs a processor with AVX2 and FMA: build with cmake -DPROWL_SIMD=baseline");
+  const char* const needed = std::string_view(PROWL_SIMD) == "avx2" ? "AVX2 FMA" : "";
+  if (const auto reason = why_missing_instructions("this build of Prowl", needed, processor_features())) {
+    throw InputError(*reason + ": build with cmake -DPROWL_SIMD=baseline");
+  }
+}
+
+void check_libraries() {
+  if (const auto reason = IpoptSolver::why_wrong_library()) throw InputError(*reason);
+}
+
+std::optional<std::string> why_no_mujoco() {
+  return why_missing_instructions("libmujoco.so", "AVX", processor_features());
+}
+
+void check_mujoco() {
+  if (const auto reason = why_no_mujoco()) throw InputError(*reason + ": prowl simulate --engine rollout does without");
 }
 
 std::map<std::string, std::string> versions() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,18 @@ namespace prowl::cli {
 /// the clone that this program was built in; and what was installed beside it.
 PackageSearch package_search(const std::vector<std::string>& package_dirs);
 
-/// Throws InputError if this processor lacks the instructions that the build uses (PROWL_SIMD).
+/// Instruction sets of this processor that Prowl and its libraries may ask for, with blanks between: "AVX AVX2 FMA".
+std::string processor_features();
+
+/// Throws InputError if this processor lacks the instructions that the build uses (PROWL_SIMD). Call before anything that computes.
 void check_processor();
+
+/// Throws InputError, with the remedy, if libraries are loaded that Prowl cannot work with.
+void check_libraries();
+
+/// Throws InputError if MuJoCo cannot run on this processor; the reason alone.
+void check_mujoco();
+std::optional<std::string> why_no_mujoco();
 
 /// "prowl", "vector instructions", "Pinocchio", "MuJoCo", "Eigen" and the name of each solver -> version.
 std::map<std::string, std::string> versions();

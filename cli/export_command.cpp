@@ -119,6 +119,7 @@ int run_export(const ExportArguments& arguments) {
   }
   const std::map<std::string, std::string> files = make_files(arguments, plan, samples);
   make_folder(out);
+  write_files_atomically(out, files);
   nlohmann::ordered_json json = {{"motion", samples.simulated ? "simulation" : "plan"},
                                  {"samples", samples.points.size()},
                                  {"has_gains", !samples.gains.empty()},
@@ -127,7 +128,6 @@ int run_export(const ExportArguments& arguments) {
   std::vector<fs::path> written;
   for (const auto& [name, content] : files) {
     written.push_back(out / name);
-    write_file_atomically(out / name, content);
     text += fmt::format("{:>10.1f} kB  {}\n", 1e-3 * static_cast<double>(content.size()), (out / name).string());
     json["files"].push_back({{"name", name}, {"bytes", content.size()}});
   }

@@ -116,6 +116,8 @@ int main(int argc, char** argv) {
   open_standard_streams();
   try {
     check_processor();
+    const std::string verb = verb_of(argc, argv);
+    if (!verb.empty() && verb != "doctor" && verb != "completion") check_libraries();  // doctor tells of them
     return run(argc, argv);
   } catch (const prowl::InputError& error) {
     return report(error, kBadInput);

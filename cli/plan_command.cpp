@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "checkpoint_option.hpp"
 #include "commands.hpp"
 #include "environment.hpp"
 #include "exit_status.hpp"
@@ -36,6 +37,7 @@ struct PlanArguments {
   TaskOverrides overrides;
   std::optional<double> step;  ///< [s]
   std::optional<MeshTolerance> refine;
+  CheckpointArguments checkpoint;
   bool json = false;
   bool print_phases = false;
   bool one_mesh = false;
@@ -129,11 +131,15 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
+  resume(arguments.checkpoint, package_search(arguments.package_dirs), arguments.refine.has_value(), task, options);
+  const std::string start = arguments.warm_start + arguments.checkpoint.resume;  // one of them, or none
+  const auto checkpoints = write_checkpoints(
+      arguments.checkpoint, out, {.task = task, .plan = {}, .versions = versions(), .warm_start = start}, options);
   Plan plan = arguments.refine ? make_refined(task.problem, *make_solver(arguments.solver), options, *arguments.refine)
                                : make_plan(task.problem, *make_solver(arguments.solver), options);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
-                    .feedback = {}, .iterations = progress.iterations(), .warm_start = arguments.warm_start};
+                    .feedback = {}, .iterations = progress.iterations(), .warm_start = start};
   if (!arguments.no_gains) add_feedback(record);
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
@@ -175,16 +181,20 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_option("--warm-start", arguments->warm_start,
                    "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ")
       ->type_name("DIR");
+  add_checkpoint(*verb, arguments->checkpoint);
+  verb->get_option("--resume")->excludes("--warm-start");
   add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, those of a gait too, and plan nothing");
-  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--refine", 
-                             "--no-gains", "--report"}) {
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--refine",
+                             "--no-gains", "--report", "--checkpoint", "--resume"}) {
     phases->excludes(unused);
   }
   set_footer(*verb, {"prowl plan tasks/hyq/crouch.toml", "prowl plan tasks/hyq/balance.toml --print-phases",
                      "prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out out/stand",
                      "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120",
+                     "prowl plan tasks/hyq/crouch.toml --checkpoint out/so_far --checkpoint-every 0",
+                     "prowl plan tasks/hyq/crouch.toml --resume out/so_far",
                      "prowl plan tasks/hyq/step.toml --refine", "prowl plan tasks/hyq/crouch.toml --refine certified"},
              "0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
              "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"

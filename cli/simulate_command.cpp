@@ -66,6 +66,7 @@ struct Outcome {
 };
 
 Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
+  check_mujoco();
   SimulationOptions options = arguments.options;
   options.open_loop = arguments.open_loop;
   options.control_rate = arguments.control_rate.value_or(options.control_rate);

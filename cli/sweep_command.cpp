@@ -42,6 +42,7 @@ auto with_bar(const char* what, const std::atomic<bool>& interrupted, const Run&
 }
 
 int run_sweep(const SweepArguments& arguments) {
+  check_mujoco();
   const std::atomic<bool>& interrupted = catch_interrupts();
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
   const MotionProblem& problem = plan.task.problem;

@@ -68,8 +68,8 @@ void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted,
   PlanOptions options{.solver = record.task.solver};
   options.solver.interrupt = &interrupted;
   progress.watch(options);
-  options.on_motion = [&](const Trajectory& motion) {
-    server.publish("iterate", report_iterate(record.task.problem, motion, progress.iterations().back()));
+  options.on_iterate = [&](const MotionProblem&, const Plan& iterate) {
+    server.publish("iterate", report_iterate(record.task.problem, iterate.trajectory, progress.iterations().back()));
   };
   const IpoptSolver hint_solver;
   options.hint_solver = &hint_solver;

@@ -1,6 +1,7 @@
 #include "prowl/plan.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
@@ -15,6 +16,8 @@ namespace prowl {
 
 namespace {
 
+using Eigen::VectorXd;
+
 /// Whether the next level may start from where this one stopped; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status) {
   return status != SolveStatus::infeasible && status != SolveStatus::evaluation_failed &&
@@ -22,13 +25,41 @@ bool is_worth_going_on_from(SolveStatus status) {
 }
 
 /// What is written of a problem that was not solved: the guess and how far it is off.
-SolveResult not_solved(Transcription& nlp, const Eigen::VectorXd& z) {
+SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
   SolveResult result{.status = SolveStatus::infeasible, .message = "not started: there is no solution", .z = z};
-  Eigen::VectorXd rows(nlp.num_constraints());
+  VectorXd rows(nlp.num_constraints());
   nlp.constraints(z, rows);
   result.cost = nlp.cost(z);
   result.constraint_violation = constraint_violation(nlp, z, rows);
   return result;
+}
+
+/// The plan if its solve, `before` and the mesh with so many intervals, were interrupted at this iterate.
+Plan interrupted_plan(const Plan& plan, const SolveResult& before, int intervals, Transcription& nlp, const VectorXd& z,
+                      const SolveProgress& progress) {
+  Plan iterate{.trajectory = nlp.unpack(z), .solver = plan.solver, .hessian = plan.hessian, .result = {}, .levels = plan.levels,
+               .certificate = {}, .num_variables = nlp.num_variables(), .num_constraints = nlp.num_constraints(),
+               .reasons = {}, .hints = {}};
+  iterate.result.status = SolveStatus::interrupted;
+  iterate.result.message = "an iterate on the way";
+  iterate.result.cost = progress.cost;
+  iterate.result.constraint_violation = progress.constraint_violation;
+  iterate.result.dual_violation = progress.dual_violation;
+  iterate.result.iterations = before.iterations + progress.iteration;
+  iterate.result.seconds = before.seconds + progress.elapsed_seconds;
+  iterate.levels.push_back({intervals, SolveStatus::interrupted, progress.iteration, progress.elapsed_seconds, 0.0});
+  return iterate;
+}
+
+/// The meshes to solve, one after the other.
+std::vector<MotionProblem> meshes_of(const MotionProblem& problem, const PlanOptions& options, bool may_have_solution) {
+  const bool from_neighbour = !options.start_from.empty() && !options.resume;
+  if (!options.coarse_first || from_neighbour || !may_have_solution) return {problem};
+  std::vector<MotionProblem> levels = mesh_levels(problem);
+  if (options.start_from.empty()) return levels;
+  const int intervals = static_cast<int>(options.start_from.nodes.size()) - (options.start_from.nodes.back().phase + 1);
+  std::erase_if(levels, [&](const MotionProblem& level) { return count_intervals(level) < intervals; });
+  return levels.empty() ? std::vector{problem} : levels;
 }
 
 /// Solves the problem on its mesh from plan.trajectory, or from the task alone if that is empty, and adds what comes out to
@@ -44,15 +75,27 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   SolverOptions level_options = options.solver;
   const bool from_elsewhere = plan.levels.empty();  // --warm-start
   level_options.start_is_near =
-      !plan.trajectory.empty() && (from_elsewhere || plan.result.status == SolveStatus::converged);
+      !plan.trajectory.empty() && (from_elsewhere ? !options.resume : plan.result.status == SolveStatus::converged);
   level_options.start_multipliers = from_elsewhere ? options.start_multipliers : std::vector<StageMultipliers>{};
   constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
   level_options.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
-  if (options.on_motion) level_options.on_iterate = [&](const Eigen::VectorXd& z) { options.on_motion(nlp.unpack(z)); };
   if (options.on_level) options.on_level(count_intervals(problem));
 
   const SolveResult before = std::move(plan.result);
-  const Eigen::VectorXd start = nlp.pack(guess);
+  SolveProgress progress;
+  if (options.on_iterate) {
+    level_options.on_iteration = [&](const SolveProgress& now) {
+      progress = now;
+      if (options.solver.on_iteration) options.solver.on_iteration(now);
+    };
+    level_options.on_iterate = [&](const VectorXd& z) {
+      try {
+        options.on_iterate(problem, interrupted_plan(plan, before, count_intervals(problem), nlp, z, progress));
+      } catch (const NumericalError&) {  // no motion, and the solver will find out
+      }
+    };
+  }
+  const VectorXd start = nlp.pack(guess);
   plan.result = plan.reasons.empty() ? solver.solve(nlp, start, level_options) : not_solved(nlp, start);
   plan.levels.push_back({count_intervals(problem), plan.result.status, plan.result.iterations, plan.result.seconds,
                          plan.result.times.cpu});
@@ -73,8 +116,7 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
   plan.hessian = options.hessian;
   plan.reasons = proofs_of_infeasibility(problem);
   plan.trajectory = options.start_from;
-  const bool one_level = !options.coarse_first || !plan.trajectory.empty() || !plan.reasons.empty();
-  for (const MotionProblem& level : one_level ? std::vector{problem} : mesh_levels(problem)) {
+  for (const MotionProblem& level : meshes_of(problem, options, plan.reasons.empty())) {
     if (!plan.levels.empty() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(level, solver, options, plan);
   }

@@ -41,6 +41,9 @@ struct PlanOptions {
   SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together
   /// Empty: start from the task alone, on a coarse mesh first. Else start from this motion (see resample()).
   Trajectory start_from = {};
+  /// start_from is an iterate of this problem, where a solve was stopped (Checkpoint): go on with its mesh, then with the finer
+  /// ones, and as from any guess. Else it is taken for a solution of a neighbouring problem, which the next is near to.
+  bool resume = false;
   /// Of the plan whose motion that is (Plan::result.stage_multipliers), if at hand and the mesh is the same.
   /// Sizes that do not fit are left out.
   std::vector<StageMultipliers> start_multipliers = {};
@@ -49,7 +52,9 @@ struct PlanOptions {
   HessianKind hessian = HessianKind::exact;
   bool coarse_first = true;  ///< false: on the mesh of the problem at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
-  std::function<void(const Trajectory&)> on_motion = {};  ///< the motion of each iterate; may be empty
+  /// Each iterate, on its mesh, as the plan that it would be if the solve were interrupted there, but without certificate and
+  /// times of evaluations. Takes some 3 % of an iteration; may be empty.
+  std::function<void(const MotionProblem& on_its_mesh, Plan iterate)> on_iterate = {};
 };
 
 /// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from makes

@@ -64,6 +64,7 @@ class Meshes {
   }
   Candidate solve_from(const Plan& plan, MotionProblem problem) {
     options_.start_from = plan.trajectory;
+    options_.resume = false;
     options_.start_multipliers.clear();
     return solve(std::move(problem));
   }

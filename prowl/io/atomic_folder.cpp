@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <regex>
 #include <vector>
 
 #include "prowl/error.hpp"
@@ -48,10 +50,29 @@ class Descriptor {
   int number_;
 };
 
+constexpr std::chrono::hours kLeftoverAge{1};  // no write takes nearly as long, on any machine that sees the folder
+
+/// ".prowl-4711-0.new": a SiblingFolder, or what a killed process left of one.
+bool is_sibling_name(const std::string& name) {
+  static const std::regex pattern(R"(\.prowl-[0-9]+-[0-9]+\.new)");
+  return std::regex_match(name, pattern);
+}
+
+/// Those that processes left which were killed.
+void remove_leftovers(const fs::path& folder) {
+  std::error_code error, ignored;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (!is_sibling_name(entry->path().filename().string())) continue;
+    const auto written = fs::last_write_time(entry->path(), ignored);
+    if (!ignored && fs::file_time_type::clock::now() - written > kLeftoverAge) fs::remove_all(entry->path(), ignored);
+  }
+}
+
 /// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the old.
 class SiblingFolder {
  public:
   explicit SiblingFolder(const fs::path& folder) {
+    remove_leftovers(folder.parent_path());
     for (int attempt = 0;; ++attempt) {
       path_ = folder.parent_path() / fmt::format(".prowl-{}-{}.new", ::getpid(), attempt);
       if (::mkdir(path_.c_str(), 0777) == 0) return;
@@ -76,8 +97,9 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
   if (errno != ENOTEMPTY && errno != EEXIST) fail(folder, "cannot put the new folder in place", errno);
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) fail(folder, "cannot exchange with the new folder", errno);
-  // Some network file systems cannot exchange: two renames, and the first is taken back if the second fails.
-  const fs::path old = fresh.string() + ".old";
+  // Some network file systems cannot exchange: two renames, and the first is taken back if the second fails. A kill between them
+  // leaves the old content under a name that says whose it was.
+  const fs::path old = fmt::format("{}.prowl-{}.old", folder.string(), ::getpid());
   if (::rename(folder.c_str(), old.c_str()) != 0) fail(folder, "cannot move the old folder away", errno);
   if (::rename(fresh.c_str(), folder.c_str()) != 0) {
     const int error = errno;
@@ -124,8 +146,11 @@ void try_to_make(const fs::path& path) {
   remove_missing();
 }
 
-/// A file of one of these names, or a folder that one of them goes through.
+/// A file of one of these names, a folder that one of them goes through, or what a killed process left.
 bool is_own(const std::string& name, const fs::directory_entry& entry, const std::set<std::string>& own_names) {
+  for (const fs::path& part : fs::path(name)) {
+    if (is_sibling_name(part.string())) return true;
+  }
   if (entry.is_regular_file()) return own_names.contains(name);
   if (entry.is_symlink()) return false;  // what it leads to is not looked through
   const auto inside = own_names.lower_bound(name + "/");
@@ -169,17 +194,29 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
   Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
 }
 
-void write_file_atomically(const fs::path& file, const std::string& text) {
-  const fs::path path = real_path(file);
-  const SiblingFolder fresh(path);
-  const fs::path written = fresh.path() / "file";
-  {
-    const Descriptor descriptor(written, O_WRONLY | O_CREAT | O_EXCL);
+void write_files_atomically(const fs::path& folder, const std::map<std::string, std::string>& files) {
+  const fs::path place = real_path(folder);
+  std::error_code error;
+  for (const auto& [name, text] : files) {  // a rename would put a file in place of /dev/null, for who may do that
+    const fs::file_status old = fs::status(place / name, error);
+    if (fs::exists(old) && !fs::is_regular_file(old)) throw FileError(fmt::format("{}: not a file", (place / name).string()));
+  }
+  const SiblingFolder fresh(place / "file");
+  for (const auto& [name, text] : files) {
+    const Descriptor descriptor(fresh.path() / name, O_WRONLY | O_CREAT | O_EXCL);
     descriptor.write_all(text);
     descriptor.sync();
   }
-  if (::rename(written.c_str(), path.c_str()) != 0) fail(path, "cannot put the new file in place", errno);
-  Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
+  for (const auto& [name, text] : files) {
+    const fs::path target = place / name;
+    if (::rename((fresh.path() / name).c_str(), target.c_str()) != 0) fail(target, "cannot put the new file in place", errno);
+  }
+  Descriptor(place, O_RDONLY | O_DIRECTORY).sync();
+}
+
+void write_file_atomically(const fs::path& file, const std::string& text) {
+  const fs::path path = real_path(file);
+  write_files_atomically(path.parent_path(), {{path.filename().string(), text}});
 }
 
 }  // namespace prowl

@@ -15,10 +15,18 @@ void check_replaceable(const std::filesystem::path& folder, const std::set<std::
 /// Makes `folder` hold exactly these files (name -> content), whole or not at all: they are written and synced in a
 /// folder beside it, which then takes its place by one rename; what was there before is removed after that. A folder that
 /// holds anything not in `own_names` is left alone. Throws FileError, and then the old content is as it was.
+///
+/// A process that is killed leaves what it was writing beside the folder, as ".prowl-PID-N.new"; what is an hour old of that is
+/// removed by the next that writes there. Where the file system cannot exchange folders (some network ones), a kill between two
+/// renames leaves the old content as FOLDER.prowl-PID.old.
 void write_folder_atomically(const std::filesystem::path& folder, const std::map<std::string, std::string>& files,
                              const std::set<std::string>& own_names);
 
-/// The same for one file: beside it, synced, then renamed. Throws FileError, and then the old one is as it was.
+/// Files in a folder that holds others, too: written and synced beside them, then renamed one after the other. Throws FileError;
+/// unless that came of a rename, all old ones are as they were. A kill between two renames leaves each file whole, old or new.
+void write_files_atomically(const std::filesystem::path& folder, const std::map<std::string, std::string>& files);
+
+/// The same for one file. Throws FileError, and then the old one is as it was.
 void write_file_atomically(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace prowl

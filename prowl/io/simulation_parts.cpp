@@ -53,8 +53,7 @@ std::string error_line(const std::string& name, const ErrorMeasure& error, doubl
 }
 
 void write_simulation_files(const std::filesystem::path& directory, const std::string& json, const std::string& csv) {
-  write_file_atomically(directory / "simulate.csv", csv);
-  write_file_atomically(directory / "simulate.json", json);
+  write_files_atomically(directory, {{"simulate.csv", csv}, {"simulate.json", json}});
 }
 
 }  // namespace prowl

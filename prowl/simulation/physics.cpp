@@ -45,6 +45,7 @@ void Physics::set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
 }
 
 bool Physics::step(const Eigen::VectorXd& tau, const Eigen::Vector3d& push) {
+  if (!tau.allFinite()) return false;  // MuJoCo would go on with torques of zero
   mjData* const data = engine_->data.get();
   Eigen::Map<Eigen::VectorXd>(data->ctrl, tau.size()) = tau;
   Eigen::Map<Eigen::Vector3d>(data->xfrc_applied + 6 * engine_->mujoco.base_body) = push;

@@ -46,7 +46,7 @@ class Physics {
   const Eigen::VectorXd& v() const { return v_; }
 
   /// One step with joint torques tau (nu, as they are: no limit) and a force on the base's centre of mass [N], world axes.
-  /// False if the result is not finite: then it is over.
+  /// False if the torques or the result are not finite: then it is over.
   bool step(const Eigen::VectorXd& tau, const Eigen::Vector3d& push = Eigen::Vector3d::Zero());
 
   /// One for each contact of the robot.

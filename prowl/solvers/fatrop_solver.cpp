@@ -19,6 +19,7 @@ extern "C" {  // the header does not say so itself
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
+#include "prowl/solvers/library_release.hpp"
 #include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
@@ -210,7 +211,6 @@ class FatropProblem : public fatrop::Nlp<Type> {
     auto& iterate = const_cast<fatrop::IpData<Type>&>(data).current_iterate();
     iterations_ = data.iteration_number();
     note(iterate);
-    failure_.clear();  // a shorter step got away from it
     if (options_.on_iteration) {
       options_.on_iteration({iterations_, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - began_});
     }
@@ -218,8 +218,10 @@ class FatropProblem : public fatrop::Nlp<Type> {
     check_limits();
     if (iterations_ >= options_.max_iterations) throw Stopped{SolveStatus::iteration_limit, "iteration limit reached"};
     if (!std::isfinite(last_.cost) || !std::isfinite(last_.violation) || !std::isfinite(last_.dual_violation)) {
-      throw Stopped{SolveStatus::evaluation_failed, "the iterate is not finite"};  // its linear solver would never end
+      const std::string reason = failure_.empty() ? "the iterate is not finite" : failure_;
+      throw Stopped{SolveStatus::evaluation_failed, reason};  // its linear solver would never end
     }
+    failure_.clear();  // a shorter step got away from it
     refresh_multipliers(iterate);
   }
 
@@ -262,7 +264,9 @@ class FatropProblem : public fatrop::Nlp<Type> {
       if (evaluate(k)) return true;
       failure_ = fmt::format("{} is not finite at {}", what, nlp_.describe_stage(k));
     } catch (const NumericalError& error) {
-      failure_ = fmt::format("{}: {}", what, error.what());
+      failure_ = fmt::format("{} at {}: {}", what, nlp_.describe_stage(k), error.what());
+    } catch (const std::exception& error) {
+      throw Stopped{SolveStatus::solver_failed, fmt::format("{} at {} threw: {}", what, nlp_.describe_stage(k), error.what())};
     }
     return false;
   }
@@ -346,7 +350,18 @@ std::string FatropSolver::linear_algebra() {
   return features;
 }
 
+std::string FatropSolver::processor() {
+  int features = 0;
+  blasfeo_processor_cpu_features(&features);
+  char text[256] = {};
+  blasfeo_processor_feature_string(features, text);
+  return text;
+}
+
 std::optional<std::string> FatropSolver::why_unsupported(Nlp& nlp) const {
+  if (const auto reason = why_missing_instructions("libblasfeo.so", linear_algebra(), processor())) {
+    return *reason + ": install the one of the pinned casadi wheel (scripts/setup), or take another --solver";
+  }
   return why_no_chain(nlp, "Fatrop");
 }
 
@@ -387,6 +402,9 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     result.iterations = problem->iterations();
   } catch (const std::exception& error) {
     stopped = {SolveStatus::solver_failed, error.what()};
+    result.iterations = problem->iterations();
+  } catch (...) {
+    stopped = {SolveStatus::solver_failed, "stopped by something that is not a std::exception"};
     result.iterations = problem->iterations();
   }
   result.status = stopped.status;

@@ -24,6 +24,8 @@ class FatropSolver : public NlpSolver {
 
   /// What the kernels of its linear algebra (BLASFEO) were built for: "AVX2 FMA"; "" if they know of no instruction set.
   static std::string linear_algebra();
+  /// What of that this processor has, in the same words.
+  static std::string processor();
 };
 
 }  // namespace prowl

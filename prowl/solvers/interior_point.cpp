@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <stdexcept>
 
 #include "prowl/error.hpp"
 #include "prowl/solvers/stopwatch.hpp"
@@ -89,10 +91,22 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options, in
   for (VectorXd* v : {&s_, &ds_, &lambda_, &beta_, &sigma_, &residual_, &step_lambda_}) v->setZero(rows_.back());
 }
 
+/// function(), and what it cannot evaluate gets its place: the functions of a stage know neither phase nor time.
+template <class Function>
+void InteriorPoint::at_stage(int k, Function function) const {
+  try {
+    function();
+  } catch (const NumericalError& error) {
+    throw NumericalError(fmt::format("{}: {}", nlp_.describe_stage(k), error.what()));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", nlp_.describe_stage(k), error.what()));
+  }
+}
+
 bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
   const Stopwatch stopwatch(times_.values);
   try {
-    threads_.for_each(num_stages_, [&](int k) { evaluate_stage(k, ux, values); });
+    threads_.for_each(num_stages_, [&](int k) { at_stage(k, [&] { evaluate_stage(k, ux, values); }); });
   } catch (const NumericalError& error) {
     failure_ = error.what();
     return false;
@@ -108,10 +122,16 @@ void InteriorPoint::evaluate_stage(int k, const StageVectors& ux, Values& values
   values.equalities[i] = stage.equalities;
   segment(values.inequalities, k) = stage.inequalities;
   if (k + 1 < num_stages_) values.links[i] = stage.next - ux[i + 1].tail(stage.next.size());
-  if (!std::isfinite(stage.cost) || !stage.equalities.allFinite() || !stage.inequalities.allFinite() ||
-      !stage.next.allFinite()) {
-    throw NumericalError("a function is not finite at " + nlp_.describe_stage(k));
-  }
+  if (!std::isfinite(stage.cost)) throw NumericalError("the cost is not finite");
+  if (!stage.equalities.allFinite()) throw NumericalError("an equality is not finite");
+  if (!stage.inequalities.allFinite()) throw NumericalError("an inequality is not finite");
+  if (!stage.next.allFinite()) throw NumericalError("the next state is not finite");
+}
+
+/// Those of the other functions are found where they are used; these spread to all stages first.
+void InteriorPoint::need_finite_slopes(int k) const {
+  if (!nlp_.cost_gradient(k).allFinite()) throw NumericalError("the gradient of the cost is not finite");
+  if (!nlp_.equality_slopes(k).allFinite()) throw NumericalError("the derivatives of an equality are not finite");
 }
 
 void InteriorPoint::linearise() {
@@ -119,14 +139,22 @@ void InteriorPoint::linearise() {
   threads_.for_each(num_stages_, [this](int k) {
     const auto i = static_cast<std::size_t>(k);
     on_[i].inequalities = segment(lambda_, k);
-    nlp_.linearise(k, ux_[i], cost_scale_, on_[i]);
+    at_stage(k, [&] {
+      nlp_.linearise(k, ux_[i], cost_scale_, on_[i]);
+      need_finite_slopes(k);
+    });
   });
 }
 
 /// For what needs no second derivatives.
 void InteriorPoint::linearise_to_first_order() {
   const Stopwatch stopwatch(times_.derivatives);
-  threads_.for_each(num_stages_, [this](int k) { nlp_.linearise_to_first_order(k, ux_[static_cast<std::size_t>(k)]); });
+  threads_.for_each(num_stages_, [this](int k) {
+    at_stage(k, [&] {
+      nlp_.linearise_to_first_order(k, ux_[static_cast<std::size_t>(k)]);
+      need_finite_slopes(k);
+    });
+  });
 }
 
 StageKkt::Outcome InteriorPoint::factorise(StageKkt::Hessian hessian, double delta) {
@@ -157,7 +185,7 @@ void InteriorPoint::update_dual_violation() {
     on_[i].inequalities = segment(lambda_, k);
     nlp_.add_pull_back(k, on_[i].next, on_[i].inequalities, violation);
     if (k > 0) violation.tail(nlp_.size(k).states) -= on_[i - 1].next;
-    if (!violation.allFinite()) throw NumericalError("derivatives are not finite at " + nlp_.describe_stage(k));
+    if (!violation.allFinite()) throw NumericalError(nlp_.describe_stage(k) + ": first derivatives are not finite");
     if (violation.size() > 0) largest_dual_violation_ = std::max(largest_dual_violation_, violation.cwiseAbs().maxCoeff());
   }
 }
@@ -301,7 +329,9 @@ bool InteriorPoint::compute_direction(double least_regularisation, std::string& 
   while (true) {
     const StageKkt::Outcome outcome = factorise(StageKkt::Hessian::lagrangian, regularisation_);
     if (outcome == StageKkt::Outcome::solvable) break;
-    if (outcome == StageKkt::Outcome::not_finite) throw NumericalError("second derivatives are not finite");
+    if (outcome == StageKkt::Outcome::not_finite) {
+      throw NumericalError(nlp_.describe_stage(kkt_.last_stage()) + ": second derivatives are not finite");
+    }
     if (regularisation_ == 0.0) {
       regularisation_ = last_regularisation_ == 0.0 ? kFirstRegularisation
                                                     : std::max(kLeastRegularisation, kDecrease * last_regularisation_);

@@ -47,8 +47,11 @@ class InteriorPoint {
     Eigen::VectorXd inequalities;
   };
 
+  template <class Function>
+  void at_stage(int k, Function function) const;
   bool evaluate(const StageVectors& ux, Values& values);
   void evaluate_stage(int k, const StageVectors& ux, Values& values);
+  void need_finite_slopes(int k) const;
   void linearise();
   void linearise_to_first_order();
   double violation(const Values& values, const Eigen::VectorXd& s) const;          ///< sum of absolute values

@@ -159,7 +159,8 @@ std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Wa
     slacks_.center(mu_);
     set_weights();
     if (factorise(StageKkt::Hessian::identity, std::sqrt(mu_)) != StageKkt::Outcome::solvable) {
-      return Ending{solver_failed, "restoration of feasibility: its equations are singular"};
+      return Ending{solver_failed, fmt::format("restoration of feasibility: its equations are singular at {}",
+                                               nlp_.describe_stage(kkt_.last_stage()))};
     }
     set_right_sides(values_, slacks_.s);
     solve_direction(0.0, residual_);

@@ -1,23 +1,32 @@
 #include "prowl/solvers/ipopt_solver.hpp"
 
 #include <IpoptConfig.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <IpIpoptApplication.hpp>
 #include <IpLinearSolvers.h>
+#include <IpStdCInterface.h>
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
+#include "prowl/solvers/library_release.hpp"
 #include "prowl/solvers/stopwatch.hpp"
 
 // MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: another BLAS may not have it.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+// Ipopt 3.14 has the first of these, 3.14.18 both. Weak, for another libipopt.so may come first, by LD_LIBRARY_PATH: it is to be
+// named, not a symbol that it lacks.
+#pragma weak IpoptGetAvailableLinearSolvers
+#pragma weak GetIpoptVersion
 
 namespace prowl {
 namespace {
@@ -235,8 +244,24 @@ void set_linear_solver(Ipopt::OptionsList& list, IpoptLinearSolver linear_solver
   list.SetIntegerValue("mumps_scaling", 7);
 }
 
+/// Of the library that is loaded, which need not be the one that Prowl was built with.
+std::string loaded_version() {
+  if (!IpoptGetAvailableLinearSolvers) return "before 3.14";
+  if (!GetIpoptVersion) return "3.14";
+  int major = 0, minor = 0, release = 0;
+  GetIpoptVersion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
+std::string loaded_file() {
+  Dl_info info = {};
+  const bool is_known = GetIpoptVersion && ::dladdr(reinterpret_cast<void*>(&GetIpoptVersion), &info) != 0;
+  return is_known && info.dli_fname ? info.dli_fname : "libipopt.so";
+}
+
 /// Ipopt is built with some linear solvers and without others.
 std::optional<std::string> why_missing(IpoptLinearSolver linear_solver) {
+  if (auto reason = IpoptSolver::why_wrong_library()) return reason;
   const bool spral = linear_solver == IpoptLinearSolver::spral;
   const unsigned built_in = IpoptGetAvailableLinearSolvers(true);
   if (built_in & (spral ? IPOPTLINEARSOLVER_SPRAL : IPOPTLINEARSOLVER_MUMPS)) return std::nullopt;
@@ -299,7 +324,11 @@ std::string IpoptSolver::name() const {
   return linear_solver_ == IpoptLinearSolver::spral ? "Ipopt-SPRAL" : "Ipopt";
 }
 
-std::string IpoptSolver::version() const { return IPOPT_VERSION; }
+std::string IpoptSolver::version() const { return loaded_version(); }
+
+std::optional<std::string> IpoptSolver::why_wrong_library() {
+  return why_other_release("Ipopt", loaded_version(), IPOPT_VERSION, loaded_file());
+}
 
 std::optional<std::string> IpoptSolver::why_unsupported(Nlp& nlp) const {
   if (auto reason = why_missing(linear_solver_)) return reason;
@@ -318,7 +347,15 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   if (const auto missing = why_missing(linear_solver_)) {
     result.message = *missing;
   } else if (guarded.finite_point(z_start)) {
-    run_ipopt(guarded, z_start, options, linear_solver_, start, result);
+    try {
+      run_ipopt(guarded, z_start, options, linear_solver_, start, result);
+    } catch (const std::exception& error) {
+      result.status = SolveStatus::solver_failed;
+      result.message = fmt::format("Ipopt: {}", error.what());
+    } catch (...) {
+      result.status = SolveStatus::solver_failed;
+      result.message = "Ipopt: stopped by something that is not a std::exception";
+    }
   } else {
     result.status = SolveStatus::evaluation_failed;
     result.message = fmt::format("start: {}", guarded.failure());

@@ -20,10 +20,13 @@ class IpoptSolver : public NlpSolver {
   explicit IpoptSolver(IpoptLinearSolver linear_solver = IpoptLinearSolver::mumps) : linear_solver_(linear_solver) {}
 
   std::string name() const override;
-  std::string version() const override;
+  std::string version() const override;  ///< of the library that is loaded
   std::optional<std::string> why_unsupported(Nlp& nlp) const override;
   /// Throws InputError only if an option or the size of z_start makes no sense.
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
+
+  /// The reason, for the user to read, why Prowl cannot work with the libipopt.so that is loaded.
+  static std::optional<std::string> why_wrong_library();
 
  private:
   IpoptLinearSolver linear_solver_;

@@ -2,24 +2,27 @@
 
 #include <limits>
 
-#include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/solvers/guarded_nlp.hpp"
 
 namespace prowl {
 
 void judge(Nlp& nlp, double tolerance, const std::string& solver, SolveResult& result) {
-  try {
-    Eigen::VectorXd rows(nlp.num_constraints());
-    nlp.constraints(result.z, rows);
-    result.cost = nlp.cost(result.z);
+  using enum SolveStatus;
+  GuardedNlp guarded(nlp);
+  Eigen::VectorXd rows(nlp.num_constraints());
+  if (guarded.finite_point(result.z) && guarded.cost(result.z, result.cost) && guarded.constraints(result.z, rows)) {
     result.constraint_violation = constraint_violation(nlp, result.z, rows);
-  } catch (const NumericalError& error) {
-    result.status = SolveStatus::evaluation_failed;
-    result.message = error.what();
+  } else {
     result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
+    const bool has_reason = result.status == solver_failed || result.status == evaluation_failed;  // of where it began
+    if (!has_reason) {
+      result.status = guarded.broken() ? solver_failed : evaluation_failed;
+      result.message = "result cannot be evaluated: " + guarded.failure();
+    }
   }
-  if (result.status == SolveStatus::converged && !(result.constraint_violation <= tolerance)) {
-    result.status = SolveStatus::solver_failed;
+  if (result.status == converged && !(result.constraint_violation <= tolerance)) {
+    result.status = solver_failed;
     result.message = solver + " says it is done, but a constraint is not within tolerance";
   }
 }

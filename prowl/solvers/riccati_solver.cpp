@@ -1,5 +1,7 @@
 #include "prowl/solvers/riccati_solver.hpp"
 
+#include <exception>
+
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/interior_point.hpp"
 #include "prowl/solvers/judge.hpp"
@@ -47,7 +49,13 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     if (iteration >= options.max_iterations) return {{iteration_limit, "iteration limit reached"}};
     return std::nullopt;
   };
-  const InteriorPoint::Ending ending = method.run(stages.stages(z_start), watch);
+  InteriorPoint::Ending ending{SolveStatus::solver_failed, "stopped by something that is not a std::exception"};
+  try {
+    ending = method.run(stages.stages(z_start), watch);
+  } catch (const std::exception& error) {
+    ending.message = error.what();
+  } catch (...) {
+  }
   result.status = ending.status;
   result.message = ending.message;
   result.iterations = method.iterations();

@@ -55,6 +55,7 @@ StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const Stage
   delta_ = delta;
   weights_ = weights;
   for (int k = num_stages_ - 1; k >= 0; --k) {
+    last_stage_ = k;
     const Outcome outcome = factorise_stage(k);
     if (outcome != Outcome::solvable) return outcome;
   }

@@ -38,6 +38,7 @@ class StageKkt {
 
   /// `weights`: of the inequalities. With `identity` M is delta I and the weighted inequalities.
   Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
+  int last_stage() const { return last_stage_; }  ///< where the latest factorisation ended: 0 if it is solvable
 
   /// Of g, c and b, one vector a stage each; b has none after the last stage. `accuracy`: of the equations, largest
   /// absolute value, where iterative refinement may end.
@@ -114,6 +115,7 @@ class StageKkt {
   std::vector<Stage> stages_;
   Work work_;
   StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
+  int last_stage_ = 0;
   bool is_exact_ = true;  ///< no pivot but rounding was left out
   Hessian hessian_ = Hessian::lagrangian;
   double delta_ = 0.0;

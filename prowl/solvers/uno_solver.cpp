@@ -13,6 +13,7 @@
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
+#include "prowl/solvers/library_release.hpp"
 #include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl {
@@ -253,7 +254,11 @@ std::string UnoSolver::version() const {
   return fmt::format("{}.{}.{}", major, minor, patch);
 }
 
-std::optional<std::string> UnoSolver::why_unsupported(Nlp& nlp) const { return why_nothing_left(nlp); }
+std::optional<std::string> UnoSolver::why_unsupported(Nlp& nlp) const {
+  const std::string built = fmt::format("{}.{}.{}", UNO_VERSION_MAJOR, UNO_VERSION_MINOR, UNO_VERSION_PATCH);
+  if (auto reason = why_other_release("Uno", version(), built, "libuno.so")) return reason;
+  return why_nothing_left(nlp);
+}
 
 SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
   check_arguments(nlp, z_start, options);
@@ -264,6 +269,7 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
   UnoProblem problem(guarded, options, start);
   SolveResult result;
   try {
+    if (const auto reason = why_unsupported(nlp)) throw Stopped{SolveStatus::solver_failed, *reason};
     problem.begin(z_start);
     run_uno(nlp, z_start, options, problem, result);
   } catch (const Stopped& stopped) {
@@ -273,6 +279,10 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
   } catch (const std::exception& error) {
     result.message = fmt::format("Uno: {}", error.what());
     result.iterations = problem.iterations();
+  }
+  if (guarded.broken()) {
+    result.status = SolveStatus::solver_failed;
+    result.message = guarded.failure();
   }
   const bool gave_up = result.status == SolveStatus::solver_failed && !guarded.broken();
   if (gave_up && !guarded.failure().empty()) {

@@ -10,6 +10,7 @@ NB_MODULE(_prowl, module) {
   module.doc() = "Prowl's library as seen from Python; use it through the package prowl.";
   bind_errors(module);
   prowl::cli::check_processor();
+  prowl::cli::check_libraries();
   bind_robot(module);
   bind_task(module);
   bind_certificate(module);

@@ -38,6 +38,22 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
   }
 }
 
+/// As where LD_LIBRARY_PATH has another Ipopt first.
+TEST_F(Command, AnotherIpoptIsNamedBeforeItIsUsed) {
+  const std::string old = "LD_PRELOAD='" PROWL_OLD_IPOPT "' $prowl ";
+  const Outcome plan = run(old + "plan hold.toml $dirs --out out");
+  EXPECT_EQ(plan.status, 2);
+  EXPECT_THAT(plan.error, HasSubstr("is Ipopt 3.11.9, and this Prowl was built with Ipopt 3.14"));
+  EXPECT_THAT(plan.error, HasSubstr("LD_LIBRARY_PATH"));
+  EXPECT_THAT(plan.error, HasSubstr("old_ipopt")) << "where it is";
+  EXPECT_FALSE(written());
+  EXPECT_THAT(run(old + "--version").out, HasSubstr("Ipopt 3.11.9"));
+  const Outcome doctor = run("ROS_PACKAGE_PATH=" PROWL_ROBOTS_DATA " " + old + "doctor");
+  EXPECT_EQ(doctor.status, 3) << doctor.out << doctor.error;
+  EXPECT_THAT(doctor.out, HasSubstr("does not solve a small task: "));
+  EXPECT_THAT(doctor.out, HasSubstr("is Ipopt 3.11.9, and this Prowl was built with"));
+}
+
 /// The program alone in a folder, without the files beside it and away from the .venv.
 TEST_F(Command, DoctorSaysWhatIsMissingAndHowToGetIt) {
   const Outcome result = run("mkdir bin; cp $prowl bin/prowl; unset ROS_PACKAGE_PATH AMENT_PREFIX_PATH; bin/prowl doctor");

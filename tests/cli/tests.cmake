@@ -1,9 +1,19 @@
 if(PROWL_BUILD_CLI)
-  foreach(name command compare completion doctor help json new progress screen simulate sweep)
+  foreach(name checkpoint command compare completion doctor faults help json new progress screen simulate sweep)
     prowl_test(cli/${name} prowl::io nlohmann_json::nlohmann_json)
     target_compile_definitions(cli_${name}_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
     add_dependencies(cli_${name}_test prowl_cli)
   endforeach()
+
+  # For LD_PRELOAD: an older Ipopt, files that cannot be written.
+  add_library(old_ipopt SHARED ${CMAKE_CURRENT_LIST_DIR}/old_ipopt.cpp)
+  target_compile_definitions(cli_doctor_test PRIVATE PROWL_OLD_IPOPT="$<TARGET_FILE:old_ipopt>")
+  add_dependencies(cli_doctor_test old_ipopt)
+  add_library(faulty_files SHARED ${CMAKE_CURRENT_LIST_DIR}/faulty_files.cpp)
+  target_link_libraries(faulty_files PRIVATE ${CMAKE_DL_LIBS})
+  target_compile_definitions(cli_faults_test PRIVATE PROWL_FAULTY_FILES="$<TARGET_FILE:faulty_files>")
+  add_dependencies(cli_faults_test faulty_files)
+  set_tests_properties(cli/faults PROPERTIES TIMEOUT 3600)  # PROWL_KILLS=200
 
   find_package(CLI11 REQUIRED)
   # A command of verbs of verbs, for the completion of what prowl itself need not have.

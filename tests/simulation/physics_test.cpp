@@ -70,6 +70,19 @@ TEST(Physics, APushChangesMomentumByItsImpulse) {
   EXPECT_LT((base_rotation(physics.q()) * momentum() - expected).norm(), 1e-4 * expected.norm());
 }
 
+/// MuJoCo itself would go on from its start.
+TEST(Physics, SaysThatAStateIsNoNumber) {
+  for (const bool in_torque : {true, false}) {
+    const RobotModel robot = test::hyq();
+    Physics physics(robot, {Surface{}}, {});
+    Eigen::VectorXd tau = Eigen::VectorXd::Zero(robot.nu()), v = Eigen::VectorXd::Zero(robot.nv());
+    EXPECT_TRUE(physics.step(tau));
+    (in_torque ? tau(3) : v(7)) = std::nan("");
+    if (!in_torque) physics.set_state(robot.nominal_configuration(), v);
+    EXPECT_FALSE(physics.step(tau)) << in_torque;
+  }
+}
+
 /// A stiff robot dropped by nothing on the floor: the feet carry its weight.
 TEST(Physics, FeetCarryTheWeight) {
   const RobotModel robot = test::hyq();

@@ -81,6 +81,21 @@ TEST_F(Standing, ForcesAreThoseOfTheProjectedDynamics) {
   }
 }
 
+/// A blow beyond all numbers: MuJoCo would start again from the nominal posture, and the rest would look like a success.
+TEST_F(Standing, EndsWhereTheStateIsNoNumber) {
+  for (const bool perfect_state : {true, false}) {
+    SimulationOptions options;
+    options.perfect_state = perfect_state;
+    options.record_rate = 1000.0;
+    options.pushes = {{{0.0, 1e300, 0.0}, 0.3, 0.1}};
+    const SimulationResult result = simulate(problem_, tracker_, criteria_, options);
+    EXPECT_EQ(result.end, SimulationResult::End::diverged);
+    EXPECT_FALSE(result.success());
+    EXPECT_NEAR(result.end_time, 0.3, 0.02);
+    for (const SimulationSample& sample : result.samples) EXPECT_TRUE(sample.q.allFinite() && sample.tau.allFinite());
+  }
+}
+
 TEST_F(Standing, RefusesWhatMakesNoSense) {
   SimulationOptions options;
   options.delay = -1.0;

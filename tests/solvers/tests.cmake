@@ -1,4 +1,7 @@
 prowl_test(solvers/guarded_nlp prowl::solvers)
+prowl_test(solvers/faults prowl::solvers)
+prowl_test(solvers/library_release prowl::solvers)
+prowl_test(solvers/wrong_libraries prowl::solvers)
 prowl_test(solvers/program_solvers prowl::solvers)
 prowl_test(solvers/ipopt_without_spral prowl::solvers)
 prowl_test(solvers/uno_solver prowl::solvers)

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "prowl/io/checkpoint.hpp"
+
+namespace prowl::cli {
+
+struct CheckpointArguments {
+  std::string folder;   ///< "": none
+  double every = 10.0;  ///< [s]; an iteration of the largest tasks takes a tenth of this, and to write one a hundredth
+  std::string resume;   ///< folder; "": from the task alone
+};
+
+/// --checkpoint, --checkpoint-every and --resume.
+void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments);
+
+/// Sets PlanOptions::start_from to go on from the folder of --resume, if there is one, and task.problem to its mesh if that is
+/// refined. Throws InputError that names the folder if it is of another task or mesh.
+void resume(const CheckpointArguments& arguments, const PackageSearch& search, bool is_refined, Task& task,
+            PlanOptions& options);
+
+/// Has checkpoints of `so_far` written in the solve with these options, as long as the result lives; null without --checkpoint. Throws
+/// InputError if they were to be written into the plan's own folder `out`, FileError if they cannot be.
+std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& arguments, const std::filesystem::path& out,
+                                              PlanRecord so_far, PlanOptions& options);
+
+}  // namespace prowl::cli

@@ -1,0 +1,89 @@
+#include "prowl/io/checkpoint.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "prowl/error.hpp"
+#include "prowl/io/json_text.hpp"
+#include "prowl/solvers/iterate.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
+
+namespace prowl {
+namespace {
+
+IterateFigures figures(const SolveResult& result) {
+  return {result.cost, result.constraint_violation, result.dual_violation};
+}
+
+std::chrono::steady_clock::duration seconds(double s) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(s));
+}
+
+bool is_same_mesh(const MotionProblem& a, const MotionProblem& b) {
+  const auto same_share = [](double one, double other) { return std::abs(one - other) < 1e-9; };  // rounding of a file
+  const auto same = [&](const Phase& one, const Phase& other) {
+    return one.intervals == other.intervals && std::ranges::equal(one.shares, other.shares, same_share);
+  };
+  return std::ranges::equal(a.phases, b.phases, same);
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(std::filesystem::path folder, double every, PlanRecord so_far)
+    : folder_(std::move(folder)), every_(every), best_(std::move(so_far)), next_(Clock::now() + seconds(every)) {
+  check_plan_directory(folder_);
+}
+
+void Checkpoint::watch(PlanOptions& options, std::function<void(const std::string& why)> on_failure) {
+  on_failure_ = std::move(on_failure);
+  options.on_iterate = [this, also = options.on_iterate](const MotionProblem& on_its_mesh, Plan iterate) {
+    if (also) also(on_its_mesh, iterate);
+    try {  // called from within a solver
+      take(on_its_mesh, std::move(iterate));
+    } catch (const std::exception& error) {
+      on_failure_(error.what());
+    }
+  };
+}
+
+void Checkpoint::take(const MotionProblem& on_its_mesh, Plan iterate) {
+  const bool is_new_mesh = best_.plan.trajectory.empty() || !is_same_mesh(on_its_mesh, best_.task.problem);
+  if (is_new_mesh || is_better(figures(iterate.result), figures(best_.plan.result), best_.task.solver.tolerance)) {
+    if (is_new_mesh) best_.task.problem = on_its_mesh;
+    best_.plan = std::move(iterate);
+    is_written_ = false;
+  }
+  if (!is_written_ && Clock::now() >= next_) write();
+}
+
+void Checkpoint::write() {
+  next_ = Clock::now() + seconds(every_);  // also after a failure: a disk that is full stays so for a while
+  write_plan(folder_, best_);
+  next_ = Clock::now() + seconds(every_);
+  is_written_ = true;
+}
+
+void check_resumable(const PlanRecord& record, const Task& task, const std::vector<MotionProblem>& meshes) {
+  const auto refuse = [](const std::string& reason) { throw InputError(reason + "; --warm-start starts from it"); };
+  if (is_good(record.plan)) refuse("the plan is finished, there is nothing to go on with");
+  if (!record.plan.reasons.empty()) throw InputError("the task has no solution: " + record.plan.reasons.front());
+  const auto compare = [&](const char* what, const std::string& then, const std::string& now) {
+    if (then != as_utf8(now)) refuse(fmt::format("the {} is not that of the checkpoint", what));
+  };
+  compare("task file", record.task.task_file.text, task.task_file.text);
+  compare("robot file", record.task.robot_file.text, task.robot_file.text);
+  compare("URDF", as_utf8(record.task.problem.robot.description().urdf_text), task.problem.robot.description().urdf_text);
+  const auto is_its_mesh = [&](const MotionProblem& mesh) { return is_same_mesh(mesh, record.task.problem); };
+  if (meshes.empty() || std::ranges::any_of(meshes, is_its_mesh)) return;
+  std::vector<int> intervals;
+  for (const MotionProblem& mesh : meshes) intervals.push_back(count_intervals(mesh));
+  refuse(fmt::format("the checkpoint is on another mesh, of {} intervals; here they are of {}", count_intervals(record.task.problem),
+                     fmt::join(intervals, ", ")));
+}
+
+}  // namespace prowl
