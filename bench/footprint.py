@@ -3,6 +3,7 @@ import os
 import pathlib
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -37,8 +38,10 @@ def print_start(prowl: pathlib.Path) -> None:
 def most_memory(command: list[str]) -> int:
     """Largest resident set of one process [bytes]."""
     with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-        usage = os.wait4(process.pid, 0)[2]
-        process.returncode = 0
+        status, usage = os.wait4(process.pid, 0)[1:]
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode not in (0, 7):  # 7: a plan that its certificate refuses
+        sys.exit(f"bench: {' '.join(command)}: exit status {process.returncode}")
     return usage.ru_maxrss * 1024
 
 

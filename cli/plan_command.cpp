@@ -79,11 +79,12 @@ void add_feedback(PlanRecord& record) {
 
 /// A line for each mesh on stderr. The problem is then on the last one.
 Plan make_refined(MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
-                  const MeshTolerance& tolerance) {
+                  const MeshTolerance& tolerance, bool& was_interrupted) {
   RefineOptions refine{.tolerance = tolerance};
   refine.on_round = [&](const RefineRound& round) { print_progress(in_words(round, tolerance)); };
   RefinedPlan refined = make_refined_plan(problem, solver, options, refine);
   problem = std::move(refined.problem);
+  was_interrupted = refined.interrupted;
   return std::move(refined.plan);
 }
 
@@ -135,8 +136,10 @@ int run_plan(const PlanArguments& arguments) {
   const std::string start = arguments.warm_start + arguments.checkpoint.resume;  // one of them, or none
   const auto checkpoints = write_checkpoints(
       arguments.checkpoint, out, {.task = task, .plan = {}, .versions = versions(), .warm_start = start}, options);
-  Plan plan = arguments.refine ? make_refined(task.problem, *make_solver(arguments.solver), options, *arguments.refine)
-                               : make_plan(task.problem, *make_solver(arguments.solver), options);
+  bool was_interrupted = false;
+  const auto solver = make_solver(arguments.solver);
+  Plan plan = arguments.refine ? make_refined(task.problem, *solver, options, *arguments.refine, was_interrupted)
+                               : make_plan(task.problem, *solver, options);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
                     .feedback = {}, .iterations = progress.iterations(), .warm_start = start};
@@ -146,7 +149,7 @@ int run_plan(const PlanArguments& arguments) {
   write_plan(out, record, arguments.step);
   if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
-  const int status = exit_status(record.plan.result.status, record.plan.certificate);
+  const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   if (arguments.json) {
     print_json({.verb = "plan", .exit_status = status, .plan = &record, .directory = out, .written = files_of_plan(out),
                 .result = plan_report_json(record, out)});

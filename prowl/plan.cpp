@@ -18,12 +18,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Whether the next level may start from where this one stopped; after a failure it starts from the task again.
-bool is_worth_going_on_from(SolveStatus status) {
-  return status != SolveStatus::infeasible && status != SolveStatus::evaluation_failed &&
-         status != SolveStatus::solver_failed;
-}
-
 /// What is written of a problem that was not solved: the guess and how far it is off.
 SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
   SolveResult result{.status = SolveStatus::infeasible, .message = "not started: there is no solution", .z = z};
@@ -108,6 +102,11 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
 }
 
 }  // namespace
+
+bool is_worth_going_on_from(SolveStatus status) {
+  return status != SolveStatus::infeasible && status != SolveStatus::evaluation_failed &&
+         status != SolveStatus::solver_failed;
+}
 
 Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options) {
   validate(problem);

@@ -57,6 +57,9 @@ struct PlanOptions {
   std::function<void(const MotionProblem& on_its_mesh, Plan iterate)> on_iterate = {};
 };
 
+/// Whether a finer mesh may start from where this solve stopped; after a failure it starts from the task again.
+bool is_worth_going_on_from(SolveStatus status);
+
 /// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from makes
 /// no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that is too hard is a status
 /// in the result.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "prowl/transcription/mesh_levels.hpp"
 
@@ -37,8 +39,12 @@ struct Candidate {
     parts = error_parts(plan.certificate, tolerance);
     meets_tolerance = is_within(mesh_errors(plan.certificate), tolerance);
   }
+  /// What passes its certificate comes before what has errors as asked for: other checks count, too.
   bool is_better_than(const Candidate& other) const {
-    if (meets_tolerance != other.meets_tolerance) return meets_tolerance;
+    const auto rank = [](const Candidate& of) {
+      return std::pair(of.meets_tolerance && of.plan.certificate.passed, of.meets_tolerance);
+    };
+    if (rank(*this) != rank(other)) return rank(*this) > rank(other);
     return meets_tolerance ? intervals() < other.intervals() : worst() < other.worst();
   }
 };
@@ -51,10 +57,13 @@ class Meshes {
     options_.coarse_first = false;
   }
 
+  /// Certificates count, too: a fine mesh takes seconds of them.
+  bool is_time_over() const { return seconds_left() <= 0.0; }
+
   Candidate solve(MotionProblem problem) {
-    constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further mesh only says so
+    constexpr double kShortestSeconds = 1e-3;  // of the first mesh, whatever is asked for
     PlanOptions options = options_;
-    options.solver.max_seconds = std::max(options_.solver.max_seconds - total_.seconds, kShortestSeconds);
+    options.solver.max_seconds = std::max(seconds_left(), kShortestSeconds);
     Plan plan = make_plan(problem, solver_, options);
     levels_.insert(levels_.end(), plan.levels.begin(), plan.levels.end());
     total_.iterations += plan.result.iterations;
@@ -62,20 +71,24 @@ class Meshes {
     total_.times += plan.result.times;
     return {std::move(problem), std::move(plan)};
   }
+  /// From a motion that solves a coarser mesh, or from where a solve of one stopped.
   Candidate solve_from(const Plan& plan, MotionProblem problem) {
     options_.start_from = plan.trajectory;
-    options_.resume = false;
+    options_.resume = plan.result.status != SolveStatus::converged;
     options_.start_multipliers.clear();
     return solve(std::move(problem));
   }
-  /// From the coarsest mesh on, the first that does not fail.
+  /// From the coarsest mesh on, the first that converges; each goes on from the one before, as in make_plan().
   Candidate begin(const MotionProblem& problem) {
     const bool from_coarse = coarse_first_ && options_.start_from.empty();
     std::optional<Candidate> first;
     for (MotionProblem& level : from_coarse ? mesh_levels(problem) : std::vector{problem}) {
-      first = solve(std::move(level));
+      const bool goes_on = first && is_worth_going_on_from(first->plan.result.status);
+      first = goes_on ? solve_from(first->plan, std::move(level)) : solve(std::move(level));
       const SolveStatus status = first->plan.result.status;
-      if (status == SolveStatus::converged || status == SolveStatus::interrupted || !first->plan.reasons.empty()) break;
+      const bool is_end = status == SolveStatus::converged || status == SolveStatus::interrupted;
+      if (is_end || status == SolveStatus::time_limit || !first->plan.reasons.empty()) break;
+      options_.start_from = {};
     }
     return std::move(*first);
   }
@@ -88,19 +101,29 @@ class Meshes {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  double seconds_left() const {
+    return options_.solver.max_seconds - std::chrono::duration<double>(Clock::now() - begin_).count();
+  }
+
   const NlpSolver& solver_;
   PlanOptions options_;
   bool coarse_first_;
+  Clock::time_point begin_ = Clock::now();
   SolveResult total_;
   std::vector<LevelResult> levels_;
 };
 
-/// Whether rounds still lead somewhere: fewer intervals are too coarse than ever before, or the worst is clearly less so.
+/// Whether rounds still lead somewhere: to the tolerance on fewer intervals than ever before, to fewer intervals that are too coarse,
+/// or to a worst one that is clearly less so.
 class Progress {
  public:
   bool is_over(const Candidate& now) {
     constexpr double kClearly = 0.9;
-    const bool is_better = now.meets_tolerance || now.too_coarse() < fewest_ || now.worst() < kClearly * least_;
+    const bool is_nearer = now.too_coarse() < fewest_ || now.worst() < kClearly * least_;
+    const bool is_better = now.meets_tolerance ? now.intervals() < shortest_ : is_nearer;
+    if (now.meets_tolerance) shortest_ = std::min(shortest_, now.intervals());
     fewest_ = std::min(fewest_, now.too_coarse());
     least_ = std::min(least_, now.worst());
     rounds_without_ = is_better ? 0 : rounds_without_ + 1;
@@ -108,7 +131,8 @@ class Progress {
   }
 
  private:
-  int fewest_ = std::numeric_limits<int>::max(), rounds_without_ = 0;
+  static constexpr int kMost = std::numeric_limits<int>::max();
+  int shortest_ = kMost, fewest_ = kMost, rounds_without_ = 0;
   double least_ = std::numeric_limits<double>::infinity();
 };
 
@@ -139,8 +163,9 @@ RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& sol
     const int intervals = count_intervals(next);
     if (now.meets_tolerance && intervals > kWorthMerging * now.intervals()) break;
     if (progress.is_over(now)) stopped = fmt::format("no progress in {} rounds", kPatience);
-    if (round == refine.max_rounds) stopped = fmt::format("{} meshes", round);
+    if (round >= refine.max_rounds) stopped = fmt::format("{} meshes", round);
     if (intervals > kMostIntervals) stopped = fmt::format("the next mesh would have {} intervals", intervals);
+    if (meshes.is_time_over()) stopped = "the time is up";
     if (!stopped.empty()) break;
     now = meshes.solve_from(now.plan, std::move(next));
   }
@@ -150,9 +175,8 @@ RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& sol
   }
   if (!best) best = std::move(now);
   if (best->intervals() > 0 && !best->meets_tolerance) best->plan.hints.push_back(hint(*best, stopped));
-  if (status == SolveStatus::interrupted) best->plan.result.status = status;
   meshes.enter_books(best->plan);
-  return {std::move(best->problem), std::move(best->plan), best->meets_tolerance};
+  return {std::move(best->problem), std::move(best->plan), best->meets_tolerance, status == SolveStatus::interrupted};
 }
 
 }  // namespace prowl

@@ -65,7 +65,8 @@ MakeProgram collocation_with(std::unique_ptr<DynamicsForm> (*make_dynamics)()) {
   return [make_dynamics](const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
                          const Trajectory& guess) {
     check("contact", formulation.contact, contact_names());
-    CollocationForm form{.dynamics = make_dynamics(),
+    CollocationForm form{.dynamics_name = formulation.dynamics,
+                         .dynamics = make_dynamics(),
                          .rule = choice("transcription", kRules, formulation.transcription)(),
                          .contact = *std::ranges::find(contact_forms(), formulation.contact, &ContactForm::name),
                          .chart = choice("orientation", kCharts, formulation.orientation)(

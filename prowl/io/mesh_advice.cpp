@@ -51,6 +51,7 @@ std::string mesh_advice(const PlanRecord& record) {
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;
     std::string option = fmt::format("--refine {}", grade);
+    if (!is_even) option += " --warm-start with this plan";  // from where it stopped
     if (is_even) {
       const double needed = static_cast<double>(errors.size()) * std::cbrt(kMargin * worst->error / goal);
       const std::optional<int> intervals = intervals_option(record.task, needed);

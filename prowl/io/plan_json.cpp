@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 
 #include "prowl/error.hpp"
 #include "prowl/io/json_text.hpp"
@@ -237,7 +238,7 @@ Certificate read_certificate(const Reader& json, int version) {
                                            .end = interval.number("end_s"),
                                            .error = interval.number("error"),
                                            .where = interval.text("where"),
-                                           .reintegration = version < 3 ? 0.0 : interval.number("reintegration")});
+                                           .reintegration = version < 3 ? std::nan("") : interval.number("reintegration")});
   }
   certificate.redundant_contacts = json.texts("redundant_contacts");
   for (const Reader& phase : json.list("contact_ranks")) {
@@ -259,10 +260,13 @@ MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
     const int intervals = phase.integer("intervals");
     if (intervals < 1 || intervals > kMostIntervals) phase.fail("intervals", fmt::format("1 to {}", kMostIntervals));
     Steps shares = phase.numbers("shares");
-    if (shares.empty()) shares.assign(static_cast<std::size_t>(intervals), 1.0);
+    if (shares.empty()) shares.assign(static_cast<std::size_t>(intervals), 1.0 / intervals);
     const auto is_step = [](double share) { return share > 0.0 && std::isfinite(share); };
-    if (std::ssize(shares) != intervals || !std::ranges::all_of(shares, is_step)) {
-      phase.fail("shares", fmt::format("{} numbers > 0, or none", intervals));
+    constexpr double kRounding = 1e-9;
+    const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+    if (std::ssize(shares) != intervals || !std::ranges::all_of(shares, is_step) || std::abs(sum - 1.0) > kRounding) {
+      throw InputError(fmt::format("{}.shares: {} numbers with sum {:.6g}; need {} numbers > 0 with sum 1, or none", phase.where(),
+                                   shares.size(), sum, intervals));
     }
     steps.push_back(std::move(shares));
   }

@@ -17,6 +17,7 @@ constexpr int kMost = 4;              // pieces of an interval, or intervals in 
 constexpr double kMergeBelow = 0.25;  // of what an error may be: what is merged shall not be split again in the next round
 constexpr double kLongest = 0.25;     // of a phase, for merged intervals: a swing has to leave, pass and land
 constexpr double kRounding = 1e-9;    // of a phase
+constexpr double kMostGrowth = 4.0;   // of a step over the one before: what the gains of contacts are good for (node_functions.cpp)
 
 double worst(const Certificate& certificate, const char* name) {
   const auto check = std::ranges::find(certificate.checks, name, &CertificateCheck::name);
@@ -33,13 +34,18 @@ class PhaseIntervals {
     Steps steps;
     for (int i = 0; i < phase_.intervals;) {
       const int pieces = pieces_of(i), end = pieces > 1 ? i + 1 : end_of_run(i);
-      steps.insert(steps.end(), static_cast<std::size_t>(pieces), length(i, end) / pieces);
+      add(length(i, end), pieces, steps);
       i = end;
     }
     return steps;
   }
 
  private:
+  static void add(double length, int pieces, Steps& steps) {
+    if (!steps.empty()) pieces = std::max(pieces, static_cast<int>(std::ceil(length / (kMostGrowth * steps.back()) - kRounding)));
+    steps.insert(steps.end(), static_cast<std::size_t>(pieces), length / pieces);
+  }
+
   double length(int first, int end) const { return phase_.node_time(end, 1.0) - phase_.node_time(first, 1.0); }
 
   int pieces_of(int i) const {
@@ -93,10 +99,11 @@ std::vector<double> error_parts(const Certificate& certificate, const MeshTolera
     return std::isfinite(of.error) && std::isfinite(of.reintegration) ? part : std::numeric_limits<double>::infinity();
   };
   const MeshTolerance errors = mesh_errors(certificate);
-  const double excess = errors.second / tolerance.second;
-  const bool only_the_sum =
-      errors.local <= tolerance.local && errors.reintegration <= tolerance.reintegration && excess > 1.0;
-  const double local = only_the_sum ? errors.local * std::pow(excess, -1.5) : tolerance.local;
+  // As long as intervals are too coarse by themselves, the sum tells nothing of what is left of it.
+  const bool is_for_the_sum =
+      errors.local <= tolerance.local && errors.reintegration <= tolerance.reintegration && errors.second > 0.0;
+  const double for_the_sum = errors.local * std::pow(tolerance.second / errors.second, 1.5);
+  const double local = is_for_the_sum ? std::min(tolerance.local, for_the_sum) : tolerance.local;
   std::vector<double> parts;
   for (const IntervalError& interval : certificate.interval_errors) parts.push_back(part_of(interval, local));
   return parts;

@@ -104,8 +104,9 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
     const double risen = std::min(progress / moving, 1.0);
     for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
       const Surface& surface = problem.surfaces[static_cast<std::size_t>(s)];
-      const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5) ||
-                          (s == surface_of(swing.after) && progress >= 0.5);
+      constexpr double kRounding = 1e-9;  // of a swing: a node in its middle is in both halves
+      const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5 + kRounding) ||
+                          (s == surface_of(swing.after) && progress >= 0.5 - kRounding);
       if (!passes) continue;
       const double height = problem.swing_clearance * clearance_profile(swing, risen);
       rows_[static_cast<std::size_t>(k)].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,

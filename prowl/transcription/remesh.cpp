@@ -42,6 +42,11 @@ void set_steps(Phase& phase, const Steps& steps) {
   const auto [shortest, longest] = std::ranges::minmax(steps);
   if (longest - shortest <= kRounding * longest) return;
   const double sum = std::accumulate(steps.begin(), steps.end(), 0.0);
+  constexpr double kIsOne = 1e-12;
+  if (std::abs(sum - 1.0) < kIsOne) {  // shares already, kept to the last bit
+    phase.shares = steps;
+    return;
+  }
   for (const double step : steps) phase.shares.push_back(step / sum);
 }
 

@@ -22,7 +22,7 @@ using Rows = std::vector<std::vector<std::string>>;
 
 /// A line that came to an end, with numbers that do not fit few digits.
 ComparedRun finished() {
-  FormulationRun run{.formulation = {}, .solver = "Riccati", .nodes = 9, .num_variables = 594, .num_constraints = 540,
+  FormulationRun run{.formulation = {}, .solver = "Riccati 1", .nodes = 9, .num_variables = 594, .num_constraints = 540,
                      .jacobian_nonzeros = 12870, .hessian_nonzeros = 13446, .result = {},
                      .motion = {}, .certificate = {}, .contacts = {1.0 / 3.0 * 1e-3, 1e-300},
                      .inverse_dynamics = {}};
@@ -239,7 +239,7 @@ TEST(CompareTable, SaysOnceWhatIsTheSame) {
   finer.nodes = 17;
   const std::string text = compare_markdown(record_of({finished(), finer}));
   EXPECT_THAT(text, HasSubstr("task stand, robot HyQ, dynamics inverse, transcription trapezoid, contact stabilised, orientation se3, "
-                              "solver riccati, hessian exact, guess smooth; tolerance 1e-06, at most 300 iterations and 300 s each."));
+                              "solver riccati, version Riccati 1, hessian exact, guess smooth; tolerance 1e-06, at most 300 iterations and 300 s each."));
   const Rows markdown = read_markdown(text);
   EXPECT_EQ(cell(markdown, "intervals", 2), "8");
   EXPECT_EQ(cell(markdown, "intervals", 3), "16");

@@ -127,22 +127,22 @@ TEST(Refine, TellsWhatItDidNotReach) {
   EXPECT_THAT(refined.plan.hints[0], HasSubstr("mesh refinement stopped, 2 meshes: "));
 }
 
-/// Solves the first meshes, and stops on the others.
+/// Solves so many meshes, and stops on so many after them.
 class Failing : public NlpSolver {
  public:
-  Failing(int solves, SolveStatus status) : left_(solves), status_(status) {}
+  Failing(int solves, SolveStatus status, int failures = 1000) : left_(solves), failures_(failures), status_(status) {}
   std::string name() const override { return solver_.name(); }
   std::string version() const override { return solver_.version(); }
   std::optional<std::string> why_unsupported(Nlp& nlp) const override { return solver_.why_unsupported(nlp); }
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& start, const SolverOptions& options) const override {
     SolveResult result = solver_.solve(nlp, start, options);
-    if (left_-- <= 0) result.status = status_;
+    if (left_-- <= 0 && failures_-- > 0) result.status = status_;
     return result;
   }
 
  private:
   RiccatiSolver solver_;
-  mutable int left_;
+  mutable int left_, failures_;
   SolveStatus status_;
 };
 
@@ -156,7 +156,8 @@ TEST(Refine, KeepsTheLastMotionThatConverged) {
     const RefinedPlan refined = refine(task, Failing(2, status), {}, options);
     ASSERT_EQ(intervals.size(), 2u);
     EXPECT_FALSE(refined.meets_tolerance);
-    EXPECT_EQ(refined.plan.result.status, status == SolveStatus::interrupted ? status : SolveStatus::converged);
+    EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
+    EXPECT_EQ(refined.interrupted, status == SolveStatus::interrupted);
     EXPECT_EQ(count_intervals(refined.problem), intervals[1]);
     EXPECT_EQ(refined.plan.certificate.interval_errors.size(), static_cast<std::size_t>(intervals[1]));
     EXPECT_EQ(refined.plan.levels.size(), 3u);
@@ -165,13 +166,45 @@ TEST(Refine, KeepsTheLastMotionThatConverged) {
   }
 }
 
-/// Of the coarsest mesh, too: the next finer one is tried, from the task.
+/// Not of the coarsest, if that fails: the next finer one is tried, from the task.
 TEST(Refine, BeginsOnTheFirstMeshThatConverges) {
   const Task task = read("step");
+  std::vector<int> intervals;
+  RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+  options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
+  const RefinedPlan begun = refine(task, Failing(0, SolveStatus::solver_failed, 1), {}, options);
+  EXPECT_TRUE(begun.meets_tolerance);
+  ASSERT_FALSE(intervals.empty());
+  EXPECT_EQ(intervals.front(), count_intervals(mesh_levels(task.problem).at(1)));
+  EXPECT_EQ(begun.plan.levels.at(0).status, SolveStatus::solver_failed);
+
   const RefinedPlan failed = refine(task, Failing(0, SolveStatus::iteration_limit));
   EXPECT_EQ(failed.plan.result.status, SolveStatus::iteration_limit);
   EXPECT_EQ(failed.plan.levels.size(), mesh_levels(task.problem).size());
   EXPECT_EQ(count_intervals(failed.problem), count_intervals(task.problem));
+}
+
+/// No mesh is solved twice, also where the sum of errors over a second is what holds the mesh.
+TEST(Refine, DoesNotGoRoundInCircles) {
+  for (const double tolerance : {0.02, 5.0}) {
+    std::vector<int> intervals;
+    RefineOptions options{.tolerance = mesh_tolerance(tolerance)};
+    options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
+    const RefinedPlan refined = refine(read("crouch"), RiccatiSolver(), {}, options);
+    EXPECT_TRUE(refined.meets_tolerance);
+    EXPECT_LT(intervals.size(), 6u) << tolerance;
+    std::ranges::sort(intervals);
+    EXPECT_EQ(std::ranges::adjacent_find(intervals), intervals.end()) << tolerance;
+  }
+}
+
+TEST(Refine, BeginsNoMeshWhenTheTimeIsUp) {
+  Task task = read("step");
+  task.solver.max_seconds = 1e-3;
+  const RefinedPlan refined = refine(task);
+  EXPECT_EQ(refined.plan.result.status, SolveStatus::time_limit);
+  EXPECT_EQ(refined.plan.levels.size(), 1u);
+  EXPECT_EQ(count_intervals(refined.problem), count_intervals(mesh_levels(task.problem).front()));
 }
 
 /// An uneven mesh is as good as any: no drift, the same motion.

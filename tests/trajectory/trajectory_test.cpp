@@ -145,7 +145,7 @@ TEST(Sample, FollowsTheCubicsAndTheTorqueInTheMiddle) {
     const TrajectoryPoint &left = nodes[2 * interval], &right = nodes[2 * interval + 1];
     const double middle = 0.5 * (left.time + right.time);
     EXPECT_LT((sample(trajectory, middle).tau - trajectory.middle_torques[interval]).norm(), 1e-12);
-    EXPECT_GT((sample(trajectory, middle).q - interpolate(left, right, middle - left.time).q).norm(), 1e-3);
+    EXPECT_GT((sample(trajectory, middle).q - interpolate(left, right, middle - left.time).q).norm(), 1e-4);
   }
 }
 

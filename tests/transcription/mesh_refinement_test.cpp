@@ -111,6 +111,16 @@ TEST(MeshRefinement, DoesNotMergeOverAGoalNorOverAPhaseSwitch) {
   EXPECT_THAT(steps(two, 1), Pointwise(DoubleNear(1e-12), {0.25, 0.25, 0.5}));
 }
 
+/// The gains of contacts are good for steps that grow by up to four.
+TEST(MeshRefinement, StepsGrowByAtMostFour) {
+  MotionProblem problem = one_phase(3);
+  problem.phases[0].shares = {0.02, 0.18, 0.8};
+  EXPECT_THAT(steps(refined(problem, {0.5, 0.5, 0.5})),
+              Pointwise(DoubleNear(1e-12), {0.02, 0.06, 0.06, 0.06, 0.2, 0.2, 0.2, 0.2}));
+  problem.phases[0].shares = {0.8, 0.18, 0.02};
+  EXPECT_THAT(steps(refined(problem, {0.5, 0.5, 0.5})), testing::SizeIs(3)) << "they may shrink";
+}
+
 TEST(MeshRefinement, LeavesAMeshThatIsRight) {
   MotionProblem problem = one_phase(4);
   problem.phases[0].shares = {0.1, 0.2, 0.3, 0.4};
@@ -122,6 +132,17 @@ TEST(ErrorParts, AreTheLargerOfBothErrors) {
   EXPECT_THAT(error_parts(with_errors({2e-4, 1e-5}, 3e-4, 0.0), tolerance), Pointwise(DoubleNear(1e-12), {2.0, 0.6}));
   EXPECT_THAT(error_parts(with_errors({2e-4, 1e-5}, 3e-3, 0.0), tolerance), Pointwise(DoubleNear(1e-12), {6.0, 6.0}));
   EXPECT_THAT(error_parts(with_errors({std::nan(""), kInfinity}, 0.0, 0.0), tolerance), Each(kInfinity));
+}
+
+/// A mesh that meets the sum over a second is not made coarser than the sum allows: it would be split again.
+TEST(ErrorParts, KeepTheSumWhereMeshesMerge) {
+  const MeshTolerance tolerance{.local = 1e-4, .second = 3e-3, .reintegration = 5e-4};
+  const int n = 100;
+  const double e = 0.9 * tolerance.second / n;
+  const double c = e / error_parts(with_errors(std::vector<double>(n, e), 0.0, n * e), tolerance)[0];
+  EXPECT_NEAR(n * std::cbrt(e / c) * c, tolerance.second, 1e-12);
+  EXPECT_LT(c, 0.5 * tolerance.local);
+  EXPECT_EQ(error_parts(with_errors({0.0, 0.0}, 0.0, 0.0), tolerance)[0], 0.0);
 }
 
 /// Where only the sum is too large, intervals have to be off by less than the worst is, so that the sum of equal errors is right:

@@ -48,7 +48,7 @@ Collocation::Collocation(const MotionProblem& problem, const Mesh& mesh, const T
       throw InputError("contact: \"" + form_.contact.name + "\" needs contacts that do not depend on each other");
     }
     if (!contacts[p].chosen_rows.empty() && form_.dynamics->has_forces()) {
-      throw InputError("dynamics: \"" + form_.dynamics->name() + "\" needs contacts that do not depend on each other");
+      throw InputError("dynamics: \"" + form_.dynamics_name + "\" needs contacts that do not depend on each other");
     }
     if (form_.dynamics->has_forces()) contacts[p].chosen_rows = all_rows(problem_.phases[p]);
     const ContactRows rows(problem_, phase,

@@ -15,6 +15,7 @@ namespace prowl {
 
 /// The choices of a collocation program.
 struct CollocationForm {
+  std::string dynamics_name;  ///< for messages
   std::unique_ptr<DynamicsForm> dynamics;
   std::unique_ptr<CollocationRule> rule;
   ContactForm contact;

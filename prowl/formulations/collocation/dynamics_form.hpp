@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "prowl/formulations/collocation/point_function.hpp"
@@ -13,13 +12,14 @@ class DynamicsForm {
  public:
   virtual ~DynamicsForm() = default;
 
-  virtual std::string name() const = 0;
   /// a is a function of the others; else a variable, with the dynamics as rows.
   virtual bool eliminates_acceleration() const { return false; }
   /// Contact forces are variables, with J a + J̇ v = 0 as rows; else recovered.
   virtual bool has_forces() const { return false; }
   /// The dynamics at one instant, with these rows of the node. Where a is eliminated, none of them is of the dynamics.
-  virtual std::unique_ptr<PointFunction> at(ChartedNode& node, const Instant& instant, std::vector<int> rows) const = 0;
+  virtual std::unique_ptr<PointFunction> at(ChartedNode& node, const Instant& instant, std::vector<int> rows) const {
+    return std::make_unique<PointFunction>(node, instant, std::move(rows));
+  }
 };
 
 std::unique_ptr<DynamicsForm> inverse_dynamics();

@@ -89,7 +89,6 @@ class EliminatingPoint : public PointFunction {
 /// tau only is a variable, a = Mc⁻¹ (P (S' tau − h) + M C v): as Pardo et al. 2016 have it.
 class ForwardForm : public DynamicsForm {
  public:
-  std::string name() const override { return "forward"; }
   bool eliminates_acceleration() const override { return true; }
   std::unique_ptr<PointFunction> at(ChartedNode& node, const Instant& instant, std::vector<int> rows) const override {
     return std::make_unique<EliminatingPoint>(node, instant, std::move(rows));

@@ -7,11 +7,7 @@ namespace {
 /// for the projection, and the rows of the node are those of the whole robot.
 class KktForm : public DynamicsForm {
  public:
-  std::string name() const override { return "kkt"; }
   bool has_forces() const override { return true; }
-  std::unique_ptr<PointFunction> at(ChartedNode& node, const Instant& instant, std::vector<int> rows) const override {
-    return std::make_unique<PointFunction>(node, instant, std::move(rows));
-  }
 };
 
 }  // namespace
