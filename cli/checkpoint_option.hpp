@@ -11,7 +11,7 @@ namespace prowl::cli {
 
 struct CheckpointArguments {
   std::string folder;   ///< "": none
-  double every = 10.0;  ///< [s]; an iteration of the largest tasks takes a tenth of this, and to write one a hundredth
+  double every = 10.0;  ///< [s]; so much work may be lost, against the time that it takes to write and sync a plan
   std::string resume;   ///< folder; "": from the task alone
 };
 

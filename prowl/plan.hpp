@@ -53,7 +53,7 @@ struct PlanOptions {
   bool coarse_first = true;  ///< false: on the mesh of the problem at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
   /// Each iterate, on its mesh, as the plan that it would be if the solve were interrupted there, but without certificate and
-  /// times of evaluations. Takes some 3 % of an iteration; may be empty.
+  /// times of evaluations. Costs an evaluation of all values; may be empty.
   std::function<void(const MotionProblem& on_its_mesh, Plan iterate)> on_iterate = {};
 };
 
