@@ -126,6 +126,29 @@ std::string NodeFunctions::describe_row(int k, int row) const {
          (unloads(k, contact) ? ", force before it opens" : ", friction cone");
 }
 
+std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, int k, int row) const {
+  if (row < nv_) return std::nullopt;
+  if (row >= placement_row(k)) {
+    const PlacementRows::Kind kind = placement_.kind(k, row - placement_row(k));
+    if (kind == PlacementRows::Kind::place || kind == PlacementRows::Kind::velocity) return std::nullopt;
+    const int contact = placement_.contact(k, row - placement_row(k));
+    return MotionLimit{.kind = kind == PlacementRows::Kind::inside ? LimitKind::place : LimitKind::clearance,
+                       .subject = robot.contacts()[static_cast<std::size_t>(contact)].name, .unit = "m", .si = robot.size(),
+                       .size = robot.size()};
+  }
+  if (row >= torque_row(k)) {
+    const int joint = torques_.joint(row - torque_row(k));
+    const double largest = torques_.largest(row - torque_row(k));
+    return MotionLimit{.kind = LimitKind::torque, .subject = robot.joint_names()[static_cast<std::size_t>(joint)],
+                       .unit = "N m", .si = largest, .size = largest};
+  }
+  int contact = 0;
+  while (row >= contact_row(k, contact + 1)) ++contact;
+  if (unloads(k, contact)) return std::nullopt;
+  return MotionLimit{.kind = LimitKind::friction, .subject = contact_names_[static_cast<std::size_t>(contact)], .unit = "N",
+                     .si = 1.0 / force_scale_, .size = 1.0 / force_scale_};
+}
+
 // h = T / n.
 Eigen::Vector2d NodeFunctions::gains(const NodePoint& point, int derivative) const {
   const double n = per_gain_step_[static_cast<std::size_t>(point.node)], T = point.duration;

@@ -1,0 +1,86 @@
+#include "prowl/diagnosis/change_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/feasibility/feasibility.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/transcription.hpp"
+
+namespace prowl {
+
+namespace {
+
+constexpr double kFirst = 0.25;    // amount: 28 % more
+constexpr double kFurther = 3.0;   // from one amount to the next
+constexpr double kPrecision = 0.05;  // where a bisection ends: 5 % of the number, or of a large amount
+constexpr double kNoMatch = 2.0;   // a change is told of besides a smaller one up to so many times its amount
+constexpr int kMostIterations = 100;  // on a coarse mesh; what has a solution takes 10 to 80
+
+}  // namespace
+
+bool ChangeSearch::solves(const MotionProblem& problem) const {
+  if (!may_go_on()) return false;
+  try {
+    validate(problem);
+    if (!proofs_of_infeasibility(problem).empty()) return false;
+    const Mesh mesh = make_mesh(problem);
+    const Trajectory guess = initial_guess(problem, mesh);
+    Transcription nlp(problem, mesh, guess);
+    SolverOptions options = options_;
+    options.max_iterations = std::min(options.max_iterations, kMostIterations);
+    options.max_seconds = std::max(seconds_left(), 1e-3);
+    return solver_.solve(nlp, nlp.pack(guess), options).status == SolveStatus::converged;
+  } catch (const Error&) {  // bounds that contradict each other, a model that cannot be evaluated: no plan either
+    return false;
+  }
+}
+
+bool ChangeSearch::solves(const Knob& knob, double amount) const {
+  try {
+    return solves(knob.problem(amount));
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+double ChangeSearch::bisected(const Knob& knob, double too_little, double enough) const {
+  while (enough - too_little > kPrecision * std::max(1.0, enough) && may_go_on()) {
+    const double middle = 0.5 * (too_little + enough);
+    (solves(knob, middle) ? enough : too_little) = middle;
+  }
+  return enough;
+}
+
+std::vector<FoundChange> ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_seconds,
+                                                const std::function<void(const std::string&)>& on_step) const {
+  std::vector<FoundChange> found;
+  std::vector<bool> done(knobs.size(), false);
+  double enough = std::numeric_limits<double>::infinity();  // of the smallest found, weighted
+  const double end = seconds_left() - max_seconds;
+  const auto may_go_on = [&] { return this->may_go_on() && seconds_left() > end; };
+  for (double before = 0.0, turned = kFirst; before < kNoMatch * enough && may_go_on(); before = turned, turned *= kFurther) {
+    bool any_left = false;
+    for (std::size_t i = 0; i < knobs.size() && may_go_on(); ++i) {
+      const Knob& knob = knobs[i];
+      const double too_little = before / knob.weight, amount = std::min(turned / knob.weight, knob.most);
+      if (done[i] || too_little >= knob.most) continue;
+      any_left = true;
+      if (on_step) on_step(fmt::format("{} {} {:.3g} {}", knob.kind, knob.subject, knob.value(amount), knob.unit));
+      if (!solves(knob, amount)) continue;
+      done[i] = true;
+      found.push_back({knob, bisected(knob, too_little, amount)});
+      enough = std::min(enough, found.back().weighted());
+    }
+    if (!any_left) break;
+  }
+  std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
+  return found;
+}
+
+}  // namespace prowl
