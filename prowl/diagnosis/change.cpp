@@ -21,9 +21,9 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Largest ratios that are tried. 1.2 is rubber on dry concrete; what needs ten times the time or a twentieth of the way is another
-// task.
-constexpr double kMostFriction = 1.2;
+// Largest ratios that are tried. 0.8 is rubber on dry concrete, and who plans with more falls; what needs ten times the time or a
+// twentieth of the way is another task.
+constexpr double kMostFriction = 0.8;
 const double kMostTime = std::log(10.0);
 const double kMostLimit = std::log(20.0);
 const double kLeastWay = std::log(20.0);
@@ -71,6 +71,9 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
           },
           .problem = [&problem, scaled](double a) { return scaled(problem, a); }};
 }
+
+/// Phases of a gait come from one number, and there are many: up to so many phases have durations of their own to turn.
+constexpr int kMostPhases = 5;
 
 constexpr std::size_t kStands = 3;  // contacts; on fewer a robot cannot stay for as long as it likes
 
@@ -235,7 +238,7 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   std::iota(joints.begin(), joints.end(), 0);
   for (const char* kind : {"torque", "joint_velocity", "joint_position"}) knobs.push_back(joint_knob(problem, kind, joints));
   const int phases = static_cast<int>(problem.phases.size());
-  for (int p = 0; p < phases; ++p) {
+  for (int p = 0; p < phases && phases <= kMostPhases; ++p) {
     knobs.push_back(duration_knob(problem, p, 1.0));
     if (problem.phases[static_cast<std::size_t>(p)].contacts.size() < kStands) knobs.push_back(duration_knob(problem, p, -1.0));
   }

@@ -22,7 +22,7 @@ struct Knob {
   std::function<MotionProblem(double amount)> problem;  ///< may throw InputError
 };
 
-/// All knobs that a problem has: friction of each surface in use; duration of each phase, longer, and shorter on fewer than three contacts, and of
+/// All knobs that a problem has: friction of each surface in use; duration of each phase (of five or fewer), longer, and shorter on fewer than three contacts, and of
 /// all of them together; torque, velocity and position limits of all joints; each goal that is away from the start; each place that a
 /// contact has to land on; swing clearance. They refer to the problem, which must outlive them.
 std::vector<Knob> knobs_of(const MotionProblem& problem);

@@ -22,11 +22,18 @@ namespace {
 /// Of the time that is left, what an elastic solve may take: it is an explanation, and the changes are the answer.
 constexpr double kElasticPart = 0.5;
 constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
-constexpr double kOwnPart = 0.2;  // of the time, for the task as it is: who asks knows that it has no plan
+constexpr double kOwnPart = 0.1;  // of the time, for the task as it is: who asks knows that it has no plan
 constexpr int kElasticIterations = 500;
 constexpr double kElasticTolerance = 1e-5;  // a tenth of a thousandth of a weight or a limit
 
 bool is_of_joints(const std::string& kind) { return kind == "torque" || kind == "joint_velocity" || kind == "joint_position"; }
+
+/// What a breach of a joint's limit adds to; of a range, which widens on both sides, half of it.
+double limit_of_joint(const RobotModel& robot, LimitKind kind, int joint) {
+  if (kind == LimitKind::torque) return robot.torque_limit()(joint);
+  if (kind == LimitKind::joint_velocity) return robot.velocity_limit()(joint);
+  return 0.5 * (robot.position_upper()(joint) - robot.position_lower()(joint));
+}
 
 Change as_change(const FoundChange& found) {
   return {found.knob.kind, found.knob.phase, found.knob.subject, found.knob.value(0.0), found.knob.value(found.amount),
@@ -138,16 +145,19 @@ class Diagnoser {
     FoundChange& smallest = found.front();
     const std::vector<std::string>& names = coarse_.robot.joint_names();
     std::set<int> joints;
+    double needed = 0.0;  // amount that brings each of them as far as the elastic solution went
     for (const Breach& breach : result_.breaches) {
       if (to_string(breach.kind) != smallest.knob.kind) continue;
-      joints.insert(static_cast<int>(std::ranges::find(names, breach.subject) - names.begin()));
+      const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
+      joints.insert(joint);
+      needed = std::max(needed, std::log1p(breach.amount / limit_of_joint(coarse_.robot, breach.kind, joint)));
     }
     if (joints.empty() || static_cast<int>(joints.size()) == coarse_.robot.nu()) return;
     const Knob some = joint_knob(coarse_, smallest.knob.kind, {joints.begin(), joints.end()});
-    constexpr double kALittleMore = 0.1;  // the elastic solution is another motion than that with changed limits
+    constexpr double kALittleMore = 0.1;  // a solution has room, an elastic one none
     step("trying " + some.subject);
-    for (const double amount : {smallest.amount, smallest.amount + kALittleMore}) {
-      if (!search_.solves(some, amount)) continue;
+    for (const double amount : {smallest.amount, needed + kALittleMore, needed + 4.0 * kALittleMore}) {
+      if (amount < smallest.amount || !search_.solves(some, amount)) continue;
       smallest = {some, amount};
       result_.subject = some.subject;
       return;

@@ -16,7 +16,8 @@ namespace {
 
 constexpr double kSeen = 1e-3;  // of a limit's size: less is the tolerance of a solve that prices sums
 
-/// Of the cost that the task's own cost has in all: enough to tell motions apart, too little to buy a breach that matters.
+/// Of the task's own cost, which is about 1 at a solution (docs/task-file.md): too little to buy a breach that is seen, and enough to keep
+/// the motion smooth. Without it the optimiser finds motions that a coarse mesh does not see through.
 constexpr double kOwnCost = 1e-3;
 
 /// Part of the motion's time that a node stands for; one moment counts in full.
@@ -60,7 +61,7 @@ ElasticResult elastic_solve(const MotionProblem& problem, const NlpSolver& solve
     limits.push_back(std::move(limit));
   }
   const Eigen::VectorXd start = hard.pack(guess);
-  ElasticNlp elastic(hard, soft, kOwnCost / std::max(1.0, hard.cost(start)));
+  ElasticNlp elastic(hard, soft, kOwnCost);
   const SolveResult solved = solver.solve(elastic, elastic.start(start), options);
   return {solved.status, read(limits, soft, elastic.violations(solved.z)), solved.seconds};
 }

@@ -87,6 +87,10 @@ std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& 
   std::string line;
   if (!diagnosis.breaches.empty()) line = in_words(diagnosis.breaches.front(), problem);
   if (line.empty() && !diagnosis.reasons.empty()) line = diagnosis.reasons.front();
+  if (line.empty() && diagnosis.elastic_status == SolveStatus::converged) {
+    line = fmt::format("not solved ({}), though on a coarse mesh no limit has to give way: the solver may have missed a solution",
+                       diagnosis.message);
+  }
   if (line.empty()) line = fmt::format("not solved ({})", diagnosis.message);
   if (diagnosis.changes.empty()) return line + "; no change of one number was found that makes it solvable";
   std::vector<std::string> words;

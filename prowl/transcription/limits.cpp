@@ -22,13 +22,20 @@ MotionLimit entry_of_goal(const RobotModel& robot, const std::string& goal, int 
           .size = (is_length ? robot.size() : 1.0) * (is_velocity ? rate : 1.0)};
 }
 
-/// A limit of the robot on a joint; `size` is finite where the limit is.
-MotionLimit of_joint(const RobotModel& robot, LimitKind kind, int joint, double size) {
+/// A limit of the robot on a joint. Sizes are those of the robot, not of the limit: else a joint that is by far too weak would cost more
+/// than a strong one that is overloaded in its place.
+MotionLimit of_joint(const RobotModel& robot, LimitKind kind, int joint) {
   const bool is_prismatic = robot.joint_is_prismatic()[static_cast<std::size_t>(joint)];
-  const std::string unit = kind == LimitKind::torque ? (is_prismatic ? "N" : "N m")
-                                                     : std::string(is_prismatic ? "m" : "rad") +
-                                                           (kind == LimitKind::joint_velocity ? "/s" : "");
-  return {.kind = kind, .subject = robot.joint_names()[static_cast<std::size_t>(joint)], .unit = unit, .size = size};
+  const double length = is_prismatic ? robot.size() : 1.0;
+  MotionLimit limit{.kind = kind, .subject = robot.joint_names()[static_cast<std::size_t>(joint)], .unit = ""};
+  if (kind == LimitKind::torque) {
+    limit.unit = is_prismatic ? "N" : "N m";
+    limit.size = robot.weight() * (is_prismatic ? 1.0 : robot.size());
+  } else {
+    limit.unit = std::string(is_prismatic ? "m" : "rad") + (kind == LimitKind::joint_velocity ? "/s" : "");
+    limit.size = length * (kind == LimitKind::joint_velocity ? std::sqrt(RobotModel::kGravity / robot.size()) : 1.0);
+  }
+  return limit;
 }
 
 }  // namespace
@@ -64,8 +71,7 @@ std::vector<MotionLimit> Transcription::limits() const {
     }
     for (int j = 0; j < nu; ++j) {
       if (!binds(goal.torque_lower, goal.torque_upper, j)) continue;
-      const double most = robot.torque_limit()(j);  // of a joint without one, the weight on a leg
-      MotionLimit limit = of_joint(robot, LimitKind::torque, j, most < kInfinity ? most : robot.weight() * robot.size());
+      MotionLimit limit = of_joint(robot, LimitKind::torque, j);
       limit.kind = LimitKind::goal;
       limit.subject = goal.name + ", torque of " + limit.subject;
       of_goals.insert_or_assign(layout_.tau(k) + j, limit);
@@ -87,10 +93,10 @@ std::vector<MotionLimit> Transcription::limits() const {
     }
     for (int j = 0; j < nu; ++j) {
       if (k > 0) {  // the start is as it is
-        add_variable(of_joint(robot, LimitKind::joint_position, j, 1.0), layout_.q(k) + 6 + j);
-        add_variable(of_joint(robot, LimitKind::joint_velocity, j, robot.velocity_limit()(j)), layout_.v(k) + 6 + j);
+        add_variable(of_joint(robot, LimitKind::joint_position, j), layout_.q(k) + 6 + j);
+        add_variable(of_joint(robot, LimitKind::joint_velocity, j), layout_.v(k) + 6 + j);
       }
-      add_variable(of_joint(robot, LimitKind::torque, j, robot.torque_limit()(j)), layout_.tau(k) + j);
+      add_variable(of_joint(robot, LimitKind::torque, j), layout_.tau(k) + j);
     }
   }
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {

@@ -23,7 +23,7 @@ struct MotionLimit {
   std::string subject;  ///< contact, joint, or what a goal is about: "goal 1, base z"
   std::string unit;     ///< "N", "N m", "rad", ...
   double si = 1.0;      ///< of one of the row or variable, in that unit
-  double size = 1.0;    ///< what counts as a violation of one, in that unit: weight, limit, size of the robot
+  double size = 1.0;    ///< what counts as a violation of one, in that unit: of the robot, mostly: weight, size, both
 };
 
 }  // namespace prowl

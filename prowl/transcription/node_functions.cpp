@@ -72,6 +72,7 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
     const PhaseContact& contact = held[static_cast<std::size_t>(i)];
     const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
     friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
+    coefficients_.push_back(surface.friction);
     contact_names_.push_back(problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
     opens_.push_back(schedule.opens(phase, i));
     if (schedule.stances()[static_cast<std::size_t>(schedule.stance(phase, i))].lands()) landed_.push_back(i);
@@ -138,15 +139,14 @@ std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, 
   }
   if (row >= torque_row(k)) {
     const int joint = torques_.joint(row - torque_row(k));
-    const double largest = torques_.largest(row - torque_row(k));
     return MotionLimit{.kind = LimitKind::torque, .subject = robot.joint_names()[static_cast<std::size_t>(joint)],
-                       .unit = "N m", .si = largest, .size = largest};
+                       .unit = "N m", .si = torques_.largest(row - torque_row(k)), .size = robot.weight() * robot.size()};
   }
   int contact = 0;
   while (row >= contact_row(k, contact + 1)) ++contact;
   if (unloads(k, contact)) return std::nullopt;
   return MotionLimit{.kind = LimitKind::friction, .subject = contact_names_[static_cast<std::size_t>(contact)], .unit = "N",
-                     .si = 1.0 / force_scale_, .size = 1.0 / force_scale_};
+                     .si = 1.0 / force_scale_, .size = coefficients_[static_cast<std::size_t>(contact)] / force_scale_};
 }
 
 // h = T / n.

@@ -133,6 +133,7 @@ class NodeFunctions {
   std::vector<int> landed_;
   std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< of the anchor in the place, for each in landed_
   std::vector<FrictionLimit> friction_;
+  std::vector<double> coefficients_;  ///< of friction
   TorqueRows torques_;
   PlacementRows placement_;
   NodeCost cost_;
