@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -16,11 +17,39 @@ namespace prowl {
 
 namespace {
 
-constexpr double kFirst = 0.25;    // amount: 28 % more
-constexpr double kFurther = 3.0;   // from one amount to the next
-constexpr double kPrecision = 0.05;  // where a bisection ends: 5 % of the number, or of a large amount
+constexpr double kFirst = 0.4;      // amount: half as much again
+constexpr double kFurther = 2.5;    // from one amount to the next
+constexpr double kPrecision = 0.05;  // where a bisection ends: 5 % of the number, and 10 % of a large amount
 constexpr double kNoMatch = 2.0;   // a change is told of besides a smaller one up to so many times its amount
 constexpr int kMostIterations = 100;  // on a coarse mesh; what has a solution takes 10 to 80
+
+/// Stops a solve that gets nowhere: without a solution there is none to find, and that is what most solves of a search are.
+class StallWatch {
+ public:
+  explicit StallWatch(SolverOptions& options) : interrupt_(options.interrupt) {
+    options.interrupt = &stop_;
+    options.on_iteration = [this](const SolveProgress& progress) { look(progress); };
+  }
+  StallWatch(const StallWatch&) = delete;
+  StallWatch& operator=(const StallWatch&) = delete;
+
+ private:
+  void look(const SolveProgress& progress) {
+    constexpr int kPatience = 30;      // iterations in which the violation has to halve
+    constexpr double kNearly = 1e-4;   // a violation below this is about to vanish
+    if (progress.constraint_violation < 0.5 * best_) {
+      best_ = progress.constraint_violation;
+      since_ = progress.iteration;
+    }
+    const bool stalls = best_ > kNearly && progress.iteration - since_ > kPatience;
+    if (stalls || (interrupt_ && interrupt_->load())) stop_ = true;
+  }
+
+  const std::atomic<bool>* interrupt_;
+  std::atomic<bool> stop_ = false;
+  double best_ = std::numeric_limits<double>::infinity();
+  int since_ = 0;
+};
 
 }  // namespace
 
@@ -35,6 +64,7 @@ bool ChangeSearch::solves(const MotionProblem& problem) const {
     SolverOptions options = options_;
     options.max_iterations = std::min(options.max_iterations, kMostIterations);
     options.max_seconds = std::max(seconds_left(), 1e-3);
+    const StallWatch watch(options);
     return solver_.solve(nlp, nlp.pack(guess), options).status == SolveStatus::converged;
   } catch (const Error&) {  // bounds that contradict each other, a model that cannot be evaluated: no plan either
     return false;
@@ -50,7 +80,7 @@ bool ChangeSearch::solves(const Knob& knob, double amount) const {
 }
 
 double ChangeSearch::bisected(const Knob& knob, double too_little, double enough) const {
-  while (enough - too_little > kPrecision * std::max(1.0, enough) && may_go_on()) {
+  while (enough - too_little > std::max(kPrecision, 0.1 * enough) && may_go_on()) {
     const double middle = 0.5 * (too_little + enough);
     (solves(knob, middle) ? enough : too_little) = middle;
   }
