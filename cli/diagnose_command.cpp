@@ -59,7 +59,8 @@ void add_diagnose_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* const verb = app.add_subcommand("diagnose", "Find out why a task has no plan, and what would change that");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
-  verb->add_option("--max-time", arguments->max_seconds, fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
+  verb->add_option("--max-time", arguments->max_seconds,
+                   fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
       ->check(positive_number())->type_name("S");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);

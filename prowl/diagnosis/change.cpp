@@ -21,23 +21,25 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Largest ratios that are tried. 0.8 is rubber on dry concrete, and who plans with more falls; what needs ten times the time or a
-// twentieth of the way is another task.
+// Largest ratios that are tried. 0.8 is rubber on dry concrete, and who plans with more falls; what needs ten times the
+// time or a twentieth of the way is another task.
 constexpr double kMostFriction = 0.8;
 const double kMostTime = std::log(10.0);
 const double kMostLimit = std::log(20.0);
 const double kLeastWay = std::log(20.0);
 
-// Forces and torques of a motion go with the way and with the square of the time, so that too little friction or torque is mended by a
-// nearer goal or a longer phase, too, and by a smaller ratio of times. Where such a change is about equal to that of a limit, the limit
-// is what is missing: a task that asks too much breaks several limits at once, and no change of one of them mends it.
+// Forces and torques of a motion go with the way and with the square of the time, so that too little friction or torque
+// is mended by a nearer goal or a longer phase, too, and by a smaller ratio of times. Where such a change is about
+// equal to that of a limit, the limit is what is missing: a task that asks too much breaks several limits at once, and
+// no change of one of them mends it.
 constexpr double kWeightOfWay = 1.25;
 constexpr double kWeightOfTime = 2.5;
 constexpr double kWeightOfAllTimes = 3.0;
 
 Knob friction_knob(const MotionProblem& problem, int surface) {
   const Surface& one = problem.surfaces[static_cast<std::size_t>(surface)];
-  return {.kind = "friction", .subject = one.name, .most = std::log(std::max(kMostFriction / one.friction, 1.3)), .unit = "",
+  return {.kind = "friction", .subject = one.name, .most = std::log(std::max(kMostFriction / one.friction, 1.3)),
+          .unit = "",
           .value = [&one](double a) { return one.friction * std::exp(a); },
           .problem = [&problem, surface](double a) {
             MotionProblem changed = problem;
@@ -92,7 +94,8 @@ void widen(JointLimits& limits, double lower, double upper, double factor) {
   limits.position_upper = std::min(*limits.position_upper, std::max(upper, limits.torque_over_position.back().first));
 }
 
-MotionProblem with_joints(const MotionProblem& problem, const std::string& kind, const std::vector<int>& joints, double factor) {
+MotionProblem with_joints(const MotionProblem& problem, const std::string& kind, const std::vector<int>& joints,
+                          double factor) {
   const RobotModel& robot = problem.robot;
   RobotDescription description = robot.description();
   for (const int j : joints) {
@@ -236,11 +239,14 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   add_places(problem, knobs);
   std::vector<int> joints(static_cast<std::size_t>(problem.robot.nu()));
   std::iota(joints.begin(), joints.end(), 0);
-  for (const char* kind : {"torque", "joint_velocity", "joint_position"}) knobs.push_back(joint_knob(problem, kind, joints));
+  for (const char* kind : {"torque", "joint_velocity", "joint_position"}) {
+    knobs.push_back(joint_knob(problem, kind, joints));
+  }
   const int phases = static_cast<int>(problem.phases.size());
   for (int p = 0; p < phases && phases <= kMostPhases; ++p) {
     knobs.push_back(duration_knob(problem, p, 1.0));
-    if (problem.phases[static_cast<std::size_t>(p)].contacts.size() < kStands) knobs.push_back(duration_knob(problem, p, -1.0));
+    const bool may_be_shorter = problem.phases[static_cast<std::size_t>(p)].contacts.size() < kStands;
+    if (may_be_shorter) knobs.push_back(duration_knob(problem, p, -1.0));
   }
   if (phases > 1) knobs.push_back(duration_knob(problem, -1, 1.0));
   if (phases > 1 && problem.swing_clearance > 0.0) {

@@ -18,7 +18,8 @@ struct FoundChange {
   double weighted() const { return knob.weight * amount; }
 };
 
-/// Looks for small changes that make a problem solvable, by solving it again and again on its mesh, until the time is up.
+/// Looks for small changes that make a problem solvable, by solving it again and again on its mesh, until the time is
+/// up.
 class ChangeSearch {
  public:
   ChangeSearch(const NlpSolver& solver, const SolverOptions& options, double max_seconds)
@@ -29,12 +30,14 @@ class ChangeSearch {
   bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
   bool may_go_on() const { return seconds_left() > 0.0 && !interrupted(); }
 
-  /// Whether the solver converges on the problem's mesh from its guess. Not if there is a proof against it, or the time is up.
+  /// Whether the solver converges on the problem's mesh from its guess. Not if there is a proof against it, or the time
+  /// is up.
   bool solves(const MotionProblem& problem) const;
   bool solves(const Knob& knob, double amount) const;
 
-  /// All knobs are turned a little, then further and further, each until its problem is solved; then between the last two amounts by
-  /// bisection. Ends where what is left would be no match for the smallest, or after so many seconds. Sorted by weighted amount.
+  /// All knobs are turned a little, then further and further, each until its problem is solved; then between the last
+  /// two amounts by bisection. Ends where what is left would be no match for the smallest, or after so many seconds.
+  /// Sorted by weighted amount.
   std::vector<FoundChange> smallest(const std::vector<Knob>& knobs, double max_seconds,
                                     const std::function<void(const std::string&)>& on_step) const;
 

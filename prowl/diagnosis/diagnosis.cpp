@@ -26,7 +26,9 @@ constexpr double kOwnPart = 0.1;  // of the time, for the task as it is: who ask
 constexpr int kElasticIterations = 500;
 constexpr double kElasticTolerance = 1e-5;  // a tenth of a thousandth of a weight or a limit
 
-bool is_of_joints(const std::string& kind) { return kind == "torque" || kind == "joint_velocity" || kind == "joint_position"; }
+bool is_of_joints(const std::string& kind) {
+  return kind == "torque" || kind == "joint_velocity" || kind == "joint_position";
+}
 
 /// What a breach of a joint's limit adds to; of a range, which widens on both sides, half of it.
 double limit_of_joint(const RobotModel& robot, LimitKind kind, int joint) {
@@ -42,7 +44,8 @@ Change as_change(const FoundChange& found) {
 
 class Diagnoser {
  public:
-  Diagnoser(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic, const DiagnosisOptions& options)
+  Diagnoser(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic,
+            const DiagnosisOptions& options)
       : problem_(problem),
         solver_(solver),
         elastic_(elastic),
@@ -57,7 +60,8 @@ class Diagnoser {
     result_.hints = doubts(problem_, initial_guess(problem_, make_mesh(problem_)), elastic_);
     const std::vector<Knob> knobs = knobs_of(coarse_);
     result_.tried = static_cast<int>(knobs.size());
-    std::vector<FoundChange> found = search_.smallest(knobs, kSearchPart * search_.seconds_left(), [&](const std::string& what) { step("trying " + what); });
+    std::vector<FoundChange> found = search_.smallest(knobs, kSearchPart * search_.seconds_left(),
+                                                      [&](const std::string& what) { step("trying " + what); });
     name(found);
     narrow_down(found);
     for (const FoundChange& change : found) result_.changes.push_back(as_change(change));
@@ -71,8 +75,8 @@ class Diagnoser {
     if (options_.on_step) options_.on_step(what);
   }
 
-  /// The coarsest mesh on which there is no solution: it costs least to look for changes there. The task's own if there is none.
-  /// False if a proof makes it pointless to solve the task as it is.
+  /// The coarsest mesh on which there is no solution: it costs least to look for changes there. The task's own if there
+  /// is none. False if a proof makes it pointless to solve the task as it is.
   bool find_failing_mesh() {
     coarse_ = on_search_mesh(problem_);
     if (!result_.reasons.empty()) {
@@ -103,8 +107,8 @@ class Diagnoser {
     return result_.solvable;
   }
 
-  /// Reads where the limits give way of the kind that is to be changed; of all kinds if nothing is found to change, or if it is the
-  /// time, or if that kind alone does not do.
+  /// Reads where the limits give way of the kind that is to be changed; of all kinds if nothing is found to change, or
+  /// if it is the time, or if that kind alone does not do.
   void name(const std::vector<FoundChange>& found) {
     if (!found.empty()) {
       const Knob& knob = found.front().knob;

@@ -30,7 +30,8 @@ struct Diagnosis {
   std::string message;                              ///< the solver's
   std::vector<std::string> reasons;                 ///< proofs_of_infeasibility()
   std::vector<std::string> hints;                   ///< doubts()
-  /// What is named: the kind of the smallest change, or if none was found, of the limit that gives way most. Empty if neither.
+  /// What is named: the kind of the smallest change, or if none was found, of the limit that gives way most. Empty if
+  /// neither.
   std::string kind;
   int phase = -1;
   std::string subject;
@@ -49,9 +50,11 @@ struct DiagnosisOptions {
 
 /// Diagnoses a task:
 /// 1. proofs before the solve, and the solve itself (make_plan), which may succeed;
-/// 2. on the coarsest mesh of the task, for each number that the task could have otherwise (knobs_of) by bisection the least change
+/// 2. on the coarsest mesh of the task, for each number that the task could have otherwise (knobs_of) by bisection the
+///    least change
 ///    with which `solver` converges; kinds that cannot be the smallest any more are left after one solve;
-/// 3. an elastic solve by `elastic_solver` with the limits of the kind that was named, to read where, when and by how much;
+/// 3. an elastic solve by `elastic_solver` with the limits of the kind that was named, to read where, when and by how
+///    much;
 /// 4. joints are narrowed down to those that gave way, if these alone suffice;
 /// 5. the task with the smallest change on its own mesh, with its certificate.
 /// Throws InputError if the problem makes no sense, as make_plan does.

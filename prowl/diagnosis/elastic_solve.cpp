@@ -16,8 +16,9 @@ namespace {
 
 constexpr double kSeen = 1e-3;  // of a limit's size: less is the tolerance of a solve that prices sums
 
-/// Of the task's own cost, which is about 1 at a solution (docs/task-file.md): too little to buy a breach that is seen, and enough to keep
-/// the motion smooth. Without it the optimiser finds motions that a coarse mesh does not see through.
+/// Of the task's own cost, which is about 1 at a solution (docs/task-file.md): too little to buy a breach that is seen,
+/// and enough to keep the motion smooth. Without it the optimiser finds motions that a coarse mesh does not see
+/// through.
 constexpr double kOwnCost = 1e-3;
 
 /// Part of the motion's time that a node stands for; one moment counts in full.

@@ -28,9 +28,10 @@ struct ElasticResult {
   double seconds = 0.0;
 };
 
-/// Solves the problem once more with limits that give way (ElasticNlp): dynamics, start, contacts and landings stay hard, and the limits
-/// for which `gives_way` says so have slacks. What holds at every node costs in proportion to its part of the motion's time, so that
-/// the answer does not depend on the mesh. The task's own cost counts for little: of all motions that breach least, a smooth one.
+/// Solves the problem once more with limits that give way (ElasticNlp): dynamics, start, contacts and landings stay
+/// hard, and the limits for which `gives_way` says so have slacks. What holds at every node costs in proportion to its
+/// part of the motion's time, so that the answer does not depend on the mesh. The task's own cost counts for little: of
+/// all motions that breach least, a smooth one.
 ElasticResult elastic_solve(const MotionProblem& problem, const NlpSolver& solver, const SolverOptions& options,
                             const std::function<bool(const MotionLimit&)>& gives_way);
 

@@ -74,8 +74,8 @@ Json to_json(const Breach& breach, const MotionProblem& problem) {
 Json phase_to_json(int phase) { return phase < 0 ? Json(nullptr) : Json(phase + 1); }
 
 Json to_json(const Change& change, const MotionProblem& problem) {
-  return {{"kind", change.kind}, {"phase", phase_to_json(change.phase)}, {"subject", change.subject}, {"from", change.from},
-          {"to", change.to}, {"unit", change.unit}, {"factor", std::exp(change.amount)},
+  return {{"kind", change.kind}, {"phase", phase_to_json(change.phase)}, {"subject", change.subject},
+          {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"factor", std::exp(change.amount)},
           {"passes", change.on_the_task_mesh}, {"words", in_words(change, problem)}};
 }
 
@@ -88,8 +88,8 @@ std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& 
   if (!diagnosis.breaches.empty()) line = in_words(diagnosis.breaches.front(), problem);
   if (line.empty() && !diagnosis.reasons.empty()) line = diagnosis.reasons.front();
   if (line.empty() && diagnosis.elastic_status == SolveStatus::converged) {
-    line = fmt::format("not solved ({}), though on a coarse mesh no limit has to give way: the solver may have missed a solution",
-                       diagnosis.message);
+    line = fmt::format("not solved ({}), though on a coarse mesh no limit has to give way: the solver may have missed a "
+                       "solution", diagnosis.message);
   }
   if (line.empty()) line = fmt::format("not solved ({})", diagnosis.message);
   if (diagnosis.changes.empty()) return line + "; no change of one number was found that makes it solvable";
@@ -101,7 +101,8 @@ std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& 
 }
 
 std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& problem) {
-  std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, diagnosis_headline(diagnosis, problem));
+  const std::string headline = diagnosis_headline(diagnosis, problem);
+  std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, headline);
   if (diagnosis.solvable) return text;
   for (const std::string& reason : diagnosis.reasons) text += fmt::format("  certain      {}\n", reason);
   for (const std::string& hint : diagnosis.hints) text += fmt::format("  doubtful     {}\n", hint);

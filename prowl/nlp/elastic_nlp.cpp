@@ -82,7 +82,9 @@ VectorXd ElasticNlp::violations(const VectorXd& z) const {
   return result;
 }
 
-double ElasticNlp::cost(const VectorXd& z) { return cost_factor_ * inner_.cost(inner(z)) + price_.dot(z.tail(price_.size())); }
+double ElasticNlp::cost(const VectorXd& z) {
+  return cost_factor_ * inner_.cost(inner(z)) + price_.dot(z.tail(price_.size()));
+}
 
 void ElasticNlp::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradient) {
   inner_.cost_gradient(inner(z), gradient.head(inner_.num_variables()));
@@ -92,7 +94,9 @@ void ElasticNlp::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradient)
 
 void ElasticNlp::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   inner_.constraints(inner(z), g.head(inner_.num_constraints()));
-  for (std::size_t i = 0; i < variables_.size(); ++i) g(inner_.num_constraints() + static_cast<Index>(i)) = z(variables_[i]);
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    g(inner_.num_constraints() + static_cast<Index>(i)) = z(variables_[i]);
+  }
   for (Index s = 0; s < price_.size(); ++s) {
     const Slack& slack = slacks_[static_cast<std::size_t>(s)];
     g(slack.row) += slack.sign * soft_[static_cast<std::size_t>(slack.soft)].size * z(inner_.num_variables() + s);
@@ -109,7 +113,8 @@ void ElasticNlp::jacobian(const VectorXd& z, Eigen::Ref<VectorXd> values) {
   }
 }
 
-void ElasticNlp::hessian(const VectorXd& z, double cost_factor, const VectorXd& multipliers, Eigen::Ref<VectorXd> values) {
+void ElasticNlp::hessian(const VectorXd& z, double cost_factor, const VectorXd& multipliers,
+                         Eigen::Ref<VectorXd> values) {
   inner_.hessian(inner(z), cost_factor * cost_factor_, multipliers.head(inner_.num_constraints()), values);
 }
 

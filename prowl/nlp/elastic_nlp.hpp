@@ -16,17 +16,17 @@ struct SoftBound {
   double price = 1.0;  ///< > 0
 };
 
-/// Another program in which some bounds give way, so that it has a solution whatever these ask for (the elastic mode of SNOPT: Gill,
-/// Murray, Saunders 2005, sec. 4.3; Nocedal and Wright 2006, sec. 17.2). With slacks s >= 0, for each soft bound one
-/// below where there is a lower bound and one above where there is an upper:
+/// Another program in which some bounds give way, so that it has a solution whatever these ask for (the elastic mode of
+/// SNOPT: Gill, Murray, Saunders 2005, sec. 4.3; Nocedal and Wright 2006, sec. 17.2). With slacks s >= 0, for each soft
+/// bound one below where there is a lower bound and one above where there is an upper:
 ///
 ///   minimise   cost_factor f(z) + sum of price s   subject to   lower <= c(z) + size (s_below - s_above) <= upper
 ///
-/// c is a soft row, or a soft variable, whose own bounds are then none. The price is on the sum, not on squares: few bounds give
-/// way, by as much as has to be, and none that need not. All else holds as in the other program.
+/// c is a soft row, or a soft variable, whose own bounds are then none. The price is on the sum, not on squares: few
+/// bounds give way, by as much as has to be, and none that need not. All else holds as in the other program.
 ///
-/// Variables: (z, s). Rows: those of the other program, then one for each soft variable. Derivatives are exact if those of the other
-/// are.
+/// Variables: (z, s). Rows: those of the other program, then one for each soft variable. Derivatives are exact if those
+/// of the other are.
 class ElasticNlp : public Nlp {
  public:
   /// A view of `inner`, which must outlive it. Bounds that are soft twice are a mistake of the caller.
@@ -36,8 +36,8 @@ class ElasticNlp : public Nlp {
   /// From variables of the other program: slacks as large as they have to be, and a little larger.
   Eigen::VectorXd start(const Eigen::VectorXd& z);
   Eigen::VectorXd inner(const Eigen::VectorXd& z) const { return z.head(inner_.num_variables()); }
-  /// For each soft bound by how much it gives way, in the unit of the row or variable: > 0 below its lower bound (too little), < 0
-  /// above its upper.
+  /// For each soft bound by how much it gives way, in the unit of the row or variable: > 0 below its lower bound (too
+  /// little), < 0 above its upper.
   Eigen::VectorXd violations(const Eigen::VectorXd& z) const;
 
   int num_variables() const override { return static_cast<int>(variable_lower_.size()); }

@@ -22,8 +22,8 @@ MotionLimit entry_of_goal(const RobotModel& robot, const std::string& goal, int 
           .size = (is_length ? robot.size() : 1.0) * (is_velocity ? rate : 1.0)};
 }
 
-/// A limit of the robot on a joint. Sizes are those of the robot, not of the limit: else a joint that is by far too weak would cost more
-/// than a strong one that is overloaded in its place.
+/// A limit of the robot on a joint. Sizes are those of the robot, not of the limit: else a joint that is by far too
+/// weak would cost more than a strong one that is overloaded in its place.
 MotionLimit of_joint(const RobotModel& robot, LimitKind kind, int joint) {
   const bool is_prismatic = robot.joint_is_prismatic()[static_cast<std::size_t>(joint)];
   const double length = is_prismatic ? robot.size() : 1.0;

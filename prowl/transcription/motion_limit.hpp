@@ -4,11 +4,13 @@
 
 namespace prowl {
 
-/// What a user asks for or what a robot can do, as opposed to what physics demands: limits that a task might have otherwise.
+/// What a user asks for or what a robot can do, as opposed to what physics demands: limits that a task might have
+/// otherwise.
 enum class LimitKind { friction, torque, joint_position, joint_velocity, goal, place, clearance };
 
 inline const char* to_string(LimitKind kind) {
-  constexpr const char* kNames[] = {"friction", "torque", "joint_position", "joint_velocity", "goal", "place", "clearance"};
+  constexpr const char* kNames[] = {"friction", "torque", "joint_position", "joint_velocity",
+                                    "goal",     "place",  "clearance"};
   return kNames[static_cast<int>(kind)];
 }
 

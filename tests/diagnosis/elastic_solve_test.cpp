@@ -25,8 +25,8 @@ MotionProblem on_slope(double degrees, double friction) {
   return problem;
 }
 
-/// From rest to rest at the same place the mean force is the weight, so that along the slope at least W (sin α - µ cos α) is missing on
-/// average, whatever the motion. Sizes are µ W.
+/// From rest to rest at the same place the mean force is the weight, so that along the slope at least W (sin α - µ cos
+/// α) is missing on average, whatever the motion. Sizes are µ W.
 TEST(ElasticSolve, FindsTheFrictionThatIsMissingOnASlope) {
   const double angle = 20.0 * kDegree, friction = 0.3;
   const ElasticResult result = elastic_solve(on_slope(20.0, friction), IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::friction));
