@@ -74,6 +74,7 @@ int run(int argc, char** argv) {
   app.footer("Examples:\n  prowl robot robots/hyq.toml          what Prowl understands of a robot\n"
              "  prowl plan tasks/hyq/crouch.toml     plan a motion into out/hyq_crouch\n"
              "  prowl check out/hyq_crouch           check it again\n"
+             "  prowl diagnose tasks/hyq/crouch.toml why there is no plan, and what would change that\n"
              "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
              "  prowl compare tasks/hyq/hold.toml --solver riccati,ipopt   the same problem solved in several ways, in one table\n"
              "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
@@ -84,6 +85,7 @@ int run(int argc, char** argv) {
              "  prowl doctor                         what works here, and what is slow or missing\n\nMore with prowl VERB --help.");
   add_plan_command(app, status);
   add_check_command(app, status);
+  add_diagnose_command(app, status);
   add_robot_command(app, status);
   add_simulate_command(app, status);
   add_sweep_command(app, status);

@@ -150,6 +150,9 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
   const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
+  if (status == kNotSolved || status == kLimit) {
+    print_message(fmt::format("why, and what would change that: prowl diagnose {}\n", arguments.task));
+  }
   if (arguments.json) {
     print_json({.verb = "plan", .exit_status = status, .plan = &record, .directory = out, .written = files_of_plan(out),
                 .result = plan_report_json(record, out)});

@@ -72,6 +72,7 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
     const PhaseContact& contact = held[static_cast<std::size_t>(i)];
     const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
     friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
+    coefficients_.push_back(surface.friction);
     contact_names_.push_back(problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
     opens_.push_back(schedule.opens(phase, i));
     if (schedule.stances()[static_cast<std::size_t>(schedule.stance(phase, i))].lands()) landed_.push_back(i);
@@ -124,6 +125,28 @@ std::string NodeFunctions::describe_row(int k, int row) const {
   while (row >= contact_row(k, contact + 1)) ++contact;
   return contact_names_[static_cast<std::size_t>(contact)] +
          (unloads(k, contact) ? ", force before it opens" : ", friction cone");
+}
+
+std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, int k, int row) const {
+  if (row < nv_) return std::nullopt;
+  if (row >= placement_row(k)) {
+    const PlacementRows::Kind kind = placement_.kind(k, row - placement_row(k));
+    if (kind == PlacementRows::Kind::place || kind == PlacementRows::Kind::velocity) return std::nullopt;
+    const int contact = placement_.contact(k, row - placement_row(k));
+    return MotionLimit{.kind = kind == PlacementRows::Kind::inside ? LimitKind::place : LimitKind::clearance,
+                       .subject = robot.contacts()[static_cast<std::size_t>(contact)].name, .unit = "m", .si = robot.size(),
+                       .size = robot.size()};
+  }
+  if (row >= torque_row(k)) {
+    const int joint = torques_.joint(row - torque_row(k));
+    return MotionLimit{.kind = LimitKind::torque, .subject = robot.joint_names()[static_cast<std::size_t>(joint)],
+                       .unit = "N m", .si = torques_.largest(row - torque_row(k)), .size = robot.weight() * robot.size()};
+  }
+  int contact = 0;
+  while (row >= contact_row(k, contact + 1)) ++contact;
+  if (unloads(k, contact)) return std::nullopt;
+  return MotionLimit{.kind = LimitKind::friction, .subject = contact_names_[static_cast<std::size_t>(contact)], .unit = "N",
+                     .si = 1.0 / force_scale_, .size = coefficients_[static_cast<std::size_t>(contact)] / force_scale_};
 }
 
 // h = T / n.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "prowl/motion/friction_limit.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
+#include "prowl/transcription/motion_limit.hpp"
 #include "prowl/transcription/node_cost.hpp"
 #include "prowl/transcription/node_point.hpp"
 #include "prowl/transcription/placement_rows.hpp"
@@ -74,6 +76,9 @@ class NodeFunctions {
   double lower(int k, int row) const;
   double upper(int k, int row) const;
   std::string describe_row(int k, int row) const;
+  /// What a row asks that a task might have otherwise; none of dynamics, landings and forces before opening. Kind, subject, unit,
+  /// si and size are set.
+  std::optional<MotionLimit> limit_of_row(const RobotModel& robot, int k, int row) const;
 
   const std::vector<int>& contacts() const { return dynamics_.contacts(); }
   const std::vector<int>& chosen_rows() const { return dynamics_.chosen_rows(); }
@@ -128,6 +133,7 @@ class NodeFunctions {
   std::vector<int> landed_;
   std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< of the anchor in the place, for each in landed_
   std::vector<FrictionLimit> friction_;
+  std::vector<double> coefficients_;  ///< of friction
   TorqueRows torques_;
   PlacementRows placement_;
   NodeCost cost_;

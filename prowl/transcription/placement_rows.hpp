@@ -33,6 +33,9 @@ class PlacementRows {
   double lower(int k, int row) const { return at(k, row).lower; }
   double upper(int k, int row) const;
   std::string describe(int k, int row) const;
+  enum class Kind { place, velocity, inside, clearance };
+  Kind kind(int k, int row) const { return at(k, row).kind; }
+  int contact(int k, int row) const { return points_[static_cast<std::size_t>(at(k, row).point)]; }  ///< of the robot
 
   /// Values at the configuration of `terms` and velocity v; anchors of the phase's contacts, 3 rows each, world.
   void evaluate(int k, const RigidBodyTerms& terms, const Eigen::VectorXd& v, const Eigen::VectorXd& anchors,
@@ -45,7 +48,6 @@ class PlacementRows {
                    Eigen::Ref<Eigen::MatrixXd> qv);
 
  private:
-  enum class Kind { place, velocity, inside, clearance };
   struct Row {
     Kind kind;
     int point;              ///< place of the contact among the points of kinematics_

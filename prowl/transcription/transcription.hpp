@@ -55,6 +55,10 @@ class Transcription : public MotionNlp {
   void hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
                Eigen::Ref<Eigen::VectorXd> values) override;
 
+  /// All that a task might have otherwise, but for durations: friction, torques, positions and velocities of joints, goals,
+  /// places and clearance. The start is none, and no bound that is not there.
+  std::vector<MotionLimit> limits() const;
+
   std::string describe_constraint(int row) const override;
   std::string describe_variable(int index) const override;
 

@@ -60,6 +60,18 @@ TEST_F(JsonOutput, OfResults) {
   EXPECT_EQ(object("plan", "hold.toml $dirs --out out --max-iterations 1").at("finished"), false);
 }
 
+TEST_F(JsonOutput, OfADiagnosis) {
+  EXPECT_EQ(object("diagnose", "hold.toml $dirs").at("solvable"), true);
+  // HyQ lies on its belly long before 55 cm.
+  folder_.write("low.toml", test::kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, -0.55]\n");
+  const json result = object("diagnose", "low.toml $dirs --max-time 60");
+  EXPECT_EQ(result.at("solvable"), false);
+  EXPECT_EQ(result.at("exit_status"), 3);
+  EXPECT_EQ(result.at("written").size(), 0u);
+  EXPECT_EQ(result.at("cause").at("kind"), "goal");
+  EXPECT_EQ(result.at("cause").at("subject"), "goal 1, base z");
+}
+
 TEST_F(JsonOutput, OfAPlanSaysWhichInTheSameWords) {
   ASSERT_EQ(run("$prowl plan hold.toml $dirs --out out").status, 0);
   for (const char* verb : {"check", "simulate", "report"}) {

@@ -26,6 +26,8 @@ ALLOWED = {
     "estimation": {"model", "dynamics"},
     # Of dynamics nothing: an independent judge.
     "simulation": {"model", "motion", "trajectory", "tracker", "estimation"},
+    # After prowl/plan, which it solves with.
+    "diagnosis": {".", "model", "dynamics", "motion", "trajectory", "nlp", "transcription", "feasibility"},
     "io": None,  # what it needs
     "starter": {"model", "dynamics", "motion", "io"},
     ".": None,  # prowl/plan

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "commands.hpp"
+#include "environment.hpp"
+#include "exit_status.hpp"
+#include "interrupt.hpp"
+#include "json_result.hpp"
+#include "output.hpp"
+#include "prowl/diagnosis/diagnosis.hpp"
+#include "prowl/io/diagnosis_report.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
+#include "shared_options.hpp"
+#include "wrap.hpp"
+
+namespace prowl::cli {
+namespace {
+
+struct DiagnoseArguments {
+  std::string task;
+  std::vector<std::string> package_dirs;
+  double max_seconds = DiagnosisOptions().max_seconds;
+  bool json = false;
+};
+
+ExitStatus exit_status(const Diagnosis& diagnosis) {
+  if (diagnosis.solvable) return diagnosis.certified ? kPassed : kCertificateFailed;
+  return kNotSolved;
+}
+
+int run_diagnose(const DiagnoseArguments& arguments) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs));
+  DiagnosisOptions options{.solver = task.solver, .max_seconds = arguments.max_seconds};
+  options.solver.interrupt = &interrupted;
+  options.on_step = [](const std::string& what) { print_progress(what + "\n"); };
+  const Diagnosis diagnosis = diagnose(task.problem, *make_solver(solver_names().front()), IpoptSolver(), options);
+  if (interrupted) {
+    const char* const message = "interrupted before the diagnosis was finished";
+    print_message(fmt::format("{}\n", message));
+    if (arguments.json) print_json_error("diagnose", kInterrupted, message);
+    return kInterrupted;
+  }
+  const int status = exit_status(diagnosis);
+  if (arguments.json) {
+    print_json({.verb = "diagnose", .exit_status = status, .result = diagnosis_json(diagnosis, task.problem)});
+  } else {
+    print_result(wrap(diagnosis_text(diagnosis, task.problem)));
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_diagnose_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<DiagnoseArguments>();
+  CLI::App* const verb = app.add_subcommand("diagnose", "Find out why a task has no plan, and what would change that");
+  verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
+  verb->add_option("--max-time", arguments->max_seconds,
+                   fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
+      ->check(positive_number())->type_name("S");
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
+  set_footer(*verb, {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
+             "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, whether or not a\n"
+             "cause was found; 7 there is a plan, but its certificate fails; 130 interrupted.");
+  verb->callback([arguments, &status] { status = run_diagnose(*arguments); });
+}
+
+}  // namespace prowl::cli

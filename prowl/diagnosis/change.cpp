@@ -1,0 +1,264 @@
+#include "prowl/diagnosis/change.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/model/so3.hpp"
+#include "prowl/motion/contact_schedule.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+// Largest ratios that are tried. 0.8 is rubber on dry concrete, and who plans with more falls; what needs ten times the
+// time or a twentieth of the way is another task.
+constexpr double kMostFriction = 0.8;
+const double kMostTime = std::log(10.0);
+const double kMostLimit = std::log(20.0);
+const double kLeastWay = std::log(20.0);
+
+// Forces and torques of a motion go with the way and with the square of the time, so that too little friction or torque
+// is mended by a nearer goal or a longer phase, too, and by a smaller ratio of times. Where such a change is about
+// equal to that of a limit, the limit is what is missing: a task that asks too much breaks several limits at once, and
+// no change of one of them mends it.
+constexpr double kWeightOfWay = 1.25;
+constexpr double kWeightOfTime = 2.5;
+constexpr double kWeightOfAllTimes = 3.0;
+
+Knob friction_knob(const MotionProblem& problem, int surface) {
+  const Surface& one = problem.surfaces[static_cast<std::size_t>(surface)];
+  return {.kind = "friction", .subject = one.name, .most = std::log(std::max(kMostFriction / one.friction, 1.3)),
+          .unit = "",
+          .value = [&one](double a) { return one.friction * std::exp(a); },
+          .problem = [&problem, surface](double a) {
+            MotionProblem changed = problem;
+            changed.surfaces[static_cast<std::size_t>(surface)].friction *= std::exp(a);
+            return changed;
+          }};
+}
+
+/// Phase -1: all together. sign -1: shorter.
+Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
+  const auto scaled = [phase, sign](MotionProblem changed, double a) {
+    for (int p = 0; p < static_cast<int>(changed.phases.size()); ++p) {
+      if (phase >= 0 && p != phase) continue;
+      Duration& duration = changed.phases[static_cast<std::size_t>(p)].duration;
+      const bool fixed = duration.is_fixed();
+      (sign > 0.0 ? duration.max : duration.min) *= std::exp(sign * a);
+      if (fixed) duration.min = duration.max = sign > 0.0 ? duration.max : duration.min;
+    }
+    return changed;
+  };
+  return {.kind = "duration", .phase = phase,
+          .subject = phase < 0 ? "" : problem.phases[static_cast<std::size_t>(phase)].name, .most = kMostTime,
+          .weight = phase < 0 ? kWeightOfAllTimes : kWeightOfTime, .unit = "s",
+          .value = [&problem, phase, sign](double a) {
+            double time = 0.0;
+            for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
+              const Duration& duration = problem.phases[static_cast<std::size_t>(p)].duration;
+              if (phase < 0 || p == phase) time += sign > 0.0 ? duration.max : duration.min;
+            }
+            return time * std::exp(sign * a);
+          },
+          .problem = [&problem, scaled](double a) { return scaled(problem, a); }};
+}
+
+/// Phases of a gait come from one number, and there are many: up to so many phases have durations of their own to turn.
+constexpr int kMostPhases = 5;
+
+constexpr std::size_t kStands = 3;  // contacts; on fewer a robot cannot stay for as long as it likes
+
+LimitCurve::Table times(LimitCurve::Table table, double factor) {
+  for (auto& [at, limit] : table) limit *= factor;
+  return table;
+}
+
+/// Wider by the same on both sides, as far as a torque over the position is known.
+void widen(JointLimits& limits, double lower, double upper, double factor) {
+  const double more = 0.5 * (upper - lower) * (factor - 1.0);
+  limits.position_lower = lower - more;
+  limits.position_upper = upper + more;
+  if (limits.torque_over_position.empty()) return;
+  limits.position_lower = std::max(*limits.position_lower, std::min(lower, limits.torque_over_position.front().first));
+  limits.position_upper = std::min(*limits.position_upper, std::max(upper, limits.torque_over_position.back().first));
+}
+
+MotionProblem with_joints(const MotionProblem& problem, const std::string& kind, const std::vector<int>& joints,
+                          double factor) {
+  const RobotModel& robot = problem.robot;
+  RobotDescription description = robot.description();
+  for (const int j : joints) {
+    JointLimits& limits = description.limits[robot.joint_names()[static_cast<std::size_t>(j)]];
+    if (kind == "torque") {
+      if (std::isfinite(robot.torque_limit()(j))) limits.torque = factor * robot.torque_limit()(j);
+      limits.torque_over_position = times(limits.torque_over_position, factor);
+      limits.torque_over_velocity = times(limits.torque_over_velocity, factor);
+    } else if (kind == "joint_velocity") {
+      // A torque over the velocity is known up to the limit only, and stays as it is there.
+      if (limits.torque_over_velocity.empty()) limits.velocity = factor * robot.velocity_limit()(j);
+    } else {
+      widen(limits, robot.position_lower()(j), robot.position_upper()(j), factor);
+    }
+  }
+  MotionProblem changed = problem;
+  changed.robot = RobotModel(std::move(description));
+  return changed;
+}
+
+/// The goal that part of the way from the start: pose, joints and velocities; not torques.
+BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, double part) {
+  const VectorXd& start = problem.start_configuration();
+  const int nu = problem.robot.nu();
+  goal.q_ref.head<3>() = start.head<3>() + part * (goal.q_ref - start).head<3>();
+  goal.q_ref.tail(nu) = start.tail(nu) + part * (goal.q_ref - start).tail(nu);
+  const Eigen::Matrix3d from = base_rotation(start);
+  const Vector3d turn = so3::log(from.transpose() * base_rotation(goal.q_ref));
+  set_base_rotation(goal.q_ref, from * so3::exp(part * turn));
+  for (int i = 0; i < problem.robot.nv(); ++i) {
+    if (i >= 3 && i < 6) continue;  // bounds on a rotation stay as wide as they are
+    goal.configuration_lower(i) *= part;
+    goal.configuration_upper(i) *= part;
+  }
+  goal.velocity_lower *= part;
+  goal.velocity_upper *= part;
+  return goal;
+}
+
+/// The entry of a goal that is farthest away from the start, and how far; length and angle count alike.
+std::pair<std::string, double> farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
+  constexpr const char* kBase[] = {"base x", "base y", "base z"};
+  const VectorXd& start = problem.start_configuration();
+  std::pair<std::string, double> most{"", 0.0};
+  const auto look = [&](const std::string& name, double lower, double upper) {
+    const double off = lower > 0.0 ? lower : upper < 0.0 ? upper : 0.0;
+    if (std::isfinite(off) && std::abs(off) > std::abs(most.second) + 1e-9) most = {name, off};
+  };
+  for (int i = 0; i < 3; ++i) {
+    const double shift = goal.q_ref(i) - start(i);
+    look(kBase[i], shift + goal.configuration_lower(i), shift + goal.configuration_upper(i));
+  }
+  if (goal.configuration_lower.segment<3>(3).allFinite()) {
+    const double turn = so3::log(base_rotation(start).transpose() * base_rotation(goal.q_ref)).norm();
+    look("rotation", turn, turn);
+  }
+  for (int j = 0; j < problem.robot.nu(); ++j) {
+    const double shift = goal.q_ref(7 + j) - start(7 + j);
+    look(problem.robot.joint_names()[static_cast<std::size_t>(j)], shift + goal.configuration_lower(6 + j),
+         shift + goal.configuration_upper(6 + j));
+  }
+  for (int i = 0; i < problem.robot.nv(); ++i) look("velocity", goal.velocity_lower(i), goal.velocity_upper(i));
+  return most;
+}
+
+Knob goal_knob(const MotionProblem& problem, std::size_t condition, const std::string& entry, double away) {
+  const BoundaryCondition& goal = problem.boundary_conditions[condition];
+  const std::string unit = entry.starts_with("base") ? "m" : entry == "velocity" ? "m/s" : "rad";
+  return {.kind = "goal", .phase = goal.at.phase, .subject = fmt::format("{}, {}", goal.name, entry), .most = kLeastWay,
+          .weight = kWeightOfWay, .unit = unit,
+          .value = [away](double a) { return away * std::exp(-a); },
+          .problem = [&problem, condition](double a) {
+            MotionProblem changed = problem;
+            changed.boundary_conditions[condition] = nearer(problem, problem.boundary_conditions[condition], std::exp(-a));
+            return changed;
+          }};
+}
+
+/// A place brought nearer to where its contact was at the start or before it opened.
+Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const Vector3d& from) {
+  const PhaseContact& contact = problem.phases[static_cast<std::size_t>(phase)].contacts[held];
+  const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+  const Vector3d to = *contact.place;
+  const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // on the surface, as the place is
+  return {.kind = "place", .phase = phase,
+          .subject = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name, .most = kLeastWay,
+          .weight = kWeightOfWay, .unit = "m",
+          .value = [root, to](double a) { return std::exp(-a) * (to - root).norm(); },
+          .problem = [&problem, phase, held, root, to](double a) {
+            MotionProblem changed = problem;
+            changed.phases[static_cast<std::size_t>(phase)].contacts[held].place = root + std::exp(-a) * (to - root);
+            return changed;
+          }};
+}
+
+void add_places(const MotionProblem& problem, std::vector<Knob>& knobs) {
+  const ContactSchedule schedule(problem);
+  RigidBodyTerms terms(problem.robot);
+  terms.update_kinematics(problem.start_configuration());
+  for (int p = 1; p < static_cast<int>(problem.phases.size()); ++p) {
+    const auto& contacts = problem.phases[static_cast<std::size_t>(p)].contacts;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      if (!contacts[i].place || !schedule.lands(p, static_cast<int>(i))) continue;
+      Vector3d from = terms.contact_position(contacts[i].contact);
+      for (const Stance& stance : schedule.stances()) {
+        if (stance.contact == contacts[i].contact && stance.last_phase < p && stance.place) from = *stance.place;
+      }
+      knobs.push_back(place_knob(problem, p, i, from));
+    }
+  }
+}
+
+}  // namespace
+
+Knob joint_knob(const MotionProblem& problem, const std::string& kind, const std::vector<int>& joints) {
+  const RobotModel& robot = problem.robot;
+  const int first = joints.front();
+  const double value = kind == "torque"           ? robot.torque_limit()(first)
+                       : kind == "joint_velocity" ? robot.velocity_limit()(first)
+                                                  : robot.position_upper()(first) - robot.position_lower()(first);
+  std::vector<std::string> names;
+  for (const int j : joints) names.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
+  const bool all = static_cast<int>(joints.size()) == robot.nu();
+  return {.kind = kind, .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMostLimit,
+          .unit = kind == "torque" ? "N m" : kind == "joint_velocity" ? "rad/s" : "rad",
+          .value = [value](double a) { return value * std::exp(a); },
+          .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); }};
+}
+
+std::vector<Knob> knobs_of(const MotionProblem& problem) {
+  std::vector<Knob> knobs;
+  std::set<int> surfaces;
+  for (const Phase& phase : problem.phases) {
+    for (const PhaseContact& contact : phase.contacts) surfaces.insert(contact.surface);
+  }
+  for (const int surface : surfaces) knobs.push_back(friction_knob(problem, surface));
+  for (std::size_t c = 1; c < problem.boundary_conditions.size(); ++c) {
+    const auto [entry, away] = farthest(problem, problem.boundary_conditions[c]);
+    if (away != 0.0) knobs.push_back(goal_knob(problem, c, entry, away));
+  }
+  add_places(problem, knobs);
+  std::vector<int> joints(static_cast<std::size_t>(problem.robot.nu()));
+  std::iota(joints.begin(), joints.end(), 0);
+  for (const char* kind : {"torque", "joint_velocity", "joint_position"}) {
+    knobs.push_back(joint_knob(problem, kind, joints));
+  }
+  const int phases = static_cast<int>(problem.phases.size());
+  for (int p = 0; p < phases && phases <= kMostPhases; ++p) {
+    knobs.push_back(duration_knob(problem, p, 1.0));
+    const bool may_be_shorter = problem.phases[static_cast<std::size_t>(p)].contacts.size() < kStands;
+    if (may_be_shorter) knobs.push_back(duration_knob(problem, p, -1.0));
+  }
+  if (phases > 1) knobs.push_back(duration_knob(problem, -1, 1.0));
+  if (phases > 1 && problem.swing_clearance > 0.0) {
+    knobs.push_back({.kind = "clearance", .subject = "", .most = kLeastWay, .unit = "m",
+                     .value = [&problem](double a) { return problem.swing_clearance * std::exp(-a); },
+                     .problem = [&problem](double a) {
+                       MotionProblem changed = problem;
+                       changed.swing_clearance *= std::exp(-a);
+                       return changed;
+                     }});
+  }
+  return knobs;
+}
+
+}  // namespace prowl

@@ -1,0 +1,125 @@
+#include "prowl/diagnosis/change_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/feasibility/feasibility.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/transcription.hpp"
+
+namespace prowl {
+
+namespace {
+
+constexpr double kFirst = 0.4;      // amount: half as much again
+constexpr double kFurther = 2.5;    // from one amount to the next
+constexpr double kPrecision = 0.05;  // where a bisection ends: 5 % of the number, and 10 % of a large amount
+constexpr double kNoMatch = 2.0;   // a change is told of besides a smaller one up to so many times its amount
+constexpr int kMostIterations = 100;  // on a coarse mesh; what has a solution takes 10 to 80
+
+/// Stops a solve that gets nowhere: without a solution there is none to find, and that is what most solves of a search
+/// are.
+class StallWatch {
+ public:
+  explicit StallWatch(SolverOptions& options) : interrupt_(options.interrupt) {
+    options.interrupt = &stop_;
+    options.on_iteration = [this](const SolveProgress& progress) { look(progress); };
+  }
+  StallWatch(const StallWatch&) = delete;
+  StallWatch& operator=(const StallWatch&) = delete;
+
+ private:
+  void look(const SolveProgress& progress) {
+    constexpr int kPatience = 30;      // iterations in which the violation has to halve
+    constexpr double kNearly = 1e-4;   // a violation below this is about to vanish
+    if (progress.constraint_violation < 0.5 * best_) {
+      best_ = progress.constraint_violation;
+      since_ = progress.iteration;
+    }
+    const bool stalls = best_ > kNearly && progress.iteration - since_ > kPatience;
+    if (stalls || (interrupt_ && interrupt_->load())) stop_ = true;
+  }
+
+  const std::atomic<bool>* interrupt_;
+  std::atomic<bool> stop_ = false;
+  double best_ = std::numeric_limits<double>::infinity();
+  int since_ = 0;
+};
+
+}  // namespace
+
+bool ChangeSearch::solves(const MotionProblem& problem) const {
+  if (!may_go_on()) return false;
+  try {
+    validate(problem);
+    if (!proofs_of_infeasibility(problem).empty()) return false;
+    const Mesh mesh = make_mesh(problem);
+    const Trajectory guess = initial_guess(problem, mesh);
+    Transcription nlp(problem, mesh, guess);
+    SolverOptions options = options_;
+    options.max_iterations = std::min(options.max_iterations, kMostIterations);
+    options.max_seconds = std::max(seconds_left(), 1e-3);
+    const StallWatch watch(options);
+    return solver_.solve(nlp, nlp.pack(guess), options).status == SolveStatus::converged;
+  } catch (const Error&) {  // bounds that contradict each other, a model that cannot be evaluated: no plan either
+    return false;
+  }
+}
+
+bool ChangeSearch::solves(const Knob& knob, double amount) const {
+  try {
+    return solves(knob.problem(amount));
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+double ChangeSearch::bisected(const Knob& knob, double too_little, double enough) const {
+  while (enough - too_little > std::max(kPrecision, 0.1 * enough) && may_go_on()) {
+    const double middle = 0.5 * (too_little + enough);
+    (solves(knob, middle) ? enough : too_little) = middle;
+  }
+  return enough;
+}
+
+std::vector<FoundChange> ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_seconds,
+                                                const std::function<void(const std::string&)>& on_step) const {
+  std::vector<FoundChange> found;
+  std::vector<bool> done(knobs.size(), false);
+  double enough = std::numeric_limits<double>::infinity();  // of the smallest found, weighted
+  const double end = seconds_left() - max_seconds;
+  const auto may_go_on = [&] { return this->may_go_on() && seconds_left() > end; };
+  double before = 0.0;
+  for (double turned = kFirst; before < kNoMatch * enough && may_go_on(); turned *= kFurther) {
+    bool any_left = false;
+    for (std::size_t i = 0; i < knobs.size() && may_go_on(); ++i) {
+      const Knob& knob = knobs[i];
+      const double too_little = before / knob.weight, amount = std::min(turned / knob.weight, knob.most);
+      if (done[i] || too_little >= knob.most) continue;
+      any_left = true;
+      if (on_step) on_step(fmt::format("{} {} {:.3g} {}", knob.kind, knob.subject, knob.value(amount), knob.unit));
+      if (!solves(knob, amount)) continue;
+      done[i] = true;
+      found.push_back({knob, bisected(knob, too_little, amount)});
+      enough = std::min(enough, found.back().weighted());
+    }
+    if (!any_left) break;
+    before = turned;
+  }
+  std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
+  // What differs by less than bisections tell is equal, and a limit comes before what the task asks.
+  constexpr double kEqual = 2.0 * kPrecision;
+  const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return one.knob.weight == 1.0; });
+  if (first != found.end() && first->weighted() <= found.front().weighted() + kEqual) {
+    std::rotate(found.begin(), first, first + 1);
+  }
+  return found;
+}
+
+}  // namespace prowl

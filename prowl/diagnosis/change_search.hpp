@@ -1,0 +1,53 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "prowl/diagnosis/change.hpp"
+#include "prowl/nlp/nlp_solver.hpp"
+
+namespace prowl {
+
+/// A knob, and the least amount with which the problem was solved.
+struct FoundChange {
+  Knob knob;
+  double amount = 0.0;
+  double weighted() const { return knob.weight * amount; }
+};
+
+/// Looks for small changes that make a problem solvable, by solving it again and again on its mesh, until the time is
+/// up.
+class ChangeSearch {
+ public:
+  ChangeSearch(const NlpSolver& solver, const SolverOptions& options, double max_seconds)
+      : solver_(solver), options_(options), end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                                                    std::chrono::duration<double>(max_seconds))) {}
+
+  double seconds_left() const { return std::chrono::duration<double>(end_ - Clock::now()).count(); }
+  bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
+  bool may_go_on() const { return seconds_left() > 0.0 && !interrupted(); }
+
+  /// Whether the solver converges on the problem's mesh from its guess. Not if there is a proof against it, or the time
+  /// is up.
+  bool solves(const MotionProblem& problem) const;
+  bool solves(const Knob& knob, double amount) const;
+
+  /// All knobs are turned a little, then further and further, each until its problem is solved; then between the last
+  /// two amounts by bisection. Ends where what is left would be no match for the smallest, or after so many seconds.
+  /// Sorted by weighted amount.
+  std::vector<FoundChange> smallest(const std::vector<Knob>& knobs, double max_seconds,
+                                    const std::function<void(const std::string&)>& on_step) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double bisected(const Knob& knob, double too_little, double enough) const;
+
+  const NlpSolver& solver_;
+  SolverOptions options_;
+  Clock::time_point end_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "prowl/diagnosis/elastic_solve.hpp"
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/nlp/nlp_solver.hpp"
+
+namespace prowl {
+
+/// A change of one number with which the task was solved.
+struct Change {
+  std::string kind;     ///< "friction", "torque", "joint_position", "joint_velocity", "goal", "place", "clearance", "duration"
+  int phase = -1;       ///< -1: not of one phase
+  std::string subject;  ///< surface, joints, goal, contact or phase; "" for all
+  double from = 0.0, to = 0.0;
+  std::string unit;
+  double amount = 0.0;  ///< |log(to / from)|: how changes of different numbers are compared
+  bool on_the_task_mesh = false;  ///< solved there and passed its certificate; else solved on the coarse mesh of the search
+};
+
+/// Why a task has no plan, as far as can be found out.
+struct Diagnosis {
+  bool solvable = false;   ///< the task as it is has a plan; nothing else was looked for then
+  bool certified = false;  ///< and it passes its certificate
+  SolveStatus status = SolveStatus::solver_failed;  ///< of the task as it is
+  std::string message;                              ///< the solver's
+  std::vector<std::string> reasons;                 ///< proofs_of_infeasibility()
+  std::vector<std::string> hints;                   ///< doubts()
+  /// What is named: the kind of the smallest change, or if none was found, of the limit that gives way most. Empty if
+  /// neither.
+  std::string kind;
+  int phase = -1;
+  std::string subject;
+  SolveStatus elastic_status = SolveStatus::solver_failed;  ///< of the solve that the breaches are from
+  std::vector<Breach> breaches;  ///< of the limits of that kind alone if they suffice, else of all together; worst first
+  std::vector<Change> changes;   ///< smallest first, each by itself
+  int tried = 0;                 ///< numbers that were tried
+  bool out_of_time = false;      ///< some were not
+};
+
+struct DiagnosisOptions {
+  SolverOptions solver;        ///< tolerance, threads, interrupt
+  double max_seconds = 120.0;  ///< in all
+  std::function<void(const std::string&)> on_step = {};  ///< told what is being done, one line
+};
+
+/// Diagnoses a task:
+/// 1. proofs before the solve, and the solve itself (make_plan), which may succeed;
+/// 2. on the coarsest mesh of the task, for each number that the task could have otherwise (knobs_of) by bisection the
+///    least change
+///    with which `solver` converges; kinds that cannot be the smallest any more are left after one solve;
+/// 3. an elastic solve by `elastic_solver` with the limits of the kind that was named, to read where, when and by how
+///    much;
+/// 4. joints are narrowed down to those that gave way, if these alone suffice;
+/// 5. the task with the smallest change on its own mesh, with its certificate.
+/// Throws InputError if the problem makes no sense, as make_plan does.
+Diagnosis diagnose(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
+                   const DiagnosisOptions& options);
+
+}  // namespace prowl

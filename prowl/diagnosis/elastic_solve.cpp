@@ -1,0 +1,70 @@
+#include "prowl/diagnosis/elastic_solve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "prowl/nlp/elastic_nlp.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/transcription.hpp"
+
+namespace prowl {
+
+namespace {
+
+constexpr double kSeen = 1e-3;  // of a limit's size: less is the tolerance of a solve that prices sums
+
+/// Of the task's own cost, which is about 1 at a solution (docs/task-file.md): too little to buy a breach that is seen,
+/// and enough to keep the motion smooth. Without it the optimiser finds motions that a coarse mesh does not see
+/// through.
+constexpr double kOwnCost = 1e-3;
+
+/// Part of the motion's time that a node stands for; one moment counts in full.
+double share(const MotionLimit& limit, const Mesh& mesh) {
+  if (limit.kind == LimitKind::goal || limit.kind == LimitKind::place) return 1.0;
+  const MeshNode& node = mesh.nodes[static_cast<std::size_t>(limit.node)];
+  return 0.5 * (node.h_in + node.h_out) / mesh.nodes.back().time;
+}
+
+std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vector<SoftBound>& soft,
+                         const Eigen::VectorXd& violations) {
+  std::map<std::tuple<LimitKind, int, std::string>, Breach> breaches;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const MotionLimit& limit = limits[i];
+    const double amount = std::abs(violations(static_cast<Eigen::Index>(i))) * limit.si;
+    if (amount < kSeen * limit.size) continue;
+    Breach& breach = breaches[{limit.kind, limit.phase, limit.subject}];
+    breach.total += soft[i].price * amount / limit.size;
+    if (amount <= breach.amount) continue;
+    const double total = breach.total;
+    breach = {limit.kind, limit.phase, limit.time, limit.subject, amount, limit.unit, amount / limit.size, total};
+  }
+  std::vector<Breach> result;
+  for (auto& [key, breach] : breaches) result.push_back(std::move(breach));
+  std::ranges::stable_sort(result, std::greater(), &Breach::total);
+  return result;
+}
+
+}  // namespace
+
+ElasticResult elastic_solve(const MotionProblem& problem, const NlpSolver& solver, const SolverOptions& options,
+                            const std::function<bool(const MotionLimit&)>& gives_way) {
+  const Mesh mesh = make_mesh(problem);
+  const Trajectory guess = initial_guess(problem, mesh);
+  Transcription hard(problem, mesh, guess);
+  std::vector<MotionLimit> limits;
+  std::vector<SoftBound> soft;
+  for (MotionLimit& limit : hard.limits()) {
+    if (!gives_way(limit)) continue;
+    soft.push_back({limit.is_row, limit.index, limit.size / limit.si, std::max(share(limit, mesh), 1e-3)});
+    limits.push_back(std::move(limit));
+  }
+  const Eigen::VectorXd start = hard.pack(guess);
+  ElasticNlp elastic(hard, soft, kOwnCost);
+  const SolveResult solved = solver.solve(elastic, elastic.start(start), options);
+  return {solved.status, read(limits, soft, elastic.violations(solved.z)), solved.seconds};
+}
+
+}  // namespace prowl

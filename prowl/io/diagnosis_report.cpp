@@ -1,0 +1,147 @@
+#include "prowl/io/diagnosis_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/io/json_text.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostBreaches = 6;  // that are shown as text
+
+std::string phase_in_words(const MotionProblem& problem, int phase) {
+  const std::string& name = problem.phases[static_cast<std::size_t>(phase)].name;
+  const std::string number = fmt::format("phase {}", phase + 1);
+  return name == number ? number : fmt::format("{} '{}'", number, name);
+}
+
+/// "friction", "joint velocity".
+std::string in_words(std::string kind) {
+  std::ranges::replace(kind, '_', ' ');
+  return kind == "place" ? "landing place" : kind;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return unit.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, unit);
+}
+
+/// "phase 2 'swing', lh_foot, friction at 0.410 s: 37 N short".
+std::string in_words(const Breach& breach, const MotionProblem& problem) {
+  const std::string what = breach.kind == LimitKind::goal ? "" : ", " + in_words(std::string(to_string(breach.kind)));
+  return fmt::format("{}, {}{} at {:.3g} s: {} {}", phase_in_words(problem, breach.phase), breach.subject, what, breach.time,
+                     with_unit(breach.amount, breach.unit),
+                     breach.kind == LimitKind::friction || breach.kind == LimitKind::clearance ? "short" : "beyond its bound");
+}
+
+/// What a change turns: "friction of floor", "duration of phase 1", "goal 1, base z".
+std::string what_it_turns(const Change& change, const MotionProblem& problem) {
+  if (change.kind == "friction") return "friction of " + change.subject;
+  if (change.kind == "duration") {
+    return change.phase < 0 ? "duration of all phases together" : "duration of " + phase_in_words(problem, change.phase);
+  }
+  if (change.kind == "goal") return change.subject;
+  if (change.kind == "place") return fmt::format("step of {} in {}", change.subject, phase_in_words(problem, change.phase));
+  if (change.kind == "clearance") return "swing clearance";
+  const std::string limit = change.kind == "torque"           ? "torque limit"
+                            : change.kind == "joint_velocity" ? "velocity limit"
+                                                              : "position range";
+  return fmt::format("{} of {}", limit, change.subject.empty() ? "all joints" : change.subject);
+}
+
+/// "friction of floor 0.61 instead of 0.52"; of several joints, whose limits may differ, the factor.
+std::string in_words(const Change& change, const MotionProblem& problem) {
+  const bool several = (change.kind == "torque" || change.kind.starts_with("joint")) &&
+                       (change.subject.empty() || change.subject.find(',') != std::string::npos);
+  if (several) return fmt::format("{} times {:.3g}", what_it_turns(change, problem), std::exp(change.amount));
+  return fmt::format("{} {} instead of {}", what_it_turns(change, problem), with_unit(change.to, change.unit),
+                     with_unit(change.from, change.unit));
+}
+
+Json to_json(const Breach& breach, const MotionProblem& problem) {
+  return {{"kind", to_string(breach.kind)}, {"phase", breach.phase + 1},
+          {"phase_name", problem.phases[static_cast<std::size_t>(breach.phase)].name}, {"time_s", breach.time},
+          {"subject", breach.subject}, {"amount", breach.amount}, {"unit", breach.unit}, {"relative", breach.relative},
+          {"words", in_words(breach, problem)}};
+}
+
+Json phase_to_json(int phase) { return phase < 0 ? Json(nullptr) : Json(phase + 1); }
+
+Json to_json(const Change& change, const MotionProblem& problem) {
+  return {{"kind", change.kind}, {"phase", phase_to_json(change.phase)}, {"subject", change.subject},
+          {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"factor", std::exp(change.amount)},
+          {"passes", change.on_the_task_mesh}, {"words", in_words(change, problem)}};
+}
+
+}  // namespace
+
+std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& problem) {
+  if (diagnosis.solvable && diagnosis.certified) return "the task has a plan, and it passes its certificate";
+  if (diagnosis.solvable) return "the task has a plan, but it fails its certificate: see prowl plan and prowl check";
+  std::string line;
+  if (!diagnosis.breaches.empty()) line = in_words(diagnosis.breaches.front(), problem);
+  if (line.empty() && !diagnosis.reasons.empty()) line = diagnosis.reasons.front();
+  if (line.empty() && diagnosis.elastic_status == SolveStatus::converged) {
+    line = fmt::format("not solved ({}), though on a coarse mesh no limit has to give way: the solver may have missed a "
+                       "solution", diagnosis.message);
+  }
+  if (line.empty()) line = fmt::format("not solved ({})", diagnosis.message);
+  if (diagnosis.changes.empty()) return line + "; no change of one number was found that makes it solvable";
+  std::vector<std::string> words;
+  for (const Change& change : diagnosis.changes) {
+    if (words.size() < 3) words.push_back(in_words(change, problem));
+  }
+  return fmt::format("{}; solvable with {}", line, fmt::join(words, ", or "));
+}
+
+std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& problem) {
+  const std::string headline = diagnosis_headline(diagnosis, problem);
+  std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, headline);
+  if (diagnosis.solvable) return text;
+  for (const std::string& reason : diagnosis.reasons) text += fmt::format("  certain      {}\n", reason);
+  for (const std::string& hint : diagnosis.hints) text += fmt::format("  doubtful     {}\n", hint);
+  for (std::size_t i = 0; i < std::min(diagnosis.breaches.size(), kMostBreaches); ++i) {
+    text += fmt::format("  gives way    {}\n", in_words(diagnosis.breaches[i], problem));
+  }
+  if (diagnosis.breaches.size() > kMostBreaches) {
+    text += fmt::format("  gives way    and {} more limits\n", diagnosis.breaches.size() - kMostBreaches);
+  }
+  for (const Change& change : diagnosis.changes) {
+    text += fmt::format("  solvable     with {}{}\n", in_words(change, problem),
+                        change.on_the_task_mesh ? " (this plan passes its certificate)" : " (on a coarse mesh)");
+  }
+  if (diagnosis.out_of_time) text += "the time is up: not all that could be changed was tried (--max-time)\n";
+  return text;
+}
+
+std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& problem) {
+  Json json = {{"name", problem.name},
+               {"robot", problem.robot.name()},
+               {"solvable", diagnosis.solvable},
+               {"passes", diagnosis.certified},
+               {"status", to_string(diagnosis.status)},
+               {"message", diagnosis.message},
+               {"headline", diagnosis_headline(diagnosis, problem)},
+               {"reasons", diagnosis.reasons},
+               {"hints", diagnosis.hints},
+               {"cause", nullptr},
+               {"elastic", to_string(diagnosis.elastic_status)},
+               {"breaches", Json::array()},
+               {"changes", Json::array()},
+               {"tried", diagnosis.tried},
+               {"out_of_time", diagnosis.out_of_time}};
+  if (!diagnosis.kind.empty()) {
+    json["cause"] = {{"kind", diagnosis.kind}, {"phase", phase_to_json(diagnosis.phase)}, {"subject", diagnosis.subject}};
+  }
+  for (const Breach& breach : diagnosis.breaches) json["breaches"].push_back(to_json(breach, problem));
+  for (const Change& change : diagnosis.changes) json["changes"].push_back(to_json(change, problem));
+  return json_text(json);
+}
+
+}  // namespace prowl

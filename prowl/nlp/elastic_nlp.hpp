@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "prowl/nlp/nlp.hpp"
+
+namespace prowl {
+
+/// A row or a variable whose bounds may give way, at a price.
+struct SoftBound {
+  bool is_row = true;  ///< else a variable
+  int index = 0;
+  double size = 1.0;   ///< > 0: the violation that costs `price`, in the unit of the row or variable
+  double price = 1.0;  ///< > 0
+};
+
+/// Another program in which some bounds give way, so that it has a solution whatever these ask for (the elastic mode of
+/// SNOPT: Gill, Murray, Saunders 2005, sec. 4.3; Nocedal and Wright 2006, sec. 17.2). With slacks s >= 0, for each soft
+/// bound one below where there is a lower bound and one above where there is an upper:
+///
+///   minimise   cost_factor f(z) + sum of price s   subject to   lower <= c(z) + size (s_below - s_above) <= upper
+///
+/// c is a soft row, or a soft variable, whose own bounds are then none. The price is on the sum, not on squares: few
+/// bounds give way, by as much as has to be, and none that need not. All else holds as in the other program.
+///
+/// Variables: (z, s). Rows: those of the other program, then one for each soft variable. Derivatives are exact if those
+/// of the other are.
+class ElasticNlp : public Nlp {
+ public:
+  /// A view of `inner`, which must outlive it. Bounds that are soft twice are a mistake of the caller.
+  ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_factor);
+
+  const std::vector<SoftBound>& soft() const { return soft_; }
+  /// From variables of the other program: slacks as large as they have to be, and a little larger.
+  Eigen::VectorXd start(const Eigen::VectorXd& z);
+  Eigen::VectorXd inner(const Eigen::VectorXd& z) const { return z.head(inner_.num_variables()); }
+  /// For each soft bound by how much it gives way, in the unit of the row or variable: > 0 below its lower bound (too
+  /// little), < 0 above its upper.
+  Eigen::VectorXd violations(const Eigen::VectorXd& z) const;
+
+  int num_variables() const override { return static_cast<int>(variable_lower_.size()); }
+  int num_constraints() const override { return static_cast<int>(constraint_lower_.size()); }
+  const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
+  const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
+  const Eigen::VectorXd& constraint_lower() const override { return constraint_lower_; }
+  const Eigen::VectorXd& constraint_upper() const override { return constraint_upper_; }
+  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
+  const SparsityPattern& hessian_pattern() const override { return inner_.hessian_pattern(); }
+
+  double cost(const Eigen::VectorXd& z) override;
+  void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient) override;
+  void constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override;
+  void jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> values) override;
+  void hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
+               Eigen::Ref<Eigen::VectorXd> values) override;
+
+  std::string describe_constraint(int row) const override;
+  std::string describe_variable(int index) const override;
+  int use_threads(int count) override { return inner_.use_threads(count); }
+
+ private:
+  struct Slack {
+    int soft;     ///< place in soft_
+    int row;      ///< of this program
+    double sign;  ///< +1 below, -1 above
+  };
+
+  Nlp& inner_;
+  std::vector<SoftBound> soft_;
+  double cost_factor_;
+  std::vector<int> variables_;  ///< soft ones, in the order of their rows
+  std::vector<Slack> slacks_;   ///< in the order of their variables
+  Eigen::VectorXd variable_lower_, variable_upper_, constraint_lower_, constraint_upper_, price_;
+  SparsityPattern jacobian_pattern_;
+};
+
+}  // namespace prowl

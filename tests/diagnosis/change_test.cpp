@@ -1,0 +1,91 @@
+#include "prowl/diagnosis/change.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/io/task_file.hpp"
+#include "tests/io/test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::Contains;
+
+MotionProblem shipped(const std::string& task) {
+  return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + task + ".toml", test::test_search(), {}).problem;
+}
+
+const Knob& knob(const std::vector<Knob>& knobs, const std::string& kind, int phase = -1) {
+  const auto found = std::ranges::find_if(knobs, [&](const Knob& one) { return one.kind == kind && one.phase == phase; });
+  EXPECT_NE(found, knobs.end()) << kind << " " << phase;
+  return *found;
+}
+
+constexpr double kAmount = 0.4;
+const double kUp = std::exp(kAmount), kDown = std::exp(-kAmount);
+
+TEST(Change, OfNothingChangesNothing) {
+  const MotionProblem step = shipped("hyq/step");
+  const std::vector<Knob> knobs = knobs_of(step);
+  EXPECT_GE(knobs.size(), 10u);
+  for (const Knob& one : knobs) {
+    const MotionProblem same = one.problem(0.0);
+    EXPECT_NO_THROW(validate(same)) << one.kind;
+    EXPECT_EQ(same.surfaces.front().friction, step.surfaces.front().friction);
+    EXPECT_EQ(same.swing_clearance, step.swing_clearance);
+    EXPECT_TRUE(same.robot.torque_limit().isApprox(step.robot.torque_limit()));
+    EXPECT_TRUE(same.robot.position_lower().isApprox(step.robot.position_lower()));
+    EXPECT_TRUE(same.robot.velocity_limit().isApprox(step.robot.velocity_limit()));
+    EXPECT_TRUE(same.boundary_conditions.back().q_ref.isApprox(step.boundary_conditions.back().q_ref));
+    EXPECT_LT((*same.phases[2].contacts[0].place - *step.phases[2].contacts[0].place).norm(), 1e-12);
+    for (std::size_t p = 0; p < step.phases.size(); ++p) EXPECT_EQ(same.phases[p].duration.max, step.phases[p].duration.max);
+  }
+}
+
+TEST(Change, TurnsTheNumberThatItTellsOf) {
+  const MotionProblem step = shipped("hyq/step");
+  const std::vector<Knob> knobs = knobs_of(step);
+  for (const Knob& one : knobs) EXPECT_NEAR(std::abs(std::log(one.value(kAmount) / one.value(0.0))), kAmount, 1e-12) << one.kind;
+
+  EXPECT_NEAR(knob(knobs, "friction").problem(kAmount).surfaces[0].friction, 0.5 * kUp, 1e-12);
+  EXPECT_TRUE(knob(knobs, "torque").problem(kAmount).robot.torque_limit().isApprox(kUp * step.robot.torque_limit()));
+  EXPECT_NEAR(knob(knobs, "torque").problem(kAmount).robot.torque_upper(2, -1.4, 0.0), kUp * step.robot.torque_upper(2, -1.4, 0.0), 1e-9)
+      << "a curve over the position, too";
+  EXPECT_TRUE(knob(knobs, "joint_velocity").problem(kAmount).robot.velocity_limit().isApprox(kUp * step.robot.velocity_limit()));
+  EXPECT_NEAR(knob(knobs, "clearance").problem(kAmount).swing_clearance, kDown * step.swing_clearance, 1e-12);
+
+  const MotionProblem longer = knob(knobs, "duration", 1).problem(kAmount);
+  EXPECT_NEAR(longer.phases[1].duration.max, 0.8 * kUp, 1e-12);
+  EXPECT_EQ(longer.phases[1].duration.min, 0.4);
+  EXPECT_EQ(longer.phases[0].duration.max, 1.5);
+
+  const MotionProblem nearer = knob(knobs, "goal", 2).problem(kAmount);
+  EXPECT_NEAR(nearer.boundary_conditions[1].q_ref(0) - step.start_configuration()(0), kDown * 0.05, 1e-12);
+  const MotionProblem shorter = knob(knobs, "place", 2).problem(kAmount);
+  EXPECT_NEAR(0.5708 - shorter.phases[2].contacts[0].place->x(), (1.0 - kDown) * 0.2, 1e-3) << "a step of 20 cm";
+  EXPECT_EQ(shorter.phases[2].contacts[0].place->z(), 0.0) << "on the floor";
+}
+
+TEST(Change, OfARangeWidensItBothWays) {
+  const MotionProblem stand = shipped("solo12/stand");
+  const MotionProblem wider = joint_knob(stand, "joint_position", {8}).problem(kAmount);
+  const double range = stand.robot.position_upper()(8) - stand.robot.position_lower()(8);
+  EXPECT_NEAR(wider.robot.position_upper()(8) - wider.robot.position_lower()(8), kUp * range, 1e-12);
+  EXPECT_LT(wider.robot.position_lower()(8), stand.robot.position_lower()(8));
+  EXPECT_EQ(wider.robot.position_upper()(7), stand.robot.position_upper()(7)) << "of that joint only";
+}
+
+TEST(Change, OfAFlightMayBeShorter) {
+  const MotionProblem jump = shipped("hyq/jump");
+  const std::vector<Knob> knobs = knobs_of(jump);
+  const auto is_shorter = [](const Knob& one) { return one.kind == "duration" && one.phase == 2 && one.value(1.0) < one.value(0.0); };
+  const auto shorter = std::ranges::find_if(knobs, is_shorter);
+  ASSERT_NE(shorter, knobs.end());
+  EXPECT_NEAR(shorter->problem(kAmount).phases[2].duration.min, 0.2 * kDown, 1e-12);
+  EXPECT_EQ(shorter->problem(kAmount).phases[2].duration.max, 0.45);
+}
+
+}  // namespace
+}  // namespace prowl

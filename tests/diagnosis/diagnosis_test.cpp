@@ -1,0 +1,106 @@
+#include "prowl/diagnosis/diagnosis.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "prowl/io/diagnosis_report.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/riccati_solver.hpp"
+#include "tests/io/test_files.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+const std::string kCrouch = R"(robot = "hyq.toml"
+[[phase]]
+name = "crouch"
+contacts = "all"
+duration_s = 1.0
+intervals = 8
+[[goal]]
+time_s = 1.0
+base_displacement_m = [0, 0, -0.1]
+base_rpy_rad = [0, 0, 0]
+base_linear_velocity_mps = [0, 0, 0]
+base_angular_velocity_radps = [0, 0, 0]
+[cost]
+joint_velocity = 0.1
+base_linear_acceleration = 1.0
+base_angular_acceleration = 1.0
+joint_acceleration = 0.01
+torque = 1e-4
+)";
+
+class DiagnosisTest : public testing::Test {
+ protected:
+  MotionProblem problem(const std::string& task, const std::string& robot = test::kHyqFile) const {
+    folder_.write("hyq.toml", robot);
+    return read_task_file(folder_.write("task.toml", task), test::test_search(), {}).problem;
+  }
+  static Diagnosis diagnosis(const MotionProblem& problem) { return diagnose(problem, RiccatiSolver(), IpoptSolver(), {}); }
+
+  test::TempFolder folder_;
+};
+
+TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
+  const Diagnosis found = diagnosis(problem(kCrouch));
+  EXPECT_TRUE(found.solvable);
+  EXPECT_TRUE(found.kind.empty());
+  EXPECT_TRUE(found.changes.empty());
+}
+
+TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
+  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const Diagnosis found = diagnosis(stiff);
+  EXPECT_FALSE(found.solvable);
+  EXPECT_EQ(found.kind, "joint_position");
+  EXPECT_EQ(found.subject, "lh_kfe_joint");
+  ASSERT_FALSE(found.breaches.empty());
+  const Breach& breach = found.breaches.front();
+  EXPECT_EQ(breach.subject, "lh_kfe_joint");
+  EXPECT_EQ(breach.time, 1.0);
+  ASSERT_FALSE(found.changes.empty());
+  const Change& change = found.changes.front();
+  EXPECT_NEAR(change.from, 0.15, 1e-12);
+  EXPECT_NEAR(0.5 * (change.to - change.from), breach.amount, 0.05) << "two ways to the same: a range wider on both sides";
+  EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
+                                                      HasSubstr("rad beyond its bound; solvable with position range of lh_kfe_joint")));
+}
+
+TEST_F(DiagnosisTest, NamesWeakJoints) {
+  const MotionProblem weak = problem(kCrouch, test::kHyqFile + "[limits.lf_kfe_joint]\ntorque_Nm = 10\n[limits.rh_kfe_joint]\ntorque_Nm = 10\n" +
+                                                  "[limits.rf_kfe_joint]\ntorque_Nm = 10\n");
+  const Diagnosis found = diagnosis(weak);
+  EXPECT_EQ(found.kind, "torque") << diagnosis_text(found, weak);
+  EXPECT_THAT(found.subject, AllOf(HasSubstr("f_kfe_joint"), testing::Not(HasSubstr("haa")), testing::Not(HasSubstr("lh_kfe"))));
+}
+
+TEST_F(DiagnosisTest, OfASlopeNamesFrictionAndHowMuchIsNeeded) {
+  const MotionProblem slope = problem("robot = \"hyq.toml\"\n[[surface]]\nname = \"slope\"\nnormal = [-0.5, 0, 0.8660254]\nfriction = 0.4\n"
+                                      "[start]\non = \"slope\"\n" + test::replaced(test::replaced(kCrouch, "robot = \"hyq.toml\"\n", ""),
+                                      "base_rpy_rad = [0, 0, 0]\n", ""));
+  const Diagnosis found = diagnosis(slope);
+  EXPECT_EQ(found.kind, "friction");
+  EXPECT_EQ(found.subject, "slope");
+  ASSERT_FALSE(found.changes.empty());
+  EXPECT_GT(found.changes.front().to, 0.45);
+  EXPECT_LT(found.changes.front().to, 0.75) << "0.577 and a margin hold the robot on it for ever";
+  ASSERT_FALSE(found.breaches.empty());
+  EXPECT_THAT(found.breaches.front().subject, HasSubstr("_foot"));
+}
+
+TEST_F(DiagnosisTest, StopsWhenTheTimeIsUp) {
+  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const Diagnosis found = diagnose(stiff, RiccatiSolver(), IpoptSolver(), {.max_seconds = 1e-3});
+  EXPECT_TRUE(found.out_of_time);
+  EXPECT_FALSE(found.solvable);
+  EXPECT_THAT(diagnosis_text(found, stiff), HasSubstr("the time is up"));
+}
+
+}  // namespace
+}  // namespace prowl
