@@ -58,7 +58,8 @@ CsvTable read_csv_table(const SourceText& source) {
   const auto columns = std::count(names.begin(), names.end(), ',') + 1;
   // Nothing is allocated for cells that cannot be there: each has a character and a separator.
   constexpr std::ptrdiff_t kMostColumns = 100000, kFewCells = 1000000;
-  if (columns > kMostColumns || (rows > 0 && columns > (kFewCells + std::ssize(text) / 2) / rows)) {
+  if (columns > kMostColumns) throw InputError(fmt::format("{}:1: {} columns; need at most {}", table.file, columns, kMostColumns));
+  if (rows > 0 && columns > (kFewCells + std::ssize(text) / 2) / rows) {
     throw InputError(fmt::format("{}: too short for {} columns and {} rows", table.file, columns, rows));
   }
   for (const std::string_view name : split_text(names, ',')) table.columns.emplace_back(name);

@@ -193,7 +193,6 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
     }
   });
   check_tree(robot, root, links, parents);
-  if (moving == 0) robot.refuse(root, "no moving joint; expected one revolute or prismatic joint or more");
   return result;
 }
 

@@ -93,7 +93,7 @@ def urdf_cases():
     yield damaged("mimic", "<axis", '<mimic joint="hip" multiplier="nan"/><axis', "mimic", "fixed")
     yield damaged("mimic in a ring", "<axis", '<mimic joint="other"/><axis', "mimic")
     yield Case("urdf: no moving joint", {"robot.urdf": replaced(URDF, 'type="revolute"', 'type="fixed"'),
-                                         "robot.toml": ROBOT[:ROBOT.index("[nominal")]}, ROBOT_COMMAND, ("robot.urdf:", "moving joint"))
+                                         "robot.toml": ROBOT[:ROBOT.index("[nominal")]}, ROBOT_COMMAND, ("0 joints",), 0)
     yield damaged("floating", 'type="revolute"', 'type="floating"', "joint 'hip'", "root link")
     yield damaged("continuous", 'type="revolute"', 'type="continuous"', "joint 'hip'", "revolute")
     yield damaged("unknown type", 'type="revolute"', f'type="{ESCAPE}"', "joint 'hip'")
