@@ -6,6 +6,7 @@
 #include "plan_tracker.hpp"
 #include "share_folder.hpp"
 #include "prowl/error.hpp"
+#include "prowl/io/csv_table.hpp"
 
 namespace prowl::cli {
 namespace {
