@@ -21,6 +21,15 @@ urdf = "none.urdf"
 contact = [{ name = "toe", frame = "foot", radius_m = 0.02 }]
 )";
 
+/// The same with a contact at each corner, for gaits.
+inline const std::string kQuadruped = R"(name = "four"
+urdf = "none.urdf"
+contact = [
+  { name = "lf", frame = "base", offset_m = [0.2, 0.1, -0.4] }, { name = "rf", frame = "base", offset_m = [0.2, -0.1, -0.4] },
+  { name = "lh", frame = "base", offset_m = [-0.2, 0.1, -0.4] }, { name = "rh", frame = "base", offset_m = [-0.2, -0.1, -0.4] },
+]
+)";
+
 inline const std::string kTask = R"(name = "stand"
 robot = "robot.toml"
 [[phase]]

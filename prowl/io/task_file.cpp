@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/io/check_overrides.hpp"
 #include "prowl/io/interval_shares.hpp"
 #include "prowl/io/problem_fields.hpp"
 #include "prowl/io/robot_file.hpp"
@@ -23,7 +24,6 @@ namespace prowl {
 namespace {
 
 constexpr int kMostFreeSteps = 200;
-constexpr int kMostIntervals = 10000;  // of a motion; a typing mistake above that, and gigabytes of memory
 constexpr double kShortestNormal = 1e-6;
 
 std::vector<Eigen::Vector2d> read_patch(const TomlValue& value) {
@@ -231,19 +231,6 @@ void check_intervals(const TomlTable& root, const std::vector<Phase>& phases) {
   for (const Phase& phase : phases) total += phase.intervals;
   if (total <= kMostIntervals) return;
   root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
-}
-
-/// As the command line checks them; a plan's file and a program may say anything.
-void check_overrides(const SourceText& task_file, const TaskOverrides& overrides) {
-  const auto check = [&](const char* name, auto value, auto lower, auto upper) {
-    if (!value || (*value >= lower && *value <= upper)) return;
-    throw InputError(fmt::format("{}: {} = {} in place of the file's is not allowed; need {} to {}", task_file.path.string(), name, *value,
-                                 lower, upper));
-  };
-  check("intervals", overrides.intervals, 1, kMostIntervals);
-  check("max_iterations", overrides.max_iterations, 1, std::numeric_limits<int>::max());
-  check("max_time_s", overrides.max_seconds, std::numeric_limits<double>::min(), NumberRange::kLargest);
-  check("tolerance", overrides.tolerance, 1e-12, 1e-2);
 }
 
 SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
