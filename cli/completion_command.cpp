@@ -277,7 +277,7 @@ void add_completion_command(CLI::App& app, int& status) {
              "0, 2 bad input. What else a shell needs: docs/command-line.md.");
   verb->callback([shell, &app, &status] {
     const Verb command = verb_of(app);
-    print_result(*shell == "bash" ? bash(command) : *shell == "zsh" ? zsh(command) : fish(command));
+    print_bytes(*shell == "bash" ? bash(command) : *shell == "zsh" ? zsh(command) : fish(command));
     status = kPassed;
   });
 }

@@ -13,6 +13,7 @@
 #include "output.hpp"
 #include "plan_tracker.hpp"
 #include "prowl/error.hpp"
+#include "prowl/io/csv_table.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/export_files.hpp"
 #include "prowl/io/exports.hpp"
@@ -60,7 +61,7 @@ MotionSamples take_samples(const ExportArguments& arguments, const PlanRecord& p
     if (!fs::exists(file, ignored)) {
       throw InputError(fmt::format("{}: no such file; first prowl simulate {}", file.string(), arguments.directory));
     }
-    return sample_simulation(problem, plan.plan.trajectory, read_csv_table(read_text_file(file, kLongestFile)), arguments.rate);
+    return sample_simulation(problem, plan.plan.trajectory, read_csv_table(read_text_file(file, kLongestTable)), arguments.rate);
   }
   std::optional<Tracker> tracker;
   if (fs::exists(directory / "tracker.bin", ignored)) tracker = read_tracker(directory, problem);

@@ -55,12 +55,12 @@ void print_json(const JsonResult& result) {
   json["written"] = Json::array();
   for (const std::filesystem::path& path : result.written) json["written"].push_back(path.string());
   json.update(Json::parse(result.result));
-  print_result(json_text(json));
+  print_bytes(json_text(json));
 }
 
 void print_json_error(const std::string& verb, int exit_status, const std::string& message) noexcept {
   try {
-    print_result(json_text({{"verb", verb}, {"exit_status", exit_status}, {"error", error_to_json(exit_status, message)}}));
+    print_bytes(json_text({{"verb", verb}, {"exit_status", exit_status}, {"error", error_to_json(exit_status, message)}}));
   } catch (const std::exception&) {
   }
 }

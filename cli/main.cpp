@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "commands.hpp"
@@ -59,8 +60,16 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
 /// The verb of a command line, or "" if it names none.
 std::string verb_of(int argc, const char* const* argv) { return argc > 1 && argv[1][0] != '-' ? argv[1] : ""; }
 
+/// The message, without its middle where that is longer than anybody reads: names come first, the remedy last.
+std::string readable(const std::string& message) {
+  constexpr std::size_t kFirst = 2000, kLast = 1000;  // bytes; a screen of 80 columns has 2000
+  if (message.size() <= kFirst + kLast) return message;
+  return fmt::format("{} ... {}", message.substr(0, kFirst), message.substr(message.size() - kLast));
+}
+
 /// To stderr and, with --json, to stdout as well.
-int report_error(int argc, const char* const* argv, const std::string& message, int status, const std::string& hint = "") {
+int report_error(int argc, const char* const* argv, const std::string& text, int status, const std::string& hint = "") {
+  const std::string message = readable(text);
   print_message(fmt::format("prowl: {}{}\n", message, hint));
   if (asks_for_json(argc, argv)) print_json_error(verb_of(argc, argv), status, message);
   return status;
@@ -124,6 +133,8 @@ int main(int argc, char** argv) {
   } catch (const prowl::InputError& error) {
     return report(error, kBadInput);
   } catch (const prowl::FileError& error) {
+    return report(error, kFiles);
+  } catch (const std::filesystem::filesystem_error& error) {
     return report(error, kFiles);
   } catch (const prowl::NumericalError& error) {
     return report(error, kNumericalFailure);

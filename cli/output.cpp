@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "prowl/error.hpp"
+#include "prowl/model/shown_text.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -25,17 +26,21 @@ void open_standard_streams() {
   }
 }
 
-void print_result(const std::string& text) {
+void print_result(const std::string& text) { print_bytes(printable(text)); }
+
+void print_bytes(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (!written || std::fflush(stdout) != 0) throw FileError(std::string("standard output: ") + std::strerror(errno));
 }
 
-void print_message(const std::string& text) noexcept {
+void print_message(const std::string& text) { draw(printable(text)); }
+
+void draw(const std::string& text) noexcept {
   [[maybe_unused]] const std::size_t written = std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
 
-void print_progress(const std::string& text) noexcept {
+void print_progress(const std::string& text) {
   if (!quiet) print_message(text);
 }
 

@@ -98,7 +98,7 @@ std::string ProgressBar::times(int done) const {
 /// Puts text behind the bar in place of what stood there, and goes back to where the bar goes on.
 void ProgressBar::write_behind(const std::string& text) {
   const std::size_t width = std::max(text.size(), behind_);
-  print_message(fmt::format("{:<{}}{:\b<{}}", text, width, "", width));
+  draw(fmt::format("{:<{}}{:\b<{}}", text, width, "", width));
   behind_ = text.size();
 }
 

@@ -6,13 +6,13 @@
 #include "plan_tracker.hpp"
 #include "share_folder.hpp"
 #include "prowl/error.hpp"
+#include "prowl/io/csv_table.hpp"
 
 namespace prowl::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestSimulation = 1u << 30;  ///< [bytes]
 constexpr std::size_t kLongestPage = 16u << 20;       ///< [bytes]
 
 std::string page_without_data() {
@@ -27,7 +27,7 @@ std::string page_without_data() {
 std::optional<SourceText> read_if_there(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) return std::nullopt;
-  return read_text_file(file, kLongestSimulation);
+  return read_text_file(file, kLongestTable);
 }
 
 }  // namespace

@@ -15,8 +15,10 @@ void add_plan_directory(CLI::App& verb, std::string& directory) {
 }
 
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
+  CLI::Validator is_folder = CLI::ExistingDirectory;
+  is_folder.description("");  // the help says DIR already
   verb.add_option("--package-dir", folders, "Where to look for package://; may be given again")
-      ->type_name("DIR")->expected(1)->take_all();
+      ->check(is_folder)->type_name("DIR")->expected(1)->take_all();
 }
 
 void add_json(CLI::App& verb, bool& json) {
@@ -50,6 +52,14 @@ CLI::Validator positive_number() {
             return ok ? std::string{} : fmt::format("{} is not allowed; need a finite number > 0", text);
           },
           "NUMBER > 0"};
+}
+
+CLI::Validator whole_number() {
+  return {[](const std::string& text) {
+            const bool ok = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+            return ok ? std::string{} : fmt::format("{} is not allowed; need a whole number >= 0", text);
+          },
+          "NUMBER >= 0"};
 }
 
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status) {

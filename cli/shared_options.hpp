@@ -20,6 +20,7 @@ constexpr int kMostIntervals = 10000;  ///< of --intervals
 
 /// A finite number > 0; CLI11's own check lets NaN through.
 CLI::Validator positive_number();
+CLI::Validator whole_number();  ///< >= 0; CLI11 takes -1 for the largest
 
 /// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status);

@@ -158,9 +158,9 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
       verb.add_option("--push-duration", arguments.push_duration, "Of every push; default 0.1")
           ->type_name("S")->check(CLI::PositiveNumber),
       verb.add_option("--step", options.physics.step, "Of the physics; default 0.0005")->type_name("S"),
-      verb.add_option("--seed", options.seed, "Of all random numbers; default 1")->type_name("N"),
+      verb.add_option("--seed", options.seed, "Of all random numbers; default 1")->check(whole_number())->type_name("N"),
       verb.add_option("--case", arguments.sweep_case, "Perturbed as the case of that seed in prowl sweep without options")
-          ->type_name("SEED")};
+          ->check(whole_number())->type_name("SEED")};
   for (CLI::Option* const option : all) option->group(kMujocoOptions);
   for (const char* drawn : {"--mass", "--friction", "--push", "--push-duration", "--seed"}) all.back()->excludes(verb.get_option(drawn));
 }

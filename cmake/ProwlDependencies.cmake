@@ -73,6 +73,7 @@ set_target_properties(prowl_dep_mujoco PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES ${PROWL_MUJOCO}/include)
 
 find_package(tinyxml2 REQUIRED)
+find_package(console_bridge REQUIRED)  # through which urdfdom speaks
 find_package(urdfdom REQUIRED)
 find_package(assimp 6.0 REQUIRED)
 foreach(package fmt tomlplusplus nlohmann_json meshoptimizer)

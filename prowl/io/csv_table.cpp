@@ -7,6 +7,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/model/nearest_name.hpp"
+#include "prowl/model/shown_text.hpp"
 
 namespace prowl {
 
@@ -21,15 +22,14 @@ std::vector<std::string_view> split_text(std::string_view text, char separator) 
 }
 
 std::vector<double> csv_numbers(const std::string& where, std::string_view line, const std::vector<std::string>& columns) {
+  const std::size_t size = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
+  if (size != columns.size()) throw InputError(fmt::format("{}: {} cells; need {}", where, size, columns.size()));
   const std::vector<std::string_view> cells = split_text(line, ',');
-  if (cells.size() != columns.size()) {
-    throw InputError(fmt::format("{}: {} cells; need {}", where, cells.size(), columns.size()));
-  }
   std::vector<double> row(cells.size());
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), row[i]);
     if (error != std::errc{} || end != cells[i].data() + cells[i].size()) {
-      throw InputError(fmt::format("{}: {}: \"{}\" is not allowed; need a finite number", where, columns[i], cells[i]));
+      throw InputError(fmt::format("{}: {}: \"{}\" is not allowed; need a finite number", where, columns[i], shown(cells[i])));
     }
   }
   return row;
@@ -38,7 +38,7 @@ std::vector<double> csv_numbers(const std::string& where, std::string_view line,
 Eigen::Index CsvTable::index(const std::string& column) const {
   const auto found = std::find(columns.begin(), columns.end(), column);
   if (found == columns.end()) {
-    throw InputError(fmt::format("{}:1: no column {}{}", file, column, did_you_mean(column, columns)));
+    throw InputError(fmt::format("{}:1: no column {}{}", file, column, shown(did_you_mean(column, columns))));
   }
   return found - columns.begin();
 }
@@ -46,16 +46,27 @@ Eigen::Index CsvTable::index(const std::string& column) const {
 CsvTable read_csv_table(const SourceText& source) {
   CsvTable table;
   table.file = source.path.string();
-  std::vector<std::string_view> lines = split_text(source.text, '\n');
-  if (!lines.back().empty() || lines.size() < 2) {
-    throw InputError(fmt::format("{}: the last line has no end; the file is cut short", table.file));
+  std::string_view text = source.text;
+  if (!text.ends_with('\n')) throw InputError(fmt::format("{}: the last line has no end; the file is cut short", table.file));
+  const auto next_line = [&text] {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(line.size() + 1);
+    return line;
+  };
+  const auto rows = std::count(text.begin(), text.end(), '\n') - 1;
+  const std::string_view names = next_line();
+  const auto columns = std::count(names.begin(), names.end(), ',') + 1;
+  // Nothing is allocated for cells that cannot be there: each has a character and a separator.
+  constexpr std::ptrdiff_t kMostColumns = 100000, kFewCells = 1000000;
+  if (columns > kMostColumns) throw InputError(fmt::format("{}:1: {} columns; need at most {}", table.file, columns, kMostColumns));
+  if (rows > 0 && columns > (kFewCells + std::ssize(text) / 2) / rows) {
+    throw InputError(fmt::format("{}: too short for {} columns and {} rows", table.file, columns, rows));
   }
-  lines.pop_back();
-  for (const std::string_view name : split_text(lines[0], ',')) table.columns.emplace_back(name);
-  table.values.resize(static_cast<Eigen::Index>(table.columns.size()), static_cast<Eigen::Index>(lines.size() - 1));
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<double> row = csv_numbers(fmt::format("{}:{}", table.file, i + 1), lines[i], table.columns);
-    std::copy(row.begin(), row.end(), table.values.col(static_cast<Eigen::Index>(i - 1)).data());
+  for (const std::string_view name : split_text(names, ',')) table.columns.emplace_back(name);
+  table.values.resize(columns, rows);
+  for (std::ptrdiff_t i = 0; i < rows; ++i) {
+    const std::vector<double> row = csv_numbers(fmt::format("{}:{}", table.file, i + 2), next_line(), table.columns);
+    std::copy(row.begin(), row.end(), table.values.col(i).data());
   }
   return table;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "prowl/error.hpp"
+#include "prowl/model/shown_text.hpp"
 
 namespace prowl {
 namespace {
@@ -70,7 +71,7 @@ fs::path resolve_uri(const std::string& uri, const fs::path& robot_file, const s
   const fs::path robot_path = fs::absolute(robot_file).lexically_normal();
   if (!uri.starts_with(scheme)) {
     if (uri.find("://") != std::string::npos) {
-      throw InputError(fmt::format("\"{}\" is not allowed; need a path or package://NAME/PATH", uri));
+      throw InputError(fmt::format("\"{}\" is not allowed; need a path or package://NAME/PATH", shown(uri)));
     }
     const fs::path path = (robot_path.parent_path() / uri).lexically_normal();
     if (!is_file(path)) throw InputError(fmt::format("no such file: {}", path.string()));
@@ -82,6 +83,10 @@ fs::path resolve_uri(const std::string& uri, const fs::path& robot_file, const s
     throw InputError(fmt::format("\"{}\" is not allowed; need package://NAME/PATH", uri));
   }
   const std::string rest = inside.substr(package.size() + 1);
+  const fs::path normal = fs::path(rest).lexically_normal();
+  if (package == "." || package == ".." || normal.is_absolute() || *normal.begin() == "..") {
+    throw InputError(fmt::format("\"{}\" leaves its package; need package://NAME/PATH with PATH inside NAME", uri));
+  }
   std::string tried;
   for (const fs::path& folder : folders_to_search(robot_path, package_dirs, search)) {
     fs::path base = fs::absolute(folder).lexically_normal();

@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <set>
 
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/export_files.hpp"
 #include "prowl/io/figure_files.hpp"
+#include "prowl/io/json_parse.hpp"
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_json.hpp"
 #include "prowl/io/report_file.hpp"
@@ -34,8 +34,7 @@ const std::set<std::string>& own_names() {
   return names;
 }
 
-constexpr std::size_t kLongestTrajectory = 1u << 30;  // [bytes]
-constexpr std::size_t kLongestPlan = 128u << 20;      // [bytes]; of which the URDF may be 16 MB
+constexpr std::size_t kLongestPlan = 32u << 20;  // [bytes]; of which the URDF may be 4 MB
 
 }  // namespace
 
@@ -53,12 +52,13 @@ void write_plan(const std::filesystem::path& directory, const PlanRecord& record
   write_folder_atomically(directory, files, own_names());
 }
 
-bool is_good(const Plan& plan) { return plan.result.status == SolveStatus::converged && plan.certificate.passed; }
-
 bool holds_good_plan(const std::filesystem::path& directory) {
-  std::ifstream file(directory / kPlan);
-  const auto json = nlohmann::json::parse(file, nullptr, false);
-  return json.is_object() && json.contains("good") && json["good"] == true;
+  try {
+    const nlohmann::ordered_json json = parse_json(read_text_file(directory / kPlan, kLongestPlan));
+    return json.is_object() && json.contains("good") && json["good"] == true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search) {
@@ -67,7 +67,7 @@ PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch
     throw InputError(fmt::format("{}: a file; need the folder that prowl plan wrote", directory.string()));
   }
   PlanRecord record = plan_from_json(read_text_file(directory / kPlan, kLongestPlan), search);
-  const SourceText nodes = read_text_file(directory / kNodes, kLongestTrajectory);
+  const SourceText nodes = read_text_file(directory / kNodes, longest_trajectory(record.task.problem));
   record.plan.trajectory = trajectory_from_csv(record.task.problem, nodes);
   return record;
 }

@@ -9,7 +9,9 @@
 #include <numeric>
 
 #include "prowl/error.hpp"
+#include "prowl/io/json_parse.hpp"
 #include "prowl/io/json_text.hpp"
+#include "prowl/model/shown_text.hpp"
 #include "prowl/trajectory/phase_span.hpp"
 #include "prowl/transcription/remesh.hpp"
 
@@ -160,7 +162,7 @@ class Reader {
   const Json& json() const { return *json_; }
   const std::string& where() const { return where_; }
   [[noreturn]] void fail(const char* key, const std::string& needed) const {
-    throw InputError(fmt::format("{}.{}: {} is not allowed; need {}", where_, key, need(key).dump(), needed));
+    throw InputError(fmt::format("{}.{}: {} is not allowed; need {}", where_, key, shown(need(key).dump(-1, ' ', false, Json::error_handler_t::replace)), needed));
   }
 
  private:
@@ -178,13 +180,6 @@ class Reader {
   std::string where_;
   const Json* json_;
 };
-
-/// "line:column" of the byte, which counts from 1.
-std::string place_of(const std::string& text, std::size_t byte) {
-  const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
-  const std::size_t line_start = before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1;
-  return fmt::format("{}:{}", 1 + std::count(before.begin(), before.end(), '\n'), before.size() - line_start + 1);
-}
 
 /// Throws unless it is one that this program reads.
 int read_version(const Reader& plan) {
@@ -435,13 +430,7 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
 }
 
 PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search) {
-  Json json;
-  try {
-    json = Json::parse(source.text);
-  } catch (const nlohmann::json::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: not JSON from here on: the file is cut short or was edited",
-                                 source.path.string(), place_of(source.text, error.byte)));
-  }
+  const Json json = parse_json(source);
   const Reader plan(source.path.string() + ": plan", json);
   const int version = read_version(plan);
 

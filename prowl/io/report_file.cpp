@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "prowl/error.hpp"
+#include "prowl/io/json_parse.hpp"
 #include "prowl/io/plan_json.hpp"
 #include "prowl/io/report_json.hpp"
 #include "prowl/io/report_motion.hpp"
@@ -69,7 +70,7 @@ std::string plan_command(const PlanRecord& record) {
 
 Json parse_simulation(const ReportInputs& inputs) {
   if (!inputs.simulation_json) return nullptr;
-  const Json json = Json::parse(inputs.simulation_json->text, nullptr, false);
+  Json json = parse_json(*inputs.simulation_json);
   if (!json.is_object()) throw InputError(inputs.simulation_json->path.string() + ": not JSON; run prowl simulate again");
   return json;
 }

@@ -21,7 +21,8 @@ std::vector<ContactPoint> read_contacts(const TomlTable& root, bool needed) {
   if (!needed && !root.find("contact")) return {};
   root.need("contact");
   std::vector<ContactPoint> contacts;
-  for (const TomlTable& table : root.find_tables("contact")) {
+  constexpr std::size_t kMostContacts = 100;  // two hands and two feet of twenty points have fewer; each is a frame of the model
+  for (const TomlTable& table : root.find_tables("contact", kMostContacts)) {
     const ContactPoint contact = read_contact(table);
     for (const ContactPoint& other : contacts) {
       if (other.name == contact.name) table.need("name").fail("\"" + contact.name + "\" is already another contact");

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/io/check_overrides.hpp"
 #include "prowl/io/interval_shares.hpp"
 #include "prowl/io/problem_fields.hpp"
 #include "prowl/io/robot_file.hpp"
@@ -23,7 +24,6 @@ namespace prowl {
 namespace {
 
 constexpr int kMostFreeSteps = 200;
-constexpr int kMostIntervals = 10000;  // of one phase; a typing mistake above that, and gigabytes of memory
 constexpr double kShortestNormal = 1e-6;
 
 std::vector<Eigen::Vector2d> read_patch(const TomlValue& value) {
@@ -226,6 +226,13 @@ void override_intervals(std::vector<Phase>& phases, const std::vector<int>& file
   for (std::size_t p = 0; p < phases.size(); ++p) phases[p].intervals = shares[p];
 }
 
+void check_intervals(const TomlTable& root, const std::vector<Phase>& phases) {
+  long total = 0;
+  for (const Phase& phase : phases) total += phase.intervals;
+  if (total <= kMostIntervals) return;
+  root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
+}
+
 SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
   SolverOptions options;
   if (const auto table = root.find_table("solver")) {
@@ -254,6 +261,7 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
   std::vector<Phase>& phases = read.phases;
   for (const Phase& phase : phases) file_intervals.push_back(phase.intervals);
   if (overrides.intervals) override_intervals(phases, file_intervals, *overrides.intervals);
+  check_intervals(root, phases);
 
   std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
   for (BoundaryCondition& goal : read_goals(root, robot, start, phases)) conditions.push_back(std::move(goal));
@@ -307,6 +315,7 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   const TomlDocument document(task_file);
   const TomlTable root = task_root(document);
   root.need("robot").as_text();
+  check_overrides(task_file, overrides);
   const SolverOptions solver = read_solver(root, overrides);
   const TaskSimulation simulation = read_simulation(root);
   std::vector<int> file_intervals;
@@ -335,8 +344,15 @@ Task read_task_text(const SourceText& task_file, const PackageSearch& search, co
   const TomlDocument document(task_file);
   const TomlTable root = task_root(document);
   const std::filesystem::path robot = robot_path(task_file, root);
-  if (!std::filesystem::exists(robot)) root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
-  return parse_task(task_file, read_text_file(robot), search, overrides);
+  std::error_code unknown;  // which read_text_file then tells
+  if (!std::filesystem::exists(robot, unknown) && !unknown) root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
+  SourceText robot_file;
+  try {
+    robot_file = read_text_file(robot);
+  } catch (const InputError& error) {
+    root.need("robot").fail(error.what());
+  }
+  return parse_task(task_file, robot_file, search, overrides);
 }
 
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "prowl/error.hpp"
+#include "prowl/model/shown_text.hpp"
 
 namespace prowl {
 
@@ -16,6 +17,9 @@ SourceText read_text_file(const std::filesystem::path& path, std::size_t max_byt
   const auto status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) {
     throw InputError(fmt::format("{}: no such file", path.string()));
+  }
+  if (error == std::errc::too_many_symbolic_link_levels || error == std::errc::filename_too_long) {
+    throw InputError(fmt::format("{}: {}", shown(path.string()), error.message()));
   }
   if (error) throw FileError(fmt::format("{}: {}", path.string(), error.message()));
   // Refuses folders, and devices and pipes, from which a read may never return.
@@ -26,10 +30,10 @@ SourceText read_text_file(const std::filesystem::path& path, std::size_t max_byt
   if (!file) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
   const auto bytes = std::filesystem::file_size(path, error);
   if (!error && bytes > max_bytes) {
-    throw InputError(fmt::format("{}: {} bytes; need at most {}", path.string(), bytes, max_bytes));
+    throw InputError(fmt::format("{}: {} bytes; need at most {}: is it the right file?", path.string(), bytes, max_bytes));
   }
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (file.bad()) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
+  std::string text(static_cast<std::size_t>(bytes), '\0');
+  if (error || !file.read(text.data(), static_cast<std::streamsize>(bytes))) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
   return {path, std::move(text)};
 }
 

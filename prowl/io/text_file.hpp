@@ -13,6 +13,6 @@ struct SourceText {
 
 /// The whole file. Throws InputError if there is none (a mistyped path), FileError if it cannot be read, and InputError
 /// above `max_bytes`: nothing that a person writes is that long.
-SourceText read_text_file(const std::filesystem::path& path, std::size_t max_bytes = 4u << 20);
+SourceText read_text_file(const std::filesystem::path& path, std::size_t max_bytes = 1u << 20);
 
 }  // namespace prowl

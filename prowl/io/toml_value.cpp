@@ -8,8 +8,10 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/io/toml_shape.hpp"
 #include "prowl/model/name_check.hpp"
 #include "prowl/model/nearest_name.hpp"
+#include "prowl/model/shown_text.hpp"
 
 namespace prowl {
 namespace {
@@ -20,7 +22,7 @@ std::string at(const SourceText& source, const toml::source_region& region) {
 
 /// What the user wrote, for messages.
 std::string describe(const toml::node& node) {
-  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", text->get());
+  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", shown(text->get()));
   if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
   if (const auto* number = node.as_floating_point()) return fmt::format("{:g}", number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
@@ -137,6 +139,8 @@ std::string TomlValue::as_name() const {
 std::vector<TomlValue> TomlValue::as_list() const {
   const auto* list = node_->as_array();
   if (!list) fail_type("a list in [ ]");
+  constexpr std::size_t kMost = 10000;  // a corner, a point, a contact each: a mistake above that, and gigabytes of memory
+  if (list->size() > kMost) fail(fmt::format("a list of {} is not allowed; need at most {}", list->size(), kMost));
   std::vector<TomlValue> values;
   for (std::size_t i = 0; i < list->size(); ++i) {
     values.emplace_back(*source_, (*list)[i], fmt::format("{}[{}]", path_, i));
@@ -193,7 +197,7 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::as_free_named_values(c
   std::vector<std::pair<std::string, TomlValue>> values;
   for (const auto& [key, node] : *table) {
     const std::string name(key.str());
-    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, name)));
+    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, shown(name))));
   }
   return values;
 }
@@ -204,7 +208,7 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::as_named_values(const 
   for (const auto& [key, node] : *node_->as_table()) {
     const std::string name(key.str());
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError(fmt::format("{}{}: {}", at(*source_, key.source()), join_path(path_, name),
+      throw InputError(fmt::format("{}{}: {}", at(*source_, key.source()), join_path(path_, shown(name)),
                                    unknown(what, name, known)));
     }
   }
@@ -219,7 +223,7 @@ TomlTable::TomlTable(const TomlValue& value, const FileKeys& keys, const std::st
   for (const auto& [key, node] : *value.node().as_table()) {
     const std::string name(key.str());
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw InputError(fmt::format("{}{}: unknown key{}{} Known: {}", at(value.source(), key.source()), path_of(name),
+    throw InputError(fmt::format("{}{}: unknown key{}{} Known: {}", at(value.source(), key.source()), path_of(shown(name)),
                                  did_you_mean(name, names), where_else(keys, name), fmt::join(names, ", ")));
   }
 }
@@ -249,12 +253,15 @@ std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
   return TomlTable(*value, *keys_, declared_.empty() ? key : declared_ + "." + key);
 }
 
-std::vector<TomlTable> TomlTable::find_tables(const std::string& key) const {
+std::vector<TomlTable> TomlTable::find_tables(const std::string& key, std::size_t most) const {
   const auto value = find(key);
   if (!value) return {};
   const std::string declared = declared_.empty() ? key : declared_ + "." + key;
   if (!value->is_list()) {
     value->fail(fmt::format("{} is not allowed; need one [[{}]] for each", describe(value->node()), declared));
+  }
+  if (const std::size_t size = value->node().as_array()->size(); size > most) {
+    value->fail(fmt::format("{} [[{}]] are not allowed; need at most {}", size, declared, most));
   }
   std::vector<TomlTable> tables;
   for (const TomlValue& entry : value->as_list()) tables.emplace_back(entry, *keys_, declared);
@@ -267,6 +274,7 @@ TomlDocument::TomlDocument(const SourceText& source) : source_(source) {
     throw InputError(fmt::format("{}:1:1: this looks like XML; need a TOML file (a URDF is named by a robot file)",
                                  source.path.string()));
   }
+  check_toml_shape(source_);
   try {
     table_ = toml::parse(source_.text, source_.path.string());
   } catch (const toml::parse_error& error) {

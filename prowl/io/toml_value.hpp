@@ -93,7 +93,8 @@ class TomlTable {
 
   std::optional<TomlTable> find_table(const std::string& key) const;
   /// The tables of [[key]]; none if absent.
-  std::vector<TomlTable> find_tables(const std::string& key) const;
+  std::vector<TomlTable> find_tables(const std::string& key, std::size_t most = kMostTables) const;
+  static constexpr std::size_t kMostTables = 1000;  ///< of one [[key]]; checks among them are quadratic
 
  private:
   const toml::table& table() const { return *value_.node().as_table(); }

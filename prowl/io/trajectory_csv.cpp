@@ -115,6 +115,14 @@ double check_times(const std::string& file, const Phase& phase, double begin, co
   return begin + duration;
 }
 
+std::size_t num_rows(const MotionProblem& problem) {
+  std::size_t rows = 0;
+  for (const Phase& phase : problem.phases) rows += static_cast<std::size_t>(phase.intervals) + 1;
+  return rows;
+}
+
+std::string heading(const RobotModel& robot) { return fmt::format("{}", fmt::join(trajectory_columns(robot), ",")); }
+
 }  // namespace
 
 std::vector<std::string> trajectory_columns(const RobotModel& robot) {
@@ -142,17 +150,23 @@ std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& tr
   return text;
 }
 
+std::size_t longest_trajectory(const MotionProblem& problem) {
+  constexpr std::size_t kLongestCell = 64;  // with its comma; a double needs 25, other programs may write more digits
+  return heading(problem.robot).size() + 2 + num_rows(problem) * trajectory_columns(problem.robot).size() * kLongestCell;
+}
+
 Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source) {
   const std::string file = source.path.string();
   const std::vector<std::string> columns = trajectory_columns(problem.robot);
+  const std::size_t rows = num_rows(problem);
+  const auto ends = static_cast<std::size_t>(std::count(source.text.begin(), source.text.end(), '\n'));
+  if (ends > rows + 1) throw InputError(fmt::format("{}: {} rows; the task's mesh has {} nodes", file, ends - 1, rows));
   std::vector<std::string_view> lines = split_text(source.text, '\n');
   const bool ends_with_line = lines.back().empty();
   if (ends_with_line) lines.pop_back();
-  if (lines.empty() || lines[0] != fmt::format("{}", fmt::join(columns, ","))) {
+  if (lines.empty() || lines[0] != heading(problem.robot)) {
     throw InputError(fmt::format("{}:1: the columns are not those of {}", file, problem.robot.name()));
   }
-  std::size_t rows = 0;
-  for (const Phase& phase : problem.phases) rows += static_cast<std::size_t>(phase.intervals) + 1;
   if (lines.size() != rows + 1) {
     throw InputError(fmt::format("{}: {} rows; the task's mesh has {} nodes", file, lines.size() - 1, rows));
   }

@@ -15,6 +15,9 @@ std::vector<std::string> trajectory_columns(const RobotModel& robot);
 /// One line a point, numbers with all digits: reading them gives the same doubles.
 std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& trajectory);
 
+/// Most bytes of a file that trajectory_from_csv takes: longer is no trajectory on the mesh of the problem.
+std::size_t longest_trajectory(const MotionProblem& problem);
+
 /// Throws InputError "file:line: column: ..." unless the columns are those of the robot, the rows those of the mesh of
 /// the problem with its contacts, all numbers finite, and the last line whole.
 Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source);

@@ -16,6 +16,10 @@ void check(const LimitCurve::Table& table) {
     throw InputError(fmt::format("a limit curve of {} points is not allowed; need {} or more", table.size(),
                                  LimitCurve::kFewestPoints));
   }
+  constexpr std::size_t kMostPoints = 200;  // they take a dense matrix of that size
+  if (table.size() > kMostPoints) {
+    throw InputError(fmt::format("a limit curve of {} points is not allowed; need at most {}", table.size(), kMostPoints));
+  }
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto& [x, limit] = table[i];
     if (!std::isfinite(x) || !std::isfinite(limit) || !(limit > 0.0)) {

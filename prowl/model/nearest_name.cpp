@@ -39,6 +39,8 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
 }
 
 std::string did_you_mean(const std::string& wrong, const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 200;  // as of names: nobody means one of them by more, and the search takes its time
+  if (wrong.size() > kLongest) return "";
   const std::string nearest = nearest_name(wrong, names);
   return nearest.empty() ? nearest : "; did you mean '" + nearest + "'?";
 }

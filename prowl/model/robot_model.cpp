@@ -17,6 +17,7 @@
 #include "prowl/model/nearest_name.hpp"
 #include "prowl/model/physical_inertia.hpp"
 #include "prowl/model/pinocchio_model.hpp"
+#include "prowl/model/shown_text.hpp"
 #include "prowl/model/urdf_check.hpp"
 
 namespace prowl {
@@ -24,8 +25,9 @@ namespace prowl {
 namespace {
 
 constexpr auto kLinkOrFixedJoint = static_cast<pinocchio::FrameType>(pinocchio::BODY | pinocchio::FIXED_JOINT);
+const char* const kWorldFrame = "universe";
 constexpr pinocchio::JointIndex kBaseJoint = 1;  // 0 is the world
-constexpr std::uintmax_t kLargestUrdf = 16u << 20;  // [bytes]; the largest known are below 1 MB
+constexpr std::uintmax_t kLargestUrdf = 4u << 20;  // [bytes]; the largest known are below 1 MB
 
 std::string read_text(const std::filesystem::path& path) {
   std::error_code error;
@@ -71,9 +73,17 @@ void check_bodies(const RobotDescription& description, const pinocchio::Model& m
 std::vector<std::string> link_names(const pinocchio::Model& model) {
   std::vector<std::string> names;
   for (const pinocchio::Frame& frame : model.frames) {
-    if ((frame.type & kLinkOrFixedJoint) != 0 && frame.name != "universe") names.push_back(frame.name);
+    if ((frame.type & kLinkOrFixedJoint) != 0 && frame.name != kWorldFrame) names.push_back(frame.name);
   }
   return names;
+}
+
+/// The link or, if there is none, the fixed joint of that name: it may be that of both. None that Pinocchio adds by itself.
+std::optional<pinocchio::FrameIndex> find_frame(const pinocchio::Model& model, const std::string& name) {
+  for (const pinocchio::FrameType type : {pinocchio::BODY, pinocchio::FIXED_JOINT}) {
+    if (name != kWorldFrame && model.existFrame(name, type)) return model.getFrameId(name, type);
+  }
+  return std::nullopt;
 }
 
 std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& description, pinocchio::Model& model) {
@@ -85,15 +95,16 @@ std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& de
     if (contact.name.empty() || !names.insert(contact.name).second) {
       throw InputError(where + ": the name of a contact must be unique and not empty");
     }
-    if (!model.existFrame(contact.frame, kLinkOrFixedJoint)) {
-      throw InputError(fmt::format("{}: frame '{}' is no link or fixed joint of {}{}", where, contact.frame,
+    const std::optional<pinocchio::FrameIndex> found = find_frame(model, contact.frame);
+    if (!found) {
+      throw InputError(fmt::format("{}: frame '{}' is no link or fixed joint of {}{}", where, shown(contact.frame),
                                    description.urdf.string(), did_you_mean(contact.frame, links)));
     }
     if (!(contact.radius >= 0.0) || !std::isfinite(contact.radius)) {
       throw InputError(fmt::format("{}: radius {} is not allowed; need radius >= 0 [m]", where, contact.radius));
     }
     if (!contact.offset.allFinite()) throw InputError(where + ": offset must be three finite numbers [m]");
-    const pinocchio::FrameIndex frame = model.getFrameId(contact.frame, kLinkOrFixedJoint);
+    const pinocchio::FrameIndex frame = *found;
     if (contact.offset.isZero(0.0)) {
       frames.push_back(frame);
       continue;
@@ -111,7 +122,7 @@ Eigen::Index joint_index(const RobotDescription& description, const std::vector<
                          const std::string& field, const std::string& name) {
   const auto joint = std::find(joints.begin(), joints.end(), name);
   if (joint == joints.end()) {
-    throw InputError(fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, name,
+    throw InputError(fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, shown(name),
                                  description.urdf.string(), did_you_mean(name, joints)));
   }
   return joint - joints.begin();

@@ -1,101 +1,45 @@
 #include "prowl/model/urdf_check.hpp"
 
+#include <console_bridge/console.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <cctype>
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "prowl/error.hpp"
 #include "prowl/model/name_check.hpp"
 #include "prowl/model/nearest_name.hpp"
+#include "prowl/model/shown_text.hpp"
+#include "prowl/model/urdf_place.hpp"
+#include "prowl/model/urdf_shapes.hpp"
 
 namespace prowl {
 
 namespace {
 
 using tinyxml2::XMLElement;
+using Place = UrdfPlace;
 
-constexpr double kLargest = 1e9;         // of any length, mass, inertia [SI]: their products then stay finite
 constexpr std::size_t kMaxLinks = 1000;  // a chain of 3,000 keeps Pinocchio busy for more than 20 s
 // Humanoids with both hands have fewer than 100. Pinocchio keeps four tensors of nv³ numbers: 64 MB here, 4 GB at 500.
 constexpr int kMaxMovingJoints = 120;
 
-/// One link or joint (or the whole robot), for messages: "file:line: joint 'name'".
-struct Place {
-  const std::string& file;
-  std::string element;
-
-  [[noreturn]] void refuse(const XMLElement& at, const std::string& problem) const {
-    throw InputError(fmt::format("{}:{}: {}: {}", file, at.GetLineNum(), element, problem));
-  }
-};
-
-bool parse_number(std::string text, double& value) {
-  const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
-  text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_space));
-  while (!text.empty() && is_space(static_cast<unsigned char>(text.back()))) text.pop_back();
-  if (text.starts_with('+')) text.erase(0, 1);
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
-}
-
-/// The required attribute `name` of `at` as text.
-std::string text_of(const Place& place, const XMLElement& at, const char* name) {
-  const char* text = at.Attribute(name);
-  if (text == nullptr || *text == '\0') place.refuse(at, fmt::format("<{}> has no {}=\"...\"", at.Name(), name));
-  return text;
-}
-
-double number(const Place& place, const XMLElement& at, const char* name, double largest = kLargest) {
-  const std::string text = text_of(place, at, name);
-  double value = 0.0;
-  if (!parse_number(text, value) || std::abs(value) > largest) {
-    place.refuse(at, fmt::format("<{} {}=\"{}\">: expected one finite number like 1.5 (SI units, no unit in the text)",
-                                 at.Name(), name, text));
-  }
-  return value;
-}
-
-/// The attribute `name` of the element as three numbers; it may be missing. Returns their largest absolute value.
-double check_vector(const Place& place, const XMLElement* at, const char* name) {
-  if (at == nullptr || at->Attribute(name) == nullptr) return 0.0;
-  std::istringstream words(at->Attribute(name));
-  std::string word;
-  int count = 0;
-  double largest = 0.0, value = 0.0;
-  for (; words >> word; ++count) {
-    if (!parse_number(word, value) || std::abs(value) > kLargest) break;
-    largest = std::max(largest, std::abs(value));
-  }
-  if (words || count != 3) {
-    place.refuse(*at, fmt::format("<{} {}=\"{}\">: expected three finite numbers like 0 0 1.5", at->Name(), name,
-                                  at->Attribute(name)));
-  }
-  return largest;
-}
-
-void check_origin(const Place& place, const XMLElement& parent) {
-  check_vector(place, parent.FirstChildElement("origin"), "xyz");
-  check_vector(place, parent.FirstChildElement("origin"), "rpy");
-}
-
 void check_link(const Place& place, const XMLElement& link, const std::string& name, std::vector<UrdfLink>& result) {
+  check_shapes(place, link);
   const XMLElement* inertial = link.FirstChildElement("inertial");
   if (inertial == nullptr) return;  // a massless frame
-  check_origin(place, *inertial);
+  check_urdf_origin(place, *inertial);
   const XMLElement* mass = inertial->FirstChildElement("mass");
   const XMLElement* inertia = inertial->FirstChildElement("inertia");
   if (mass == nullptr || inertia == nullptr) place.refuse(*inertial, "<inertial> needs both <mass> and <inertia>");
-  const double kg = number(place, *mass, "value");
+  const double kg = urdf_number(place, *mass, "value");
   if (kg < 0.0) place.refuse(*mass, fmt::format("<mass value=\"{}\">: expected mass >= 0 [kg]", kg));
-  const auto moment = [&](const char* i) { return number(place, *inertia, i); };
+  const auto moment = [&](const char* i) { return urdf_number(place, *inertia, i); };
   Eigen::Matrix3d I;
   I << moment("ixx"), moment("ixy"), moment("ixz"),  //
       moment("ixy"), moment("iyy"), moment("iyz"),   //
@@ -115,7 +59,7 @@ void check_moving_joint(const Place& place, const XMLElement& joint, const std::
                  "root link float");
   }
   if (type != "revolute" && type != "prismatic") {
-    place.refuse(joint, fmt::format("type {} is not supported; expected revolute, prismatic or fixed{}", type,
+    place.refuse(joint, fmt::format("type {} is not supported; expected revolute, prismatic or fixed{}", shown(type),
                                     type == "planar" ? " (model it as two prismatic joints and a revolute one)" : ""));
   }
   if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
@@ -124,9 +68,9 @@ void check_moving_joint(const Place& place, const XMLElement& joint, const std::
                  "make the joint fixed");
   }
   const XMLElement* axis = joint.FirstChildElement("axis");  // 1 0 0 if not given
-  if (axis != nullptr && check_vector(place, axis, "xyz") < 1e-6) {
+  if (axis != nullptr && check_urdf_vector(place, axis, "xyz") < 1e-6) {
     place.refuse(*axis, fmt::format("<axis xyz=\"{}\">: expected a direction, for example 0 0 1",
-                                    axis->Attribute("xyz") != nullptr ? axis->Attribute("xyz") : ""));
+                                    axis->Attribute("xyz") != nullptr ? shown(axis->Attribute("xyz")) : ""));
   }
   const XMLElement* limit = joint.FirstChildElement("limit");
   if (limit == nullptr) {
@@ -134,11 +78,11 @@ void check_moving_joint(const Place& place, const XMLElement& joint, const std::
   }
   constexpr double kAny = std::numeric_limits<double>::infinity();
   for (const char* name : {"velocity", "effort"}) {
-    const double value = number(place, *limit, name, kAny);
+    const double value = urdf_number(place, *limit, name, kAny);
     if (value < 0.0) place.refuse(*limit, fmt::format("<limit {}=\"{}\">: expected a number > 0", name, value));
   }
   for (const char* name : {"lower", "upper"}) {  // 0 if not given
-    if (limit->Attribute(name) != nullptr) number(place, *limit, name, kAny);
+    if (limit->Attribute(name) != nullptr) urdf_number(place, *limit, name, kAny);
   }
 }
 
@@ -151,16 +95,16 @@ void check_joint(const Place& place, const XMLElement& joint, const std::vector<
     const char* role = i == 0 ? "parent" : "child";
     const XMLElement* end = joint.FirstChildElement(role);
     if (end == nullptr) place.refuse(joint, fmt::format("no <{} link=\"...\"/>", role));
-    ends[i] = text_of(place, *end, "link");
+    ends[i] = urdf_text(place, *end, "link");
     if (std::find(links.begin(), links.end(), ends[i]) == links.end()) {
-      place.refuse(*end, fmt::format("{} link '{}' does not exist{}", role, ends[i], did_you_mean(ends[i], links)));
+      place.refuse(*end, fmt::format("{} link '{}' does not exist{}", role, shown(ends[i]), did_you_mean(ends[i], links)));
     }
   }
   if (!parents.emplace(ends[1], ends[0]).second) {
     place.refuse(joint, fmt::format("link '{}' is already the child of another joint; expected a tree", ends[1]));
   }
-  check_origin(place, joint);
-  const std::string type = text_of(place, joint, "type");
+  check_urdf_origin(place, joint);
+  const std::string type = urdf_text(place, joint, "type");
   if (type != "fixed") check_moving_joint(place, joint, type);
 }
 
@@ -177,7 +121,7 @@ void check_tree(const Place& place, const XMLElement& root, const std::vector<st
   }
   if (roots.size() != 1) {
     place.refuse(root, fmt::format("{} links are no child of a joint ({}); expected exactly one, the base",
-                                   roots.size(), fmt::join(roots, ", ")));
+                                   roots.size(), shown(fmt::format("{}", fmt::join(roots, ", ")))));
   }
 }
 
@@ -191,9 +135,14 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
     throw InputError(fmt::format("{}:1: no element in it; expected a URDF, <robot name=\"...\">", file));
   }
   const XMLElement& root = *document.RootElement();
-  const Place place{file, fmt::format("<{}>", root.Name())};
+  const Place place{file, fmt::format("<{}>", shown(root.Name()))};
   if (std::string(root.Name()) != "robot") place.refuse(root, "not a URDF; expected <robot name=\"...\">");
-  text_of(place, root, "name");
+  urdf_text(place, root, "name");
+  for (const tinyxml2::XMLNode* n = document.FirstChild(); n != nullptr; n = n->NextSibling()) {
+    // Nobody here expands entities, so that a text with one would not be what its author means.
+    if (n->ToUnknown() == nullptr || std::string_view(n->Value()).find("<!ENTITY") == std::string_view::npos) continue;
+    throw InputError(fmt::format("{}:{}: entities (<!ENTITY ...>) are not allowed; write out what they stand for", file, n->GetLineNum()));
+  }
   for (const XMLElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     if (std::string(e->Name()).starts_with("xacro:")) {
       place.refuse(*e, "a xacro file; expected the URDF that it expands to: xacro FILE > robot.urdf");
@@ -205,9 +154,10 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
 }  // namespace
 
 std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml) {
+  console_bridge::noOutputHandler();  // urdfdom's, on stderr: of what is wrong this check tells
   tinyxml2::XMLDocument document;
   const XMLElement& root = root_of(file, xml, document);
-  const Place robot{file, fmt::format("robot '{}'", root.Attribute("name"))};
+  const Place robot{file, fmt::format("robot '{}'", shown(root.Attribute("name")))};
 
   std::vector<UrdfLink> result;
   std::vector<std::string> links;
@@ -215,7 +165,7 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
   const auto visit = [&](const char* kind, const auto& check) {
     line_of.clear();
     for (const XMLElement* e = root.FirstChildElement(kind); e != nullptr; e = e->NextSiblingElement(kind)) {
-      const std::string name = text_of(robot, *e, "name");
+      const std::string name = urdf_text(robot, *e, "name");
       if (!is_name(name)) robot.refuse(*e, fmt::format("this name of a {} is not allowed; need {}", kind, kNameRule));
       const Place place{file, fmt::format("{} '{}'", kind, name)};
       if (const auto [first, is_new] = line_of.emplace(name, e->GetLineNum()); !is_new) {
@@ -226,6 +176,7 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
   };
   visit("link", [&](const Place& place, const XMLElement& link, const std::string& name) {
     if (links.size() == kMaxLinks) place.refuse(link, fmt::format("more than {} links are not allowed", kMaxLinks));
+    if (name == "universe") place.refuse(link, "this name is Pinocchio's for the world; expected another");
     check_link(place, link, name, result);
     links.push_back(name);
   });
@@ -234,7 +185,7 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
   int moving = 0;
   visit("joint", [&](const Place& place, const XMLElement& joint, const std::string&) {
     check_joint(place, joint, links, parents);
-    if (text_of(place, joint, "type") == "fixed") return;
+    if (urdf_text(place, joint, "type") == "fixed") return;
     if (++moving > kMaxMovingJoints) {
       place.refuse(joint, fmt::format("more than {} moving joints are not allowed; make those fixed that the motion "
                                       "does not need",

@@ -12,7 +12,7 @@
 namespace prowl {
 namespace {
 
-constexpr std::size_t kLargestUrdf = 16u << 20;  // [bytes], as RobotModel has it
+constexpr std::size_t kLargestUrdf = 4u << 20;  // [bytes], as RobotModel has it
 
 /// The contacts of all feet in one pose; contacts_of_leg gets the indices of those of each leg.
 std::vector<ContactPoint> find_feet(const RobotPose& pose, const std::vector<Leg>& legs, const std::vector<FootShapes>& shapes,

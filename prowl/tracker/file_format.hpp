@@ -23,15 +23,27 @@ constexpr std::size_t kHeaderBytes = kMagicBytes + 6 * sizeof(std::uint32_t) + 2
 constexpr std::uint64_t kLongestFile = std::uint64_t{1} << 30;  // [bytes]
 
 /// FNV-1a (Fowler, Noll, Vo) over words of 8 bytes, the last filled up with zeros.
-inline std::uint64_t checksum(const char* bytes, std::size_t size) {
-  constexpr std::uint64_t kOffset = 0xcbf29ce484222325, kPrime = 0x100000001b3;
-  std::uint64_t hash = kOffset;
-  for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes + i, size - i < sizeof(word) ? size - i : sizeof(word));
-    hash = (hash ^ word) * kPrime;
+class Checksum {
+ public:
+  /// All parts but the last have to be of a multiple of 8 bytes.
+  void add(const char* bytes, std::size_t size) {
+    constexpr std::uint64_t kPrime = 0x100000001b3;
+    for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + i, size - i < sizeof(word) ? size - i : sizeof(word));
+      hash_ = (hash_ ^ word) * kPrime;
+    }
   }
-  return hash;
+  std::uint64_t value() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0xcbf29ce484222325;
+};
+
+inline std::uint64_t checksum(const char* bytes, std::size_t size) {
+  Checksum sum;
+  sum.add(bytes, size);
+  return sum.value();
 }
 
 }  // namespace prowl::tracker_file

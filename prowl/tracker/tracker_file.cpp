@@ -1,9 +1,11 @@
 // Reads tracker.bin (file_format.hpp). Nothing is allocated on the word of the file alone: every size is compared with the
 // bytes that are there first.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "prowl/tracker/file_format.hpp"
 #include "prowl/tracker/tracker.hpp"
@@ -15,27 +17,33 @@
 namespace prowl {
 namespace {
 
-/// Takes one thing after the other from the bytes of a file, never more than there are.
+/// Takes one thing after the other from a file, never more than it has.
 class Bytes {
  public:
-  Bytes(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {}
+  explicit Bytes(const std::string& path) : path_(path) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(path, error)) fail("no such file");
+    left_ = std::filesystem::file_size(path, error);
+    if (error) fail(error.message());
+    if (left_ > tracker_file::kLongestFile) fail("more than 1 GB");
+    file_.open(path, std::ios::binary);
+    if (!file_) fail("cannot be read");
+  }
 
   [[noreturn]] void fail(const std::string& message) const { throw TrackerError(path_ + ": " + message); }
-  std::size_t left() const { return text_.size() - next_; }
-  const char* here() const { return text_.data() + next_; }
+  std::uint64_t left() const { return left_; }
 
-  /// `size` bytes, as a place to copy from.
-  const char* take(std::uint64_t size, const char* what) {
-    if (size > left()) fail(std::string("cut short in ") + what);
-    const char* const begin = here();
-    next_ += static_cast<std::size_t>(size);
-    return begin;
+  /// The next `size` bytes to `target`.
+  void take(void* target, std::uint64_t size, const char* what) {
+    if (size > left_) fail(std::string("cut short in ") + what);
+    if (!file_.read(static_cast<char*>(target), static_cast<std::streamsize>(size))) fail("cannot be read");
+    left_ -= size;
   }
 
   template <class Number>
   Number number(const char* what) {
     Number value;
-    std::memcpy(&value, take(sizeof(value), what), sizeof(value));
+    take(&value, sizeof(value), what);
     return value;
   }
 
@@ -48,20 +56,38 @@ class Bytes {
 
   std::string text(const char* what) {
     const auto size = number<std::uint32_t>(what);
-    return {take(size, what), size};
+    if (size > left_) fail(std::string("cut short in ") + what);
+    std::string value(size, '\0');
+    take(value.data(), size, what);
+    return value;
   }
 
   Eigen::MatrixXd matrix(std::uint64_t rows, std::uint64_t cols, const char* what) {
-    if (rows != 0 && cols > left() / sizeof(double) / rows) fail(std::string("cut short in ") + what);
-    const char* const begin = take(rows * cols * sizeof(double), what);
+    if (rows != 0 && cols > left_ / sizeof(double) / rows) fail(std::string("cut short in ") + what);
     Eigen::MatrixXd matrix(rows, cols);
-    if (matrix.size() > 0) std::memcpy(matrix.data(), begin, rows * cols * sizeof(double));
+    take(matrix.data(), rows * cols * sizeof(double), what);
     return matrix;
   }
 
+  /// Of all bytes that are left, which stay there to be taken.
+  std::uint64_t checksum_of_rest() {
+    const std::streampos here = file_.tellg();
+    tracker_file::Checksum sum;
+    std::vector<char> part(std::size_t{1} << 16);
+    for (std::uint64_t rest = left_; rest > 0;) {
+      const std::size_t size = std::min<std::uint64_t>(rest, part.size());
+      if (!file_.read(part.data(), static_cast<std::streamsize>(size))) fail("cannot be read");
+      sum.add(part.data(), size);
+      rest -= size;
+    }
+    file_.seekg(here);
+    return sum.value();
+  }
+
  private:
-  std::string path_, text_;
-  std::size_t next_ = 0;
+  std::string path_;
+  std::ifstream file_;
+  std::uint64_t left_ = 0;
 };
 
 struct Header {
@@ -69,9 +95,9 @@ struct Header {
 };
 
 Header read_header(Bytes& bytes) {
-  if (std::string(bytes.take(tracker_file::kMagicBytes, "the header"), tracker_file::kMagicBytes) != tracker_file::kMagic) {
-    bytes.fail("no tracker file; need tracker.bin of a plan");
-  }
+  std::string magic(tracker_file::kMagicBytes, '\0');
+  bytes.take(magic.data(), magic.size(), "the header");
+  if (magic != tracker_file::kMagic) bytes.fail("no tracker file; need tracker.bin of a plan");
   const auto count = [&bytes] { return bytes.number<std::uint32_t>("the header"); };
   if (const std::uint32_t version = count(); version != tracker_file::kVersion) {
     bytes.fail("version " + std::to_string(version) + " of the format; need " + std::to_string(tracker_file::kVersion));
@@ -88,7 +114,7 @@ Header read_header(Bytes& bytes) {
     bytes.fail(std::to_string(bytes.left()) + " bytes after the header; need " + std::to_string(payload) +
                ": the file is cut short or has something behind it");
   }
-  if (checksum != tracker_file::checksum(bytes.here(), bytes.left())) bytes.fail("changed since it was written");
+  if (checksum != bytes.checksum_of_rest()) bytes.fail("changed since it was written");
   // A count above the bytes that are left cannot be true, and is not worth reserving for.
   for (const std::uint64_t n : {header.joints, header.contacts, header.segments, header.curves, header.samples}) {
     if (n > bytes.left()) bytes.fail("a count of the header is larger than the file");
@@ -104,8 +130,7 @@ TrackingPlan::Segment read_segment(Bytes& bytes, std::uint32_t contacts) {
   segment.start = bytes.number<double>(what);
   segment.end = bytes.number<double>(what);
   segment.samples = bytes.count(what);
-  const char* const flags = bytes.take(contacts, what);
-  for (std::uint32_t i = 0; i < contacts; ++i) segment.in_contact.push_back(flags[i] != 0);
+  for (std::uint32_t i = 0; i < contacts; ++i) segment.in_contact.push_back(bytes.number<char>(what) != 0);
   return segment;
 }
 
@@ -145,22 +170,10 @@ TrackingPlan read_plan(Bytes& bytes) {
   return plan;
 }
 
-std::string read_bytes(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) throw TrackerError(path + ": no such file");
-  const auto size = std::filesystem::file_size(path, error);
-  if (error) throw TrackerError(path + ": " + error.message());
-  if (size > tracker_file::kLongestFile) throw TrackerError(path + ": more than 1 GB");
-  std::ifstream file(path, std::ios::binary);
-  std::string text(static_cast<std::size_t>(size), '\0');
-  if (!file || !file.read(text.data(), static_cast<std::streamsize>(size))) throw TrackerError(path + ": cannot be read");
-  return text;
-}
-
 }  // namespace
 
 Tracker Tracker::read(const std::string& path) {
-  Bytes bytes(path, read_bytes(path));
+  Bytes bytes(path);
   TrackingPlan plan = read_plan(bytes);
   try {
     return Tracker(std::move(plan));

@@ -213,12 +213,6 @@ class BackwardPass {
 
 }  // namespace
 
-int FeedbackDesign::num_samples() const {
-  std::size_t samples = 0;
-  for (const ReferencePhase& phase : phases) samples += phase.samples.size();
-  return static_cast<int>(samples);
-}
-
 std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferencePhase& last, const TrackingOptions& options) {
   TrajectoryPoint rest = last.samples.back();
   rest.v.setZero();

@@ -56,18 +56,6 @@ Grade grade_of(const std::vector<CertificateCheck>& checks) {
 
 }  // namespace
 
-const char* to_string(Grade grade) {
-  switch (grade) {
-    case Grade::certified:
-      return "certified";
-    case Grade::draft:
-      return "draft";
-    case Grade::failed:
-      break;
-  }
-  return "failed";
-}
-
 Certificate certify(const MotionProblem& problem, const Trajectory& trajectory) {
   Certificate certificate;
   auto& checks = certificate.checks;

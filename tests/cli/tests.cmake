@@ -42,6 +42,11 @@ if(PROWL_BUILD_CLI)
     message(STATUS "Prowl: without the tests of SNOPT, for which Drake is missing: PROWL_WITH_SNOPT=1 scripts/setup")
   endif()
 
+  # Malicious files: docs/reliability.md.
+  add_test(NAME cli/bad_input
+    COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/bad_input_test.py $<TARGET_FILE:prowl_cli>)
+  set_tests_properties(cli/bad_input PROPERTIES TIMEOUT 1200 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
+
   # What prowl writes, read by somebody else's code.
   foreach(name determinism exports export_command plan_schema)
     add_test(NAME cli/${name}

@@ -52,5 +52,15 @@ TEST_F(PackagePath, RefusesWhatIsNoPath) {
   EXPECT_THROW(resolve("dog.urdf"), InputError);
 }
 
+TEST_F(PackagePath, StaysInsideThePackage) {
+  folder_.write("work/secret.urdf", "");
+  folder_.write("work/dog/urdf/dog.urdf", "");
+  EXPECT_NO_THROW(resolve("package://dog/urdf/../urdf/dog.urdf"));
+  for (const char* uri : {"package://dog/../secret.urdf", "package://dog/urdf/../../secret.urdf", "package://../work/secret.urdf",
+                          "package://./secret.urdf", "package://dog//etc/passwd"}) {
+    EXPECT_NE(test::message_of(folder_.path(), [&] { resolve(uri); }).find("leaves its package"), std::string::npos) << uri;
+  }
+}
+
 }  // namespace
 }  // namespace prowl

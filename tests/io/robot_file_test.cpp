@@ -81,7 +81,7 @@ TEST_F(RobotFile, RefusesWrongValues) {
 TEST_F(RobotFile, RefusesNamesThatBreakFiles) {
   for (const char* name : {"lf,foot", "lf\\nfoot", "lf foot ", "f\u00fc\u00df"}) {
     EXPECT_THAT(message("{ name = \"lf_foot\"", std::string("{ name = \"") + name + "\""),
-                StartsWith("hyq.toml:4:12: contact[0].name: this name is not allowed; need printable ASCII"))
+                StartsWith("hyq.toml:4:12: contact[0].name: this name is not allowed; need at most 200 printable ASCII"))
         << name;
   }
 }

@@ -325,7 +325,7 @@ TEST_F(TaskFile, RefusesNumbersBeyondAllSense) {
 
 TEST_F(TaskFile, RefusesNamesThatBreakFiles) {
   EXPECT_THAT(message("\"shift\"", "\"a\\nb\""),
-              StartsWith("task.toml:1:8: name: this name is not allowed; need printable ASCII"));
+              StartsWith("task.toml:1:8: name: this name is not allowed; need at most 200 printable ASCII"));
   EXPECT_THAT(message("\"stand\"", "\"a,b\""), StartsWith("task.toml:4:8: phase[0].name: this name is not allowed"));
 }
 

@@ -43,7 +43,7 @@ LIBRARIES = {
     "nlohmann": (r"nlohmann/", {"io"}),
     "tinyxml2": (r"tinyxml2\.h", {"model", "io"}),
     "MuJoCo": (r"mujoco/", {"simulation"}),
-    "urdfdom": (r"urdf_parser/|urdf_model/", {"model"}),
+    "urdfdom": (r"urdf_parser/|urdf_model/|console_bridge/", {"model"}),
     "Assimp": (r"assimp/", {"io"}),
     "meshoptimizer": (r"meshoptimizer\.h", {"io"}),
     "CLI11": (r"CLI/", set()),

@@ -143,6 +143,23 @@ TEST(RobotModel, ContactsMayBeOffsetFromTheirFrame) {
   EXPECT_LT((points[0] - expected).norm(), 1e-14);
 }
 
+/// They are frames of Pinocchio's, but none of the robot's.
+TEST(RobotModel, ContactsAreOnFramesOfTheRobot) {
+  for (const char* frame : {"universe", "root_joint", "lf_hfe_joint"}) {
+    RobotDescription description = test::hyq_description();
+    description.contacts[0].frame = frame;
+    EXPECT_THAT(message_for(description), HasSubstr(std::string("frame '") + frame + "' is no link or fixed joint"));
+  }
+}
+
+TEST(RobotModel, ContactsPreferALinkToAFixedJointOfItsName) {
+  const test::TemporaryFolder folder;
+  const std::string urdf = test::replaced(test::small_urdf(), "joint name=\"right_ankle\"", "joint name=\"left_foot\"");
+  const RobotModel robot(test::small_description(folder.write("robot.urdf", urdf)));
+  const auto points = contact_points(robot, robot.nominal_configuration());
+  EXPECT_GT(points[0].y(), 0.05) << "the joint is on the right";
+}
+
 TEST(RobotModel, CopiesAreEqualAndIndependent) {
   const RobotModel original = test::hyq();
   RobotModel copy = test::solo12();

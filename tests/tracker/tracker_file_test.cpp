@@ -55,6 +55,16 @@ TEST(TrackerFile, ReadsBackEveryBit) {
   EXPECT_EQ(tracker_file_bytes(read), tracker_file_bytes(plan));
 }
 
+TEST(TrackerFile, SumsPartsAsTheWhole) {
+  const std::string bytes = tracker_file_bytes(test::random_tracking_plan());
+  for (const std::size_t first : {std::size_t{0}, std::size_t{8}, std::size_t{64}}) {
+    tracker_file::Checksum sum;
+    sum.add(bytes.data(), first);
+    sum.add(bytes.data() + first, bytes.size() - first);
+    EXPECT_EQ(sum.value(), tracker_file::checksum(bytes.data(), bytes.size()));
+  }
+}
+
 TEST(TrackerFile, RefusesWhatIsNoFile) {
   const test::TempFolder folder;
   for (const std::string path : {"missing.bin", ""}) {

@@ -1,0 +1,15 @@
+// trajectory.csv of the task of sample.hpp; the same bytes as a table of numbers of any columns, as simulate.csv is.
+#include "input.hpp"
+#include "prowl/io/csv_table.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/io/trajectory_csv.hpp"
+#include "sample.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace prowl;
+  static const Task task = parse_task({"task.toml", fuzz::kTask}, {"robot.toml", fuzz::kRobot}, {}, {}, SourceText{"small.urdf", fuzz::kUrdf});
+  const SourceText source{"trajectory.csv", fuzz::text_of(data, size)};
+  fuzz::takes_or_refuses([&] { trajectory_from_csv(task.problem, source); });
+  fuzz::takes_or_refuses([&] { read_csv_table(source); });
+  return 0;
+}

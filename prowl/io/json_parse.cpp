@@ -1,0 +1,59 @@
+#include "prowl/io/json_parse.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// "line:column" of the byte, which counts from 1.
+std::string place_of(const std::string& text, std::size_t byte) {
+  const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
+  const std::size_t line_start = before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1;
+  return fmt::format("{}:{}", 1 + std::count(before.begin(), before.end(), '\n'), before.size() - line_start + 1);
+}
+
+/// Throws at the first thing too many.
+class Limits {
+ public:
+  explicit Limits(const SourceText& source) : file_(source.path.string()) {}
+
+  bool operator()(int depth, Json::parse_event_t event, const Json&) {
+    if (depth > kDeepestJson) fail("lists and objects", kDeepestJson, "deep");
+    if (event == Json::parse_event_t::object_start) keys_[static_cast<std::size_t>(depth) + 1] = 0;
+    if (event == Json::parse_event_t::key && ++keys_[static_cast<std::size_t>(depth)] > kMostJsonKeys) fail("keys", kMostJsonKeys, "in an object");
+    if (event != Json::parse_event_t::key && ++values_ > kMostJsonValues) fail("values", kMostJsonValues, "in all");
+    return true;
+  }
+
+ private:
+  [[noreturn]] void fail(const char* what, int most, const char* where) const {
+    throw InputError(fmt::format("{}: {} more than {} {} are not allowed: no file that prowl wrote", file_, what, most, where));
+  }
+
+  std::string file_;
+  std::array<int, kDeepestJson + 2> keys_{};  // of the object at each depth
+  int values_ = 0;
+};
+
+}  // namespace
+
+Json parse_json(const SourceText& source) {
+  try {
+    return Json::parse(source.text, Limits(source));
+  } catch (const Json::parse_error& error) {
+    throw InputError(fmt::format("{}:{}: not JSON from here on: the file is cut short or was edited", source.path.string(),
+                                 place_of(source.text, error.byte)));
+  } catch (const Json::out_of_range&) {
+    throw InputError(fmt::format("{}: a number in it is beyond 1.8e308", source.path.string()));
+  }
+}
+
+}  // namespace prowl

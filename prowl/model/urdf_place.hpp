@@ -1,0 +1,35 @@
+#pragma once
+
+// Internal to model: numbers of a URDF, read strictly. Includes tinyxml2: keep to .cpp files.
+#include <tinyxml2.h>
+
+#include <limits>
+#include <string>
+
+namespace prowl {
+
+/// One link or joint (or the whole robot), for messages: "file:line: joint 'name'".
+struct UrdfPlace {
+  const std::string& file;
+  std::string element;
+
+  /// Throws InputError.
+  [[noreturn]] void refuse(const tinyxml2::XMLElement& at, const std::string& problem) const;
+};
+
+constexpr double kLargestInUrdf = 1e9;  ///< of any length, mass, inertia [SI]: their products then stay finite
+
+/// The required attribute `name` of `at` as text, not empty.
+std::string urdf_text(const UrdfPlace& place, const tinyxml2::XMLElement& at, const char* name);
+
+/// The same as one finite number.
+double urdf_number(const UrdfPlace& place, const tinyxml2::XMLElement& at, const char* name, double largest = kLargestInUrdf);
+
+/// Refuses an attribute `name` of the element that is not `size` finite numbers, 3 or 4; it may be missing, as may the
+/// element (nullptr). Returns their largest absolute value.
+double check_urdf_vector(const UrdfPlace& place, const tinyxml2::XMLElement* at, const char* name, int size = 3);
+
+/// The <origin> of `parent`, which may be missing.
+void check_urdf_origin(const UrdfPlace& place, const tinyxml2::XMLElement& parent);
+
+}  // namespace prowl

@@ -1,0 +1,62 @@
+#include "prowl/io/json_parse.hpp"
+
+#include <gmock/gmock.h>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::HasSubstr;
+
+std::string message(const std::string& text) {
+  try {
+    parse_json({"a.json", text});
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+std::string keys(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) text += (i == 0 ? "\"k" : ",\"k") + std::to_string(i) + "\":1";
+  return text;
+}
+
+TEST(JsonParse, ReadsWhatIsThere) {
+  EXPECT_EQ(parse_json({"a.json", R"({"b": [1, {"c": null}], "a": "x"})"}).dump(), R"({"b":[1,{"c":null}],"a":"x"})");
+}
+
+TEST(JsonParse, SaysWhereItIsNoJson) {
+  EXPECT_THAT(message("{\n  \"a\": 1,\n"), HasSubstr("a.json:3:"));
+  EXPECT_THAT(message("{\"a\": NaN}"), HasSubstr("a.json:1:"));
+  EXPECT_THAT(message(""), HasSubstr("a.json:1:1: not JSON"));
+}
+
+TEST(JsonParse, RefusesDepth) {
+  EXPECT_EQ(message(repeated("[", kDeepestJson) + repeated("]", kDeepestJson)), "");
+  EXPECT_EQ(message(repeated("{\"a\":", kDeepestJson) + "1" + repeated("}", kDeepestJson)), "");
+  EXPECT_THAT(message(repeated("[", kDeepestJson + 2) + repeated("]", kDeepestJson + 2)), HasSubstr("deep"));
+  EXPECT_THAT(message(repeated("[", 1000000)), HasSubstr("deep"));
+  EXPECT_THAT(message(repeated("{\"a\":", 1000000)), HasSubstr("deep"));
+}
+
+TEST(JsonParse, RefusesTooManyKeysOfOneObject) {
+  EXPECT_EQ(message("[{" + keys(kMostJsonKeys) + "}, {" + keys(kMostJsonKeys) + "}]"), "") << "each has its own";
+  EXPECT_THAT(message("{" + keys(kMostJsonKeys + 1) + "}"), HasSubstr("keys more than 1000"));
+  EXPECT_THAT(message("{\"x\": {" + keys(500) + "}, " + keys(kMostJsonKeys) + "}"), HasSubstr("keys more than 1000")) << "those around it count on";
+}
+
+TEST(JsonParse, RefusesTooManyValues) { EXPECT_THAT(message("[" + repeated("0,", kMostJsonValues) + "0]"), HasSubstr("values more than")); }
+
+TEST(JsonParse, RefusesNumbersBeyondDoubles) { EXPECT_THAT(message("[1e999]"), HasSubstr("1.8e308")); }
+
+}  // namespace
+}  // namespace prowl
