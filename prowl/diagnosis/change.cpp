@@ -21,12 +21,10 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Largest ratios that are tried. 0.8 is rubber on dry concrete, and who plans with more falls; what needs ten times the
-// time or a twentieth of the way is another task.
+// Largest ratios that are tried. 0.8 is rubber on dry concrete, and who plans with more falls; what needs more than twenty
+// times the torque or the time, or less than a twentieth of the way, is another task.
 constexpr double kMostFriction = 0.8;
-const double kMostTime = std::log(10.0);
-const double kMostLimit = std::log(20.0);
-const double kLeastWay = std::log(20.0);
+const double kMost = std::log(20.0);
 
 // Forces and torques of a motion go with the way and with the square of the time, so that too little friction or torque
 // is mended by a nearer goal or a longer phase, too, and by a smaller ratio of times. Where such a change is about
@@ -56,12 +54,13 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
       Duration& duration = changed.phases[static_cast<std::size_t>(p)].duration;
       const bool fixed = duration.is_fixed();
       (sign > 0.0 ? duration.max : duration.min) *= std::exp(sign * a);
-      if (fixed) duration.min = duration.max = sign > 0.0 ? duration.max : duration.min;
+      // A flight that is too long may be too short, too: what lies between is left to the optimiser.
+      if (fixed && sign > 0.0) duration.min = duration.max;
     }
     return changed;
   };
   return {.kind = "duration", .phase = phase,
-          .subject = phase < 0 ? "" : problem.phases[static_cast<std::size_t>(phase)].name, .most = kMostTime,
+          .subject = phase < 0 ? "" : problem.phases[static_cast<std::size_t>(phase)].name, .most = kMost,
           .weight = phase < 0 ? kWeightOfAllTimes : kWeightOfTime, .unit = "s",
           .value = [&problem, phase, sign](double a) {
             double time = 0.0;
@@ -164,7 +163,7 @@ std::pair<std::string, double> farthest(const MotionProblem& problem, const Boun
 Knob goal_knob(const MotionProblem& problem, std::size_t condition, const std::string& entry, double away) {
   const BoundaryCondition& goal = problem.boundary_conditions[condition];
   const std::string unit = entry.starts_with("base") ? "m" : entry == "velocity" ? "m/s" : "rad";
-  return {.kind = "goal", .phase = goal.at.phase, .subject = fmt::format("{}, {}", goal.name, entry), .most = kLeastWay,
+  return {.kind = "goal", .phase = goal.at.phase, .subject = fmt::format("{}, {}", goal.name, entry), .most = kMost,
           .weight = kWeightOfWay, .unit = unit,
           .value = [away](double a) { return away * std::exp(-a); },
           .problem = [&problem, condition](double a) {
@@ -181,7 +180,7 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
   const Vector3d to = *contact.place;
   const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // on the surface, as the place is
   return {.kind = "place", .phase = phase,
-          .subject = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name, .most = kLeastWay,
+          .subject = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name, .most = kMost,
           .weight = kWeightOfWay, .unit = "m",
           .value = [root, to](double a) { return std::exp(-a) * (to - root).norm(); },
           .problem = [&problem, phase, held, root, to](double a) {
@@ -219,7 +218,7 @@ Knob joint_knob(const MotionProblem& problem, const std::string& kind, const std
   std::vector<std::string> names;
   for (const int j : joints) names.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
   const bool all = static_cast<int>(joints.size()) == robot.nu();
-  return {.kind = kind, .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMostLimit,
+  return {.kind = kind, .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMost,
           .unit = kind == "torque" ? "N m" : kind == "joint_velocity" ? "rad/s" : "rad",
           .value = [value](double a) { return value * std::exp(a); },
           .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); }};
@@ -250,7 +249,7 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   }
   if (phases > 1) knobs.push_back(duration_knob(problem, -1, 1.0));
   if (phases > 1 && problem.swing_clearance > 0.0) {
-    knobs.push_back({.kind = "clearance", .subject = "", .most = kLeastWay, .unit = "m",
+    knobs.push_back({.kind = "clearance", .subject = "", .most = kMost, .weight = kWeightOfWay, .unit = "m",
                      .value = [&problem](double a) { return problem.swing_clearance * std::exp(-a); },
                      .problem = [&problem](double a) {
                        MotionProblem changed = problem;

@@ -114,9 +114,8 @@ std::vector<FoundChange> ChangeSearch::smallest(const std::vector<Knob>& knobs, 
   }
   std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
   // What differs by less than bisections tell is equal, and a limit comes before what the task asks.
-  constexpr double kEqual = 2.0 * kPrecision;
   const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return one.knob.weight == 1.0; });
-  if (first != found.end() && first->weighted() <= found.front().weighted() + kEqual) {
+  if (first != found.end() && first->weighted() <= found.front().weighted() + kPrecision) {
     std::rotate(found.begin(), first, first + 1);
   }
   return found;
