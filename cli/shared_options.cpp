@@ -59,7 +59,7 @@ CLI::Validator whole_number() {
             const bool ok = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
             return ok ? std::string{} : fmt::format("{} is not allowed; need a whole number >= 0", text);
           },
-          "NUMBER >= 0"};
+          ""};  // the help says N already
 }
 
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status) {

@@ -103,7 +103,7 @@ TEST_F(JsonOutput, OfOtherErrors) {
   EXPECT_EQ(object("simulate", "out --engine rollout --seed 3").at("exit_status"), 2);
   EXPECT_EQ(run("$prowl robot missing.toml --json >/dev/full").status, 2) << "the first error counts";
   EXPECT_EQ(run("$prowl robot missing.toml --json >&-").status, 2);
-  EXPECT_EQ(object("plan", "$(printf %060000d 0)").at("error").at("kind"), "files") << "a path of any length";
+  EXPECT_EQ(object("plan", "$(printf %060000d 0)").at("error").at("kind"), "input") << "a path of any length";
   EXPECT_EQ(run("$prowl robot missing.toml").out, "") << "only if asked";
 }
 
