@@ -62,9 +62,11 @@ TEST_F(JsonOutput, OfResults) {
 
 TEST_F(JsonOutput, OfADiagnosis) {
   EXPECT_EQ(object("diagnose", "hold.toml $dirs").at("solvable"), true);
-  // HyQ lies on its belly long before 55 cm.
-  folder_.write("low.toml", test::kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, -0.55]\n");
-  const json result = object("diagnose", "low.toml $dirs --max-time 60");
+  // Legs that reach 18 cm higher.
+  std::string high = test::kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, 0.35]\n";
+  high.replace(high.find("intervals = 5"), 13, "intervals = 20");
+  folder_.write("high.toml", high);
+  const json result = object("diagnose", "high.toml $dirs --max-time 60");
   EXPECT_EQ(result.at("solvable"), false);
   EXPECT_EQ(result.at("exit_status"), 3);
   EXPECT_EQ(result.at("written").size(), 0u);

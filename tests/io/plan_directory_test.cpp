@@ -277,9 +277,10 @@ TEST_F(PlanDirectory, RefusesAMeshThatIsNone) {
     return message();
   };
   EXPECT_EQ(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.5}; }),
-            "out/plan.json: plan.problem.phases[1].shares: [0.5,0.5] is not allowed; need 3 numbers > 0, or none");
-  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, nullptr, 0.5}; }), HasSubstr("need 3 numbers > 0, or none"));
-  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.7, -0.2}; }), HasSubstr("need 3 numbers > 0, or none"));
+            "out/plan.json: plan.problem.phases[1].shares: 2 numbers with sum 1; need 3 numbers > 0 with sum 1, or none");
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, nullptr, 0.5}; }), HasSubstr("need 3 numbers > 0 with sum 1, or none"));
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.7, -0.2}; }), HasSubstr("need 3 numbers > 0 with sum 1, or none"));
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 1.0, 0.5}; }), HasSubstr("3 numbers with sum 2; need"));
   EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 0; }),
             "out/plan.json: plan.problem.phases[0].intervals: 0 is not allowed; need 1 to 10000");
   EXPECT_EQ(message_with([](auto& phases) { phases.erase(1); }), "out/plan.json: plan.problem.phases: 1 phases; the task has 2");
