@@ -111,7 +111,7 @@ TEST(Tracker, StaysWithinTheTorqueLimits) {
   plan.gains *= 1e4;
   const Tracker tracker(plan);
   std::mt19937 rng(4);
-  int limited = 0, unlimited = 0;
+  int limited = 0, unlimited = 0, braking = 0;
   for (int i = 0; i < 200; ++i) {
     VectorXd q = random_configuration(rng, plan.nu()), v = 2.0 * test::random_vector(rng, plan.nv(), 1.0), tau(plan.nu());
     q(7) = 0.5;  // of the curve over position: 70
@@ -123,9 +123,11 @@ TEST(Tracker, StaysWithinTheTorqueLimits) {
     EXPECT_LE(std::abs(tau(0)), 70.0 + 1e-9);
     EXPECT_LE(tau(1), 50.0 + 1e-9);
     EXPECT_GE(tau(1), -105.0 - 1e-9);
+    braking += tau(1) < -104.0;
   }
   EXPECT_GT(limited, 100);
   EXPECT_GT(unlimited, 100);
+  EXPECT_GT(braking, 50) << "as much as the curve allows downwards";
 }
 
 TEST(Tracker, GivesTheFeedforwardWhereTheStateIsNoState) {

@@ -55,6 +55,23 @@ TEST(IntegrationError, IsOneValueAnIntervalAndSeesTheWrongOne) {
   }
 }
 
+/// Of a robot that stands still, with the torque at these nodes wrong: 20 intervals of 0.1 s.
+double error_in_a_second(const std::vector<std::size_t>& wrong) {
+  test::StanceMotion motion(test::hyq(), 2.0, {0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+  Trajectory trajectory = motion.on_mesh(20);
+  for (const std::size_t node : wrong) trajectory.nodes[node].tau(4) += 20.0;  // [N m]
+  PhaseDynamics dynamics = dynamics_of(motion);
+  return integration_errors(motion.robot(), trajectory, dynamics).checks.at(1).worst;
+}
+
+TEST(IntegrationError, AddsUpOverASecond) {
+  const double one = error_in_a_second({2});
+  EXPECT_GT(one, 1e-4);
+  EXPECT_NEAR(error_in_a_second({2, 9}), 2.0 * one, 1e-6 * one) << "0.9 s from the first wrong interval to the last";
+  EXPECT_NEAR(error_in_a_second({2, 11}), 1.5 * one, 0.1 * one) << "three of the four intervals are within a second";
+  EXPECT_NEAR(error_in_a_second({2, 17}), one, 1e-6 * one);
+}
+
 TEST(Reintegration, FollowsAnExactMotionBetterOnAFinerMesh) {
   test::StanceMotion motion = crouch();
   PhaseDynamics dynamics = dynamics_of(motion);

@@ -37,6 +37,21 @@ TEST(SampledLimits, TorqueLimitsOverPositionHoldAtThePosture) {
   }
 }
 
+/// Between two nodes at the limit the knee goes there and back: with velocities u and -u at them by u h / 4.
+TEST(SampledLimits, HoldBetweenTheNodes) {
+  Case c = standing(test::hyq());
+  RobotDescription description = test::hyq_description();
+  const double knee = c.trajectory.nodes[0].q(7 + kKnee), u = 0.4;
+  description.limits["lf_kfe_joint"].position_upper = knee;
+  c.problem.robot = RobotModel(description);
+  EXPECT_NEAR(find(certify(c.problem, c.trajectory), "joint position beyond limit").worst, 0.0, 1e-12);
+  TrajectoryPoint &left = c.trajectory.nodes[0], &right = c.trajectory.nodes[1];  // before them nothing is
+  left.v(6 + kKnee) = u;
+  right.v(6 + kKnee) = -u;
+  const double there = 0.25 * u * (right.time - left.time);
+  EXPECT_NEAR(find(certify(c.problem, c.trajectory), "joint position beyond limit").worst, there, 0.2 * there);
+}
+
 /// Largest |torque| of the knee at the nodes over its limit at the velocity there, times `direction`.
 double largest_ratio(const Case& c, double direction) {
   double largest = 0.0;
