@@ -44,7 +44,7 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> options;
   const CLI::App* verb = is_verb ? app.get_subcommand(first) : &app;
   if (is_verb && argc > 2) {  // a verb may have verbs
-    for (const CLI::App* below : verb->get_subcommands([&](const CLI::App* app) { return app->get_name() == argv[2]; })) verb = below;
+    for (const CLI::App* below : verb->get_subcommands([&](const CLI::App* any) { return any->get_name() == argv[2]; })) verb = below;
   }
   for (const CLI::Option* option : verb->get_options()) {
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);

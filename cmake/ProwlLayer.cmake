@@ -26,7 +26,7 @@ function(prowl_layer name)
   add_library(prowl_${name} ${sources})
   add_library(prowl::${name} ALIAS prowl_${name})
   target_compile_features(prowl_${name} PUBLIC cxx_std_20)
-  target_compile_options(prowl_${name} PRIVATE -Wall -Wextra -Wpedantic)
+  target_compile_options(prowl_${name} PRIVATE ${PROWL_STRICT_WARNINGS})
   target_include_directories(prowl_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(prowl_${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE})

@@ -20,7 +20,10 @@ using Eigen::VectorXd;
 
 /// What is written of a problem that was not solved: the guess and how far it is off.
 SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
-  SolveResult result{.status = SolveStatus::infeasible, .message = "not started: there is no solution", .z = z};
+  SolveResult result;
+  result.status = SolveStatus::infeasible;
+  result.message = "not started: there is no solution";
+  result.z = z;
   VectorXd rows(nlp.num_constraints());
   nlp.constraints(z, rows);
   result.cost = nlp.cost(z);

@@ -53,15 +53,15 @@ void expect_derivatives(const MotionProblem& problem, const Formulation& formula
 }
 
 TEST(Collocation, DerivativesOfEachDynamicsAreThoseOfDifferences) {
-  for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+  for (const std::string dynamics : {"inverse", "forward", "kkt"}) {
     SCOPED_TRACE(dynamics);
     expect_derivatives(two_phases(), {.dynamics = dynamics});
   }
 }
 
 TEST(Collocation, DerivativesOfEachRuleAreThoseOfDifferences) {
-  for (const std::string& rule : {"hermite-simpson", "hermite-simpson-separated"}) {
-    for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+  for (const std::string rule : {"hermite-simpson", "hermite-simpson-separated"}) {
+    for (const std::string dynamics : {"inverse", "forward", "kkt"}) {
       SCOPED_TRACE(rule + ", " + dynamics);
       expect_derivatives(one_phase(), {.dynamics = dynamics, .transcription = rule});
     }
@@ -94,7 +94,7 @@ TEST(Collocation, GaussNewtonLeavesOutTheRows) {
   const MotionProblem problem = a_step();
   const Mesh mesh = make_mesh(problem);
   const Trajectory guess = initial_guess(problem, mesh);
-  for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+  for (const std::string dynamics : {"inverse", "forward", "kkt"}) {
     SCOPED_TRACE(dynamics);
     const auto nlp = make_collocation({.dynamics = dynamics, .orientation = "euler"}, problem, mesh, guess);
     nlp->use_hessian(HessianKind::gauss_newton);
@@ -131,7 +131,7 @@ TEST(Collocation, UnpacksWhatItPacked) {
   const Mesh mesh = make_mesh(problem);
   const Trajectory guess = initial_guess(problem, mesh);
   for (const std::string& orientation : orientation_names()) {
-    for (const std::string& rule : {"trapezoid", "hermite-simpson-separated"}) {
+    for (const std::string rule : {"trapezoid", "hermite-simpson-separated"}) {
       const auto nlp = make_collocation({.transcription = rule, .orientation = orientation}, problem, mesh, guess);
       const Trajectory back = nlp->unpack(nlp->pack(guess));
       ASSERT_EQ(back.nodes.size(), guess.nodes.size());

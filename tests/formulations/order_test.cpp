@@ -28,7 +28,7 @@ TEST(Order, TrapezoidIsOfOrderTwoHermiteSimpsonAndRungeKuttaOfOrderFour) {
   EXPECT_GT(state_error(truth, {.q = problem.start_configuration(), .v = at_rest}).q, 0.02) << "nothing moves";
   expect_order(2.0, {}, truth);
   expect_order(2.0, {.dynamics = "forward"}, truth);
-  for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+  for (const std::string dynamics : {"inverse", "forward", "kkt"}) {
     expect_order(4.0, {.dynamics = dynamics, .transcription = "hermite-simpson"}, truth);
   }
   expect_order(4.0, {.transcription = "hermite-simpson-separated"}, truth);

@@ -27,7 +27,7 @@ void expect_agreement(const Formulation& formulation, int intervals, double cost
 TEST(FormulationsAgree, OnTheCostOfCrouchAndPassTheCertificate) {
   const FormulationRun fine = crouch({.transcription = "hermite-simpson-separated"}, 40);
   ASSERT_EQ(fine.result.status, SolveStatus::converged) << fine.result.message;
-  for (const std::string& dynamics : {"inverse", "forward", "kkt"}) {
+  for (const std::string dynamics : {"inverse", "forward", "kkt"}) {
     expect_agreement({.dynamics = dynamics}, 80, fine.result.cost);
     expect_agreement({.dynamics = dynamics, .transcription = "hermite-simpson"}, 20, fine.result.cost);
   }
@@ -57,7 +57,7 @@ TEST(FormulationsAgree, ByBothCodesOfTheDefault) {
 
 /// Away from the singularity the coordinates of the base's rotation make no difference.
 TEST(FormulationsAgree, WithEulerAngles) {
-  for (const std::string& dynamics : {"inverse", "forward"}) {
+  for (const std::string dynamics : {"inverse", "forward"}) {
     const Formulation se3{.dynamics = dynamics, .transcription = "hermite-simpson"};
     Formulation euler = se3;
     euler.orientation = "euler";

@@ -32,6 +32,34 @@ void expect_derivatives(const MotionProblem& problem, double size_of_multipliers
   EXPECT_TRUE(report.pattern_faults.empty()) << report.pattern_faults.front();
 }
 
+/// A motion with every joint at its lower limits is the lower bound of the variables, one at the upper limits the upper one.
+TEST(Transcription, BoundsOfJointsAreTheRobotsLimitsOnBothSides) {
+  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 4)});
+  const RobotModel& robot = problem.robot;
+  const Mesh mesh = make_mesh(problem);
+  Trajectory lowest = initial_guess(problem, mesh), highest = lowest;
+  for (std::size_t k = 0; k < lowest.nodes.size(); ++k) {
+    TrajectoryPoint &low = lowest.nodes[k], &high = highest.nodes[k];
+    low.q.tail(robot.nu()) = robot.position_lower();
+    high.q.tail(robot.nu()) = robot.position_upper();
+    low.v.tail(robot.nu()) = -robot.velocity_limit();
+    high.v.tail(robot.nu()) = robot.velocity_limit();
+    low.tau = -robot.torque_limit();
+    high.tau = robot.torque_limit();
+  }
+  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const Eigen::VectorXd low = nlp.pack(lowest), high = nlp.pack(highest);
+  int bounded = 0;
+  for (int i = 0; i < nlp.num_variables(); ++i) {
+    if (low(i) == high(i)) continue;  // not of a joint
+    if (nlp.variable_lower()(i) == nlp.variable_upper()(i)) continue;  // the start
+    EXPECT_EQ(nlp.variable_lower()(i), low(i)) << nlp.describe_variable(i);
+    EXPECT_EQ(nlp.variable_upper()(i), high(i)) << nlp.describe_variable(i);
+    ++bounded;
+  }
+  EXPECT_EQ(bounded, (5 * 3 - 2) * robot.nu()) << "position, velocity and torque; the start has torques only";
+}
+
 TEST(Transcription, DerivativesAndPatternsAreThoseOfDifferences) {
   const RobotModel hyq = test::hyq();
   expect_derivatives(everything(hyq, {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)}));

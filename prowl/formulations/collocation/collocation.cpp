@@ -166,7 +166,7 @@ void Collocation::make_node(int k) {
   PointFunction& dynamics = piece.own(form_.dynamics->at(charted, instant, std::move(rows)));
   std::vector<ProgramGraph::Vector> inputs = {point.x, point.v};
   if (has_acceleration()) inputs.push_back(point.acceleration);
-  inputs.insert(inputs.end(), {point.tau, point.w, piece.graph.variables(own, static_cast<int>(shared.size()))});
+  for (const auto& input : {point.tau, point.w, piece.graph.variables(own, static_cast<int>(shared.size()))}) inputs.push_back(input);
   const ProgramGraph::Vector all = piece.graph.call(dynamics, inputs);
   node->dynamics = &dynamics;
   node->acceleration = has_acceleration() ? point.acceleration : piece.graph.slice(all, 0, nv);
