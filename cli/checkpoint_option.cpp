@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "output.hpp"
 #include "prowl/error.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
+#include "shared_options.hpp"
 
 namespace prowl::cli {
 
@@ -16,14 +15,7 @@ void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
           ->type_name("DIR");
   verb.add_option("--checkpoint-every", arguments.every,
                   fmt::format("Seconds between two that are written; default {:g}, 0: each that is better", arguments.every))
-      ->check(CLI::Validator(
-          [](const std::string& text) {
-            double value = 0.0;
-            const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value >= 0.0;
-            return ok ? std::string{} : text + " is not allowed; need a finite number >= 0";
-          },
-          "NUMBER >= 0"))
-      ->type_name("S")->needs(folder);
+      ->check(nonnegative_number())->type_name("S")->needs(folder);
   verb.add_option("--resume", arguments.resume, "Go on from this checkpoint, or from a plan that was not finished, of the same task")
       ->type_name("DIR");
 }

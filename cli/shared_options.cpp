@@ -9,6 +9,18 @@
 #include "prowl/io/file_keys.hpp"
 
 namespace prowl::cli {
+namespace {
+
+CLI::Validator finite_number(const std::string& range, bool (*is_in_range)(double)) {
+  return {[range, is_in_range](const std::string& text) {
+            double value = 0.0;
+            const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && is_in_range(value);
+            return ok ? std::string{} : fmt::format("{} is not allowed; need a finite number {}", text, range);
+          },
+          "NUMBER " + range};
+}
+
+}  // namespace
 
 void add_plan_directory(CLI::App& verb, std::string& directory) {
   verb.add_option("directory", directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
@@ -45,14 +57,8 @@ void add_hessian(CLI::App& verb, HessianKind& hessian) {
       ->check(CLI::IsMember({exact, gauss_newton}))->type_name("NAME");
 }
 
-CLI::Validator positive_number() {
-  return {[](const std::string& text) {
-            double value = 0.0;
-            const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && value > 0.0;
-            return ok ? std::string{} : fmt::format("{} is not allowed; need a finite number > 0", text);
-          },
-          "NUMBER > 0"};
-}
+CLI::Validator positive_number() { return finite_number("> 0", [](double value) { return value > 0.0; }); }
+CLI::Validator nonnegative_number() { return finite_number(">= 0", [](double value) { return value >= 0.0; }); }
 
 CLI::Validator whole_number() {
   return {[](const std::string& text) {

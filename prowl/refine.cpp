@@ -15,7 +15,6 @@ namespace {
 
 constexpr int kPatience = 3;           // rounds without progress: some pass before all kinks of a motion are found
 constexpr double kWorthMerging = 0.8;  // of the intervals: to save fewer, another solve does not pay
-constexpr int kMostIntervals = 10000;  // more would be gigabytes of memory
 
 bool is_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
   return errors.local <= tolerance.local && errors.second <= tolerance.second &&

@@ -12,6 +12,7 @@
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/motion/contact_schedule.hpp"
+#include "prowl/trajectory/state_scale.hpp"
 
 namespace prowl {
 
@@ -136,7 +137,6 @@ BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, d
 
 /// The entry of a goal that is farthest away from the start, and how far; length and angle count alike.
 std::pair<std::string, double> farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
-  constexpr const char* kBase[] = {"base x", "base y", "base z"};
   const VectorXd& start = problem.start_configuration();
   std::pair<std::string, double> most{"", 0.0};
   const auto look = [&](const std::string& name, double lower, double upper) {
@@ -145,7 +145,7 @@ std::pair<std::string, double> farthest(const MotionProblem& problem, const Boun
   };
   for (int i = 0; i < 3; ++i) {
     const double shift = goal.q_ref(i) - start(i);
-    look(kBase[i], shift + goal.configuration_lower(i), shift + goal.configuration_upper(i));
+    look(coordinate_name(problem.robot, i), shift + goal.configuration_lower(i), shift + goal.configuration_upper(i));
   }
   if (goal.configuration_lower.segment<3>(3).allFinite()) {
     const double turn = so3::log(base_rotation(start).transpose() * base_rotation(goal.q_ref)).norm();
@@ -153,8 +153,7 @@ std::pair<std::string, double> farthest(const MotionProblem& problem, const Boun
   }
   for (int j = 0; j < problem.robot.nu(); ++j) {
     const double shift = goal.q_ref(7 + j) - start(7 + j);
-    look(problem.robot.joint_names()[static_cast<std::size_t>(j)], shift + goal.configuration_lower(6 + j),
-         shift + goal.configuration_upper(6 + j));
+    look(coordinate_name(problem.robot, 6 + j), shift + goal.configuration_lower(6 + j), shift + goal.configuration_upper(6 + j));
   }
   for (int i = 0; i < problem.robot.nv(); ++i) look("velocity", goal.velocity_lower(i), goal.velocity_upper(i));
   return most;

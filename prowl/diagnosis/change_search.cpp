@@ -54,6 +54,11 @@ class StallWatch {
 
 }  // namespace
 
+double ChangeSearch::seconds_of_solve(double part, double most) const {
+  constexpr double kLeast = 1e-3;
+  return std::max(std::min(most, part * seconds_left()), kLeast);
+}
+
 bool ChangeSearch::solves(const MotionProblem& problem) const {
   if (!may_go_on()) return false;
   try {
@@ -64,7 +69,7 @@ bool ChangeSearch::solves(const MotionProblem& problem) const {
     Transcription nlp(problem, mesh, guess);
     SolverOptions options = options_;
     options.max_iterations = std::min(options.max_iterations, kMostIterations);
-    options.max_seconds = std::max(seconds_left(), 1e-3);
+    options.max_seconds = seconds_of_solve();
     const StallWatch watch(options);
     return solver_.solve(nlp, nlp.pack(guess), options).status == SolveStatus::converged;
   } catch (const Error&) {  // bounds that contradict each other, a model that cannot be evaluated: no plan either

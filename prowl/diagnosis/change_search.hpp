@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@ class ChangeSearch {
                                                                     std::chrono::duration<double>(max_seconds))) {}
 
   double seconds_left() const { return std::chrono::duration<double>(end_ - Clock::now()).count(); }
+  /// What a solve may take: a part of the time that is left, at most so many seconds, but never no time at all.
+  double seconds_of_solve(double part = 1.0, double most = std::numeric_limits<double>::infinity()) const;
   bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
   bool may_go_on() const { return seconds_left() > 0.0 && !interrupted(); }
 

@@ -84,7 +84,7 @@ class Diagnoser {
       return false;
     }
     std::vector<MotionProblem> levels = mesh_levels(problem_);
-    levels.insert(levels.begin(), coarse_);
+    if (count_intervals(coarse_) < count_intervals(problem_)) levels.insert(levels.begin(), coarse_);
     for (MotionProblem& level : levels) {
       coarse_ = std::move(level);
       step(fmt::format("solving as it is, {} intervals", count_intervals(coarse_)));
@@ -98,7 +98,7 @@ class Diagnoser {
     step("planning as it is");
     PlanOptions options{.solver = options_.solver};
     options.hint_solver = &elastic_;
-    options.solver.max_seconds = std::max(std::min(options.solver.max_seconds, kOwnPart * search_.seconds_left()), 1e-3);
+    options.solver.max_seconds = search_.seconds_of_solve(kOwnPart, options.solver.max_seconds);
     const Plan plan = make_plan(problem_, solver_, options);
     result_.status = plan.result.status;
     result_.message = plan.result.message;
@@ -131,7 +131,7 @@ class Diagnoser {
     SolverOptions options = options_.solver;
     options.tolerance = std::max(options.tolerance, kElasticTolerance);
     options.max_iterations = kElasticIterations;
-    options.max_seconds = std::max(kElasticPart * search_.seconds_left(), 1e-3);
+    options.max_seconds = search_.seconds_of_solve(kElasticPart);
     try {
       const ElasticResult elastic = elastic_solve(coarse_, elastic_, options, [&](const MotionLimit& limit) {
         return kind.empty() || kind == to_string(limit.kind);
@@ -177,7 +177,7 @@ class Diagnoser {
       try {
         PlanOptions options{.solver = options_.solver};
         options.hint_solver = &elastic_;
-        options.solver.max_seconds = std::max(std::min(options.solver.max_seconds, search_.seconds_left()), 1e-3);
+        options.solver.max_seconds = search_.seconds_of_solve(1.0, options.solver.max_seconds);
         const Plan plan = make_plan(with_steps_of(found.knob.problem(amount), problem_), solver_, options);
         if (plan.result.status != SolveStatus::converged || !plan.certificate.passed) continue;
       } catch (const Error&) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/nlp/stored_nlp.hpp"
 
 namespace prowl {
 
@@ -18,15 +19,14 @@ constexpr int kEdges = 16;
 constexpr double kMostOfAnEdge = 10.0;  // weights; feet that press against each other have no largest force
 
 /// minimise cost . z  subject to bounds on z and rows z.
-class LinearProgram : public Nlp {
+class LinearProgram : public StoredNlp {
  public:
   LinearProgram(VectorXd slope, MatrixXd rows, VectorXd z_lower, VectorXd z_upper, VectorXd g_lower, VectorXd g_upper)
-      : slope_(std::move(slope)),
-        rows_(std::move(rows)),
-        z_lower_(std::move(z_lower)),
-        z_upper_(std::move(z_upper)),
-        g_lower_(std::move(g_lower)),
-        g_upper_(std::move(g_upper)) {
+      : slope_(std::move(slope)), rows_(std::move(rows)) {
+    variable_lower_ = std::move(z_lower);
+    variable_upper_ = std::move(z_upper);
+    constraint_lower_ = std::move(g_lower);
+    constraint_upper_ = std::move(g_upper);
     for (int row = 0; row < num_constraints(); ++row) {
       for (int col = 0; col < num_variables(); ++col) {
         jacobian_pattern_.rows.push_back(row);
@@ -34,15 +34,6 @@ class LinearProgram : public Nlp {
       }
     }
   }
-
-  int num_variables() const override { return static_cast<int>(rows_.cols()); }
-  int num_constraints() const override { return static_cast<int>(rows_.rows()); }
-  const VectorXd& variable_lower() const override { return z_lower_; }
-  const VectorXd& variable_upper() const override { return z_upper_; }
-  const VectorXd& constraint_lower() const override { return g_lower_; }
-  const VectorXd& constraint_upper() const override { return g_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
 
   double cost(const VectorXd& z) override { return slope_.dot(z); }
   void cost_gradient(const VectorXd&, Eigen::Ref<VectorXd> gradient) override { gradient = slope_; }
@@ -58,8 +49,6 @@ class LinearProgram : public Nlp {
  private:
   VectorXd slope_;
   MatrixXd rows_;
-  VectorXd z_lower_, z_upper_, g_lower_, g_upper_;
-  SparsityPattern jacobian_pattern_, hessian_pattern_;
 };
 
 /// Edges of a pyramid around the friction cone, as columns, each with a normal component of 1.
@@ -82,17 +71,15 @@ StandingLoad standing_load(const MotionProblem& problem, const VectorXd& q, cons
   const VectorXd rest = VectorXd::Zero(robot.nv());
   RigidBodyTerms terms(robot);
   terms.update(q, rest, rest);
-  std::vector<int> held;
-  for (const PhaseContact& contact : contacts) held.push_back(contact.contact);
-  ContactKinematics kinematics(held);
+  ContactKinematics kinematics(contact_indices(contacts));
   kinematics.set_configuration(terms);
   const VectorXd gravity = terms.inverse_dynamics() / robot.weight();
 
   // Variables: the share of the weight, then the edges' forces, in weights. Rows: s g - J' f, that is what the base must not
   // be left with and the joints' torques over the weight.
-  MatrixXd rows(robot.nv(), 1 + kEdges * static_cast<Index>(held.size()));
+  MatrixXd rows(robot.nv(), 1 + kEdges * static_cast<Index>(contacts.size()));
   rows.col(0) = gravity;
-  for (std::size_t c = 0; c < held.size(); ++c) {
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
     const Surface& surface = problem.surfaces[static_cast<std::size_t>(contacts[c].surface)];
     rows.middleCols(1 + kEdges * static_cast<Index>(c), kEdges) =
         -kinematics.jacobian().middleRows<3>(static_cast<Index>(3 * c)).transpose() * edges_around_cone(surface);

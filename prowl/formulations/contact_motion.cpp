@@ -9,11 +9,7 @@ namespace prowl {
 ContactMotion contact_motion(const MotionProblem& problem, const Trajectory& motion) {
   RigidBodyTerms terms(problem.robot);
   std::vector<ContactKinematics> held;  // of each phase
-  for (const Phase& phase : problem.phases) {
-    std::vector<int> contacts;
-    for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-    held.emplace_back(std::move(contacts));
-  }
+  for (const Phase& phase : problem.phases) held.emplace_back(contact_indices(phase.contacts));
   ContactMotion worst;
   for (const TrajectoryPoint& node : motion.nodes) {
     ContactKinematics& contacts = held[static_cast<std::size_t>(node.phase)];

@@ -56,21 +56,18 @@ void check(const char* what, const std::string& name, const std::vector<std::str
 }
 
 template <class Value>
-const Value& choice(const char* what, const Table<Value>& table, const std::string& name) {
-  check(what, name, names_of(table));
+const Value& choice(const Table<Value>& table, const std::string& name) {
   return std::ranges::find(table, name, &Table<Value>::value_type::first)->second;
 }
 
 MakeProgram collocation_with(std::unique_ptr<DynamicsForm> (*make_dynamics)()) {
   return [make_dynamics](const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
                          const Trajectory& guess) {
-    check("contact", formulation.contact, contact_names());
     CollocationForm form{.dynamics_name = formulation.dynamics,
                          .dynamics = make_dynamics(),
-                         .rule = choice("transcription", kRules, formulation.transcription)(),
+                         .rule = choice(kRules, formulation.transcription)(),
                          .contact = *std::ranges::find(contact_forms(), formulation.contact, &ContactForm::name),
-                         .chart = choice("orientation", kCharts, formulation.orientation)(
-                             base_rotation(problem.start_configuration()))};
+                         .chart = choice(kCharts, formulation.orientation)(base_rotation(problem.start_configuration()))};
     return std::make_unique<Collocation>(problem, mesh, guess, std::move(form));
   };
 }
@@ -103,20 +100,20 @@ const std::vector<std::string>& orientation_names() {
 
 std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const MotionProblem& problem,
                                             const Mesh& mesh, const Trajectory& guess) {
-  check("dynamics", formulation.dynamics, dynamics_names());
-  check("transcription", formulation.transcription, transcription_names());
-  check("contact", formulation.contact, contact_names());
-  check("orientation", formulation.orientation, orientation_names());
   if (formulation == Formulation{}) return std::make_unique<Transcription>(problem, mesh, guess);
   return make_collocation(formulation, problem, mesh, guess);
 }
 
 std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
                                            const Trajectory& guess) {
+  check("dynamics", formulation.dynamics, dynamics_names());
+  check("transcription", formulation.transcription, transcription_names());
+  check("contact", formulation.contact, contact_names());
+  check("orientation", formulation.orientation, orientation_names());
   if (std::ranges::any_of(problem.phases, [](const Phase& phase) { return !phase.shares.empty(); })) {
     throw InputError("phases.shares: only the default formulation takes steps of different length within a phase");
   }
-  return choice("dynamics", kDynamics, formulation.dynamics)(formulation, problem, mesh, guess);
+  return choice(kDynamics, formulation.dynamics)(formulation, problem, mesh, guess);
 }
 
 }  // namespace prowl

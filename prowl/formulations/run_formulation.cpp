@@ -18,11 +18,6 @@ const CertificateCheck* FormulationRun::worst_check() const {
   return worst == certificate.checks.end() ? nullptr : &*worst;
 }
 
-const CertificateCheck* FormulationRun::check(const std::string& name) const {
-  const auto found = std::ranges::find(certificate.checks, name, &CertificateCheck::name);
-  return found == certificate.checks.end() ? nullptr : &*found;
-}
-
 FormulationRun judge_formulation(const MotionProblem& problem, const Formulation& formulation, MotionNlp& nlp,
                                  SolveResult result, std::string solver) {
   FormulationRun run{.formulation = formulation,

@@ -27,8 +27,6 @@ struct FormulationRun {
   double seconds_per_iteration() const { return result.iterations > 0 ? result.seconds / result.iterations : 0.0; }
   /// The check that is furthest beyond its limit, or nearest to it; null without any.
   const CertificateCheck* worst_check() const;
-  /// By name ("contact drift", "re-integration"); null if the motion has nothing for it to look at.
-  const CertificateCheck* check(const std::string& name) const;
 };
 
 /// worst / limit of a check: above 1 it fails. Infinite for NaN, 0 for what is 0 and has to be.

@@ -53,9 +53,7 @@ Trajectory straight_guess(const MotionProblem& problem, const Mesh& mesh) {
   const std::vector<Posture> through = postures(problem, mesh);
   std::vector<StaticEquilibrium> standing;
   for (const Phase& phase : problem.phases) {
-    std::vector<int> contacts;
-    for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-    standing.push_back(static_equilibrium(problem.robot, problem.start_configuration(), contacts));
+    standing.push_back(static_equilibrium(problem.robot, problem.start_configuration(), contact_indices(phase.contacts)));
   }
 
   Trajectory guess;

@@ -32,7 +32,7 @@ Value of_run(Cell (*value)(const FormulationRun&)) {
 
 Value of_check(const char* name) {
   return [name](const CompareRecord&, const ComparedRun& line) {
-    const CertificateCheck* const check = line.run ? line.run->check(name) : nullptr;
+    const CertificateCheck* const check = line.run ? line.run->certificate.find(name) : nullptr;
     return check ? Cell{check->worst} : Cell{};
   };
 }

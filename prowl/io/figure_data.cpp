@@ -34,11 +34,7 @@ class Table {
 class ContactAcceleration {
  public:
   explicit ContactAcceleration(const MotionProblem& problem) : problem_(problem), terms_(problem.robot) {
-    for (const Phase& phase : problem.phases) {
-      std::vector<int> contacts;
-      for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-      kinematics_.emplace_back(contacts);
-    }
+    for (const Phase& phase : problem.phases) kinematics_.emplace_back(contact_indices(phase.contacts));
   }
 
   std::vector<double> operator()(const TrajectoryPoint& point) {

@@ -13,13 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "line:column" of the byte, which counts from 1.
-std::string place_of(const std::string& text, std::size_t byte) {
-  const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
-  const std::size_t line_start = before.rfind('\n') == std::string::npos ? 0 : before.rfind('\n') + 1;
-  return fmt::format("{}:{}", 1 + std::count(before.begin(), before.end(), '\n'), before.size() - line_start + 1);
-}
-
 /// Throws at the first thing too many.
 class Limits {
  public:
@@ -49,8 +42,8 @@ Json parse_json(const SourceText& source) {
   try {
     return Json::parse(source.text, Limits(source));
   } catch (const Json::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: not JSON from here on: the file is cut short or was edited", source.path.string(),
-                                 place_of(source.text, error.byte)));
+    const std::size_t at = std::max<std::size_t>(error.byte, 1) - 1;  // it counts from 1; 0 where it does not know
+    throw InputError(fmt::format("{}: not JSON from here on: the file is cut short or was edited", place_in(source, at)));
   } catch (const Json::out_of_range&) {
     throw InputError(fmt::format("{}: a number in it is beyond 1.8e308", source.path.string()));
   }

@@ -13,8 +13,7 @@
 namespace prowl {
 namespace {
 
-constexpr double kMargin = 1.25;       // on the error
-constexpr int kMostIntervals = 10000;  // that --intervals takes
+constexpr double kMargin = 1.25;  // on the error
 
 /// The least --intervals, `needed` or more, that keeps every goal at a node.
 std::optional<int> intervals_option(const Task& task, double needed) {

@@ -244,7 +244,6 @@ Certificate read_certificate(const Reader& json, int version) {
 
 /// The mesh of the plan: that of the task, unless it was refined.
 MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
-  constexpr int kMostIntervals = 10000;  // of a phase, as in a task file
   const std::vector<Reader> phases = plan.object("problem").list("phases");
   if (phases.size() != problem.phases.size()) {
     throw InputError(fmt::format("{}.problem.phases: {} phases; the task has {}", plan.where(), phases.size(),

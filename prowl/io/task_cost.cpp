@@ -63,8 +63,7 @@ void read_state_cost(const TomlTable& table, const MotionProblem& problem, Quadr
 
 /// Torques that hold the start posture on the contacts of the first phase.
 Eigen::VectorXd static_torque(const MotionProblem& problem) {
-  std::vector<int> contacts;
-  for (const PhaseContact& contact : problem.phases.front().contacts) contacts.push_back(contact.contact);
+  const std::vector<int> contacts = contact_indices(problem.phases.front().contacts);
   return static_equilibrium(problem.robot, problem.start_configuration(), contacts).tau;
 }
 

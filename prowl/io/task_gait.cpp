@@ -7,10 +7,9 @@
 namespace prowl {
 namespace {
 
-constexpr int kMostStrides = 1000;       // above these two a typing mistake, and gigabytes of memory
-constexpr double kMostIntervals = 1e4;
+constexpr int kMostStrides = 1000;  // above that a typing mistake, and gigabytes of memory
 constexpr double kLargestDutyFactor = 0.99;
-constexpr double kSteepest = 0.1;        // z of the normal: 84 degrees
+constexpr double kSteepest = 0.1;   // z of the normal: 84 degrees
 
 Feet need_feet(const TomlTable& table, const RobotModel& robot) {
   if (const auto feet = find_feet(robot)) return *feet;
@@ -60,7 +59,7 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
 void check_intervals(const TomlTable& table, const Gait& gait) {
   const double seconds = gait.start + gait.strides * gait.stride.max + gait.settle;
   if (const double intervals = seconds * gait.intervals_per_second; intervals > kMostIntervals) {
-    table.value().fail(fmt::format("{:.0f} mesh intervals, {:g} s of {:g} a second, are not allowed; need at most {:g}",
+    table.value().fail(fmt::format("{:.0f} mesh intervals, {:g} s of {:g} a second, are not allowed; need at most {}",
                                    intervals, seconds, gait.intervals_per_second, kMostIntervals));
   }
 }

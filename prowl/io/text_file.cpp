@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <system_error>
 
 #include "prowl/error.hpp"
@@ -35,6 +37,12 @@ SourceText read_text_file(const std::filesystem::path& path, std::size_t max_byt
   std::string text(static_cast<std::size_t>(bytes), '\0');
   if (error || !file.read(text.data(), static_cast<std::streamsize>(bytes))) throw FileError(fmt::format("{}: cannot read: {}", path.string(), std::strerror(errno)));
   return {path, std::move(text)};
+}
+
+std::string place_in(const SourceText& source, std::size_t at) {
+  const std::string_view before = std::string_view(source.text).substr(0, at);
+  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  return fmt::format("{}:{}:{}", source.path.string(), 1 + std::ranges::count(before, '\n'), at - line_start + 1);
 }
 
 }  // namespace prowl

@@ -15,4 +15,7 @@ struct SourceText {
 /// above `max_bytes`: nothing that a person writes is that long.
 SourceText read_text_file(const std::filesystem::path& path, std::size_t max_bytes = 1u << 20);
 
+/// "file:line:column" of the byte at `at`, 0 to the size of the text.
+std::string place_in(const SourceText& source, std::size_t at);
+
 }  // namespace prowl

@@ -31,10 +31,7 @@ std::size_t after_string(std::string_view text, std::size_t at) {
 }
 
 [[noreturn]] void refuse(const SourceText& source, std::size_t at, const char* what) {
-  const std::string_view before = std::string_view(source.text).substr(0, at);
-  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-  throw InputError(fmt::format("{}:{}:{}: {} more than {} deep are not allowed", source.path.string(),
-                               1 + std::count(before.begin(), before.end(), '\n'), at - line_start + 1, what, kDeepestToml));
+  throw InputError(fmt::format("{}: {} more than {} deep are not allowed", place_in(source, at), what, kDeepestToml));
 }
 
 }  // namespace

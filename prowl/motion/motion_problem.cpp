@@ -200,9 +200,7 @@ void check_start_outside(const MotionProblem& problem, const RigidBodyTerms& ter
 /// The contacts of the first phase must be on their surfaces, inside their patches and, at the start velocity, stay there.
 void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& terms) {
   const Phase& phase = problem.phases.front();
-  std::vector<int> contacts;
-  for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-  ContactKinematics kinematics(contacts);
+  ContactKinematics kinematics(contact_indices(phase.contacts));
   kinematics.set_configuration(terms);
   const VectorXd velocities = kinematics.jacobian() * problem.start().velocity_lower;
 

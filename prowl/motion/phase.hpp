@@ -16,12 +16,21 @@ struct PhaseContact {
   std::optional<Eigen::Vector3d> place = {};
 };
 
+/// Of each contact its index into RobotModel::contacts().
+inline std::vector<int> contact_indices(const std::vector<PhaseContact>& held) {
+  std::vector<int> indices;
+  for (const PhaseContact& one : held) indices.push_back(one.contact);
+  return indices;
+}
+
 /// How long a phase lasts [s]: fixed where min == max, else chosen by the optimiser between the two.
 struct Duration {
   double min = 0.0;
   double max = 0.0;
   bool is_fixed() const { return min == max; }
 };
+
+constexpr int kMostIntervals = 10000;  ///< of a motion; a typing mistake above that, and gigabytes of memory
 
 /// A time with one set of contacts, cut into mesh intervals.
 struct Phase {

@@ -25,6 +25,7 @@ ElasticNlp::ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_fact
   std::vector<double> upper(inner.constraint_upper().begin(), inner.constraint_upper().end());
   VectorXd z_lower = inner.variable_lower(), z_upper = inner.variable_upper();
   jacobian_pattern_ = inner.jacobian_pattern();
+  hessian_pattern_ = inner.hessian_pattern();
   const auto emit = [&](int row, int col) {
     jacobian_pattern_.rows.push_back(row);
     jacobian_pattern_.cols.push_back(col);

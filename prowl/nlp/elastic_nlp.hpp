@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "prowl/nlp/nlp.hpp"
+#include "prowl/nlp/stored_nlp.hpp"
 
 namespace prowl {
 
@@ -27,7 +27,7 @@ struct SoftBound {
 ///
 /// Variables: (z, s). Rows: those of the other program, then one for each soft variable. Derivatives are exact if those
 /// of the other are.
-class ElasticNlp : public Nlp {
+class ElasticNlp : public StoredNlp {
  public:
   /// A view of `inner`, which must outlive it. Bounds that are soft twice are a mistake of the caller.
   ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_factor);
@@ -39,15 +39,6 @@ class ElasticNlp : public Nlp {
   /// For each soft bound by how much it gives way, in the unit of the row or variable: > 0 below its lower bound (too
   /// little), < 0 above its upper.
   Eigen::VectorXd violations(const Eigen::VectorXd& z) const;
-
-  int num_variables() const override { return static_cast<int>(variable_lower_.size()); }
-  int num_constraints() const override { return static_cast<int>(constraint_lower_.size()); }
-  const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
-  const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
-  const Eigen::VectorXd& constraint_lower() const override { return constraint_lower_; }
-  const Eigen::VectorXd& constraint_upper() const override { return constraint_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  const SparsityPattern& hessian_pattern() const override { return inner_.hessian_pattern(); }
 
   double cost(const Eigen::VectorXd& z) override;
   void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient) override;
@@ -72,8 +63,7 @@ class ElasticNlp : public Nlp {
   double cost_factor_;
   std::vector<int> variables_;  ///< soft ones, in the order of their rows
   std::vector<Slack> slacks_;   ///< in the order of their variables
-  Eigen::VectorXd variable_lower_, variable_upper_, constraint_lower_, constraint_upper_, price_;
-  SparsityPattern jacobian_pattern_;
+  Eigen::VectorXd price_;       ///< of the slacks
 };
 
 }  // namespace prowl

@@ -35,7 +35,7 @@ std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const T
 
     ReferencePhase& sampled = grid.emplace_back();
     sampled.name = phase.name;
-    for (const PhaseContact& contact : phase.contacts) sampled.contacts.push_back(contact.contact);
+    sampled.contacts = contact_indices(phase.contacts);
     for (int i = 0; i < intervals; ++i) {
       sampled.samples.push_back(sample_phase(begin, end, start + duration * i / intervals));
     }

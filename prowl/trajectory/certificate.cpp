@@ -16,11 +16,7 @@ namespace {
 
 PhaseDynamics phase_dynamics(const MotionProblem& problem) {
   PhaseDynamics dynamics;
-  for (const Phase& phase : problem.phases) {
-    std::vector<int> contacts;
-    for (const PhaseContact& held : phase.contacts) contacts.push_back(held.contact);
-    dynamics.emplace_back(problem.robot, contacts);
-  }
+  for (const Phase& phase : problem.phases) dynamics.emplace_back(problem.robot, contact_indices(phase.contacts));
   return dynamics;
 }
 
@@ -55,6 +51,11 @@ Grade grade_of(const std::vector<CertificateCheck>& checks) {
 }
 
 }  // namespace
+
+const CertificateCheck* Certificate::find(const std::string& name) const {
+  const auto found = std::ranges::find(checks, name, &CertificateCheck::name);
+  return found == checks.end() ? nullptr : &*found;
+}
 
 Certificate certify(const MotionProblem& problem, const Trajectory& trajectory) {
   Certificate certificate;

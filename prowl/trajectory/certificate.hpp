@@ -79,6 +79,9 @@ struct Certificate {
   /// planner's, and only that one was checked against friction and pulling. In the robot's order.
   std::vector<std::string> redundant_contacts;
   std::vector<ContactRank> contact_ranks;  ///< one a phase, at its first node
+
+  /// A check by its name; null if it is not in the list.
+  const CertificateCheck* find(const std::string& name) const;
 };
 
 const char* to_string(Grade grade);

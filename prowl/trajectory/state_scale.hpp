@@ -19,7 +19,7 @@ Eigen::VectorXd state_scale(const Trajectory& trajectory);
 Eigen::VectorXd scaled_difference(const Eigen::VectorXd& q0, const Eigen::VectorXd& v0, const Eigen::VectorXd& q1,
                                   const Eigen::VectorXd& v1, const Eigen::VectorXd& scale);
 
-/// "base x", "base roll", "lf_hfe_joint", ... for 0 <= i < nv: a coordinate of the tangent.
+/// "base x", "base rotation x", "lf_hfe_joint", ... for 0 <= i < nv: a coordinate of the tangent.
 std::string coordinate_name(const RobotModel& robot, Eigen::Index i);
 /// The same for a coordinate of the state, 0 <= i < 2 nv: "velocity of base x" in its second half.
 std::string state_name(const RobotModel& robot, Eigen::Index i);

@@ -1,18 +1,9 @@
 #include <fmt/format.h>
 
+#include "prowl/trajectory/state_scale.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
-
-namespace {
-
-constexpr const char* kBaseMotion[] = {"x", "y", "z", "rotation x", "rotation y", "rotation z"};
-
-std::string coordinate(const MotionProblem& problem, int i, const char* const (&base)[6]) {
-  return i < 6 ? fmt::format("base {}", base[i]) : problem.robot.joint_names()[static_cast<std::size_t>(i - 6)];
-}
-
-}  // namespace
 
 std::string Transcription::describe_node(int k) const {
   const MeshNode& node = mesh_.nodes[static_cast<std::size_t>(k)];
@@ -34,7 +25,7 @@ std::string Transcription::describe_constraint(int row) const {
   } else {
     k = (row - layout_.link_row(0)) / (2 * nv);
     const int i = row - layout_.link_row(k);
-    what = coordinate(problem_, i % nv, kBaseMotion) + (i < nv ? ", position" : ", velocity") +
+    what = coordinate_name(problem_.robot, i % nv) + (i < nv ? ", position" : ", velocity") +
            (is_interval(k) ? " over the interval" : " across the phase switch");
   }
   return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_node(k).time);
@@ -49,7 +40,7 @@ std::string Transcription::describe_variable(int index) const {
   constexpr const char* kKinds[] = {"position", "velocity", "acceleration"};
   std::string what;
   if (i < 3 * nv) {
-    what = fmt::format("{} {}", kKinds[i / nv], coordinate(problem_, i % nv, kBaseMotion));
+    what = fmt::format("{} {}", kKinds[i / nv], coordinate_name(problem_.robot, i % nv));
   } else if (i < 3 * nv + layout_.nu()) {
     what = "torque " + problem_.robot.joint_names()[static_cast<std::size_t>(i - 3 * nv)];
   } else {

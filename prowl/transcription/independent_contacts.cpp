@@ -42,14 +42,11 @@ PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule
                              const Eigen::VectorXd& q) {
   const auto& held = problem.phases[static_cast<std::size_t>(phase)].contacts;
   const int nv = problem.robot.nv(), num_contacts = static_cast<int>(held.size());
-  std::vector<int> contacts, staying, landing;
-  for (int i = 0; i < num_contacts; ++i) {
-    contacts.push_back(held[static_cast<std::size_t>(i)].contact);
-    (schedule.lands(phase, i) ? landing : staying).push_back(i);
-  }
+  std::vector<int> staying, landing;
+  for (int i = 0; i < num_contacts; ++i) (schedule.lands(phase, i) ? landing : staying).push_back(i);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
-  ContactKinematics kinematics(contacts);
+  ContactKinematics kinematics(contact_indices(held));
   kinematics.set_configuration(terms);
   const MatrixXd& J = kinematics.jacobian();
   const auto rows_of = [&](const std::vector<int>& which) {

@@ -23,12 +23,6 @@ VectorXd clamp(const VectorXd& x, const VectorXd& lower, const VectorXd& upper) 
   return x.cwiseMax(lower).cwiseMin(upper);
 }
 
-std::vector<int> active_contacts(const Phase& phase) {
-  std::vector<int> contacts;
-  for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-  return contacts;
-}
-
 /// Configurations of all nodes: the base on the path, contacts on theirs, other joints as the path has them (relative to
 /// where the contacts left them).
 void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess) {
@@ -59,7 +53,8 @@ void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajecto
 /// Contacts of the phases on both sides of node k: at a switch none of either moves.
 std::vector<int> contacts_around(const MotionProblem& problem, const Mesh& mesh, int k) {
   const auto contacts_of = [&](int node) {
-    return active_contacts(problem.phases[static_cast<std::size_t>(mesh.nodes[static_cast<std::size_t>(node)].phase)]);
+    const int phase = mesh.nodes[static_cast<std::size_t>(node)].phase;
+    return contact_indices(problem.phases[static_cast<std::size_t>(phase)].contacts);
   };
   std::vector<int> contacts = contacts_of(k);
   const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
@@ -137,7 +132,7 @@ void set_rates(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess
     at(k).a = rate(mesh, node.h_in > 0.0 ? k - 1 : k, k, node.h_out > 0.0 ? k + 1 : k,
                    [&](int i) -> VectorXd { return at(i).v - at(k).v; });
     const Phase& phase = problem.phases[static_cast<std::size_t>(node.phase)];
-    ContactConsistency(problem.robot, at(k).q, active_contacts(phase)).correct_acceleration(at(k).v, at(k).a);
+    ContactConsistency(problem.robot, at(k).q, contact_indices(phase.contacts)).correct_acceleration(at(k).v, at(k).a);
   }
 }
 

@@ -2,6 +2,7 @@
 #include <limits>
 #include <map>
 
+#include "prowl/trajectory/state_scale.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
@@ -12,12 +13,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What a goal says of entry i of a configuration or a velocity, with unit and size.
 MotionLimit entry_of_goal(const RobotModel& robot, const std::string& goal, int i, bool is_velocity) {
-  constexpr const char* kBase[] = {"x", "y", "z", "rotation x", "rotation y", "rotation z"};
   const bool is_joint = i >= 6;
   const bool is_length = is_joint ? robot.joint_is_prismatic()[static_cast<std::size_t>(i - 6)] : i < 3;
   const double rate = std::sqrt(RobotModel::kGravity / robot.size());  // [1/s], of a pendulum as long as the robot is high
-  const std::string what = is_joint ? robot.joint_names()[static_cast<std::size_t>(i - 6)] : std::string("base ") + kBase[i];
-  return {.kind = LimitKind::goal, .subject = goal + ", " + (is_velocity ? "velocity of " : "") + what,
+  return {.kind = LimitKind::goal, .subject = goal + ", " + (is_velocity ? "velocity of " : "") + coordinate_name(robot, i),
           .unit = std::string(is_length ? "m" : "rad") + (is_velocity ? "/s" : ""),
           .size = (is_length ? robot.size() : 1.0) * (is_velocity ? rate : 1.0)};
 }

@@ -20,8 +20,8 @@ constexpr double kRounding = 1e-9;    // of a phase
 constexpr double kMostGrowth = 4.0;   // of a step over the one before: what the gains of contacts are good for (node_functions.cpp)
 
 double worst(const Certificate& certificate, const char* name) {
-  const auto check = std::ranges::find(certificate.checks, name, &CertificateCheck::name);
-  return check == certificate.checks.end() ? 0.0 : check->worst;
+  const CertificateCheck* const check = certificate.find(name);
+  return check ? check->worst : 0.0;
 }
 
 /// Splits and merges the intervals of one phase.

@@ -2,14 +2,14 @@
 
 #include <Eigen/Core>
 
-#include "prowl/nlp/nlp.hpp"
+#include "prowl/nlp/stored_nlp.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
 
 namespace prowl {
 
 /// A motion problem on a mesh as a nonlinear program, whatever its variables are.
-class MotionNlp : public Nlp {
+class MotionNlp : public StoredNlp {
  public:
   /// From a motion with one point a node of the mesh.
   virtual Eigen::VectorXd pack(const Trajectory& trajectory) const = 0;

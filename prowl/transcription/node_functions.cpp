@@ -20,12 +20,6 @@ const Phase& phase_of(const MotionProblem& problem, int phase) {
   return problem.phases[static_cast<std::size_t>(phase)];
 }
 
-std::vector<int> contacts_of(const Phase& phase) {
-  std::vector<int> contacts;
-  for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-  return contacts;
-}
-
 /// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start of the
 /// motion to the one after the node (other phases at the middle of their durations).
 ///
@@ -66,7 +60,7 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
       torques_(problem.robot),
       placement_(problem, schedule, phase, contacts.landing),
       cost_(problem),
-      dynamics_(problem.robot, contacts_of(phase_of(problem, phase)), contacts.chosen_rows) {
+      dynamics_(problem.robot, contact_indices(phase_of(problem, phase).contacts), contacts.chosen_rows) {
   const auto& held = phase_of(problem, phase).contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[static_cast<std::size_t>(i)];

@@ -77,8 +77,8 @@ Transcription::Transcription(const MotionProblem& problem, const Mesh& mesh, con
   const VariableBounds bounds = variable_bounds(problem, schedule_, mesh, layout_);
   variable_lower_ = bounds.lower;
   variable_upper_ = bounds.upper;
-  constraint_lower_.setZero(num_constraints());
-  constraint_upper_.setZero(num_constraints());
+  constraint_lower_.setZero(layout_.num_constraints());
+  constraint_upper_.setZero(layout_.num_constraints());
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const int node = mesh_node(k).node;
     for (int row = 0; row < functions(k).num_rows(node); ++row) {

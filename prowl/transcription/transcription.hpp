@@ -39,15 +39,6 @@ class Transcription : public MotionNlp {
   Eigen::VectorXd pack(const Trajectory& trajectory) const override;
   Trajectory unpack(const Eigen::VectorXd& z) override;
 
-  int num_variables() const override { return layout_.num_variables(); }
-  int num_constraints() const override { return layout_.num_constraints(); }
-  const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
-  const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
-  const Eigen::VectorXd& constraint_lower() const override { return constraint_lower_; }
-  const Eigen::VectorXd& constraint_upper() const override { return constraint_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
-
   double cost(const Eigen::VectorXd& z) override;
   void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient) override;
   void constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override;
@@ -119,8 +110,6 @@ class Transcription : public MotionNlp {
   DecisionLayout layout_;
   std::vector<Eigen::Matrix3d> charts_;          ///< one a node
   std::vector<std::pair<int, int>> shared_pairs_;  ///< of shared variables (row >= column, from first_shared) in one phase
-  Eigen::VectorXd variable_lower_, variable_upper_, constraint_lower_, constraint_upper_;
-  SparsityPattern jacobian_pattern_, hessian_pattern_;
 
   // What was evaluated last, and where.
   Eigen::VectorXd evaluated_at_;

@@ -142,7 +142,7 @@ void bind_judged_point(nb::module_& module) {
                    nb::rv_policy::reference_internal, "Of the motion, by code that shares nothing with the program.")
       .def_ro("motion", &JudgedPoint::motion, nb::rv_policy::reference_internal,
               "The motion that the program means by this point, at its nodes.")
-      .def("check", [](const JudgedPoint& p, const std::string& name) { return p.run.check(name); }, nb::arg("name"),
+      .def("check", [](const JudgedPoint& p, const std::string& name) { return p.run.certificate.find(name); }, nb::arg("name"),
            nb::rv_policy::reference_internal, nb::sig("def check(self, name: str) -> Check | None"),
            "One check of the certificate by its name, such as \"contact drift\"; None if the motion has nothing for it.")
       .def_prop_ro("worst_check", [](const JudgedPoint& p) { return p.run.worst_check(); }, nb::rv_policy::reference_internal,

@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "prowl/io/diagnosis_report.hpp"
-#include "prowl/io/task_file.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "tests/io/test_files.hpp"
+#include "tests/support/task_test.hpp"
 
 namespace prowl {
 namespace {
@@ -36,19 +35,16 @@ joint_acceleration = 0.01
 torque = 1e-4
 )";
 
-class DiagnosisTest : public testing::Test {
+class DiagnosisTest : public test::TaskTest {
  protected:
-  MotionProblem problem(const std::string& task, const std::string& robot = test::kHyqFile) const {
-    folder_.write("hyq.toml", robot);
-    return read_task_file(folder_.write("task.toml", task), test::test_search(), {}).problem;
-  }
   static Diagnosis diagnosis(const MotionProblem& problem) { return diagnose(problem, RiccatiSolver(), IpoptSolver(), {}); }
-
-  test::TempFolder folder_;
 };
 
 TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
-  const Diagnosis found = diagnosis(problem(kCrouch));
+  std::vector<std::string> steps;
+  const auto keep = [&](const std::string& what) { steps.push_back(what); };
+  const Diagnosis found = diagnose(problem(kCrouch), RiccatiSolver(), IpoptSolver(), {.on_step = keep});
+  EXPECT_THAT(steps, testing::ElementsAre("solving as it is, 8 intervals", "planning as it is")) << "a small mesh is solved once";
   EXPECT_TRUE(found.solvable);
   EXPECT_TRUE(found.kind.empty());
   EXPECT_TRUE(found.changes.empty());
@@ -73,8 +69,7 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
 }
 
 TEST_F(DiagnosisTest, NamesWeakJoints) {
-  const MotionProblem weak = problem(kCrouch, test::kHyqFile + "[limits.lf_kfe_joint]\ntorque_Nm = 10\n[limits.rh_kfe_joint]\ntorque_Nm = 10\n" +
-                                                  "[limits.rf_kfe_joint]\ntorque_Nm = 10\n");
+  const MotionProblem weak = problem(kCrouch, test::kWeakHyqFile);
   const Diagnosis found = diagnosis(weak);
   EXPECT_EQ(found.kind, "torque") << diagnosis_text(found, weak);
   EXPECT_THAT(found.subject, AllOf(HasSubstr("f_kfe_joint"), testing::Not(HasSubstr("haa")), testing::Not(HasSubstr("lh_kfe"))));

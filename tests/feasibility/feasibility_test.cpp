@@ -1,15 +1,13 @@
-// Tasks by their text, as a user writes them.
 #include "prowl/feasibility/feasibility.hpp"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
 
-#include "prowl/io/task_file.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/transcription/initial_guess.hpp"
-#include "tests/io/test_files.hpp"
+#include "tests/support/task_test.hpp"
 
 namespace prowl {
 namespace {
@@ -61,17 +59,11 @@ joint_acceleration = 0.01
 torque = 1e-4
 )";
 
-class Feasibility : public testing::Test {
+class Feasibility : public test::TaskTest {
  protected:
-  MotionProblem problem(const std::string& task, const std::string& robot = test::kHyqFile) const {
-    folder_.write("hyq.toml", robot);
-    return read_task_file(folder_.write("task.toml", task), test::test_search(), {}).problem;
-  }
   static std::vector<std::string> doubts_of(const MotionProblem& problem) {
     return doubts(problem, initial_guess(problem, make_mesh(problem)), IpoptSolver());
   }
-
-  test::TempFolder folder_;
 };
 
 TEST_F(Feasibility, OfASlopeIsAMatterOfFriction) {
@@ -129,9 +121,7 @@ base_rpy_rad = [0, 0, 0]
 
 /// Too weak a joint may still do, in a posture or a motion that nobody has thought of: a hint, and only after a solve.
 TEST_F(Feasibility, OfWeakJointsIsDoubted) {
-  const std::string weak = test::kHyqFile + "[limits.lf_kfe_joint]\ntorque_Nm = 10\n[limits.rh_kfe_joint]\ntorque_Nm = 10\n" +
-                           "[limits.rf_kfe_joint]\ntorque_Nm = 10\n";
-  const MotionProblem stand = problem(kStand, weak);
+  const MotionProblem stand = problem(kStand, test::kWeakHyqFile);
   EXPECT_THAT(proofs_of_infeasibility(stand), IsEmpty());
   const Plan plan = make_plan(stand, IpoptSolver(), {.solver = {.max_iterations = 3}});
   EXPECT_NE(plan.result.status, SolveStatus::converged);

@@ -38,9 +38,9 @@ TEST(RunFormulation, OfTheDefaultIsWhatMakePlanDoes) {
   }
   EXPECT_GT(run.contacts.velocity, 0.0);
   EXPECT_GT(run.contacts.acceleration, 0.0);
-  EXPECT_LE(run.contacts.velocity, run.check("contact velocity")->worst + 1e-12) << "which is that of the nodes, too";
-  EXPECT_EQ(run.check("contact drift")->name, "contact drift");
-  EXPECT_EQ(run.check("swing clearance missing"), nullptr) << "nothing swings";
+  EXPECT_LE(run.contacts.velocity, run.certificate.find("contact velocity")->worst + 1e-12) << "which is that of the nodes, too";
+  EXPECT_EQ(run.certificate.find("contact drift")->name, "contact drift");
+  EXPECT_EQ(run.certificate.find("swing clearance missing"), nullptr) << "nothing swings";
 }
 
 TEST(RunFormulation, TakesTheHessianThatIsAskedFor) {

@@ -2,26 +2,16 @@
 
 #include <gmock/gmock.h>
 
-#include "prowl/error.hpp"
+#include "test_files.hpp"
 
 namespace prowl {
 namespace {
 
+using test::repeated;
 using testing::HasSubstr;
 
 std::string message(const std::string& text) {
-  try {
-    parse_json({"a.json", text});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-std::string repeated(const std::string& text, int times) {
-  std::string all;
-  for (int i = 0; i < times; ++i) all += text;
-  return all;
+  return test::message_of([&] { parse_json({"a.json", text}); });
 }
 
 std::string keys(int count) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "prowl/model/configuration.hpp"
-#include "test_files.hpp"
+#include "tests/support/task_test.hpp"
 
 namespace prowl {
 namespace {
@@ -17,21 +17,12 @@ using testing::StartsWith;
 
 const double kInfinity = std::numeric_limits<double>::infinity();
 
-class TaskFile : public testing::Test {
+class TaskFile : public test::TaskTest {
  protected:
-  Task read(const std::string& task, const std::string& robot = kHyqFile, const TaskOverrides& overrides = {}) {
-    folder_.write("hyq.toml", robot);
-    return read_task_file(folder_.write("task.toml", task), test::test_search(), overrides);
-  }
   /// What the user sees if `from` in the right task is replaced by `to`.
   std::string message(const std::string& from, const std::string& to) {
     return message_of(test::replaced(kTaskFile, from, to));
   }
-  std::string message_of(const std::string& task, const std::string& robot = kHyqFile) {
-    return test::message_of(folder_.path(), [&] { read(task, robot); });
-  }
-
-  test::TempFolder folder_;
 };
 
 TEST_F(TaskFile, GivesTheProblemThatItDescribes) {

@@ -4,9 +4,8 @@
 
 #include <cmath>
 
-#include "prowl/io/task_file.hpp"
 #include "prowl/model/configuration.hpp"
-#include "test_files.hpp"
+#include "tests/support/task_test.hpp"
 
 namespace prowl {
 namespace {
@@ -24,21 +23,12 @@ stride_length_m = 0.2
 torque = 1e-3
 )";
 
-class TaskGait : public testing::Test {
+class TaskGait : public test::TaskTest {
  protected:
-  Task read(const std::string& task, const TaskOverrides& overrides = {}) {
-    folder_.write("hyq.toml", test::kHyqFile);
-    return read_task_file(folder_.write("task.toml", task), test::test_search(), overrides);
-  }
-  std::string message_of(const std::string& task) {
-    return test::message_of(folder_.path(), [&] { read(task); });
-  }
   /// What the user sees if `from` in the right task is replaced by `to`.
   std::string message(const std::string& from, const std::string& to) {
     return message_of(test::replaced(kGaitFile, from, to));
   }
-
-  test::TempFolder folder_;
 };
 
 TEST_F(TaskGait, StandsForPhasesAndAGoal) {
@@ -135,7 +125,7 @@ intervals_per_second = 20
 }
 
 TEST_F(TaskGait, OverridesShareOutItsIntervals) {
-  const Task task = read(kGaitFile, {.intervals = 352});
+  const Task task = read(kGaitFile, test::kHyqFile, {.intervals = 352});
   EXPECT_EQ(task.file_intervals.size(), task.problem.phases.size());
   int intervals = 0;
   for (const int count : task.file_intervals) intervals += count;

@@ -98,15 +98,27 @@ inline std::string replaced(const std::string& text, const std::string& from, co
   return text.substr(0, at) + to + text.substr(at + from.size());
 }
 
-/// The message of the Error that `action` throws, without `folder` in front of file names; "" if it throws none.
+inline std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+/// The message of the Error that `action` throws; "" if it throws none.
 template <typename ErrorType = InputError>
-std::string message_of(const std::filesystem::path& folder, const std::function<void()>& action) {
-  std::string message;
+std::string message_of(const std::function<void()>& action) {
   try {
     action();
   } catch (const ErrorType& error) {
-    message = error.what();
+    return error.what();
   }
+  return "";
+}
+
+/// The same without `folder` in front of file names.
+template <typename ErrorType = InputError>
+std::string message_of(const std::filesystem::path& folder, const std::function<void()>& action) {
+  std::string message = message_of<ErrorType>(action);
   const std::string prefix = folder.string() + "/";
   for (std::size_t at = message.find(prefix); at != std::string::npos; at = message.find(prefix)) {
     message.erase(at, prefix.size());

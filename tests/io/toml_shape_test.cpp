@@ -2,24 +2,15 @@
 
 #include <gmock/gmock.h>
 
-#include "prowl/error.hpp"
+#include "test_files.hpp"
 
 namespace prowl {
 namespace {
 
-std::string message(const std::string& text) {
-  try {
-    check_toml_shape({"a.toml", text});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
+using test::repeated;
 
-std::string repeated(const std::string& text, int times) {
-  std::string all;
-  for (int i = 0; i < times; ++i) all += text;
-  return all;
+std::string message(const std::string& text) {
+  return test::message_of([&] { check_toml_shape({"a.toml", text}); });
 }
 
 TEST(TomlShape, TakesWhatIsFlat) {

@@ -9,9 +9,7 @@ namespace prowl::test {
 /// Holds the start of standing_problem() with static torques and a spring and a damper at each joint.
 inline Tracker standing_tracker(const MotionProblem& problem, double stiffness = 800.0, double damping = 20.0) {
   const RobotModel& robot = problem.robot;
-  std::vector<int> contacts;
   TrackingPlan plan;
-  for (const PhaseContact& contact : problem.phases.front().contacts) contacts.push_back(contact.contact);
   for (const ContactPoint& contact : robot.contacts()) plan.contact_names.push_back(contact.name);
   plan.joint_names = robot.joint_names();
   plan.torque_limit = robot.torque_limit();
@@ -22,7 +20,7 @@ inline Tracker standing_tracker(const MotionProblem& problem, double stiffness =
   K.rightCols(robot.nu()).diagonal().setConstant(damping);
   plan.q = q.replicate(1, 2);
   plan.v = Eigen::MatrixXd::Zero(robot.nv(), 2);
-  plan.tau = static_equilibrium(robot, q, contacts).tau.replicate(1, 2);
+  plan.tau = static_equilibrium(robot, q, contact_indices(problem.phases.front().contacts)).tau.replicate(1, 2);
   plan.gains = K.reshaped().replicate(1, 2);
   return Tracker(plan);
 }

@@ -21,8 +21,7 @@ constexpr double kGivenDuration = 0.4;  // [s]
 
 /// HyQ sinks, leans and turns.
 inline Eigen::VectorXd given_torques(const MotionProblem& problem, double t) {
-  std::vector<int> contacts;
-  for (const PhaseContact& held : problem.phases[0].contacts) contacts.push_back(held.contact);
+  const std::vector<int> contacts = contact_indices(problem.phases[0].contacts);
   Eigen::VectorXd tau = static_equilibrium(problem.robot, problem.start_configuration(), contacts).tau;
   const Eigen::VectorXd change = Eigen::VectorXd::LinSpaced(tau.size(), -4.0, 6.0);
   return 0.95 * tau + t / kGivenDuration * change;
@@ -45,7 +44,7 @@ inline MotionProblem given_motion(int intervals) {
 /// The program with the torques in the middle of intervals given, too.
 struct GivenTorques : MotionNlp {
   GivenTorques(std::unique_ptr<MotionNlp> program, const MotionProblem& problem)
-      : inner(std::move(program)), lower(inner->variable_lower()), upper(inner->variable_upper()) {
+      : MotionNlp(*program), inner(std::move(program)) {
     const int intervals = problem.phases[0].intervals;
     for (int k = 0; k < intervals; ++k) {
       const Eigen::VectorXd tau = given_torques(problem, kGivenDuration * (k + 0.5) / intervals);
@@ -55,7 +54,8 @@ struct GivenTorques : MotionNlp {
           continue;
         }
         for (int i = 0; i < tau.size(); ++i) {
-          if (name.ends_with(problem.robot.joint_names()[static_cast<std::size_t>(i)])) lower(j) = upper(j) = tau(i);
+          if (!name.ends_with(problem.robot.joint_names()[static_cast<std::size_t>(i)])) continue;
+          variable_lower_(j) = variable_upper_(j) = tau(i);
         }
       }
     }
@@ -63,14 +63,6 @@ struct GivenTorques : MotionNlp {
   Eigen::VectorXd pack(const Trajectory& t) const override { return inner->pack(t); }
   Trajectory unpack(const Eigen::VectorXd& z) override { return inner->unpack(z); }
   void use_hessian(HessianKind kind) override { inner->use_hessian(kind); }
-  int num_variables() const override { return inner->num_variables(); }
-  int num_constraints() const override { return inner->num_constraints(); }
-  const Eigen::VectorXd& variable_lower() const override { return lower; }
-  const Eigen::VectorXd& variable_upper() const override { return upper; }
-  const Eigen::VectorXd& constraint_lower() const override { return inner->constraint_lower(); }
-  const Eigen::VectorXd& constraint_upper() const override { return inner->constraint_upper(); }
-  const SparsityPattern& jacobian_pattern() const override { return inner->jacobian_pattern(); }
-  const SparsityPattern& hessian_pattern() const override { return inner->hessian_pattern(); }
   double cost(const Eigen::VectorXd& z) override { return inner->cost(z); }
   void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override {
     inner->cost_gradient(z, g);
@@ -84,7 +76,6 @@ struct GivenTorques : MotionNlp {
   std::string describe_variable(int index) const override { return inner->describe_variable(index); }
 
   std::unique_ptr<MotionNlp> inner;
-  Eigen::VectorXd lower, upper;
 };
 
 /// Where the motion is at its end. Throws std::runtime_error if the equations are not solved.

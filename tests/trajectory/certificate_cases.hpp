@@ -20,9 +20,7 @@ inline Names failed_checks(const Certificate& certificate) {
 }
 
 inline const CertificateCheck& find(const Certificate& certificate, const std::string& name) {
-  for (const CertificateCheck& check : certificate.checks) {
-    if (check.name == name) return check;
-  }
+  if (const CertificateCheck* const check = certificate.find(name)) return *check;
   throw std::out_of_range(name);
 }
 

@@ -57,31 +57,22 @@ MotionProblem squat(RobotModel robot) {
 
 /// The same program on a basis of six rows a foot: the forces of the dependent rows are zero, so that those of the other twelve
 /// are the two wrenches in other coordinates. Cones of single points have no meaning then and are left out.
-class SixRowsAFoot : public Nlp {
+class SixRowsAFoot : public StoredNlp {
  public:
-  explicit SixRowsAFoot(Transcription& nlp)
-      : nlp_(nlp), z_lower_(nlp.variable_lower()), z_upper_(nlp.variable_upper()), g_lower_(nlp.constraint_lower()) {
+  explicit SixRowsAFoot(Transcription& nlp) : StoredNlp(nlp), nlp_(nlp) {
     for (int i = 0; i < num_variables(); ++i) {
       if (nlp.describe_variable(i).find(", force ") == std::string::npos) continue;
-      z_lower_(i) = z_upper_(i) = 0.0;
+      variable_lower_(i) = variable_upper_(i) = 0.0;
       ++num_chosen;
     }
     for (int i = 0; i < num_constraints(); ++i) {
       if (nlp.describe_constraint(i).find("friction cone") == std::string::npos) continue;
-      g_lower_(i) = -std::numeric_limits<double>::infinity();
+      constraint_lower_(i) = -std::numeric_limits<double>::infinity();
       ++num_cones;
     }
   }
   int num_chosen = 0, num_cones = 0;
 
-  int num_variables() const override { return nlp_.num_variables(); }
-  int num_constraints() const override { return nlp_.num_constraints(); }
-  const VectorXd& variable_lower() const override { return z_lower_; }
-  const VectorXd& variable_upper() const override { return z_upper_; }
-  const VectorXd& constraint_lower() const override { return g_lower_; }
-  const VectorXd& constraint_upper() const override { return nlp_.constraint_upper(); }
-  const SparsityPattern& jacobian_pattern() const override { return nlp_.jacobian_pattern(); }
-  const SparsityPattern& hessian_pattern() const override { return nlp_.hessian_pattern(); }
   double cost(const VectorXd& z) override { return nlp_.cost(z); }
   void cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradient) override { nlp_.cost_gradient(z, gradient); }
   void constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) override { nlp_.constraints(z, g); }
@@ -95,7 +86,6 @@ class SixRowsAFoot : public Nlp {
 
  private:
   Transcription& nlp_;
-  VectorXd z_lower_, z_upper_, g_lower_;
 };
 
 struct Solved {

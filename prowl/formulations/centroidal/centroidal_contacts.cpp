@@ -29,11 +29,9 @@ CentroidalContacts centroidal_contacts(const MotionProblem& problem, const Conta
   const auto surface_of = [&](int i) -> const Surface& {
     return problem.surfaces[static_cast<std::size_t>(held[static_cast<std::size_t>(i)].surface)];
   };
-  std::vector<int> contacts;
-  for (const PhaseContact& contact : held) contacts.push_back(contact.contact);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
-  ContactKinematics kinematics(contacts);
+  ContactKinematics kinematics(contact_indices(held));
   kinematics.set_configuration(terms);
   Eigen::MatrixXd directions(3 * num_contacts, problem.robot.nv());
   for (int i = 0; i < num_contacts; ++i) {

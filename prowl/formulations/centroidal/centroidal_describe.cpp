@@ -1,16 +1,11 @@
 #include <fmt/format.h>
 
 #include "prowl/formulations/centroidal/centroidal_nlp.hpp"
+#include "prowl/trajectory/state_scale.hpp"
 
 namespace prowl {
 
 namespace {
-
-constexpr const char* kBase[] = {"base x", "base y", "base z", "base rotation x", "base rotation y", "base rotation z"};
-
-std::string coordinate(const RobotModel& robot, int i) {
-  return i < 6 ? kBase[i] : robot.joint_names()[static_cast<std::size_t>(i - 6)];
-}
 
 /// Group of entry i, and i within it.
 std::pair<RowGroup, int> group_of(const std::vector<RowGroup>& groups, int i) {
@@ -62,7 +57,7 @@ std::string CentroidalNlp::describe_constraint(int row) const {
     if (group.name == "contacts do not slide") {
       what = node(k).contacts().sliding[static_cast<std::size_t>(i)].what;
     } else {
-      what = fmt::format("{}, {}", group.name, group.count == 3 ? std::string(1, "xyz"[i]) : coordinate(problem_.robot, i));
+      what = fmt::format("{}, {}", group.name, group.count == 3 ? std::string(1, "xyz"[i]) : coordinate_name(problem_.robot, i));
     }
   }
   return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_node(k).time);
@@ -78,7 +73,7 @@ std::string CentroidalNlp::describe_variable(int index) const {
   const std::vector<RowGroup> groups = variable_groups(k);
   const auto [group, i] = group_of(groups, index - layout_.node(k));
   std::string which(1, "xyz"[i % 3]);
-  if (group.name == "q" || group.name == "v") which = coordinate(problem_.robot, i);
+  if (group.name == "q" || group.name == "v") which = coordinate_name(problem_.robot, i);
   if (group.name == "c" || group.name == "f") which += " of " + node(k).contact_names()[static_cast<std::size_t>(i / 3)];
   return fmt::format("{}, {} {}, t = {:.3f} s", describe_node(k), group.name, which, mesh_node(k).time);
 }

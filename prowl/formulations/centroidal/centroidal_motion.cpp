@@ -69,12 +69,6 @@ VectorXd without_base_linear(VectorXd weight) {
   return weight;
 }
 
-std::vector<int> contacts_of(const Phase& phase) {
-  std::vector<int> contacts;
-  for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-  return contacts;
-}
-
 }  // namespace
 
 CentroidalNlp::CentroidalNlp(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess)
@@ -99,8 +93,8 @@ void CentroidalNlp::set_bounds() {
   const ContactSchedule schedule(problem_);
   const DecisionLayout other(problem_, schedule, mesh_, none, none);
   const VariableBounds bounds = variable_bounds(problem_, schedule, mesh_, other);
-  variable_lower_.setConstant(num_variables(), -kInfinity);
-  variable_upper_.setConstant(num_variables(), kInfinity);
+  variable_lower_.setConstant(layout_.num_variables(), -kInfinity);
+  variable_upper_.setConstant(layout_.num_variables(), kInfinity);
   const int size = 2 * problem_.robot.nv();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     variable_lower_.segment(layout_.node(k), size) = bounds.lower.segment(other.node(k), size);
@@ -111,8 +105,8 @@ void CentroidalNlp::set_bounds() {
     variable_lower_(layout_.duration(p)) = bounds.lower(other.duration(p));
     variable_upper_(layout_.duration(p)) = bounds.upper(other.duration(p));
   }
-  constraint_lower_.setZero(num_constraints());
-  constraint_upper_.setZero(num_constraints());
+  constraint_lower_.setZero(layout_.num_constraints());
+  constraint_upper_.setZero(layout_.num_constraints());
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     for (int row = 0; row < node(k).num_rows(mesh_node(k).node); ++row) {
       constraint_lower_(layout_.node_row(k) + row) = node(k).lower(mesh_node(k).node, row);
@@ -181,7 +175,7 @@ Trajectory CentroidalNlp::unpack(const VectorXd& z) {
     point.v = velocity(k);
     point.a = (velocity(end) - velocity(end - 1)) / step(z, k);
     point.force.setZero(3 * static_cast<Index>(problem_.robot.contacts().size()));
-    const std::vector<int> contacts = contacts_of(problem_.phases[static_cast<std::size_t>(point.phase)]);
+    const std::vector<int> contacts = contact_indices(problem_.phases[static_cast<std::size_t>(point.phase)].contacts);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       point.force.segment<3>(3 * contacts[i]) = z.segment<3>(layout_.node(end) + at.forces + 3 * static_cast<int>(i));
     }

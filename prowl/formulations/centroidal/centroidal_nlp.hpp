@@ -35,15 +35,6 @@ class CentroidalNlp : public MotionNlp {
   /// dynamics make of it with the planned forces. What these leave on the base: InverseDynamics.
   Trajectory unpack(const Eigen::VectorXd& z) override;
 
-  int num_variables() const override { return layout_.num_variables(); }
-  int num_constraints() const override { return layout_.num_constraints(); }
-  const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
-  const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
-  const Eigen::VectorXd& constraint_lower() const override { return constraint_lower_; }
-  const Eigen::VectorXd& constraint_upper() const override { return constraint_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
-
   double cost(const Eigen::VectorXd& z) override;
   void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient) override;
   void constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override;
@@ -94,8 +85,6 @@ class CentroidalNlp : public MotionNlp {
   std::vector<Eigen::Matrix3d> charts_;  ///< one a node
   Eigen::VectorXd acceleration_weight_;  ///< but for the base's linear one
   HessianKind hessian_kind_ = HessianKind::exact;
-  Eigen::VectorXd variable_lower_, variable_upper_, constraint_lower_, constraint_upper_;
-  SparsityPattern jacobian_pattern_, hessian_pattern_;
   /// Of each node's Hessian: lower triangle, with the duration as the last variable.
   std::vector<std::vector<std::pair<int, int>>> node_places_;
 

@@ -22,12 +22,6 @@ std::vector<LandingAxes> without_places(std::vector<LandingAxes> landing) {
   return landing;
 }
 
-std::vector<int> contacts_of(const Phase& phase) {
-  std::vector<int> contacts;
-  for (const PhaseContact& contact : phase.contacts) contacts.push_back(contact.contact);
-  return contacts;
-}
-
 }  // namespace
 
 CentroidalScale::CentroidalScale(const RobotModel& robot)
@@ -46,7 +40,7 @@ CentroidalNode::CentroidalNode(const MotionProblem& problem, const ContactSchedu
       mass_(problem.robot.mass()),
       first_columns_(nv_, static_cast<int>(problem.phases[static_cast<std::size_t>(phase)].contacts.size()), false),
       columns_(nv_, static_cast<int>(problem.phases[static_cast<std::size_t>(phase)].contacts.size()), true),
-      contact_indices_(contacts_of(problem.phases[static_cast<std::size_t>(phase)])),
+      contact_indices_(contact_indices(problem.phases[static_cast<std::size_t>(phase)].contacts)),
       ties_(std::move(ties)),
       held_(std::move(contacts)),
       placement_(problem, schedule, phase, without_places(std::move(landing)), kIntervalsAtRest),

@@ -43,15 +43,6 @@ class Collocation : public MotionNlp {
   Trajectory unpack(const Eigen::VectorXd& z) override;
   void use_hessian(HessianKind kind) override;
 
-  int num_variables() const override { return static_cast<int>(variable_lower_.size()); }
-  int num_constraints() const override { return static_cast<int>(constraint_lower_.size()); }
-  const Eigen::VectorXd& variable_lower() const override { return variable_lower_; }
-  const Eigen::VectorXd& variable_upper() const override { return variable_upper_; }
-  const Eigen::VectorXd& constraint_lower() const override { return constraint_lower_; }
-  const Eigen::VectorXd& constraint_upper() const override { return constraint_upper_; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_pattern_; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_pattern_; }
-
   double cost(const Eigen::VectorXd& z) override;
   void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> gradient) override;
   void constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override;
@@ -106,8 +97,6 @@ class Collocation : public MotionNlp {
   std::vector<std::unique_ptr<IntervalPiece>> intervals_;  ///< null at a phase switch
   int first_switch_row_ = 0;
   HessianKind hessian_kind_ = HessianKind::exact;
-  Eigen::VectorXd variable_lower_, variable_upper_, constraint_lower_, constraint_upper_;
-  SparsityPattern jacobian_pattern_, hessian_pattern_;
   Eigen::VectorXd evaluated_at_;
   bool have_derivatives_ = false;
 };

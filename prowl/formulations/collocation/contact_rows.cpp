@@ -8,22 +8,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-std::vector<int> contacts_of(const Phase& phase) {
-  std::vector<int> contacts;
-  for (const PhaseContact& held : phase.contacts) contacts.push_back(held.contact);
-  return contacts;
-}
-
-}  // namespace
-
 ContactRows::ContactRows(const MotionProblem& problem, int phase, Kinds kinds)
     : kinds_(kinds),
       length_(problem.robot.size()),
       speed_(std::sqrt(RobotModel::kGravity * length_)),
       acceleration_(RobotModel::kGravity),
-      kinematics_(contacts_of(problem.phases[static_cast<std::size_t>(phase)])),
+      kinematics_(contact_indices(problem.phases[static_cast<std::size_t>(phase)].contacts)),
       at_rest_(VectorXd::Zero(problem.robot.nv())),
       hessian_(problem.robot.nv()) {
   for (const PhaseContact& held : problem.phases[static_cast<std::size_t>(phase)].contacts) {
