@@ -27,7 +27,7 @@ struct DiagnoseArguments {
 };
 
 ExitStatus exit_status(const Diagnosis& diagnosis) {
-  if (diagnosis.solvable) return diagnosis.certified ? kPassed : kCertificateFailed;
+  if (diagnosis.solvable) return diagnosis.certificate.passed ? kPassed : kCertificateFailed;
   return kNotSolved;
 }
 

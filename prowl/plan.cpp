@@ -5,6 +5,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
+#include "prowl/feasibility/rank_check.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/transcription/initial_guess.hpp"
 #include "prowl/transcription/mesh.hpp"
@@ -128,6 +129,9 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
                         options.hint_solver ? *options.hint_solver : solver);
   }
   plan.certificate = certify(problem, plan.trajectory);
+  if (plan.result.status == SolveStatus::converged && !plan.certificate.passed) {
+    plan.hints = postures_that_lose_rank(problem, initial_guess(problem, make_mesh(problem)));
+  }
   return plan;
 }
 

@@ -103,8 +103,10 @@ class Diagnoser {
     result_.status = plan.result.status;
     result_.message = plan.result.message;
     result_.solvable = plan.result.status == SolveStatus::converged;
-    result_.certified = plan.certificate.passed;
-    return result_.solvable;
+    if (!result_.solvable) return false;
+    result_.certificate = plan.certificate;
+    result_.hints = plan.hints;
+    return true;
   }
 
   /// Reads where the limits give way of the kind that is to be changed; of all kinds if nothing is found to change, or

@@ -8,6 +8,7 @@
 #include "prowl/diagnosis/elastic_solve.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/trajectory/certificate.hpp"
 
 namespace prowl {
 
@@ -25,11 +26,11 @@ struct Change {
 /// Why a task has no plan, as far as can be found out.
 struct Diagnosis {
   bool solvable = false;   ///< the task as it is has a plan; nothing else was looked for then
-  bool certified = false;  ///< and it passes its certificate
+  Certificate certificate;  ///< of that plan
   SolveStatus status = SolveStatus::solver_failed;  ///< of the task as it is
   std::string message;                              ///< the solver's
   std::vector<std::string> reasons;                 ///< proofs_of_infeasibility()
-  std::vector<std::string> hints;                   ///< doubts()
+  std::vector<std::string> hints;                   ///< doubts(); of a plan that fails its certificate, Plan::hints
   /// What is named: the kind of the smallest change, or if none was found, of the limit that gives way most. Empty if
   /// neither.
   std::string kind;

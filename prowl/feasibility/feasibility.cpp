@@ -7,6 +7,7 @@
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/feasibility/known_facts.hpp"
+#include "prowl/feasibility/rank_check.hpp"
 #include "prowl/feasibility/reach_check.hpp"
 #include "prowl/feasibility/slide_check.hpp"
 #include "prowl/feasibility/standing_load.hpp"
@@ -89,7 +90,7 @@ std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem) {
 
 std::vector<std::string> doubts(const MotionProblem& problem, const Trajectory& guess, const NlpSolver& solver) {
   const ContactSchedule schedule(problem);
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = postures_that_lose_rank(problem, guess);
   int p = -1, node = 0;
   for (std::size_t k = 0; k < guess.nodes.size(); ++k) {
     node = guess.nodes[k].phase == p ? node + 1 : 0;

@@ -16,6 +16,7 @@ std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem);
 
 /// What may be the matter with a problem that a solver did not solve, likewise in lines: at the first and the last node of each
 /// phase and at goals, in the posture that the initial guess has there,
+/// - singular postures at the start of phases (postures_that_lose_rank);
 /// - contacts that inverse kinematics did not bring to their places;
 /// - where the robot could not stand still: the weight is not over the contacts, too little friction, torque of joints.
 /// Neither needs to be the reason: another posture may do, and a motion need not stop there. Solves a small linear program for

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "prowl/io/json_text.hpp"
+#include "prowl/io/mesh_advice.hpp"
+#include "prowl/io/summary.hpp"
 
 namespace prowl {
 
@@ -82,8 +84,11 @@ Json to_json(const Change& change, const MotionProblem& problem) {
 }  // namespace
 
 std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& problem) {
-  if (diagnosis.solvable && diagnosis.certified) return "the task has a plan, and it passes its certificate";
-  if (diagnosis.solvable) return "the task has a plan, but it fails its certificate: see prowl plan and prowl check";
+  if (diagnosis.solvable && diagnosis.certificate.passed) return "the task has a plan, and it passes its certificate";
+  if (diagnosis.solvable) {
+    return "the task has a plan, but it fails its certificate: " + failed_checks(diagnosis.certificate) +
+           (fails_by_mesh_only(diagnosis.certificate) ? "; its mesh is too coarse: prowl plan --refine" : "; all checks: prowl plan, prowl check");
+  }
   std::string line;
   if (!diagnosis.breaches.empty()) line = in_words(diagnosis.breaches.front(), problem);
   if (line.empty() && !diagnosis.reasons.empty()) line = diagnosis.reasons.front();
@@ -103,9 +108,9 @@ std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& 
 std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& problem) {
   const std::string headline = diagnosis_headline(diagnosis, problem);
   std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, headline);
-  if (diagnosis.solvable) return text;
   for (const std::string& reason : diagnosis.reasons) text += fmt::format("  certain      {}\n", reason);
   for (const std::string& hint : diagnosis.hints) text += fmt::format("  doubtful     {}\n", hint);
+  if (diagnosis.solvable) return text;
   for (std::size_t i = 0; i < std::min(diagnosis.breaches.size(), kMostBreaches); ++i) {
     text += fmt::format("  gives way    {}\n", in_words(diagnosis.breaches[i], problem));
   }
@@ -124,7 +129,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& prob
   Json json = {{"name", problem.name},
                {"robot", problem.robot.name()},
                {"solvable", diagnosis.solvable},
-               {"passes", diagnosis.certified},
+               {"passes", diagnosis.certificate.passed},
                {"status", to_string(diagnosis.status)},
                {"message", diagnosis.message},
                {"headline", diagnosis_headline(diagnosis, problem)},

@@ -27,15 +27,14 @@ std::optional<int> intervals_option(const Task& task, double needed) {
   return std::nullopt;
 }
 
-/// Whether a finer mesh would do: no check failed but those of the integration error.
+}  // namespace
+
 bool fails_by_mesh_only(const Certificate& certificate) {
   constexpr std::array kOfTheMesh{"local integration error", "integration error in a second", "re-integration"};
   return std::ranges::all_of(certificate.checks, [&](const CertificateCheck& check) {
     return check.passed || std::ranges::find(kOfTheMesh, check.name) != kOfTheMesh.end();
   });
 }
-
-}  // namespace
 
 std::string mesh_advice(const PlanRecord& record) {
   const auto& errors = record.plan.certificate.interval_errors;
@@ -50,7 +49,7 @@ std::string mesh_advice(const PlanRecord& record) {
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;
     std::string option = fmt::format("--refine {}", grade);
-    if (!is_even) option += " --warm-start with this plan";  // from where it stopped
+    if (!is_even) option += " --warm-start with the folder of this plan";  // from where it stopped
     if (is_even) {
       const double needed = static_cast<double>(errors.size()) * std::cbrt(kMargin * worst->error / goal);
       const std::optional<int> intervals = intervals_option(record.task, needed);

@@ -65,7 +65,7 @@ std::string certificate_brief(const Certificate& certificate, const std::filesys
   text += check_table(shown);
   text += fmt::format("worst < 0: so much is left; limits and all {} checks: prowl check {}\n", certificate.checks.size(),
                       directory.string());
-  return text + failed_checks(certificate);
+  return text + failed_checks_line(certificate);
 }
 
 }  // namespace

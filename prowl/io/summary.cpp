@@ -53,10 +53,15 @@ std::string failed_checks(const Certificate& certificate) {
   std::string text;
   for (const CertificateCheck& check : certificate.checks) {
     if (check.passed) continue;
-    text += fmt::format("{}{} ({} > {})", text.empty() ? "failed: " : ", ", check.name, with_unit(check.worst, ""),
+    text += fmt::format("{}{} ({} > {})", text.empty() ? "" : ", ", check.name, with_unit(check.worst, ""),
                         with_unit(check.limit, check.unit));
   }
-  return text.empty() ? "" : text + "\n";
+  return text;
+}
+
+std::string failed_checks_line(const Certificate& certificate) {
+  const std::string checks = failed_checks(certificate);
+  return checks.empty() ? "" : "failed: " + checks + "\n";
 }
 
 std::string plan_summary(const PlanRecord& record, const std::string& when) {
@@ -113,7 +118,7 @@ std::string certificate_summary(const Certificate& certificate) {
                         fmt::join(certificate.redundant_contacts, ", "), fmt::join(ranks, ", "));
   }
   text += "A check passes if worst <= limit; where worst is negative, it is what is left to the bound.\n";
-  return text + failed_checks(certificate);
+  return text + failed_checks_line(certificate);
 }
 
 std::string feedback_summary(const FeedbackDesign& feedback, double step) {

@@ -12,8 +12,11 @@ std::string plan_summary(const PlanRecord& record, const std::string& when = "")
 /// Verdict, grade and a table of all checks: worst value, limit, time and place; the failed ones again in one line.
 std::string certificate_summary(const Certificate& certificate);
 
-/// "failed: local integration error (0.000184 > 0.0001), ...", or "" if none has.
+/// "local integration error (0.000184 > 0.0001), ..."; "" if none has failed.
 std::string failed_checks(const Certificate& certificate);
+
+/// The same after "failed: ", a line of its own; "" if none has.
+std::string failed_checks_line(const Certificate& certificate);
 
 /// "0.0001 m", or the number alone where there is no unit.
 std::string with_unit(double value, const std::string& unit);

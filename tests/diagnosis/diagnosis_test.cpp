@@ -50,6 +50,16 @@ TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
   EXPECT_TRUE(found.changes.empty());
 }
 
+/// A mesh too coarse is no matter of the task, and needs no search.
+TEST_F(DiagnosisTest, OfAPlanThatFailsItsCertificateNamesTheChecks) {
+  const MotionProblem coarse = problem(kCrouch);
+  const Diagnosis found = diagnosis(coarse);
+  EXPECT_TRUE(found.solvable);
+  EXPECT_FALSE(found.certificate.passed);
+  EXPECT_THAT(diagnosis_headline(found, coarse), AllOf(HasSubstr("fails its certificate: local integration error ("), HasSubstr(" > 0.0001"),
+                                                       testing::EndsWith("; its mesh is too coarse: prowl plan --refine")));
+}
+
 TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
   const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   const Diagnosis found = diagnosis(stiff);

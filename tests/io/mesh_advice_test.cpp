@@ -79,7 +79,7 @@ TEST_F(MeshAdvice, OfAnUnevenMeshIsToRefineIt) {
   PlanRecord plan = record(5e-5);
   Phase& phase = plan.task.problem.phases[0];
   phase.shares.assign(static_cast<std::size_t>(phase.intervals), 1.0 / phase.intervals);
-  EXPECT_THAT(mesh_advice(plan), testing::EndsWith("cubed:\nfor grade certified (1e-06) --refine certified --warm-start with this plan\n"));
+  EXPECT_THAT(mesh_advice(plan), testing::EndsWith("cubed:\nfor grade certified (1e-06) --refine certified --warm-start with the folder of this plan\n"));
 }
 
 TEST_F(MeshAdvice, SaysNothingOfAPlanThatDidNotConverge) {

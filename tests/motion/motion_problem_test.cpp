@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "terminal_cost.torque_weight: 11 entries are not allowed; need 12"},
         Mistake{"reference", [](P& p) { p.running_cost.tau_ref(0) = kInfinity; }, "running_cost.tau_ref[0]: inf"},
         Mistake{"force", [](P& p) { p.running_cost.force_weight.x() = -1.0; }, "running_cost.force_weight[0]: -1"},
-        Mistake{"contact", [](P& p) { p.running_cost.contact_positions = {{7, {}, {}}}; },
+        Mistake{"contact", [](P& p) { p.running_cost.contact_positions = {{7, Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}}; },
                 "running_cost.contact_positions[0].contact: 7"},
         Mistake{"tolerance", [](P& p) { p.goal_tolerance.angle = 0.0; }, "goal_tolerance.angle: 0 is not allowed"}),
     [](const auto& info) { return info.param.name; });
