@@ -123,14 +123,13 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
     if (!plan.levels.empty() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(level, solver, options, plan);
   }
-  const bool ended_by_itself = plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
-  if (plan.reasons.empty() && plan.result.status != SolveStatus::converged && ended_by_itself) {
-    plan.hints = doubts(problem, initial_guess(problem, make_mesh(problem)),
-                        options.hint_solver ? *options.hint_solver : solver);
-  }
   plan.certificate = certify(problem, plan.trajectory);
-  if (plan.result.status == SolveStatus::converged && !plan.certificate.passed) {
-    plan.hints = postures_that_lose_rank(problem, initial_guess(problem, make_mesh(problem)));
+  const bool ended_by_itself = plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
+  if (plan.reasons.empty() && !plan.certificate.passed && ended_by_itself) {
+    const Trajectory guess = initial_guess(problem, make_mesh(problem));
+    plan.hints = plan.result.status == SolveStatus::converged
+                     ? postures_that_lose_rank(problem, guess)
+                     : doubts(problem, guess, options.hint_solver ? *options.hint_solver : solver);
   }
   return plan;
 }

@@ -33,8 +33,8 @@ struct Plan {
   /// Why there can be no such motion, proven before the solve (proofs_of_infeasibility). If there is a reason the status is
   /// infeasible, the solver did not run, and the trajectory is the initial guess.
   std::vector<std::string> reasons;
-  /// After a solve that did not converge and was not interrupted: what may be the matter (doubts). After one whose motion fails its
-  /// certificate: singular postures (postures_that_lose_rank).
+  /// What may be the matter with a motion that fails its certificate: doubts, or, if the solve converged, singular postures
+  /// (postures_that_lose_rank). None if it was interrupted.
   std::vector<std::string> hints;
 };
 

@@ -87,6 +87,9 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
     text += "  note         without [cost] all motions are as good, and what comes out need not be smooth (docs/task-file.md)\n";
   }
   if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);
+  if (result.status != SolveStatus::converged && record.plan.certificate.passed) {
+    text += "  note         the motion passes its certificate all the same; only the solver's own tolerance is not met\n";
+  }
   for (const std::string& hint : record.plan.hints) text += fmt::format("  hint         {}\n", hint);
   return text;
 }

@@ -130,6 +130,15 @@ TEST_F(Feasibility, OfWeakJointsIsDoubted) {
   EXPECT_THAT(plan.hints[1], HasSubstr("goal 1, end of phase 'stand'"));
 }
 
+/// A solver that stops short of an optimum nobody needs leaves nothing to doubt in a motion that passes.
+TEST_F(Feasibility, OfAMotionThatPassesIsNotDoubted) {
+  const MotionProblem stand = problem(test::replaced(kStand, "intervals = 4", "intervals = 40"));
+  const Plan plan = make_plan(stand, IpoptSolver(), {.solver = {.tolerance = 1e-16, .max_iterations = 50}});
+  EXPECT_NE(plan.result.status, SolveStatus::converged);
+  EXPECT_TRUE(plan.certificate.passed);
+  EXPECT_THAT(plan.hints, IsEmpty());
+}
+
 TEST_F(Feasibility, OfAGoalInTheMiddleOfAPhaseIsDoubtedToo) {
   const std::string wide = test::replaced(kStand, "time_s = 1.0", "time_s = 0.5");
   const auto hints = doubts_of(problem(test::replaced(wide, "[0, 0, -0.05]", "[0.35, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]")));
