@@ -137,7 +137,7 @@ int count(const std::string& text, const std::string& what) {
 TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
     for (const std::string signal : {"INT", "TERM"}) {
-      const Outcome result = run("$prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; "
+      const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; "
                                  "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; kill -" + signal + " $pid; wait $pid");
       EXPECT_EQ(result.status, 130) << solver << " " << signal << result.error;
       EXPECT_EQ(plan().at("status"), "interrupted") << solver;
