@@ -134,6 +134,25 @@ TEST(FeedbackDesign, ConvergesWithTheGrid) {
   EXPECT_LT(fine, 1e-2 * first_gain[2].norm());
 }
 
+/// What a landing cuts off costs in proportion to TrackingOptions::landing_time, in the swing that ends with it.
+TEST(FeedbackDesign, CountsWhatALandingCutsOff) {
+  const test::SolvedTask& task = solved("solo12/step");
+  constexpr int kSwing = 1;
+  std::vector<MatrixXd> at_landing;
+  for (const double time : {1.0, 2.0, 4.0}) {
+    TrackingOptions options = task.task.tracking;
+    options.landing_time = time;
+    MatrixXd cost;
+    design_feedback(task.task.problem, task.trajectory, options, [&](const ReducedSample& at) {
+      if (at.phase == kSwing && cost.size() == 0) cost = at.S;  // samples come last first
+    });
+    at_landing.push_back(cost);
+  }
+  const MatrixXd once = at_landing[1] - at_landing[0], twice = at_landing[2] - at_landing[1];
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(once).eigenvalues().maxCoeff(), 0.1) << "a foot beside its place";
+  EXPECT_LT((twice - 2.0 * once).norm(), 1e-9 * at_landing[2].norm());
+}
+
 TEST(FeedbackDesign, WeighsAsItIsTold) {
   const test::SolvedTask& task = solved("hyq/stand");
   TrackingOptions options = task.task.tracking;
