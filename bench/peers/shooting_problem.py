@@ -152,7 +152,7 @@ class ShootingProblem:
 
     def _add_limits(self, node: Node, held, costs, constraints, nu: int) -> None:
         for contact in held:
-            cone = crocoddyl.FrictionCone(np.eye(3), self.task.friction, 4, True)  # four planes inside the cone
+            cone = crocoddyl.FrictionCone(self.task.ground_axes, self.task.friction, 4, True)  # four planes inside the cone
             self._bound(costs, constraints, f"cone {contact.name}", crocoddyl.ResidualModelContactFrictionCone(
                 self.state, contact.frame, cone, nu, not self.inverse), cone.lb, cone.ub, CONE, False)
         for contact in self.robot.contacts:
