@@ -16,7 +16,7 @@ from judge.motion_task import MotionTask, parse_task
 from peers.measure import NoResult, in_own_process, judged, peer_record
 from peers.peer_solvers import PEERS
 
-JUDGING = 60.0  # that building the problem and judging its motions may take besides the solves [s]
+JUDGING = 60.0  # CPU time that building the problem and judging its motions may take besides the solves [s]
 
 
 def motion_of(columns: dict) -> Motion:
@@ -38,9 +38,16 @@ def ask_peer(task: MotionTask, solver: str, time_limit: float) -> dict:
         return {"solver": name, "label": PEERS[name].label, "step_s": step, "failed": str(why)}
 
 
+def judge_prowl(task: MotionTask, motion: Motion) -> dict:
+    try:
+        return in_own_process(lambda: judged(judge(task, motion)), JUDGING)
+    except NoResult as why:
+        return {"failed": f"judge: {why}"}
+
+
 def answer(job: dict) -> dict:
     task = task_of(job)
-    found = {"prowl": judged(judge(task, motion_of(job["motion"])))} if job["motion"] else {}
+    found = {"prowl": judge_prowl(task, motion_of(job["motion"]))} if job["motion"] else {}
     return found | {solver: ask_peer(task, solver, job["time_limit"]) for solver in job["solvers"]}
 
 

@@ -17,14 +17,17 @@ def prowl_record(plan, seconds: float, found: dict) -> dict:
 class Peers:
     """Judges Prowl's motions, and makes and judges those of its peers."""
 
-    def __init__(self, environment: pathlib.Path, solvers: list[str], time_limit: float):
+    def __init__(self, environment: pathlib.Path, solvers: list[str], time_limit: float, file: pathlib.Path | None = None):
+        """`file`: for the records, a JSON line each."""
         self.solvers, self.time_limit, self.records = solvers, time_limit, []
+        self.file = file.open("w", encoding="utf-8") if file else None
         self.packages = [str(path) for path in package_dirs(environment)]
         self.process = subprocess.Popen([environment / "bin/python", "-m", "load.peer_worker"], env=variables(), text=True,
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE)
 
     def ask(self, number: int, robot: str, document: dict, plan, seconds: float) -> None:
-        motion = {name: getattr(plan, name).tolist() for name in ("t", "phase", "q", "v", "tau")} if len(plan) > 0 else None
+        columns = ("t", "phase", "q", "v", "tau")
+        motion = None if plan.reasons else {name: getattr(plan, name).tolist() for name in columns}  # refused: the initial guess
         job = {"number": number, "document": document, "folder": str(folder(robot)), "packages": self.packages,
                "solvers": self.solvers, "time_limit": self.time_limit, "motion": motion}
         self.process.stdin.write(json.dumps(job) + "\n")
@@ -35,3 +38,5 @@ class Peers:
         found = json.loads(answer)
         ours = prowl_record(plan, seconds, found.pop("prowl", {}))
         self.records.append({"number": number, "robot": robot, "task": document, "solvers": {"prowl": ours, **found}})
+        if self.file:
+            print(json.dumps(self.records[-1]), file=self.file, flush=True)

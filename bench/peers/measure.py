@@ -2,6 +2,8 @@
 import math
 import multiprocessing
 import pathlib
+import resource
+import signal
 import statistics
 from collections.abc import Callable
 
@@ -55,21 +57,24 @@ class NoResult(RuntimeError):
 
 
 def in_own_process(work: Callable[[], dict], seconds: float) -> dict:
-    """A crash or a solver without an end takes that process with it, and not the rest. Waits for no longer than `seconds`."""
+    """A crash or a solver without an end takes that process with it, and not the rest. It gets so many seconds of CPU time."""
     context = multiprocessing.get_context("fork")
     receiver, sender = context.Pipe(duplex=False)
-    process = context.Process(target=lambda: sender.send(work()))
+
+    def run() -> None:
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), resource.RLIM_INFINITY))
+        sender.send(work())
+
+    process = context.Process(target=run)
     process.start()
     sender.close()
     try:
-        if receiver.poll(seconds):
-            return receiver.recv()
-        raise NoResult("time limit")
+        found = receiver.recv()
     except EOFError:
-        raise NoResult("stopped without a result") from None
-    finally:
-        process.kill()
         process.join()
+        raise NoResult("time limit" if process.exitcode == -signal.SIGXCPU else "stopped without a result") from None
+    process.join()
+    return found
 
 
 def measure_peer(kind: str, task: MotionTask, solver: str, step: float, repetitions: int, patience: float,

@@ -57,10 +57,10 @@ class OutOfTime(Exception):
 def _watch(name: str, seconds: float):
     """A callback that ends the solve after the iteration in which its time is over; the solver keeps its last iterate."""
     class Watch(mim_solvers.CallbackAbstract if name in ("sqp", "csqp") else crocoddyl.CallbackAbstract):
-        end = time.monotonic() + seconds
+        end = time.process_time() + seconds
 
         def __call__(self, *_) -> None:
-            if time.monotonic() > self.end:
+            if time.process_time() > self.end:
                 raise OutOfTime
 
     return Watch()
@@ -69,7 +69,7 @@ def _watch(name: str, seconds: float):
 def solve(name: str, task: MotionTask, step: float, joint_bounds: bool, repetitions: int = 1, patience: float = 0.0,
           time_limit: float = math.inf) -> PeerRun:
     """The motion of one peer; repeated for the clock until all took longer than `patience` [s] together. `time_limit`: of each
-    solve, by the wall clock [s]."""
+    solve, CPU time [s]."""
     peer = PEERS[name]
     shooting = ShootingProblem(task, step, peer.inverse, peer.hard, joint_bounds)
     shooting.problem.nthreads = 1
