@@ -33,7 +33,8 @@ def ask_peer(task: MotionTask, solver: str, time_limit: float) -> dict:
     name, _, step = solver.partition(":")
     step = float(step) if step else task.duration / task.intervals
     try:
-        return in_own_process(lambda: peer_record("load", task, name, step, time_limit=time_limit), 2 * time_limit + JUDGING)
+        return in_own_process(lambda: peer_record("load", task, name, step, time_limit=time_limit, anchored=True),
+                              2 * time_limit + JUDGING)
     except NoResult as why:
         return {"solver": name, "label": PEERS[name].label, "step_s": step, "failed": str(why)}
 

@@ -6,7 +6,6 @@ from load.quantiles import quantiles
 LABELS = {"prowl": "Prowl", "boxfddp": "BoxFDDP", "fddp": "FDDP", "intro": "Intro", "sqp": "SQP", "csqp": "CSQP"}
 # Re-integration error of an interval: that of grade draft (docs/verification.md), and ten and a hundred times as much.
 ERRORS = [5e-4, 5e-3, 5e-2]
-DRIFT = {"slip", "contact speed", "penetration"}  # what a coarse mesh does to feet that stand
 
 
 def label(solver: str) -> str:
@@ -17,10 +16,6 @@ def label(solver: str) -> str:
 def keeps(record: dict) -> bool:
     """All that the judge looks at but the integration error."""
     return record.get("keeps_task", False)
-
-
-def keeps_but_for_drift(record: dict) -> bool:
-    return "broken" in record and set(record["broken"]) <= DRIFT
 
 
 def share(found: list[bool]) -> str:
@@ -55,7 +50,6 @@ def table(records: list[dict]) -> str:
     add("says that it converged", lambda column: share([r.get("converged", False) for r in column]))
     add("keeps its task", lambda column: share([keeps(r) for r in column]))
     add("... of those that Prowl's certificate passes", lambda column: share([keeps(column[i]) for i in proven]))
-    add("keeps it, but for feet that drift", lambda column: share([keeps_but_for_drift(r) for r in column]))
     for error in ERRORS:
         add(f"keeps it, error of an interval ≤ {error:g}",
             lambda column, error=error: share([keeps(r) and r["error"] <= error for r in column]))

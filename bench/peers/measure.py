@@ -25,7 +25,6 @@ def judged(verdict: Verdict) -> dict:
             "keeps_task": verdict.worst_share <= 1.0,
             "worst": {"check": name, "value": worst.value, "unit": worst.unit, "limit": worst.limit, "time_s": worst.time,
                       "where": worst.where},
-            "broken": [name for name, finding in verdict.findings.items() if not finding.value <= finding.limit],
             "findings": {name: finding.value for name, finding in verdict.findings.items()}}
 
 
@@ -36,11 +35,11 @@ def _timed(seconds: list[float], motion_seconds: float, node_iterations: int) ->
 
 
 def peer_record(kind: str, task: MotionTask, solver: str, step: float, repetitions: int = 1, patience: float = 0.0,
-                time_limit: float = math.inf) -> dict:
+                time_limit: float = math.inf, anchored: bool = False) -> dict:
     """Without bounds on the joints; with them where the motion would break them, since they cost iterations. `time_limit`: of each
     solve, after which its last iterate is judged."""
     for bounds in (False, True):
-        run = solve(solver, task, step, bounds, repetitions, patience, time_limit)
+        run = solve(solver, task, step, bounds, repetitions, patience, time_limit, anchored)
         verdict = judge(task, run.motion)
         broken = [name for name in ("joint position", "joint velocity")
                   if verdict.findings[name].value > verdict.findings[name].limit]

@@ -67,11 +67,11 @@ def _watch(name: str, seconds: float):
 
 
 def solve(name: str, task: MotionTask, step: float, joint_bounds: bool, repetitions: int = 1, patience: float = 0.0,
-          time_limit: float = math.inf) -> PeerRun:
+          time_limit: float = math.inf, anchored: bool = False) -> PeerRun:
     """The motion of one peer; repeated for the clock until all took longer than `patience` [s] together. `time_limit`: of each
     solve, CPU time [s]."""
     peer = PEERS[name]
-    shooting = ShootingProblem(task, step, peer.inverse, peer.hard, joint_bounds)
+    shooting = ShootingProblem(task, step, peer.inverse, peer.hard, joint_bounds, anchored)
     shooting.problem.nthreads = 1
     states, inputs = shooting.guess()
     solver = peer.solver(shooting.problem)
