@@ -158,15 +158,16 @@ def _see_contacts(task, phase, places, forces, speeds, time, anchors, findings) 
     held = [contact for contact in task.robot.contacts if contact.name in task.phases[phase].contacts]
     for contact, force, speed in zip(held, forces, speeds):
         name, place = contact.name, places[contact.name]
-        findings["friction"].see(np.hypot(force[0], force[1]) - task.friction * max(force[2], 0.0), time, name)
-        findings["pulling"].see(-force[2], time, name)
+        push = task.normal @ force
+        findings["friction"].see(np.linalg.norm(force - push * task.normal) - task.friction * max(push, 0.0), time, name)
+        findings["pulling"].see(-push, time, name)
         findings["slip"].see(np.linalg.norm(place - anchors.setdefault(name, place)), time, name)
         findings["contact speed"].see(np.linalg.norm(speed), time, name)
-        findings["penetration"].see(task.floor + contact.radius - place[2], time, name)
+        findings["penetration"].see(contact.radius - task.height(place), time, name)
     for contact in task.robot.contacts:
         if contact not in held:
             anchors.pop(contact.name, None)
-            findings["penetration"].see(task.floor + contact.radius - places[contact.name][2], time, contact.name)
+            findings["penetration"].see(contact.radius - task.height(places[contact.name]), time, contact.name)
 
 
 def _see_landing(task, motion, node, findings) -> None:

@@ -55,7 +55,8 @@ class MotionTask:
     robot: Robot
     start: np.ndarray
     friction: float
-    floor: float          # height of the floor [m]
+    floor: float          # height of the ground over the world's origin [m]
+    normal: np.ndarray    # of the ground, unit length
     clearance: float      # [m]
     phases: tuple[Phase, ...]
     goals: tuple[Goal, ...]
@@ -68,6 +69,17 @@ class MotionTask:
     @property
     def intervals(self) -> int:
         return sum(phase.intervals for phase in self.phases)
+
+    def height(self, place: np.ndarray) -> float:
+        """Distance of a point from the ground, negative inside it [m]."""
+        return float(self.normal @ (place - [0.0, 0.0, self.floor]))
+
+    @property
+    def ground_axes(self) -> np.ndarray:
+        """Columns: x turned into the plane, across, normal; the world's axes on a level floor."""
+        along = np.array([1.0, 0.0, 0.0]) - self.normal[0] * self.normal
+        along /= np.linalg.norm(along)
+        return np.column_stack([along, np.cross(self.normal, along), self.normal])
 
     def free_durations(self) -> bool:
         return any(phase.duration_range[0] < phase.duration_range[1] for phase in self.phases)
@@ -172,20 +184,45 @@ def _read_cost(table: dict, robot: Robot, start: np.ndarray, first_contacts: fro
                 time=table.get("time", 0.0))
 
 
+def _read_ground(table: dict, where: str) -> tuple[dict, np.ndarray, np.ndarray]:
+    """The one surface, its unit normal and its point."""
+    surfaces = table.get("surface", [{"name": "floor"}])
+    if len(surfaces) > 1 or "patch_m" in surfaces[0]:
+        raise SystemExit(f"bench: {where}: only one surface, without an edge, is translated for the peers")
+    normal = np.array(surfaces[0].get("normal", [0, 0, 1]), dtype=float)
+    return surfaces[0], normal / np.linalg.norm(normal), np.array(surfaces[0].get("point_m", [0, 0, 0]), dtype=float)
+
+
+def _put_on(normal: np.ndarray, point: np.ndarray, level: np.ndarray) -> np.ndarray:
+    """A posture on level ground, turned the shortest way to a slope; what was at the origin comes to `point`."""
+    q, turn = level.copy(), pin.Quaternion.FromTwoVectors(np.array([0.0, 0.0, 1.0]), normal)
+    q[:3] = point + turn.matrix() @ level[:3]
+    q[3:7] = (turn * pin.Quaternion(level[3:7])).coeffs()
+    return q
+
+
+def parse_task(table: dict, folder: pathlib.Path, package_dirs: list[pathlib.Path], where: str) -> MotionTask:
+    """`folder`: that paths are relative to. `where`: for messages."""
+    _known(table, {"name", "robot", "surface", "start", "phase", "goal", "cost", "swing_clearance_m", "tracking", "simulation"}, where)
+    robot = read_robot(folder / table["robot"], package_dirs)
+    ground, normal, point = _read_ground(table, where)
+    height = robot.nominal[2]
+    phases = [_read_phase(phase, i, robot, where) for i, phase in enumerate(table["phase"])]
+
+    placed = table.get("start", {})
+    _known(placed, {"on"}, f"{where}: start")
+    if normal[2] < 1.0 and ("on" not in placed or any(phase.contacts != phases[0].contacts for phase in phases)):
+        raise SystemExit(f"bench: {where}: of tasks that do not begin with [start] on = their slope, or where contacts open, "
+                         "only those on a level floor are translated for the peers")
+    start = robot.nominal + np.append([0.0, 0.0, point[2]], np.zeros(robot.model.nq - 3))
+    if placed:
+        start = _put_on(normal, point, robot.nominal)
+    goals = tuple(_read_goal(goal, phases, start, where) for goal in table.get("goal", []))
+    return MotionTask(table.get("name", where), robot, start, ground.get("friction", 0.5), float(normal @ point / normal[2]), normal,
+                      table.get("swing_clearance_m", CLEARANCE * height), tuple(phases), goals,
+                      _read_cost(table.get("cost", {}), robot, start, phases[0].contacts, where))
+
+
 def read_task(task_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> MotionTask:
     table = tomllib.loads(task_file.read_text())
-    where = str(task_file)
-    _known(table, {"name", "robot", "surface", "phase", "goal", "cost", "swing_clearance_m", "tracking", "simulation"}, where)
-    robot = read_robot(task_file.parent / table["robot"], package_dirs)
-    surfaces = table.get("surface", [{"name": "floor"}])
-    if len(surfaces) > 1 or surfaces[0].get("normal", [0, 0, 1]) != [0, 0, 1] or "patch_m" in surfaces[0]:
-        raise SystemExit(f"bench: {where}: only one level floor without an edge is translated for the peers")
-    floor = surfaces[0].get("point_m", [0, 0, 0])[2]
-
-    start = robot.nominal.copy()
-    start[2] += floor
-    phases = [_read_phase(phase, i, robot, where) for i, phase in enumerate(table["phase"])]
-    goals = tuple(_read_goal(goal, phases, start, where) for goal in table.get("goal", []))
-    return MotionTask(table.get("name", task_file.stem), robot, start, surfaces[0].get("friction", 0.5), floor,
-                      table.get("swing_clearance_m", CLEARANCE * (start[2] - floor)), tuple(phases), goals,
-                      _read_cost(table.get("cost", {}), robot, start, phases[0].contacts, where))
+    return parse_task({"name": task_file.stem, **table}, task_file.parent, package_dirs, str(task_file))

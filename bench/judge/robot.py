@@ -21,7 +21,7 @@ class Contact:
 class Robot:
     model: pin.Model
     contacts: tuple[Contact, ...]
-    nominal: np.ndarray          # configuration at rest, base over the origin, lowest contact ball on z = 0
+    nominal: np.ndarray          # configuration at rest, mean of the contacts over the origin, lowest ball on z = 0
     torque_limit: np.ndarray     # both ways, one a joint [N m]
     torque_curves: dict[int, BSpline] = field(default_factory=dict)  # joint -> limit over its position
 
@@ -57,6 +57,17 @@ def limit_curve(table: list[list[float]]) -> BSpline:
     return make_interp_spline(x, limit, k=3, t=[x[0]] * 4 + inner + [x[-1]] * 4)
 
 
+def contact_frame(model: pin.Model, contact: dict) -> int:
+    """That of the URDF, or where the ball is beside it one of its own, added to the model."""
+    frame = model.getFrameId(contact["frame"])
+    offset = np.array(contact.get("offset_m", [0, 0, 0]), dtype=float)
+    if not offset.any():
+        return frame
+    parent = model.frames[frame]
+    return model.addFrame(pin.Frame(f"contact {contact['name']}", parent.parentJoint, frame,
+                                    parent.placement * pin.SE3(np.eye(3), offset), pin.FrameType.OP_FRAME))
+
+
 def find_urdf(text: str, robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> pathlib.Path:
     if not text.startswith("package://"):
         return robot_file.parent / text
@@ -72,24 +83,28 @@ def read_robot(robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> Ro
     urdf = find_urdf(table["urdf"], robot_file, package_dirs)
     model = pin.buildModelFromUrdf(str(urdf), pin.JointModelFreeFlyer())
     joints = list(model.names)[2:]
-    for contact in table["contact"]:
-        if contact.get("offset_m", [0, 0, 0]) != [0, 0, 0]:
-            raise SystemExit(f"bench: {robot_file}: contact {contact['name']} has an offset_m, which is not translated")
-    contacts = tuple(Contact(c["name"], model.getFrameId(c["frame"]), c.get("radius_m", 0.0)) for c in table["contact"])
+    contacts = tuple(Contact(c["name"], contact_frame(model, c), c.get("radius_m", 0.0)) for c in table["contact"])
 
     torque_limit, curves = np.array(model.effortLimit[6:]), {}
+    lower, upper, speed = (np.array(limit) for limit in (model.lowerPositionLimit, model.upperPositionLimit, model.velocityLimit))
     for joint, limits in table.get("limits", {}).items():
         j = joints.index(joint)
         torque_limit[j] = limits.get("torque_Nm", torque_limit[j])
+        lower[7 + j], upper[7 + j] = limits.get("position_rad", (lower[7 + j], upper[7 + j]))
+        speed[6 + j] = limits.get("velocity_radps", speed[6 + j])
         if "torque_over_position" in limits:
             curves[j] = limit_curve(limits["torque_over_position"])
-        if unknown := set(limits) - {"torque_Nm", "torque_over_position"}:
+        if unknown := set(limits) - {"torque_Nm", "position_rad", "velocity_radps", "torque_over_position"}:
             raise SystemExit(f"bench: {robot_file}: limits.{joint}: {', '.join(unknown)} is not translated")
+    model.lowerPositionLimit, model.upperPositionLimit, model.velocityLimit = lower, upper, speed
 
+    if unknown := set(table["nominal"]) - {"joints"}:
+        raise SystemExit(f"bench: {robot_file}: nominal: {', '.join(unknown)} is not translated")
     q = pin.neutral(model)
     for joint, value in table["nominal"]["joints"].items():
         q[7 + joints.index(joint)] = value
     robot = Robot(model, contacts, q, torque_limit, curves)
     places = robot.places(q)
+    q[:2] = -np.mean([places[contact.name][:2] for contact in contacts], axis=0)
     q[2] = -min(places[contact.name][2] - contact.radius for contact in contacts)
     return robot

@@ -1,7 +1,11 @@
 """Records: one solver on one task and mesh, timed and judged, as a flat dictionary that is one JSON line."""
+import math
 import multiprocessing
 import pathlib
+import resource
+import signal
 import statistics
+from collections.abc import Callable
 
 import numpy as np
 
@@ -15,7 +19,7 @@ def failure(kind: str, task: str, solver: str, label: str, why: str, **more) -> 
     return {"kind": kind, "task": task, "solver": solver, "label": label, "failed": why, **more}
 
 
-def _judged(verdict: Verdict) -> dict:
+def judged(verdict: Verdict) -> dict:
     name, worst = verdict.worst
     return {"error": verdict.error, "error_per_second": verdict.error_per_second, "cost": verdict.cost,
             "keeps_task": verdict.worst_share <= 1.0,
@@ -30,10 +34,12 @@ def _timed(seconds: list[float], motion_seconds: float, node_iterations: int) ->
             "us_per_node_iteration": 1e6 * median / max(1, node_iterations), "ratio_to_motion": median / motion_seconds}
 
 
-def _peer_record(kind: str, task: MotionTask, solver: str, step: float, repetitions: int, patience: float) -> dict:
-    """Without bounds on the joints; with them where the motion would break them, since they cost iterations."""
+def peer_record(kind: str, task: MotionTask, solver: str, step: float, repetitions: int = 1, patience: float = 0.0,
+                time_limit: float = math.inf, anchored: bool = False) -> dict:
+    """Without bounds on the joints; with them where the motion would break them, since they cost iterations. `time_limit`: of each
+    solve, after which its last iterate is judged."""
     for bounds in (False, True):
-        run = solve(solver, task, step, bounds, repetitions, patience)
+        run = solve(solver, task, step, bounds, repetitions, patience, time_limit, anchored)
         verdict = judge(task, run.motion)
         broken = [name for name in ("joint position", "joint velocity")
                   if verdict.findings[name].value > verdict.findings[name].limit]
@@ -42,31 +48,40 @@ def _peer_record(kind: str, task: MotionTask, solver: str, step: float, repetiti
     return {"kind": kind, "task": task.name, "solver": solver, "label": PEERS[solver].label, "step_s": step,
             "intervals": run.nodes - 1, "nodes": run.nodes, "iterations": run.iterations, "converged": run.converged,
             "joint_bounds": bounds, "clock": "cpu", **_timed(run.seconds, task.duration, run.iterations * run.nodes),
-            **_judged(verdict)}
+            **judged(verdict)}
+
+
+class NoResult(RuntimeError):
+    """A process that took too long, or stopped without a word."""
+
+
+def in_own_process(work: Callable[[], dict], seconds: float) -> dict:
+    """A crash or a solver without an end takes that process with it, and not the rest. It gets so many seconds of CPU time."""
+    context = multiprocessing.get_context("fork")
+    receiver, sender = context.Pipe(duplex=False)
+
+    def run() -> None:
+        resource.setrlimit(resource.RLIMIT_CPU, (math.ceil(seconds), resource.RLIM_INFINITY))
+        sender.send(work())
+
+    process = context.Process(target=run)
+    process.start()
+    sender.close()
+    try:
+        found = receiver.recv()
+    except EOFError:
+        process.join()
+        raise NoResult("time limit" if process.exitcode == -signal.SIGXCPU else "stopped without a result") from None
+    process.join()
+    return found
 
 
 def measure_peer(kind: str, task: MotionTask, solver: str, step: float, repetitions: int, patience: float,
                  time_limit: float) -> dict:
-    """In a process of its own, which a crash or a solver without an end takes with it, and not the rest."""
-    context = multiprocessing.get_context("fork")
-    receiver, sender = context.Pipe(duplex=False)
-
-    def work() -> None:
-        sender.send(_peer_record(kind, task, solver, step, repetitions, patience))
-
-    process = context.Process(target=work)
-    process.start()
-    sender.close()
     try:
-        if receiver.poll(2 * time_limit + 2 * patience):
-            return receiver.recv()
-        why = "time limit"
-    except EOFError:
-        why = "stopped without a result"
-    finally:
-        process.kill()
-        process.join()
-    return failure(kind, task.name, solver, PEERS[solver].label, why, step_s=step)
+        return in_own_process(lambda: peer_record(kind, task, solver, step, repetitions, patience), 2 * time_limit + 2 * patience)
+    except NoResult as why:
+        return failure(kind, task.name, solver, PEERS[solver].label, str(why), step_s=step)
 
 
 def measure_prowl(kind: str, command: ProwlCommand, task: MotionTask, task_file: pathlib.Path, solver: str,
@@ -87,6 +102,6 @@ def measure_prowl(kind: str, command: ProwlCommand, task: MotionTask, task_file:
             "nodes": len(run.motion.time), "iterations": sum(level["iterations"] for level in levels),
             "iterations_by_mesh": [level["iterations"] for level in run.levels],
             "after_coarser_meshes": len(run.levels) > 1, "converged": run.converged, "clock": run.clock, "split_s": run.split,
-            **_timed(seconds, float(np.sum(run.durations)), node_iterations), **_judged(verdict),
+            **_timed(seconds, float(np.sum(run.durations)), node_iterations), **judged(verdict),
             "threads": threads, "wall_seconds": statistics.median(run.wall_seconds), "wall_seconds_min": min(run.wall_seconds),
             "wall_seconds_max": max(run.wall_seconds), "grade": run.grade, "certificate_reintegration": run.reintegration}

@@ -1,4 +1,5 @@
 """The peers' solvers with the settings that they are measured with."""
+import math
 import time
 from dataclasses import dataclass
 
@@ -49,19 +50,42 @@ def _configure(name: str, solver) -> None:
         solver.th_stop = 1e-5
 
 
-def solve(name: str, task: MotionTask, step: float, joint_bounds: bool, repetitions: int, patience: float) -> PeerRun:
-    """The motion of one peer; repeated for the clock until all took longer than `patience` [s] together."""
+class OutOfTime(Exception):
+    pass
+
+
+def _watch(name: str, seconds: float):
+    """A callback that ends the solve after the iteration in which its time is over; the solver keeps its last iterate."""
+    class Watch(mim_solvers.CallbackAbstract if name in ("sqp", "csqp") else crocoddyl.CallbackAbstract):
+        end = time.process_time() + seconds
+
+        def __call__(self, *_) -> None:
+            if time.process_time() > self.end:
+                raise OutOfTime
+
+    return Watch()
+
+
+def solve(name: str, task: MotionTask, step: float, joint_bounds: bool, repetitions: int = 1, patience: float = 0.0,
+          time_limit: float = math.inf, anchored: bool = False) -> PeerRun:
+    """The motion of one peer; repeated for the clock until all took longer than `patience` [s] together. `time_limit`: of each
+    solve, CPU time [s]."""
     peer = PEERS[name]
-    shooting = ShootingProblem(task, step, peer.inverse, peer.hard, joint_bounds)
+    shooting = ShootingProblem(task, step, peer.inverse, peer.hard, joint_bounds, anchored)
     shooting.problem.nthreads = 1
     states, inputs = shooting.guess()
     solver = peer.solver(shooting.problem)
     _configure(name, solver)
 
     def run() -> bool:
-        if name in ("sqp", "csqp"):
-            return bool(solver.solve(states, inputs, MAX_ITERATIONS, False))
-        return bool(solver.solve(states, inputs, MAX_ITERATIONS, False, 1e-7 if peer.inverse else 1e-1))
+        if math.isfinite(time_limit):
+            solver.setCallbacks([_watch(name, time_limit)])
+        try:
+            if name in ("sqp", "csqp"):
+                return bool(solver.solve(states, inputs, MAX_ITERATIONS, False))
+            return bool(solver.solve(states, inputs, MAX_ITERATIONS, False, 1e-7 if peer.inverse else 1e-1))
+        except OutOfTime:
+            return False
 
     seconds = []
     while not seconds or (len(seconds) < repetitions and sum(seconds) < patience):

@@ -10,6 +10,7 @@ import shutil
 import sys
 
 from judge.motion_task import MotionTask, read_task
+from peers.environment import package_dirs
 from peers.measure import failure, measure_peer, measure_prowl
 from peers.mesh_search import coarsest_mesh
 from peers.options import ROOT, read_options
@@ -33,9 +34,7 @@ def finite(value):
 class Benchmark:
     def __init__(self, options, cores: frozenset[int]):
         self.options, self.records, self.cores = options, [], cores
-        wheels = [ROOT / ".venv", options.environment]
-        self.packages = [*options.package_dir,
-                         *(path for folder in wheels for path in folder.glob("lib/python3*/site-packages/cmeel.prefix/share"))]
+        self.packages = [*options.package_dir, *package_dirs(options.environment)]
         self.prowl = ProwlCommand(options.prowl, self.packages, options.time_limit)
         known = self.prowl.solvers()
         self.solvers = options.solvers if options.solvers is not None else [name for name in known if name in ("riccati", "fatrop")]

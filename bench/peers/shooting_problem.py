@@ -10,6 +10,7 @@ import pinocchio as pin
 
 from judge.motion import Motion
 from judge.motion_task import Goal, MotionTask
+from judge.robot import Contact
 
 WORLD = pin.LOCAL_WORLD_ALIGNED
 PLACE, TURN, VELOCITY = 1e5, 1e5, 1e4   # penalties on what has to hold at one node: [1/m²], [1/rad²], [s²/m²]
@@ -46,14 +47,15 @@ def make_nodes(task: MotionTask, step: float) -> list[Node]:
 
 class ShootingProblem:
     """`inverse`: nodes with accelerations and forces as inputs. `hard`: cones, torque limits and clearances as constraints.
-    `joint_bounds`: joints are kept within their limits of position and velocity."""
+    `joint_bounds`: joints are kept within their limits of position and velocity. `anchored`: contacts that have held since the start
+    are pulled back to their places, with critical damping; else only their velocities are corrected."""
 
-    def __init__(self, task: MotionTask, step: float, inverse: bool, hard: bool, joint_bounds: bool):
-        self.task, self.inverse, self.hard, self.joint_bounds = task, inverse, hard, joint_bounds
+    def __init__(self, task: MotionTask, step: float, inverse: bool, hard: bool, joint_bounds: bool, anchored: bool = False):
+        self.task, self.inverse, self.hard, self.joint_bounds, self.anchored = task, inverse, hard, joint_bounds, anchored
         self.robot, self.model = task.robot, task.robot.model
         self.state = crocoddyl.StateMultibody(self.model)
         self.actuation = crocoddyl.ActuationModelFloatingBase(self.state)
-        self.start = np.concatenate([task.start, np.zeros(self.model.nv)])
+        self.start, self.places = np.concatenate([task.start, np.zeros(self.model.nv)]), self.robot.places(task.start)
         self.nodes = make_nodes(task, step)
         self.base = self.model.getFrameId(self.model.frames[2].name)  # the root link, which the free flyer moves
         models = [self._action(node) for node in self.nodes]
@@ -91,10 +93,8 @@ class ShootingProblem:
         costs = crocoddyl.CostModelSum(self.state, nu)
         constraints = crocoddyl.ConstraintModelManager(self.state, nu)
         contacts = crocoddyl.ContactModelMultiple(self.state, nu)
-        gains = np.array([0.0, min(DAMPING, 1.0 / node.step) if node.step else DAMPING])  # explicit steps bear 1 / step
         for contact in held:
-            contacts.addContact(contact.name, crocoddyl.ContactModel3D(
-                self.state, contact.frame, np.zeros(3), WORLD, nu, gains))
+            contacts.addContact(contact.name, self._contact(contact, node, nu))
         if node.step:
             self._add_running_cost(costs, nu, held)
             self._add_limits(node, held, costs, constraints, nu)
@@ -113,6 +113,13 @@ class ShootingProblem:
         if node.step and not self.inverse:
             action.u_lb, action.u_ub = -self.robot.torque_limit, self.robot.torque_limit  # BoxFDDP keeps them, FDDP does not
         return action
+
+    def _contact(self, contact: Contact, node: Node, nu: int):
+        damping = min(DAMPING, 1.0 / node.step) if node.step else DAMPING  # explicit steps bear 1 / step
+        place, stiffness = np.zeros(3), 0.0
+        if self.anchored and all(contact.name in phase.contacts for phase in self.task.phases[: node.phase + 1]):
+            place, stiffness = self.places[contact.name], damping**2 / 4
+        return crocoddyl.ContactModel3D(self.state, contact.frame, place, WORLD, nu, np.array([stiffness, damping]))
 
     def _add(self, costs, name: str, residual, weights: np.ndarray, scale: float = 1.0) -> None:
         activation = crocoddyl.ActivationModelWeightedQuad(np.array(weights, dtype=float))
@@ -152,7 +159,7 @@ class ShootingProblem:
 
     def _add_limits(self, node: Node, held, costs, constraints, nu: int) -> None:
         for contact in held:
-            cone = crocoddyl.FrictionCone(np.eye(3), self.task.friction, 4, True)  # four planes inside the cone
+            cone = crocoddyl.FrictionCone(self.task.ground_axes, self.task.friction, 4, True)  # four planes inside the cone
             self._bound(costs, constraints, f"cone {contact.name}", crocoddyl.ResidualModelContactFrictionCone(
                 self.state, contact.frame, cone, nu, not self.inverse), cone.lb, cone.ub, CONE, False)
         for contact in self.robot.contacts:
