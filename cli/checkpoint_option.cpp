@@ -2,12 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "output.hpp"
 #include "prowl/error.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
 #include "shared_options.hpp"
 
 namespace prowl::cli {
+
+namespace fs = std::filesystem;
 
 void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
   CLI::Option* const folder =
@@ -20,9 +24,25 @@ void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
       ->type_name("DIR");
 }
 
-void resume(const CheckpointArguments& arguments, const PackageSearch& search, bool is_refined, Task& task,
-            PlanOptions& options) {
-  if (arguments.resume.empty()) return;
+namespace {
+
+/// Without symbolic links, `.` and `..`, or a slash at the end.
+fs::path place(const fs::path& folder) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(fs::absolute(folder, error), error);
+  if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
+  return path.has_filename() ? path : path.parent_path();
+}
+
+bool is_in(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+}  // namespace
+
+std::optional<PlanRecord> resume(const CheckpointArguments& arguments, const PackageSearch& search, bool is_refined, Task& task,
+                                 PlanOptions& options) {
+  if (arguments.resume.empty()) return std::nullopt;
   PlanRecord record = read_plan(arguments.resume, search);
   std::vector<MotionProblem> meshes;
   if (!is_refined) meshes = options.coarse_first ? mesh_levels(task.problem) : std::vector{task.problem};
@@ -31,17 +51,30 @@ void resume(const CheckpointArguments& arguments, const PackageSearch& search, b
   } catch (const InputError& error) {
     throw InputError(fmt::format("--resume {}: {}", arguments.resume, error.what()));
   }
-  if (is_refined) task.problem = std::move(record.task.problem);
-  options.start_from = std::move(record.plan.trajectory);
+  if (is_refined) task.problem = record.task.problem;
+  options.start_from = record.plan.trajectory;
   options.resume = true;
+  return record;
 }
 
 std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& arguments, const std::filesystem::path& out,
                                               PlanRecord so_far, PlanOptions& options) {
   if (arguments.folder.empty()) return nullptr;
-  const auto place = [](const std::filesystem::path& path) { return std::filesystem::weakly_canonical(std::filesystem::absolute(path) / ""); };
-  if (place(arguments.folder) == place(out)) {
+  const fs::path folder = place(arguments.folder);
+  if (folder == place(out)) {
     throw InputError(fmt::format("--checkpoint {}: is where the plan goes, and may hold an earlier one; need another folder", arguments.folder));
+  }
+  if (is_in(folder, place(out)) || is_in(place(out), folder)) {
+    throw InputError(fmt::format("--checkpoint {}: the plan goes to {}, and each takes its folder's place as a whole; need a folder "
+                                 "beside it", arguments.folder, out.string()));
+  }
+  if (holds_good_plan(folder)) {
+    throw InputError(fmt::format("--checkpoint {}: holds a plan that passed; need another folder", arguments.folder));
+  }
+  const bool is_resumed = !arguments.resume.empty() && place(arguments.resume) == folder;
+  if (!is_resumed) so_far.plan = {};
+  if (!is_resumed && fs::exists(folder / "plan.json")) {
+    print_message(fmt::format("note: replaces what is in {}; --resume would go on from it\n", arguments.folder));
   }
   auto checkpoint = std::make_unique<Checkpoint>(arguments.folder, arguments.every, std::move(so_far));
   checkpoint->watch(options, [](const std::string& why) {

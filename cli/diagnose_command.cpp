@@ -28,7 +28,8 @@ struct DiagnoseArguments {
 
 ExitStatus exit_status(const Diagnosis& diagnosis) {
   if (diagnosis.solvable) return diagnosis.certificate.passed ? kPassed : kCertificateFailed;
-  return kNotSolved;
+  const bool is_answered = !diagnosis.reasons.empty() || !diagnosis.changes.empty() || !diagnosis.breaches.empty();
+  return diagnosis.out_of_time && !is_answered ? kLimit : kNotSolved;
 }
 
 int run_diagnose(const DiagnoseArguments& arguments) {
@@ -66,7 +67,8 @@ void add_diagnose_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb, {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
              "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, whether or not a\n"
-             "cause was found; 7 there is a plan, but its certificate fails; 130 interrupted.");
+             "cause was found; 6 the time was up before anything was; 7 there is a plan, but its certificate\n"
+             "fails; 130 interrupted.");
   verb->callback([arguments, &status] { status = run_diagnose(*arguments); });
 }
 

@@ -132,10 +132,15 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.warm_start.empty()) {
     options.start_from = read_start(arguments, task.problem);
   }
-  resume(arguments.checkpoint, package_search(arguments.package_dirs), arguments.refine.has_value(), task, options);
+  std::optional<PlanRecord> resumed =
+      resume(arguments.checkpoint, package_search(arguments.package_dirs), arguments.refine.has_value(), task, options);
   const std::string start = arguments.warm_start + arguments.checkpoint.resume;  // one of them, or none
-  const auto checkpoints = write_checkpoints(
-      arguments.checkpoint, out, {.task = task, .plan = {}, .versions = versions(), .warm_start = start}, options);
+  PlanRecord so_far{.task = task, .plan = {}, .versions = versions(), .warm_start = start};
+  if (resumed) {
+    so_far.task.problem = std::move(resumed->task.problem);
+    so_far.plan = std::move(resumed->plan);
+  }
+  const auto checkpoints = write_checkpoints(arguments.checkpoint, out, std::move(so_far), options);
   bool was_interrupted = false;
   const auto solver = make_solver(arguments.solver);
   Plan plan = arguments.refine ? make_refined(task.problem, *solver, options, *arguments.refine, was_interrupted)
@@ -147,8 +152,8 @@ int run_plan(const PlanArguments& arguments) {
   if (holds_good_plan(out))
     print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
   write_plan(out, record, arguments.step);
-  if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
+  if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   if (status == kNotSolved || status == kLimit) {
     print_message(fmt::format("why, and what would change that: prowl diagnose {}\n", arguments.task));

@@ -70,8 +70,13 @@ def make(broken: dict, prowl: Path, folder: Path) -> Path:
     return folder / "task.toml"
 
 
+def names(cause: dict) -> list[str]:
+    """Several joints are one subject; a goal's has a comma, too."""
+    return cause["subject"].split(", ") if cause["kind"] in ("torque", "joint_velocity", "joint_position") else [cause["subject"]]
+
+
 def is_named(broken: dict, diagnosis: dict) -> bool:
-    """Whether the first cause of the diagnosis is one of those that are true."""
+    """Whether the first cause of the diagnosis is one of those that are true, and each joint that it names."""
     message = diagnosis.get("error", {}).get("message", "")
     cause = diagnosis.get("cause") or {}
     for true in broken["causes"]:
@@ -79,6 +84,6 @@ def is_named(broken: dict, diagnosis: dict) -> bool:
             if re.search(true["message"], message):
                 return True
         elif cause.get("kind") == true["kind"] and true.get("phase", cause["phase"]) == cause["phase"] \
-                and re.search(true.get("subject", ""), cause["subject"]):
+                and all(re.search(true.get("subject", ""), name) for name in names(cause)):
             return True
     return False

@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/motion/contact_schedule.hpp"
-#include "prowl/trajectory/state_scale.hpp"
+#include "prowl/transcription/motion_limit.hpp"
 
 namespace prowl {
 
@@ -37,7 +38,7 @@ constexpr double kWeightOfAllTimes = 3.0;
 
 Knob friction_knob(const MotionProblem& problem, int surface) {
   const Surface& one = problem.surfaces[static_cast<std::size_t>(surface)];
-  return {.kind = "friction", .subject = one.name, .most = std::log(std::max(kMostFriction / one.friction, 1.3)),
+  return {.kind = "friction", .subject = one.name, .most = std::log(kMostFriction / one.friction),
           .unit = "",
           .value = [&one](double a) { return one.friction * std::exp(a); },
           .problem = [&problem, surface](double a) {
@@ -62,7 +63,7 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
   };
   return {.kind = "duration", .phase = phase,
           .subject = phase < 0 ? "" : problem.phases[static_cast<std::size_t>(phase)].name, .most = kMost,
-          .weight = phase < 0 ? kWeightOfAllTimes : kWeightOfTime, .unit = "s",
+          .is_asked = true, .weight = phase < 0 ? kWeightOfAllTimes : kWeightOfTime, .unit = "s",
           .value = [&problem, phase, sign](double a) {
             double time = 0.0;
             for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
@@ -94,17 +95,16 @@ void widen(JointLimits& limits, double lower, double upper, double factor) {
   limits.position_upper = std::min(*limits.position_upper, std::max(upper, limits.torque_over_position.back().first));
 }
 
-MotionProblem with_joints(const MotionProblem& problem, const std::string& kind, const std::vector<int>& joints,
-                          double factor) {
+MotionProblem with_joints(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints, double factor) {
   const RobotModel& robot = problem.robot;
   RobotDescription description = robot.description();
   for (const int j : joints) {
     JointLimits& limits = description.limits[robot.joint_names()[static_cast<std::size_t>(j)]];
-    if (kind == "torque") {
+    if (kind == LimitKind::torque) {
       if (std::isfinite(robot.torque_limit()(j))) limits.torque = factor * robot.torque_limit()(j);
       limits.torque_over_position = times(limits.torque_over_position, factor);
       limits.torque_over_velocity = times(limits.torque_over_velocity, factor);
-    } else if (kind == "joint_velocity") {
+    } else if (kind == LimitKind::joint_velocity) {
       // A torque over the velocity is known up to the limit only, and stays as it is there.
       if (limits.torque_over_velocity.empty()) limits.velocity = factor * robot.velocity_limit()(j);
     } else {
@@ -135,36 +135,43 @@ BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, d
   return goal;
 }
 
-/// The entry of a goal that is farthest away from the start, and how far; length and angle count alike.
-std::pair<std::string, double> farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
+/// An entry of a goal, and how far it is from the start, in its unit.
+struct Away {
+  MotionLimit entry;
+  double off = 0.0;
+};
+
+/// The entry that is farthest away, each measured by its size. None: off is 0.
+Away farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
+  const RobotModel& robot = problem.robot;
   const VectorXd& start = problem.start_configuration();
-  std::pair<std::string, double> most{"", 0.0};
-  const auto look = [&](const std::string& name, double lower, double upper) {
+  Away most;
+  const auto look = [&most](const MotionLimit& entry, double lower, double upper) {
     const double off = lower > 0.0 ? lower : upper < 0.0 ? upper : 0.0;
-    if (std::isfinite(off) && std::abs(off) > std::abs(most.second) + 1e-9) most = {name, off};
+    if (std::isfinite(off) && std::abs(off) / entry.size > std::abs(most.off) / most.entry.size + 1e-9) most = {entry, off};
   };
-  for (int i = 0; i < 3; ++i) {
-    const double shift = goal.q_ref(i) - start(i);
-    look(coordinate_name(problem.robot, i), shift + goal.configuration_lower(i), shift + goal.configuration_upper(i));
+  for (int i = 0; i < robot.nv(); ++i) {
+    if (i >= 3 && i < 6) continue;
+    const Index at = i < 3 ? i : i + 1;  // a configuration has a quaternion where its tangent has a rotation
+    const double shift = goal.q_ref(at) - start(at);
+    look(limit_of_goal(robot, goal.name, i, false), shift + goal.configuration_lower(i), shift + goal.configuration_upper(i));
   }
   if (goal.configuration_lower.segment<3>(3).allFinite()) {
+    MotionLimit rotation = limit_of_goal(robot, goal.name, 3, false);
+    rotation.subject = goal.name + ", rotation";
     const double turn = so3::log(base_rotation(start).transpose() * base_rotation(goal.q_ref)).norm();
-    look("rotation", turn, turn);
+    look(rotation, turn, turn);
   }
-  for (int j = 0; j < problem.robot.nu(); ++j) {
-    const double shift = goal.q_ref(7 + j) - start(7 + j);
-    look(coordinate_name(problem.robot, 6 + j), shift + goal.configuration_lower(6 + j), shift + goal.configuration_upper(6 + j));
+  for (int i = 0; i < robot.nv(); ++i) {
+    look(limit_of_goal(robot, goal.name, i, true), goal.velocity_lower(i), goal.velocity_upper(i));
   }
-  for (int i = 0; i < problem.robot.nv(); ++i) look("velocity", goal.velocity_lower(i), goal.velocity_upper(i));
   return most;
 }
 
-Knob goal_knob(const MotionProblem& problem, std::size_t condition, const std::string& entry, double away) {
-  const BoundaryCondition& goal = problem.boundary_conditions[condition];
-  const std::string unit = entry.starts_with("base") ? "m" : entry == "velocity" ? "m/s" : "rad";
-  return {.kind = "goal", .phase = goal.at.phase, .subject = fmt::format("{}, {}", goal.name, entry), .most = kMost,
-          .weight = kWeightOfWay, .unit = unit,
-          .value = [away](double a) { return away * std::exp(-a); },
+Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& away) {
+  return {.kind = "goal", .phase = problem.boundary_conditions[condition].at.phase, .subject = away.entry.subject, .most = kMost,
+          .is_asked = true, .weight = kWeightOfWay, .unit = away.entry.unit,
+          .value = [off = away.off](double a) { return off * std::exp(-a); },
           .problem = [&problem, condition](double a) {
             MotionProblem changed = problem;
             changed.boundary_conditions[condition] = nearer(problem, problem.boundary_conditions[condition], std::exp(-a));
@@ -180,7 +187,7 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
   const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // on the surface, as the place is
   return {.kind = "place", .phase = phase,
           .subject = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name, .most = kMost,
-          .weight = kWeightOfWay, .unit = "m",
+          .is_asked = true, .weight = kWeightOfWay, .unit = "m",
           .value = [root, to](double a) { return std::exp(-a) * (to - root).norm(); },
           .problem = [&problem, phase, held, root, to](double a) {
             MotionProblem changed = problem;
@@ -197,28 +204,28 @@ void add_places(const MotionProblem& problem, std::vector<Knob>& knobs) {
     const auto& contacts = problem.phases[static_cast<std::size_t>(p)].contacts;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (!contacts[i].place || !schedule.lands(p, static_cast<int>(i))) continue;
-      Vector3d from = terms.contact_position(contacts[i].contact);
+      std::optional<Vector3d> from = terms.contact_position(contacts[i].contact);
       for (const Stance& stance : schedule.stances()) {
-        if (stance.contact == contacts[i].contact && stance.last_phase < p && stance.place) from = *stance.place;
+        if (stance.contact == contacts[i].contact && stance.last_phase < p && stance.lands()) from = stance.place;
       }
-      knobs.push_back(place_knob(problem, p, i, from));
+      if (from) knobs.push_back(place_knob(problem, p, i, *from));
     }
   }
 }
 
 }  // namespace
 
-Knob joint_knob(const MotionProblem& problem, const std::string& kind, const std::vector<int>& joints) {
+Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints) {
   const RobotModel& robot = problem.robot;
   const int first = joints.front();
-  const double value = kind == "torque"           ? robot.torque_limit()(first)
-                       : kind == "joint_velocity" ? robot.velocity_limit()(first)
-                                                  : robot.position_upper()(first) - robot.position_lower()(first);
+  const double value = kind == LimitKind::torque           ? robot.torque_limit()(first)
+                       : kind == LimitKind::joint_velocity ? robot.velocity_limit()(first)
+                                                           : robot.position_upper()(first) - robot.position_lower()(first);
   std::vector<std::string> names;
   for (const int j : joints) names.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
   const bool all = static_cast<int>(joints.size()) == robot.nu();
-  return {.kind = kind, .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMost,
-          .unit = kind == "torque" ? "N m" : kind == "joint_velocity" ? "rad/s" : "rad",
+  return {.kind = to_string(kind), .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMost,
+          .unit = limit_of_joint(robot, kind, first).unit,
           .value = [value](double a) { return value * std::exp(a); },
           .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); }};
 }
@@ -229,15 +236,17 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   for (const Phase& phase : problem.phases) {
     for (const PhaseContact& contact : phase.contacts) surfaces.insert(contact.surface);
   }
-  for (const int surface : surfaces) knobs.push_back(friction_knob(problem, surface));
+  for (const int surface : surfaces) {
+    if (problem.surfaces[static_cast<std::size_t>(surface)].friction < kMostFriction) knobs.push_back(friction_knob(problem, surface));
+  }
   for (std::size_t c = 1; c < problem.boundary_conditions.size(); ++c) {
-    const auto [entry, away] = farthest(problem, problem.boundary_conditions[c]);
-    if (away != 0.0) knobs.push_back(goal_knob(problem, c, entry, away));
+    const Away away = farthest(problem, problem.boundary_conditions[c]);
+    if (away.off != 0.0) knobs.push_back(goal_knob(problem, c, away));
   }
   add_places(problem, knobs);
   std::vector<int> joints(static_cast<std::size_t>(problem.robot.nu()));
   std::iota(joints.begin(), joints.end(), 0);
-  for (const char* kind : {"torque", "joint_velocity", "joint_position"}) {
+  for (const LimitKind kind : {LimitKind::torque, LimitKind::joint_velocity, LimitKind::joint_position}) {
     knobs.push_back(joint_knob(problem, kind, joints));
   }
   const int phases = static_cast<int>(problem.phases.size());
@@ -248,7 +257,7 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   }
   if (phases > 1) knobs.push_back(duration_knob(problem, -1, 1.0));
   if (phases > 1 && problem.swing_clearance > 0.0) {
-    knobs.push_back({.kind = "clearance", .subject = "", .most = kMost, .weight = kWeightOfWay, .unit = "m",
+    knobs.push_back({.kind = "clearance", .subject = "", .most = kMost, .is_asked = true, .weight = kWeightOfWay, .unit = "m",
                      .value = [&problem](double a) { return problem.swing_clearance * std::exp(-a); },
                      .problem = [&problem](double a) {
                        MotionProblem changed = problem;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prowl/motion/motion_problem.hpp"
+#include "prowl/transcription/motion_limit.hpp"
 
 namespace prowl {
 
@@ -16,19 +17,20 @@ struct Knob {
   int phase = -1;       ///< that it is about; -1 for the whole motion
   std::string subject;  ///< surface, goal, contact, joint or phase; "" for all
   double most = 0.0;    ///< largest amount worth a try
+  bool is_asked = false;  ///< by the task (goal, place, clearance, duration); else a limit of the robot or the ground
   double weight = 1.0;  ///< amounts of different kinds are compared after multiplication with this
   std::string unit;
   std::function<double(double amount)> value;           ///< the number, in `unit`; of several the one that changes most
   std::function<MotionProblem(double amount)> problem;  ///< may throw InputError
 };
 
-/// All knobs that a problem has: friction of each surface in use; duration of each phase (of five or fewer), longer,
-/// and shorter on fewer than three contacts, and of all of them together; torque, velocity and position limits of all
-/// joints; each goal that is away from the start; each place that a contact has to land on; swing clearance. They refer
-/// to the problem, which must outlive them.
+/// All knobs that a problem has: friction of each surface in use, if below that of rubber on dry concrete; duration of
+/// each phase (of five or fewer), longer, and shorter on fewer than three contacts, and of all of them together; torque,
+/// velocity and position limits of all joints; each goal that is away from the start; each place that a contact has to
+/// land on, if it is known where it was before; swing clearance. They refer to the problem, which must outlive them.
 std::vector<Knob> knobs_of(const MotionProblem& problem);
 
 /// Those of limits of some joints only: LimitKind torque, joint_velocity or joint_position.
-Knob joint_knob(const MotionProblem& problem, const std::string& kind, const std::vector<int>& joints);
+Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints);
 
 }  // namespace prowl

@@ -93,37 +93,40 @@ double ChangeSearch::bisected(const Knob& knob, double too_little, double enough
   return enough;
 }
 
-std::vector<FoundChange> ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_seconds,
-                                                const std::function<void(const std::string&)>& on_step) const {
-  std::vector<FoundChange> found;
+ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_seconds,
+                                    const std::function<void(const std::string&)>& on_step) const {
+  ChangesFound result;
+  std::vector<FoundChange>& found = result.found;
   std::vector<bool> done(knobs.size(), false);
   double enough = std::numeric_limits<double>::infinity();  // of the smallest found, weighted
   const double end = seconds_left() - max_seconds;
-  const auto may_go_on = [&] { return this->may_go_on() && seconds_left() > end; };
   double before = 0.0;
-  for (double turned = kFirst; before < kNoMatch * enough && may_go_on(); turned *= kFurther) {
+  for (double turned = kFirst; before < kNoMatch * enough; turned *= kFurther) {
     bool any_left = false;
-    for (std::size_t i = 0; i < knobs.size() && may_go_on(); ++i) {
+    for (std::size_t i = 0; i < knobs.size(); ++i) {
       const Knob& knob = knobs[i];
       const double too_little = before / knob.weight, amount = std::min(turned / knob.weight, knob.most);
       if (done[i] || too_little >= knob.most) continue;
+      result.out_of_time = !may_go_on() || seconds_left() < end;
+      if (result.out_of_time) break;
       any_left = true;
       if (on_step) on_step(fmt::format("{} {} {:.3g} {}", knob.kind, knob.subject, knob.value(amount), knob.unit));
+      if (before == 0.0) ++result.tried;
       if (!solves(knob, amount)) continue;
       done[i] = true;
       found.push_back({knob, bisected(knob, too_little, amount)});
       enough = std::min(enough, found.back().weighted());
     }
-    if (!any_left) break;
+    if (!any_left || result.out_of_time) break;
     before = turned;
   }
   std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
   // What differs by less than bisections tell is equal, and a limit comes before what the task asks.
-  const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return one.knob.weight == 1.0; });
+  const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return !one.knob.is_asked; });
   if (first != found.end() && first->weighted() <= found.front().weighted() + kPrecision) {
     std::rotate(found.begin(), first, first + 1);
   }
-  return found;
+  return result;
 }
 
 }  // namespace prowl

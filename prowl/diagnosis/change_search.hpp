@@ -19,6 +19,12 @@ struct FoundChange {
   double weighted() const { return knob.weight * amount; }
 };
 
+struct ChangesFound {
+  std::vector<FoundChange> found;  ///< sorted by weighted amount
+  int tried = 0;                   ///< knobs that were turned
+  bool out_of_time = false;        ///< some were not, or not as far as they could have been
+};
+
 /// Looks for small changes that make a problem solvable, by solving it again and again on its mesh, until the time is
 /// up.
 class ChangeSearch {
@@ -40,9 +46,8 @@ class ChangeSearch {
 
   /// All knobs are turned a little, then further and further, each until its problem is solved; then between the last
   /// two amounts by bisection. Ends where what is left would be no match for the smallest, or after so many seconds.
-  /// Sorted by weighted amount.
-  std::vector<FoundChange> smallest(const std::vector<Knob>& knobs, double max_seconds,
-                                    const std::function<void(const std::string&)>& on_step) const;
+  ChangesFound smallest(const std::vector<Knob>& knobs, double max_seconds,
+                        const std::function<void(const std::string&)>& on_step) const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -22,16 +22,16 @@ namespace {
 /// Of the time that is left, what an elastic solve may take: it is an explanation, and the changes are the answer.
 constexpr double kElasticPart = 0.5;
 constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
-constexpr double kOwnPart = 0.1;  // of the time, for the task as it is: who asks knows that it has no plan
+constexpr double kOwnPart = 0.1;  // of the time, for a task that has no solution on one of its meshes
 constexpr int kElasticIterations = 500;
 constexpr double kElasticTolerance = 1e-5;  // a tenth of a thousandth of a weight or a limit
 
-bool is_of_joints(const std::string& kind) {
-  return kind == "torque" || kind == "joint_velocity" || kind == "joint_position";
+bool is_of_joints(LimitKind kind) {
+  return kind == LimitKind::torque || kind == LimitKind::joint_velocity || kind == LimitKind::joint_position;
 }
 
 /// What a breach of a joint's limit adds to; of a range, which widens on both sides, half of it.
-double limit_of_joint(const RobotModel& robot, LimitKind kind, int joint) {
+double value_of_limit(const RobotModel& robot, LimitKind kind, int joint) {
   if (kind == LimitKind::torque) return robot.torque_limit()(joint);
   if (kind == LimitKind::joint_velocity) return robot.velocity_limit()(joint);
   return 0.5 * (robot.position_upper()(joint) - robot.position_lower()(joint));
@@ -54,19 +54,18 @@ class Diagnoser {
 
   Diagnosis run() {
     result_.reasons = proofs_of_infeasibility(problem_);
-    if (find_failing_mesh() && solve_as_it_is()) return result_;
-    if (search_.interrupted()) return result_;
-    step("postures of the initial guess");
-    result_.hints = doubts(problem_, initial_guess(problem_, make_mesh(problem_)), elastic_);
-    const std::vector<Knob> knobs = knobs_of(coarse_);
-    result_.tried = static_cast<int>(knobs.size());
-    std::vector<FoundChange> found = search_.smallest(knobs, kSearchPart * search_.seconds_left(),
-                                                      [&](const std::string& what) { step("trying " + what); });
-    name(found);
-    narrow_down(found);
-    for (const FoundChange& change : found) result_.changes.push_back(as_change(change));
-    if (!found.empty()) prove(found.front());
-    result_.out_of_time = search_.seconds_left() <= 0.0;
+    if (result_.reasons.empty()) {
+      const bool is_solved = solves_all_meshes();
+      plan_as_it_is(is_solved ? 1.0 : kOwnPart);
+      if (result_.solvable || search_.interrupted()) return result_;
+      if (is_solved) {
+        result_.out_of_time = result_.status == SolveStatus::time_limit;
+        return result_;
+      }
+    } else {
+      result_.status = SolveStatus::infeasible;
+    }
+    look_for_changes();
     return result_;
   }
 
@@ -75,38 +74,49 @@ class Diagnoser {
     if (options_.on_step) options_.on_step(what);
   }
 
-  /// The coarsest mesh on which there is no solution: it costs least to look for changes there. The task's own if there
-  /// is none. False if a proof makes it pointless to solve the task as it is.
-  bool find_failing_mesh() {
-    coarse_ = on_search_mesh(problem_);
-    if (!result_.reasons.empty()) {
-      result_.status = SolveStatus::infeasible;
-      return false;
+  /// Whether there is a motion on the search mesh and on all finer ones of the task. Else `searched_` is on the coarsest
+  /// without: there it costs least to look for changes.
+  bool solves_all_meshes() {
+    std::vector<MotionProblem> meshes{searched_};
+    for (MotionProblem& level : mesh_levels(problem_)) {
+      if (count_intervals(level) > count_intervals(meshes.front())) meshes.push_back(std::move(level));
     }
-    std::vector<MotionProblem> levels = mesh_levels(problem_);
-    if (count_intervals(coarse_) < count_intervals(problem_)) levels.insert(levels.begin(), coarse_);
-    for (MotionProblem& level : levels) {
-      coarse_ = std::move(level);
-      step(fmt::format("solving as it is, {} intervals", count_intervals(coarse_)));
-      if (!search_.solves(coarse_)) break;
+    for (MotionProblem& mesh : meshes) {
+      searched_ = std::move(mesh);
+      step(fmt::format("solving as it is, {} intervals", count_intervals(searched_)));
+      if (!search_.solves(searched_)) return false;
     }
     return true;
   }
 
-  /// As prowl plan does; true if there is a plan.
-  bool solve_as_it_is() {
+  /// As prowl plan does, in a part of the time.
+  void plan_as_it_is(double part) {
     step("planning as it is");
     PlanOptions options{.solver = options_.solver};
     options.hint_solver = &elastic_;
-    options.solver.max_seconds = search_.seconds_of_solve(kOwnPart, options.solver.max_seconds);
+    options.solver.max_seconds = search_.seconds_of_solve(part, options.solver.max_seconds);
     const Plan plan = make_plan(problem_, solver_, options);
     result_.status = plan.result.status;
     result_.message = plan.result.message;
     result_.solvable = plan.result.status == SolveStatus::converged;
-    if (!result_.solvable) return false;
+    if (!result_.solvable) return;
     result_.certificate = plan.certificate;
     result_.hints = plan.hints;
-    return true;
+  }
+
+  void look_for_changes() {
+    result_.search_intervals = count_intervals(searched_);
+    step("postures of the initial guess");
+    result_.hints = doubts(problem_, initial_guess(problem_, make_mesh(problem_)), elastic_);
+    ChangesFound changes = search_.smallest(knobs_of(searched_), kSearchPart * search_.seconds_left(),
+                                            [&](const std::string& what) { step("trying " + what); });
+    std::vector<FoundChange>& found = changes.found;
+    result_.tried = changes.tried;
+    name(found);
+    narrow_down(found);
+    for (const FoundChange& change : found) result_.changes.push_back(as_change(change));
+    if (!found.empty()) prove(found.front());
+    result_.out_of_time = changes.out_of_time || search_.seconds_left() <= 0.0;
   }
 
   /// Reads where the limits give way of the kind that is to be changed; of all kinds if nothing is found to change, or
@@ -135,7 +145,7 @@ class Diagnoser {
     options.max_iterations = kElasticIterations;
     options.max_seconds = search_.seconds_of_solve(kElasticPart);
     try {
-      const ElasticResult elastic = elastic_solve(coarse_, elastic_, options, [&](const MotionLimit& limit) {
+      const ElasticResult elastic = elastic_solve(searched_, elastic_, options, [&](const MotionLimit& limit) {
         return kind.empty() || kind == to_string(limit.kind);
       });
       result_.elastic_status = elastic.status;
@@ -147,34 +157,42 @@ class Diagnoser {
 
   /// Joints that gave way are named, if no other has to.
   void narrow_down(std::vector<FoundChange>& found) {
-    if (found.empty() || !is_of_joints(found.front().knob.kind)) return;
+    if (found.empty()) return;
     FoundChange& smallest = found.front();
-    const std::vector<std::string>& names = coarse_.robot.joint_names();
+    const std::vector<std::string>& names = searched_.robot.joint_names();
+    LimitKind kind = LimitKind::friction;
     std::set<int> joints;
     double needed = 0.0;  // amount that brings each of them as far as the elastic solution went
     for (const Breach& breach : result_.breaches) {
-      if (to_string(breach.kind) != smallest.knob.kind) continue;
+      if (!is_of_joints(breach.kind) || to_string(breach.kind) != smallest.knob.kind) continue;
+      kind = breach.kind;
       const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
       joints.insert(joint);
-      needed = std::max(needed, std::log1p(breach.amount / limit_of_joint(coarse_.robot, breach.kind, joint)));
+      needed = std::max(needed, std::log1p(breach.amount / value_of_limit(searched_.robot, breach.kind, joint)));
     }
-    if (joints.empty() || static_cast<int>(joints.size()) == coarse_.robot.nu()) return;
-    const Knob some = joint_knob(coarse_, smallest.knob.kind, {joints.begin(), joints.end()});
+    if (joints.empty() || static_cast<int>(joints.size()) == searched_.robot.nu()) return;
+    const Knob some = joint_knob(searched_, kind, {joints.begin(), joints.end()});
     constexpr double kALittleMore = 0.1;  // a solution has room, an elastic one none
     step("trying " + some.subject);
+    double last = 0.0;
     for (const double amount : {smallest.amount, needed + kALittleMore, needed + 4.0 * kALittleMore}) {
-      if (amount < smallest.amount || !search_.solves(some, amount)) continue;
-      smallest = {some, amount};
+      const double turned = std::clamp(amount, smallest.amount, some.most);
+      if (turned == last || !search_.solves(some, last = turned)) continue;
+      smallest = {some, turned};
       result_.subject = some.subject;
+      // Of fewer joints more may be needed than of something else.
+      std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
       return;
     }
   }
 
   /// The same change on the mesh of the task, the whole way to the certificate; a little more of it if need be.
   void prove(FoundChange& found) {
+    double last = -1.0;
     for (const double more : {0.0, 0.05, 0.15}) {
-      if (!search_.may_go_on()) return;
-      const double amount = found.amount + more;
+      const double amount = std::min(found.amount + more, found.knob.most);
+      if (amount == last || !search_.may_go_on()) return;
+      last = amount;
       step(fmt::format("the smallest change on the mesh of the task, {:.3g} {}", found.knob.value(amount), found.knob.unit));
       try {
         PlanOptions options{.solver = options_.solver};
@@ -187,7 +205,7 @@ class Diagnoser {
       }
       found.amount = amount;
       result_.changes.front() = as_change(found);
-      result_.changes.front().on_the_task_mesh = true;
+      result_.changes.front().passes = true;
       return;
     }
   }
@@ -197,7 +215,7 @@ class Diagnoser {
   const NlpSolver& elastic_;
   const DiagnosisOptions& options_;
   ChangeSearch search_;
-  MotionProblem coarse_ = problem_;
+  MotionProblem searched_ = on_search_mesh(problem_);
   Diagnosis result_;
 };
 

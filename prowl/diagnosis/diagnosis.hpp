@@ -20,7 +20,7 @@ struct Change {
   double from = 0.0, to = 0.0;
   std::string unit;
   double amount = 0.0;  ///< |log(to / from)|: how changes of different numbers are compared
-  bool on_the_task_mesh = false;  ///< solved there and passed its certificate; else solved on the coarse mesh of the search
+  bool passes = false;  ///< solved on the task's own mesh, and passed its certificate; else solved on that of the search
 };
 
 /// Why a task has no plan, as far as can be found out.
@@ -38,9 +38,10 @@ struct Diagnosis {
   std::string subject;
   SolveStatus elastic_status = SolveStatus::solver_failed;  ///< of the solve that the breaches are from
   std::vector<Breach> breaches;  ///< of the limits of that kind alone if they suffice, else of all together; worst first
-  std::vector<Change> changes;   ///< smallest first, each by itself
-  int tried = 0;                 ///< numbers that were tried
-  bool out_of_time = false;      ///< some were not
+  int search_intervals = 0;      ///< of the mesh that breaches and changes are from; 0: each mesh of the task was solved
+  std::vector<Change> changes;   ///< smallest first, each by itself; of joints, if these are enough, those that gave way
+  int tried = 0;                 ///< numbers that were turned
+  bool out_of_time = false;      ///< before all was tried that could have been
 };
 
 struct DiagnosisOptions {
@@ -50,10 +51,11 @@ struct DiagnosisOptions {
 };
 
 /// Diagnoses a task:
-/// 1. proofs before the solve, and the solve itself (make_plan), which may succeed;
-/// 2. on the coarsest mesh of the task, for each number that the task could have otherwise (knobs_of) by bisection the
-///    least change
-///    with which `solver` converges; kinds that cannot be the smallest any more are left after one solve;
+/// 1. proofs before the solve; then the meshes of the task, a search mesh of about 20 intervals first, up to one on which
+///    `solver` finds no motion; and the task as it is (make_plan), which may succeed all the same. If all meshes were
+///    solved, there is nothing to change, and that plan or its status is the answer;
+/// 2. on that mesh, for each number that the task could have otherwise (knobs_of) by bisection the least change with
+///    which `solver` converges; kinds that cannot be the smallest any more are left after one solve;
 /// 3. an elastic solve by `elastic_solver` with the limits of the kind that was named, to read where, when and by how
 ///    much;
 /// 4. joints are narrowed down to those that gave way, if these alone suffice;

@@ -117,6 +117,25 @@ fs::path real_path(const fs::path& folder) {
   return path.has_filename() ? path : path.parent_path();
 }
 
+/// Throws FileError where no other folder can take this one's name: what something is mounted on, or what is another
+/// user's in a folder where only owners may rename (as /tmp).
+void check_exchangeable(const fs::path& path) {
+  struct stat here, above;
+  if (::stat(path.c_str(), &here) != 0) fail(path, "cannot look at this folder", errno);
+  if (::stat(path.parent_path().c_str(), &above) != 0) fail(path.parent_path(), "cannot look at this folder", errno);
+  struct statx more;
+  const bool is_known = ::statx(AT_FDCWD, path.c_str(), 0, STATX_BASIC_STATS, &more) == 0 &&
+                        (more.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0;
+  const bool is_mounted = is_known ? (more.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 : here.st_dev != above.st_dev;
+  if (is_mounted) {
+    throw FileError(fmt::format("{}: something is mounted there, and what is written takes a folder's place as a whole; need a folder in it",
+                                path.string()));
+  }
+  const uid_t user = ::geteuid();
+  const bool is_others = user != 0 && here.st_uid != user && above.st_uid != user;
+  if ((above.st_mode & S_ISVTX) != 0 && is_others) fail(path, "cannot be replaced, for it is another user's", EPERM);
+}
+
 /// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them
 /// again: permissions tell nothing of /proc, of names too long, or of a disk that is full.
 void try_to_make(const fs::path& path) {
@@ -132,9 +151,12 @@ void try_to_make(const fs::path& path) {
   try {
     fs::create_directories(path.parent_path());
     const SiblingFolder trial(path);
-    if (!fs::exists(path, error)) {
-      exchange(trial.path(), path);
+    if (fs::exists(path, error)) {
+      check_exchangeable(path);
+    } else if (::rename(trial.path().c_str(), path.c_str()) == 0) {
       ::rmdir(path.c_str());
+    } else if (errno != ENOTEMPTY && errno != EEXIST) {  // another process may have made it meanwhile
+      fail(path, "cannot put the new folder in place", errno);
     }
   } catch (const fs::filesystem_error& failure) {
     remove_missing();
@@ -190,7 +212,13 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
     file.sync();
   }
   Descriptor(fresh.path(), O_RDONLY | O_DIRECTORY).sync();
-  exchange(fresh.path(), path);
+  try {
+    exchange(fresh.path(), path);
+  } catch (const FileError& failure) {  // all is written, after hours of work perhaps
+    const fs::path kept = fmt::format("{}.prowl-{}.new", path.string(), ::getpid());
+    if (::rename(fresh.path().c_str(), kept.c_str()) != 0) throw;
+    throw FileError(fmt::format("{}; what was to be there is in {}", failure.what(), kept.string()));
+  }
   Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
 }
 

@@ -8,13 +8,14 @@
 namespace prowl {
 
 /// Throws FileError unless write_folder_atomically can be expected to work: `folder` is missing, empty, or holds only
-/// files called as in `own_names` ("a.txt", "folder/b.txt"), and a folder can be made there: it tries. For a look before
-/// hours of work.
+/// files called as in `own_names` ("a.txt", "folder/b.txt"), and a folder can be made there: it tries; if there is one,
+/// nothing is mounted on it and this user may rename it. For a look before hours of work.
 void check_replaceable(const std::filesystem::path& folder, const std::set<std::string>& own_names);
 
 /// Makes `folder` hold exactly these files (name -> content), whole or not at all: they are written and synced in a
 /// folder beside it, which then takes its place by one rename; what was there before is removed after that. A folder that
-/// holds anything not in `own_names` is left alone. Throws FileError, and then the old content is as it was.
+/// holds anything not in `own_names` is left alone. Throws FileError, and then the old content is as it was; if all was
+/// written and only the exchange failed, the message says where the new is: FOLDER.prowl-PID.new.
 ///
 /// A process that is killed leaves what it was writing beside the folder, as ".prowl-PID-N.new"; what is an hour old of that is
 /// removed by the next that writes there. Where the file system cannot exchange folders (some network ones), a kill between two

@@ -78,7 +78,7 @@ Json phase_to_json(int phase) { return phase < 0 ? Json(nullptr) : Json(phase + 
 Json to_json(const Change& change, const MotionProblem& problem) {
   return {{"kind", change.kind}, {"phase", phase_to_json(change.phase)}, {"subject", change.subject},
           {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"factor", std::exp(change.amount)},
-          {"passes", change.on_the_task_mesh}, {"words", in_words(change, problem)}};
+          {"passes", change.passes}, {"words", in_words(change, problem)}};
 }
 
 }  // namespace
@@ -93,11 +93,16 @@ std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& 
   if (!diagnosis.breaches.empty()) line = in_words(diagnosis.breaches.front(), problem);
   if (line.empty() && !diagnosis.reasons.empty()) line = diagnosis.reasons.front();
   if (line.empty() && diagnosis.elastic_status == SolveStatus::converged) {
-    line = fmt::format("not solved ({}), though on a coarse mesh no limit has to give way: the solver may have missed a "
-                       "solution", diagnosis.message);
+    line = fmt::format("not solved ({}), though on {} mesh intervals no limit has to give way: the solver may have missed a "
+                       "solution", diagnosis.message, diagnosis.search_intervals);
+  }
+  if (line.empty() && diagnosis.search_intervals == 0) {
+    return fmt::format("not solved ({}), though each of its meshes is, from the initial guess: no limit has to give way", diagnosis.message);
   }
   if (line.empty()) line = fmt::format("not solved ({})", diagnosis.message);
-  if (diagnosis.changes.empty()) return line + "; no change of one number was found that makes it solvable";
+  if (diagnosis.changes.empty()) {
+    return line + (diagnosis.out_of_time ? "; no change of one number was found in the time" : "; no change of one number was found that makes it solvable");
+  }
   std::vector<std::string> words;
   for (const Change& change : diagnosis.changes) {
     if (words.size() < 3) words.push_back(in_words(change, problem));
@@ -119,9 +124,10 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   }
   for (const Change& change : diagnosis.changes) {
     text += fmt::format("  solvable     with {}{}\n", in_words(change, problem),
-                        change.on_the_task_mesh ? " (this plan passes its certificate)" : " (on a coarse mesh)");
+                        change.passes ? " (this plan passes its certificate)"
+                                      : fmt::format(" (on {} mesh intervals)", diagnosis.search_intervals));
   }
-  if (diagnosis.out_of_time) text += "the time is up: not all that could be changed was tried (--max-time)\n";
+  if (diagnosis.out_of_time) text += "the time is up: not all that could help was tried (--max-time)\n";
   return text;
 }
 
@@ -137,7 +143,8 @@ std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& prob
                {"hints", diagnosis.hints},
                {"cause", nullptr},
                {"elastic", to_string(diagnosis.elastic_status)},
-               {"breaches", Json::array()},
+               {"search_intervals", diagnosis.search_intervals},
+              {"breaches", Json::array()},
                {"changes", Json::array()},
                {"tried", diagnosis.tried},
                {"out_of_time", diagnosis.out_of_time}};

@@ -250,9 +250,11 @@ MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
                                  problem.phases.size()));
   }
   std::vector<Steps> steps;
+  int left = kMostIntervals;
   for (const Reader& phase : phases) {
     const int intervals = phase.integer("intervals");
-    if (intervals < 1 || intervals > kMostIntervals) phase.fail("intervals", fmt::format("1 to {}", kMostIntervals));
+    if (intervals < 1 || intervals > left) phase.fail("intervals", fmt::format("1 to {}", left));
+    left -= intervals;
     Steps shares = phase.numbers("shares");
     if (shares.empty()) shares.assign(static_cast<std::size_t>(intervals), 1.0 / intervals);
     const auto is_step = [](double share) { return share > 0.0 && std::isfinite(share); };

@@ -380,6 +380,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
   SolveResult result;
   result.z = z_start;
   Stopped stopped{SolveStatus::solver_failed, ""};
+  bool gave_up = true;  // by itself: then an evaluation that failed may be why
   Iterate chosen;
   try {
     fatrop::Banner::set_suppress(true);
@@ -399,6 +400,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     result.iterations = builder.get_ipdata()->iteration_number();
   } catch (const Stopped& reason) {
     stopped = reason;
+    gave_up = false;
     result.iterations = problem->iterations();
   } catch (const std::exception& error) {
     stopped = {SolveStatus::solver_failed, error.what()};
@@ -409,7 +411,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
   }
   result.status = stopped.status;
   result.message = stopped.message;
-  if (stopped.status == SolveStatus::solver_failed && !problem->failure().empty()) {
+  if (gave_up && stopped.status == SolveStatus::solver_failed && !problem->failure().empty()) {
     result.status = SolveStatus::evaluation_failed;
     result.message = fmt::format("{}; {}", stopped.message, problem->failure());
   }

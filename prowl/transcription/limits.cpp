@@ -1,8 +1,6 @@
-#include <cmath>
 #include <limits>
 #include <map>
 
-#include "prowl/trajectory/state_scale.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
@@ -10,32 +8,6 @@ namespace prowl {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// What a goal says of entry i of a configuration or a velocity, with unit and size.
-MotionLimit entry_of_goal(const RobotModel& robot, const std::string& goal, int i, bool is_velocity) {
-  const bool is_joint = i >= 6;
-  const bool is_length = is_joint ? robot.joint_is_prismatic()[static_cast<std::size_t>(i - 6)] : i < 3;
-  const double rate = std::sqrt(RobotModel::kGravity / robot.size());  // [1/s], of a pendulum as long as the robot is high
-  return {.kind = LimitKind::goal, .subject = goal + ", " + (is_velocity ? "velocity of " : "") + coordinate_name(robot, i),
-          .unit = std::string(is_length ? "m" : "rad") + (is_velocity ? "/s" : ""),
-          .size = (is_length ? robot.size() : 1.0) * (is_velocity ? rate : 1.0)};
-}
-
-/// A limit of the robot on a joint. Sizes are those of the robot, not of the limit: else a joint that is by far too
-/// weak would cost more than a strong one that is overloaded in its place.
-MotionLimit of_joint(const RobotModel& robot, LimitKind kind, int joint) {
-  const bool is_prismatic = robot.joint_is_prismatic()[static_cast<std::size_t>(joint)];
-  const double length = is_prismatic ? robot.size() : 1.0;
-  MotionLimit limit{.kind = kind, .subject = robot.joint_names()[static_cast<std::size_t>(joint)], .unit = ""};
-  if (kind == LimitKind::torque) {
-    limit.unit = is_prismatic ? "N" : "N m";
-    limit.size = robot.weight() * (is_prismatic ? 1.0 : robot.size());
-  } else {
-    limit.unit = std::string(is_prismatic ? "m" : "rad") + (kind == LimitKind::joint_velocity ? "/s" : "");
-    limit.size = length * (kind == LimitKind::joint_velocity ? std::sqrt(RobotModel::kGravity / robot.size()) : 1.0);
-  }
-  return limit;
-}
 
 }  // namespace
 
@@ -64,13 +36,13 @@ std::vector<MotionLimit> Transcription::limits() const {
     };
     for (int i = 0; i < nv; ++i) {
       if (binds(goal.configuration_lower, goal.configuration_upper, i))
-        of_goals.insert_or_assign(layout_.q(k) + i, entry_of_goal(robot, goal.name, i, false));
+        of_goals.insert_or_assign(layout_.q(k) + i, limit_of_goal(robot, goal.name, i, false));
       if (binds(goal.velocity_lower, goal.velocity_upper, i))
-        of_goals.insert_or_assign(layout_.v(k) + i, entry_of_goal(robot, goal.name, i, true));
+        of_goals.insert_or_assign(layout_.v(k) + i, limit_of_goal(robot, goal.name, i, true));
     }
     for (int j = 0; j < nu; ++j) {
       if (!binds(goal.torque_lower, goal.torque_upper, j)) continue;
-      MotionLimit limit = of_joint(robot, LimitKind::torque, j);
+      MotionLimit limit = limit_of_joint(robot, LimitKind::torque, j);
       limit.kind = LimitKind::goal;
       limit.subject = goal.name + ", torque of " + limit.subject;
       of_goals.insert_or_assign(layout_.tau(k) + j, limit);
@@ -92,10 +64,10 @@ std::vector<MotionLimit> Transcription::limits() const {
     }
     for (int j = 0; j < nu; ++j) {
       if (k > 0) {  // the start is as it is
-        add_variable(of_joint(robot, LimitKind::joint_position, j), layout_.q(k) + 6 + j);
-        add_variable(of_joint(robot, LimitKind::joint_velocity, j), layout_.v(k) + 6 + j);
+        add_variable(limit_of_joint(robot, LimitKind::joint_position, j), layout_.q(k) + 6 + j);
+        add_variable(limit_of_joint(robot, LimitKind::joint_velocity, j), layout_.v(k) + 6 + j);
       }
-      add_variable(of_joint(robot, LimitKind::torque, j), layout_.tau(k) + j);
+      add_variable(limit_of_joint(robot, LimitKind::torque, j), layout_.tau(k) + j);
     }
   }
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {

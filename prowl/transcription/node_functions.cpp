@@ -132,9 +132,9 @@ std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, 
                        .size = robot.size()};
   }
   if (row >= torque_row(k)) {
-    const int joint = torques_.joint(row - torque_row(k));
-    return MotionLimit{.kind = LimitKind::torque, .subject = robot.joint_names()[static_cast<std::size_t>(joint)],
-                       .unit = "N m", .si = torques_.largest(row - torque_row(k)), .size = robot.weight() * robot.size()};
+    MotionLimit limit = limit_of_joint(robot, LimitKind::torque, torques_.joint(row - torque_row(k)));
+    limit.si = torques_.largest(row - torque_row(k));
+    return limit;
   }
   int contact = 0;
   while (row >= contact_row(k, contact + 1)) ++contact;

@@ -104,7 +104,10 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
   std::string note;
   {
     const nb::gil_scoped_release others_may_run;
-    if (start_from) options.start_from = warm_start(start_from->record, task.problem);
+    if (start_from) {
+      options.start_from = warm_start(start_from->record, task.problem);
+      options.resume = start_from->record.plan.result.status != SolveStatus::converged;  // an iterate is no solution to stay near
+    }
     Plan found = make_plan(task.problem, *solver, options);
     PlanRecord record{.task = task, .plan = std::move(found), .versions = cli::versions(), .feedback = {},
                       .iterations = observer.iterations(),

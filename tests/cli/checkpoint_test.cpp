@@ -92,6 +92,21 @@ TEST_F(Checkpoints, GoOnWithTheirMeshAndThoseAfterIt) {
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --intervals 40 --resume short --out out --refine").status, 0);
 }
 
+/// What is on disk stays until there is better, and is not replaced without a word.
+TEST_F(Checkpoints, AreKeptWhereTheyAreResumed) {
+  const std::string plan = "$prowl plan bow.toml $dirs --intervals 20 --one-mesh --out out --checkpoint so_far --checkpoint-every 0 ";
+  ASSERT_EQ(run(plan + "--max-iterations 4").status, 6);
+  const auto violation = [&] { return read_plan("so_far").at("solver").at("constraint_violation").get<double>(); };
+  const double before = violation();
+  const Outcome resumed = run(plan + "--max-iterations 1 --resume so_far");
+  EXPECT_EQ(resumed.status, 6) << resumed.error;
+  EXPECT_THAT(resumed.error, Not(HasSubstr("replaces")));
+  EXPECT_LE(violation(), before);
+  const Outcome again = run(plan + "--max-iterations 1");
+  EXPECT_THAT(again.error, HasSubstr("note: replaces what is in so_far; --resume would go on from it"));
+  EXPECT_GT(violation(), before);
+}
+
 TEST_F(Checkpoints, OfSomethingElseAreRefused) {
   ASSERT_EQ(run("$prowl plan bow.toml $dirs --out out --max-iterations 2 --checkpoint so_far --checkpoint-every 0").status, 6);
   const auto refusal = [&](const std::string& arguments) {
@@ -119,6 +134,11 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
   EXPECT_THAT(run("$prowl plan hold.toml $dirs --resume good").error, HasSubstr("the plan is finished, there is nothing to go on with"));
 
   EXPECT_THAT(run("$prowl plan bow.toml $dirs --out good --checkpoint ./good/").error, HasSubstr("need another folder"));
+  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out new/x --checkpoint new/x/so_far").error, HasSubstr("need a folder beside it"));
+  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out new/x/plan --checkpoint new/x/").error, HasSubstr("need a folder beside it"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new"));
+  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out other --max-iterations 1 --checkpoint other2").status, 6) << "a beginning of a name is no folder";
+  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out other --checkpoint good").error, HasSubstr("--checkpoint good: holds a plan that passed"));
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --checkpoint-every 3").status, 2) << "of no checkpoint";
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --checkpoint so_far --checkpoint-every nan").status, 2);
   folder_.write("mine/thesis.tex", "years of work");

@@ -180,6 +180,14 @@ TEST_F(Command, FailsIfTheResultDoesNotGetThrough) {
   }
 }
 
+TEST_F(Command, WritesAllFilesBeforeTheResult) {
+  const Outcome result = run("$prowl plan hold.toml $dirs --out full --report >/dev/full");
+  EXPECT_EQ(result.status, 4) << result.error;
+  for (const char* file : {"plan.json", "trajectory.csv", "tracker.bin", "report.html"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "full" / file)) << file;
+  }
+}
+
 TEST_F(Command, PlansFilesWhoseNamesAreNotUtf8) {
   const Outcome result =
       run("name=$(printf 'caf\\351'); mkdir $name; cp hold.toml hyq.toml $name; "

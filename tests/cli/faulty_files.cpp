@@ -1,6 +1,6 @@
 // For LD_PRELOAD: files that cannot be written. FAULTY_FILES="N KILL" ends the process at its Nth operation that changes files
 // (write in the middle of it, all others before they begin), FAULTY_FILES="N 28" makes that and all later ones fail with this errno. With
-// FAULTY_PATH=TEXT only files with TEXT in their path count. Standard streams never do. FAULTY_RENAMEAT2=1: a file system that cannot
+// FAULTY_ONCE=1 only that one does. With FAULTY_PATH=TEXT only files with TEXT in their path count. Standard streams never do. FAULTY_RENAMEAT2=1: a file system that cannot
 // exchange folders.
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -39,6 +39,7 @@ Fault fault(const std::string& path) {
   const int at = static_cast<int>(std::strtol(plan, &rest, 10));
   ++operations;
   if (operations < at) return Fault::none;
+  if (std::getenv("FAULTY_ONCE") && operations > at) return Fault::none;
   if (std::strcmp(rest, " KILL") == 0) return operations == at ? Fault::kill : Fault::none;
   errno = std::atoi(rest);
   return Fault::error;

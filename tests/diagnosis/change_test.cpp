@@ -70,11 +70,52 @@ TEST(Change, TurnsTheNumberThatItTellsOf) {
 
 TEST(Change, OfARangeWidensItBothWays) {
   const MotionProblem stand = shipped("solo12/stand");
-  const MotionProblem wider = joint_knob(stand, "joint_position", {8}).problem(kAmount);
+  const MotionProblem wider = joint_knob(stand, LimitKind::joint_position, {8}).problem(kAmount);
   const double range = stand.robot.position_upper()(8) - stand.robot.position_lower()(8);
   EXPECT_NEAR(wider.robot.position_upper()(8) - wider.robot.position_lower()(8), kUp * range, 1e-12);
   EXPECT_LT(wider.robot.position_lower()(8), stand.robot.position_lower()(8));
   EXPECT_EQ(wider.robot.position_upper()(7), stand.robot.position_upper()(7)) << "of that joint only";
+}
+
+/// What is farthest away by the robot's size, with its name and unit.
+TEST(Change, OfAGoalNamesWhatIsFarthestAway) {
+  MotionProblem step = shipped("hyq/step");
+  BoundaryCondition& goal = step.boundary_conditions.back();
+  EXPECT_EQ(knob(knobs_of(step), "goal", 2).unit, "m");
+  goal.velocity_lower(7) = goal.velocity_upper(7) = 5.0;
+  const Knob of_joint = knob(knobs_of(step), "goal", 2);
+  EXPECT_THAT(of_joint.subject, testing::EndsWith(", velocity of " + step.robot.joint_names()[1]));
+  EXPECT_EQ(of_joint.unit, "rad/s");
+  EXPECT_EQ(of_joint.value(0.0), 5.0);
+  goal.velocity_lower(7) = goal.velocity_upper(7) = 0.2;
+  EXPECT_EQ(knob(knobs_of(step), "goal", 2).unit, "m") << "5 cm are more than 0.2 rad/s";
+}
+
+/// Rubber on dry concrete has 0.8.
+TEST(Change, OfFrictionGoesNoFurtherThanRubber) {
+  MotionProblem step = shipped("hyq/step");
+  for (const double friction : {0.5, 0.79}) {
+    step.surfaces[0].friction = friction;
+    const std::vector<Knob> knobs = knobs_of(step);
+    const Knob& up = knob(knobs, "friction");
+    EXPECT_NEAR(up.value(up.most), 0.8, 1e-12);
+  }
+  step.surfaces[0].friction = 0.9;
+  const auto is_friction = [](const Knob& one) { return one.kind == "friction"; };
+  EXPECT_TRUE(std::ranges::none_of(knobs_of(step), is_friction));
+}
+
+/// From where: after a landing that the optimiser chooses, nobody knows before the solve.
+TEST(Change, OfAPlaceNeedsToKnowWhereTheContactWas) {
+  MotionProblem walk = shipped("hyq/step");
+  walk.phases.push_back(walk.phases[1]);
+  walk.phases.push_back(walk.phases[2]);
+  const auto places = [&] {
+    return std::ranges::count_if(knobs_of(walk), [](const Knob& one) { return one.kind == "place"; });
+  };
+  EXPECT_EQ(places(), 2);
+  walk.phases[2].contacts[0].place.reset();
+  EXPECT_EQ(places(), 0);
 }
 
 TEST(Change, OfAFlightMayBeShorter) {

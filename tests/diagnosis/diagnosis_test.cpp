@@ -2,11 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "prowl/diagnosis/change_search.hpp"
 #include "prowl/io/diagnosis_report.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
+#include "tests/support/failing_solver.hpp"
 #include "tests/support/task_test.hpp"
 
 namespace prowl {
@@ -104,7 +107,39 @@ TEST_F(DiagnosisTest, StopsWhenTheTimeIsUp) {
   const Diagnosis found = diagnose(stiff, RiccatiSolver(), IpoptSolver(), {.max_seconds = 1e-3});
   EXPECT_TRUE(found.out_of_time);
   EXPECT_FALSE(found.solvable);
+  EXPECT_TRUE(found.kind.empty());
   EXPECT_THAT(diagnosis_text(found, stiff), HasSubstr("the time is up"));
+}
+
+/// The search has a part of the time, and what comes after it takes less than the rest.
+TEST_F(DiagnosisTest, SaysThatASearchWasCutOff) {
+  const MotionProblem high = problem(test::replaced(kCrouch, "[0, 0, -0.1]", "[0, 0, 0.35]"));
+  const RiccatiSolver solver;
+  const ChangeSearch search(solver, {}, 1000.0);
+  const std::vector<Knob> knobs = knobs_of(high);
+  const ChangesFound cut_off = search.smallest(knobs, 0.0, {});
+  EXPECT_TRUE(cut_off.out_of_time);
+  EXPECT_EQ(cut_off.tried, 0);
+  EXPECT_TRUE(cut_off.found.empty());
+  const ChangesFound whole = search.smallest(knobs, 1000.0, {});
+  EXPECT_FALSE(whole.out_of_time);
+  EXPECT_EQ(whole.tried, static_cast<int>(knobs.size()));
+  EXPECT_FALSE(whole.found.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(whole.found, std::less(), &FoundChange::weighted));
+}
+
+/// A change of something that has been solved would be a lie.
+TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
+  const MotionProblem crouch = problem(kCrouch);
+  for (const SolveStatus status : {SolveStatus::time_limit, SolveStatus::solver_failed}) {
+    const Diagnosis found = diagnose(crouch, test::FailingSolver(1, status), IpoptSolver(), {});
+    EXPECT_FALSE(found.solvable);
+    EXPECT_EQ(found.status, status);
+    EXPECT_EQ(found.out_of_time, status == SolveStatus::time_limit);
+    EXPECT_TRUE(found.kind.empty());
+    EXPECT_TRUE(found.changes.empty());
+    EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("though each of its meshes is, from the initial guess"));
+  }
 }
 
 }  // namespace

@@ -283,6 +283,8 @@ TEST_F(PlanDirectory, RefusesAMeshThatIsNone) {
   EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 1.0, 0.5}; }), HasSubstr("3 numbers with sum 2; need"));
   EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 0; }),
             "out/plan.json: plan.problem.phases[0].intervals: 0 is not allowed; need 1 to 10000");
+  EXPECT_EQ(message_with([](auto& phases) { phases[1]["intervals"] = 9996; }),
+            "out/plan.json: plan.problem.phases[1].intervals: 9996 is not allowed; need 1 to 9995") << "10,000 in all";
   EXPECT_EQ(message_with([](auto& phases) { phases.erase(1); }), "out/plan.json: plan.problem.phases: 1 phases; the task has 2");
   EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 7; }), "out/trajectory.csv: 10 rows; the task's mesh has 12 nodes");
 }

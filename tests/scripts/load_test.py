@@ -2,6 +2,7 @@
 import pathlib
 import random
 import sys
+import types
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -9,6 +10,7 @@ sys.path.insert(0, str(ROOT / "bench"))
 from load.quantiles import quantiles  # noqa: E402  (after the path)
 from load.random_tasks import ROBOTS, draw, folder  # noqa: E402
 from load.report import pairs, table  # noqa: E402
+from load.tally import SETTLED, Tally  # noqa: E402
 
 
 def drawn(seed: int, count: int) -> list[tuple[str, dict]]:
@@ -81,6 +83,35 @@ class Report(unittest.TestCase):
         self.assertEqual(quantiles([3.0]), [3.0, 3.0, 3.0, 3.0])
         self.assertEqual(quantiles([float(n) for n in range(101)]), [50.0, 90.0, 99.0, 100.0])
         self.assertLessEqual(max(quantiles([1.0, 2.0, 4.0])), 4.0)
+
+
+def plan(status: str, *failed: str, good: bool = False, hints: tuple[str, ...] = (), message: str = "") -> types.SimpleNamespace:
+    checks = [types.SimpleNamespace(name=name, passed=name not in failed) for name in ("friction cone", "contact drift")]
+    return types.SimpleNamespace(status=status, good=good, reasons=[], hints=list(hints), message=message,
+                                 certificate=types.SimpleNamespace(checks=checks))
+
+
+class WhatBecameOfThem(unittest.TestCase):
+    def test_a_failure_has_to_say_why(self) -> None:
+        tally = Tally()
+        self.assertEqual(tally.add(0, plan("converged", good=True), 0.1), "good")
+        self.assertEqual(tally.add(1, plan("converged", "friction cone"), 0.1), "converged, certificate failed: certificate: friction cone")
+        self.assertEqual(tally.add(2, plan("solver_failed", "friction cone", hints=("too weak",)), 0.1), "solver_failed: too weak")
+        self.assertEqual(tally.add(3, plan("iteration_limit", message="it passes, though"), 0.1), "iteration_limit: it passes, though")
+        self.assertEqual(tally.failures(), [])
+        tally.add(4, plan("solver_failed", "friction cone", message="no step is an improvement"), 0.1)
+        self.assertEqual(tally.failures(), ["task 4 failed and does not say why"])
+
+    def test_memory_may_not_grow(self) -> None:
+        for growth, expected in ((1.04, []), (1.06, ["memory grew from 100.0 to 106.0 MB"])):
+            tally = Tally()
+            tally.memory = [2e8] * (SETTLED - 1) + [1e8] * 50 + [growth * 1e8] * 10
+            self.assertEqual(tally.failures(), expected)
+
+    def test_exceptions_are_failures(self) -> None:
+        tally = Tally()
+        tally.thrown.append("task 7: NumericalError: singular")
+        self.assertEqual(tally.failures(), ["task 7: NumericalError: singular"])
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../io/test_files.hpp"
+#include "../support/failing_solver.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/refine.hpp"
 #include "prowl/solvers/make_solver.hpp"
@@ -127,25 +128,6 @@ TEST(Refine, TellsWhatItDidNotReach) {
   EXPECT_THAT(refined.plan.hints[0], HasSubstr("mesh refinement stopped, 2 meshes: "));
 }
 
-/// Solves so many meshes, and stops on so many after them.
-class Failing : public NlpSolver {
- public:
-  Failing(int solves, SolveStatus status, int failures = 1000) : left_(solves), failures_(failures), status_(status) {}
-  std::string name() const override { return solver_.name(); }
-  std::string version() const override { return solver_.version(); }
-  std::optional<std::string> why_unsupported(Nlp& nlp) const override { return solver_.why_unsupported(nlp); }
-  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& start, const SolverOptions& options) const override {
-    SolveResult result = solver_.solve(nlp, start, options);
-    if (left_-- <= 0 && failures_-- > 0) result.status = status_;
-    return result;
-  }
-
- private:
-  RiccatiSolver solver_;
-  mutable int left_, failures_;
-  SolveStatus status_;
-};
-
 /// What there is stays, and an interrupt is known as one.
 TEST(Refine, KeepsTheLastMotionThatConverged) {
   const Task task = read("step");
@@ -153,7 +135,7 @@ TEST(Refine, KeepsTheLastMotionThatConverged) {
     std::vector<int> intervals;
     RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
     options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
-    const RefinedPlan refined = refine(task, Failing(2, status), {}, options);
+    const RefinedPlan refined = refine(task, test::FailingSolver(2, status), {}, options);
     ASSERT_EQ(intervals.size(), 2u);
     EXPECT_FALSE(refined.meets_tolerance);
     EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
@@ -172,13 +154,13 @@ TEST(Refine, BeginsOnTheFirstMeshThatConverges) {
   std::vector<int> intervals;
   RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
   options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
-  const RefinedPlan begun = refine(task, Failing(0, SolveStatus::solver_failed, 1), {}, options);
+  const RefinedPlan begun = refine(task, test::FailingSolver(0, SolveStatus::solver_failed, 1), {}, options);
   EXPECT_TRUE(begun.meets_tolerance);
   ASSERT_FALSE(intervals.empty());
   EXPECT_EQ(intervals.front(), count_intervals(mesh_levels(task.problem).at(1)));
   EXPECT_EQ(begun.plan.levels.at(0).status, SolveStatus::solver_failed);
 
-  const RefinedPlan failed = refine(task, Failing(0, SolveStatus::iteration_limit));
+  const RefinedPlan failed = refine(task, test::FailingSolver(0, SolveStatus::iteration_limit));
   EXPECT_EQ(failed.plan.result.status, SolveStatus::iteration_limit);
   EXPECT_EQ(failed.plan.levels.size(), mesh_levels(task.problem).size());
   EXPECT_EQ(count_intervals(failed.problem), count_intervals(task.problem));

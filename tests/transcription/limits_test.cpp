@@ -69,7 +69,7 @@ TEST_F(Limits, AreInTheirUnits) {
   Eigen::VectorXd g(nlp_->num_constraints());
   nlp_->constraints(z_, g);
   const Trajectory motion = nlp_->unpack(z_);
-  int looked_at = 0;
+  int looked_at = 0, upper = 0, lower = 0;
   for (const MotionLimit& limit : nlp_->limits()) {
     const TrajectoryPoint& point = motion.nodes[static_cast<std::size_t>(limit.node)];
     if (limit.kind == LimitKind::friction) {
@@ -81,13 +81,15 @@ TEST_F(Limits, AreInTheirUnits) {
       EXPECT_NEAR(g(limit.index) * limit.si, cone.value(force), 1e-6) << limit.subject;
       ++looked_at;
     } else if (limit.kind == LimitKind::torque && limit.is_row) {
-      const double left = std::min(problem_->robot.torque_curves()[0].curve.value(point.q(9)) - point.tau(2),
-                                   problem_->robot.torque_curves()[0].curve.value(point.q(9)) + point.tau(2));
-      EXPECT_GE(g(limit.index) * limit.si, left - 1e-9);
-      ++looked_at;
+      const double most = problem_->robot.torque_curves()[0].curve.value(point.q(9)), left = g(limit.index) * limit.si;
+      const bool is_upper = std::abs(left - (most - point.tau(2))) < 1e-9;
+      EXPECT_TRUE(is_upper || std::abs(left - (most + point.tau(2))) < 1e-9) << left << " of " << most << " and " << point.tau(2);
+      ++(is_upper ? upper : lower);
     }
   }
-  EXPECT_GT(looked_at, 30);
+  EXPECT_GT(looked_at, 20);
+  EXPECT_GT(upper, 3);
+  EXPECT_EQ(upper, lower);
 }
 
 }  // namespace
