@@ -6,6 +6,7 @@
 
 #include "output.hpp"
 #include "prowl/error.hpp"
+#include "prowl/io/atomic_folder.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
 #include "shared_options.hpp"
 
@@ -25,14 +26,6 @@ void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
 }
 
 namespace {
-
-/// Without symbolic links, `.` and `..`, or a slash at the end.
-fs::path place(const fs::path& folder) {
-  std::error_code error;
-  const fs::path path = fs::weakly_canonical(fs::absolute(folder, error), error);
-  if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
-  return path.has_filename() ? path : path.parent_path();
-}
 
 bool is_in(const fs::path& path, const fs::path& folder) {
   return std::ranges::mismatch(folder, path).in1 == folder.end();
@@ -60,18 +53,18 @@ std::optional<PlanRecord> resume(const CheckpointArguments& arguments, const Pac
 std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& arguments, const std::filesystem::path& out,
                                               PlanRecord so_far, PlanOptions& options) {
   if (arguments.folder.empty()) return nullptr;
-  const fs::path folder = place(arguments.folder);
-  if (folder == place(out)) {
+  const fs::path folder = real_path(arguments.folder), plan_folder = real_path(out);
+  if (folder == plan_folder) {
     throw InputError(fmt::format("--checkpoint {}: is where the plan goes, and may hold an earlier one; need another folder", arguments.folder));
   }
-  if (is_in(folder, place(out)) || is_in(place(out), folder)) {
+  if (is_in(folder, plan_folder) || is_in(plan_folder, folder)) {
     throw InputError(fmt::format("--checkpoint {}: the plan goes to {}, and each takes its folder's place as a whole; need a folder "
                                  "beside it", arguments.folder, out.string()));
   }
   if (holds_good_plan(folder)) {
     throw InputError(fmt::format("--checkpoint {}: holds a plan that passed; need another folder", arguments.folder));
   }
-  const bool is_resumed = !arguments.resume.empty() && place(arguments.resume) == folder;
+  const bool is_resumed = !arguments.resume.empty() && real_path(arguments.resume) == folder;
   if (!is_resumed) so_far.plan = {};
   if (!is_resumed && fs::exists(folder / "plan.json")) {
     print_message(fmt::format("note: replaces what is in {}; --resume would go on from it\n", arguments.folder));

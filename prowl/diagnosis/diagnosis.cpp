@@ -89,13 +89,17 @@ class Diagnoser {
     return true;
   }
 
-  /// As prowl plan does, in a part of the time.
-  void plan_as_it_is(double part) {
-    step("planning as it is");
+  /// As prowl plan does, in a part of the time that is left.
+  Plan planned(const MotionProblem& problem, double part) const {
     PlanOptions options{.solver = options_.solver};
     options.hint_solver = &elastic_;
     options.solver.max_seconds = search_.seconds_of_solve(part, options.solver.max_seconds);
-    const Plan plan = make_plan(problem_, solver_, options);
+    return make_plan(problem, solver_, options);
+  }
+
+  void plan_as_it_is(double part) {
+    step("planning as it is");
+    const Plan plan = planned(problem_, part);
     result_.status = plan.result.status;
     result_.message = plan.result.message;
     result_.solvable = plan.result.status == SolveStatus::converged;
@@ -195,10 +199,7 @@ class Diagnoser {
       last = amount;
       step(fmt::format("the smallest change on the mesh of the task, {:.3g} {}", found.knob.value(amount), found.knob.unit));
       try {
-        PlanOptions options{.solver = options_.solver};
-        options.hint_solver = &elastic_;
-        options.solver.max_seconds = search_.seconds_of_solve(1.0, options.solver.max_seconds);
-        const Plan plan = make_plan(with_steps_of(found.knob.problem(amount), problem_), solver_, options);
+        const Plan plan = planned(with_steps_of(found.knob.problem(amount), problem_), 1.0);
         if (plan.result.status != SolveStatus::converged || !plan.certificate.passed) continue;
       } catch (const Error&) {
         continue;

@@ -109,14 +109,6 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
   if (::rename(old.c_str(), fresh.c_str()) != 0) fail(old, "cannot remove the old folder", errno);
 }
 
-/// Without symbolic links or a slash at the end, so that the folder itself and not a link to it is replaced.
-fs::path real_path(const fs::path& folder) {
-  std::error_code error;
-  fs::path path = fs::weakly_canonical(fs::absolute(folder), error);
-  if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
-  return path.has_filename() ? path : path.parent_path();
-}
-
 /// Throws FileError where no other folder can take this one's name: what something is mounted on, or what is another
 /// user's in a folder where only owners may rename (as /tmp).
 void check_exchangeable(const fs::path& path) {
@@ -180,6 +172,13 @@ bool is_own(const std::string& name, const fs::directory_entry& entry, const std
 }
 
 }  // namespace
+
+fs::path real_path(const fs::path& folder) {
+  std::error_code error;
+  fs::path path = fs::weakly_canonical(fs::absolute(folder), error);
+  if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
+  return path.has_filename() ? path : path.parent_path();
+}
 
 void check_replaceable(const fs::path& folder, const std::set<std::string>& own_names) {
   const fs::path path = real_path(folder);

@@ -7,6 +7,10 @@
 
 namespace prowl {
 
+/// Without symbolic links or a slash at the end: of the folder itself, not of a link to it, which is what is replaced. It need not be
+/// there. Throws FileError.
+std::filesystem::path real_path(const std::filesystem::path& folder);
+
 /// Throws FileError unless write_folder_atomically can be expected to work: `folder` is missing, empty, or holds only
 /// files called as in `own_names` ("a.txt", "folder/b.txt"), and a folder can be made there: it tries; if there is one,
 /// nothing is mounted on it and this user may rename it. For a look before hours of work.

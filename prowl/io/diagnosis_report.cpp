@@ -144,7 +144,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& prob
                {"cause", nullptr},
                {"elastic", to_string(diagnosis.elastic_status)},
                {"search_intervals", diagnosis.search_intervals},
-              {"breaches", Json::array()},
+               {"breaches", Json::array()},
                {"changes", Json::array()},
                {"tried", diagnosis.tried},
                {"out_of_time", diagnosis.out_of_time}};
