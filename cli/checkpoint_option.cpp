@@ -16,13 +16,11 @@ namespace fs = std::filesystem;
 
 void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
   CLI::Option* const folder =
-      verb.add_option("--checkpoint", arguments.folder, "Keep the best iterate in this folder while it solves, for --resume")
-          ->type_name("DIR");
+      add_folder(verb, "--checkpoint", arguments.folder, "Keep the best iterate in this folder while it solves, for --resume");
   verb.add_option("--checkpoint-every", arguments.every,
                   fmt::format("Seconds between two that are written; default {:g}, 0: each that is better", arguments.every))
       ->check(nonnegative_number())->type_name("S")->needs(folder);
-  verb.add_option("--resume", arguments.resume, "Go on from this checkpoint, or from a plan that was not finished, of the same task")
-      ->type_name("DIR");
+  add_folder(verb, "--resume", arguments.resume, "Go on from this checkpoint, or from a plan that was not finished, of the same task");
 }
 
 namespace {

@@ -185,7 +185,7 @@ void add_compare_command(CLI::App& app, int& status) {
   verb->add_option("--snopt-library", arguments->snopt_library, "Your own SNOPT; default libsnopt7.so if there is one, else Drake's")
       ->type_name("FILE");
   verb->add_option("--python", arguments->python, "Python with Drake, for its SNOPT; default " + arguments->python)->type_name("PATH");
-  verb->add_option("--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare")->type_name("DIR");
+  add_folder(*verb, "--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb, {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",

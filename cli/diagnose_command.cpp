@@ -28,8 +28,8 @@ struct DiagnoseArguments {
 
 ExitStatus exit_status(const Diagnosis& diagnosis) {
   if (diagnosis.solvable) return diagnosis.certificate.passed ? kPassed : kCertificateFailed;
-  const bool is_answered = !diagnosis.reasons.empty() || !diagnosis.changes.empty() || !diagnosis.breaches.empty();
-  return diagnosis.out_of_time && !is_answered ? kLimit : kNotSolved;
+  if (diagnosis.interrupted) return kInterrupted;
+  return diagnosis.undecided ? kLimit : kNotSolved;
 }
 
 int run_diagnose(const DiagnoseArguments& arguments) {
@@ -39,12 +39,6 @@ int run_diagnose(const DiagnoseArguments& arguments) {
   options.solver.interrupt = &interrupted;
   options.on_step = [](const std::string& what) { print_progress(what + "\n"); };
   const Diagnosis diagnosis = diagnose(task.problem, *make_solver(solver_names().front()), IpoptSolver(), options);
-  if (interrupted) {
-    const char* const message = "interrupted before the diagnosis was finished";
-    print_message(fmt::format("{}\n", message));
-    if (arguments.json) print_json_error("diagnose", kInterrupted, message);
-    return kInterrupted;
-  }
   const int status = exit_status(diagnosis);
   if (arguments.json) {
     print_json({.verb = "diagnose", .exit_status = status, .result = diagnosis_json(diagnosis, task.problem)});
@@ -67,8 +61,8 @@ void add_diagnose_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb, {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
              "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, whether or not a\n"
-             "cause was found; 6 the time was up before anything was; 7 there is a plan, but its certificate\n"
-             "fails; 130 interrupted.");
+             "cause was found; 6 the time was up before that was known; 7 there is a plan, but its certificate\n"
+             "fails; 130 interrupted: what was found so far.");
   verb->callback([arguments, &status] { status = run_diagnose(*arguments); });
 }
 

@@ -60,7 +60,8 @@ Task tiny_task() {
   std::string robot = "name = \"tiny\"\nurdf = \"tiny.urdf\"\n", nominal = "[nominal.joints]\n";
   for (int i = 0; i < 4; ++i) {
     const std::string n = std::to_string(i);
-    urdf += link("thigh" + n, 0.5, -0.1, 0.002) + link("shank" + n, 0.3, -0.1, 0.001) + "<link name=\"foot" + n + "\"/>\n";
+    urdf += link("thigh" + n, 0.5, -0.1, 0.002) + link("shank" + n, 0.3, -0.1, 0.001);
+    urdf += fmt::format("<link name=\"foot{}\"/>\n", n);
     urdf += joint("roll" + n, "revolute", "base", "hip" + n, i < 2 ? 0.2 : -0.2, i % 2 == 0 ? 0.15 : -0.15, 0.0, "1 0 0") +
             link("hip" + n, 0.3, 0.0, 0.001) + joint("pitch" + n, "revolute", "hip" + n, "thigh" + n, 0.0, 0.0, 0.0, "0 1 0") +
             joint("knee" + n, "revolute", "thigh" + n, "shank" + n, 0.0, 0.0, -0.2, "0 1 0") +

@@ -21,10 +21,10 @@ enum ExitStatus : int {
 inline ExitStatus exit_status(SolveStatus status, const Certificate& certificate) {
   switch (status) {
     case SolveStatus::converged: return certificate.passed ? kPassed : kCertificateFailed;
-    case SolveStatus::infeasible: return kNotSolved;
+    case SolveStatus::infeasible:
     case SolveStatus::solver_failed: return kNotSolved;
     case SolveStatus::evaluation_failed: return kNumericalFailure;
-    case SolveStatus::iteration_limit: return kLimit;
+    case SolveStatus::iteration_limit:
     case SolveStatus::time_limit: return kLimit;
     case SolveStatus::interrupted: return kInterrupted;
   }

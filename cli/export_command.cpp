@@ -150,7 +150,7 @@ void add_export_command(CLI::App& app, int& status) {
   add_plan_directory(*verb, arguments->directory);
   verb->add_option("--format", arguments->formats, "One or more, with commas: " + CLI::detail::join(format_names(), ", "))
       ->required()->delimiter(',')->check(CLI::IsMember(format_names()))->type_name("FORMAT");
-  verb->add_option("--out", arguments->out, "Folder for the files; default: DIR/exports")->type_name("DIR");
+  add_folder(*verb, "--out", arguments->out, "Folder for the files; default: DIR/exports");
   verb->add_option("--rate", arguments->rate, "Samples a second; default: the nodes of the plan, all rows of the simulation")
       ->type_name("HZ");
   verb->add_flag("--simulation", arguments->simulation, "The simulated motion of simulate.csv in place of the planned one");

@@ -107,7 +107,7 @@ void add_figures_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<FiguresArguments>();
   CLI::App* const verb = app.add_subcommand("figures", "Draw a plan, its gains and its simulation");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option("--out", arguments->out, "Folder for the figures; default: DIR/figures")->type_name("DIR");
+  add_folder(*verb, "--out", arguments->out, "Folder for the figures; default: DIR/figures");
   verb->add_option("--joint", arguments->joint, "Whose gains to draw; default: the first knee, or else the first leg's last joint")
       ->type_name("NAME");
   verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " + arguments->python)->type_name("PATH");

@@ -20,7 +20,8 @@ std::string version_text() {
   std::string text;
   for (const auto& [name, version] : prowl::cli::versions()) {
     const std::string line = fmt::format("{} {}", name, version);
-    text = name == "prowl" ? line + (text.empty() ? "" : "\n" + text) : text + (text.empty() ? "" : "\n") + line;
+    text = name == "prowl" ? fmt::format("{}{}{}", line, text.empty() ? "" : "\n", text)
+                           : fmt::format("{}{}{}", text, text.empty() ? "" : "\n", line);
   }
   return text;
 }

@@ -145,6 +145,7 @@ int run_plan(const PlanArguments& arguments) {
   const auto solver = make_solver(arguments.solver);
   Plan plan = arguments.refine ? make_refined(task.problem, *solver, options, *arguments.refine, was_interrupted)
                                : make_plan(task.problem, *solver, options);
+  if (!arguments.refine) task.problem = mesh_of(task.problem, plan);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
                     .feedback = {}, .iterations = progress.iterations(), .warm_start = start};
@@ -155,6 +156,8 @@ int run_plan(const PlanArguments& arguments) {
   if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
   if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
+  const bool may_go_on = !is_good(record.plan) && (status == kLimit || status == kInterrupted);
+  if (may_go_on) print_message(fmt::format("to go on from there: --resume {}, all else as before\n", out.string()));
   if (status == kNotSolved || status == kLimit) {
     print_message(fmt::format("why, and what would change that: prowl diagnose {}\n", arguments.task));
   }
@@ -171,7 +174,7 @@ void add_plan_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<PlanArguments>();
   CLI::App* const verb = app.add_subcommand("plan", "Plan the motion of a task file and check it");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
-  verb->add_option("--out", arguments->out, "Folder for the result; default out/FOLDER_TASK")->type_name("DIR");
+  add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
   add_json(*verb, arguments->json);
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
       ->check(positive_number())->type_name("S");
@@ -189,9 +192,7 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_flag("--no-gains", arguments->no_gains, "Leave out the feedback gains, tracker.bin");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
-  verb->add_option("--warm-start", arguments->warm_start,
-                   "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ")
-      ->type_name("DIR");
+  add_folder(*verb, "--warm-start", arguments->warm_start, "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ");
   add_checkpoint(*verb, arguments->checkpoint);
   verb->get_option("--resume")->excludes("--warm-start");
   add_package_dirs(*verb, arguments->package_dirs);

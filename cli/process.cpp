@@ -35,7 +35,7 @@ int run_program(const std::vector<std::string>& arguments, const std::function<v
 
   char* text = nullptr;
   std::size_t size = 0;
-  for (ssize_t length; printed && (length = ::getline(&text, &size, printed.get())) > 0;) {
+  for (ssize_t length = 0; printed && (length = ::getline(&text, &size, printed.get())) > 0;) {
     on_line(std::string(text, static_cast<std::size_t>(length - (text[length - 1] == '\n' ? 1 : 0))));
   }
   std::free(text);

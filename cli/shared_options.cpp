@@ -26,6 +26,11 @@ void add_plan_directory(CLI::App& verb, std::string& directory) {
   verb.add_option("directory", directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
 }
 
+CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning) {
+  const CLI::Validator is_named([](const std::string& text) { return text.empty() ? std::string("is empty; need a folder") : std::string(); }, "");
+  return verb.add_option(name, folder, meaning)->check(is_named)->type_name("DIR");
+}
+
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
   CLI::Validator is_folder = CLI::ExistingDirectory;
   is_folder.description("");  // the help says DIR already

@@ -10,6 +10,8 @@
 namespace prowl::cli {
 
 // Options that several verbs have, in the same words.
+/// An option that names a folder, which "" is none.
+CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning);
 void add_plan_directory(CLI::App& verb, std::string& directory);  ///< the folder that prowl plan wrote; required
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
 void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet

@@ -75,6 +75,7 @@ void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted,
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
   record.plan = make_plan(record.task.problem, *make_solver(arguments.solver), options);
+  record.task.problem = mesh_of(record.task.problem, record.plan);
   record.iterations = progress.iterations();
 }
 
@@ -113,7 +114,7 @@ void add_view_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("view", "Show a plan in a browser, or a task while it is planned");
   verb->add_option("target", arguments->target, "Task file, or folder that prowl plan wrote")->required()->type_name("TASK.toml|DIR");
   verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any that is free")->type_name("N");
-  verb->add_option("--out", arguments->out, "Folder to write the plan of a task into; default: none")->type_name("DIR");
+  add_folder(*verb, "--out", arguments->out, "Folder to write the plan of a task into; default: none");
   verb->add_option("--solver", arguments->solver, "Who solves it; default " + arguments->solver)
       ->check(CLI::IsMember(solver_names()))->type_name("NAME");
   verb->add_option("--intervals", arguments->overrides.intervals, "Mesh intervals in all, shared out over the phases as in the task file")

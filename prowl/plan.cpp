@@ -105,11 +105,22 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   plan.num_constraints = nlp.num_constraints();
 }
 
+/// By someone who will not wait, whatever mesh is next.
+bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
+
 }  // namespace
 
 bool is_worth_going_on_from(SolveStatus status) {
   return status != SolveStatus::infeasible && status != SolveStatus::evaluation_failed &&
          status != SolveStatus::solver_failed;
+}
+
+MotionProblem mesh_of(const MotionProblem& problem, const Plan& plan) {
+  if (plan.levels.empty() || plan.levels.back().intervals == count_intervals(problem)) return problem;
+  for (MotionProblem& level : mesh_levels(problem)) {
+    if (count_intervals(level) == plan.levels.back().intervals) return std::move(level);
+  }
+  return problem;
 }
 
 Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options) {
@@ -119,11 +130,15 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
   plan.hessian = options.hessian;
   plan.reasons = proofs_of_infeasibility(problem);
   plan.trajectory = options.start_from;
-  for (const MotionProblem& level : meshes_of(problem, options, plan.reasons.empty())) {
-    if (!plan.levels.empty() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
-    solve_level(level, solver, options, plan);
+  const std::vector<MotionProblem> meshes = meshes_of(problem, options, plan.reasons.empty());
+  const MotionProblem* solved = nullptr;
+  for (const MotionProblem& mesh : meshes) {
+    if (solved && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
+    solve_level(mesh, solver, options, plan);
+    solved = &mesh;
+    if (is_stopped(plan.result.status)) break;  // what a finer mesh makes of it in no time is further off, and worse to resume
   }
-  plan.certificate = certify(problem, plan.trajectory);
+  plan.certificate = certify(*solved, plan.trajectory);
   const bool ended_by_itself = plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
   if (plan.reasons.empty() && !plan.certificate.passed && ended_by_itself) {
     const Trajectory guess = initial_guess(problem, make_mesh(problem));

@@ -25,7 +25,9 @@ struct Plan {
   Trajectory trajectory;
   std::string solver;  ///< its name
   HessianKind hessian = HessianKind::exact;  ///< second derivatives that it was given
-  SolveResult result;  ///< of the last level; iterations and seconds of all levels together
+  /// Of the last level; iterations and seconds of all levels together. Where an interrupt or the time limit stopped a coarse
+  /// level, that is the last, and the motion is on its mesh (mesh_of).
+  SolveResult result;
   std::vector<LevelResult> levels;
   Certificate certificate;
   int num_variables = 0;
@@ -60,6 +62,9 @@ struct PlanOptions {
 
 /// Whether a finer mesh may start from where this solve stopped; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status);
+
+/// The problem on the mesh that its plan ended on: its own, or where the plan was stopped before, a coarser one.
+MotionProblem mesh_of(const MotionProblem& problem, const Plan& plan);
 
 /// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from makes
 /// no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that is too hard is a status

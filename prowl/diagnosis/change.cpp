@@ -215,6 +215,15 @@ void add_places(const MotionProblem& problem, std::vector<Knob>& knobs) {
 
 }  // namespace
 
+double printable_amount(const Knob& knob, double amount) {
+  constexpr double kRounding = 1e-9;
+  const double from = std::abs(knob.value(0.0)), to = std::abs(knob.value(amount));
+  if (from == 0.0) return amount;  // friction of ice: no factor helps
+  const double digit = std::pow(10.0, std::floor(std::log10(to)) - 2.0);
+  const double rounded = digit * (to > from ? std::ceil(to / digit - kRounding) : std::floor(to / digit + kRounding));
+  return std::min(std::abs(std::log(rounded / from)), knob.most);
+}
+
 Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints) {
   const RobotModel& robot = problem.robot;
   const int first = joints.front();
@@ -224,9 +233,10 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
   std::vector<std::string> names;
   for (const int j : joints) names.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
   const bool all = static_cast<int>(joints.size()) == robot.nu();
+  const bool several = joints.size() > 1;  // whose limits may differ: the factor is what they have in common
   return {.kind = to_string(kind), .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMost,
-          .unit = limit_of_joint(robot, kind, first).unit,
-          .value = [value](double a) { return value * std::exp(a); },
+          .unit = several ? "" : limit_of_joint(robot, kind, first).unit,
+          .value = [value = several ? 1.0 : value](double a) { return value * std::exp(a); },
           .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); }};
 }
 

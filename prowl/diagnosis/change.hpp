@@ -20,7 +20,8 @@ struct Knob {
   bool is_asked = false;  ///< by the task (goal, place, clearance, duration); else a limit of the robot or the ground
   double weight = 1.0;  ///< amounts of different kinds are compared after multiplication with this
   std::string unit;
-  std::function<double(double amount)> value;           ///< the number, in `unit`; of several the one that changes most
+  /// The number, in `unit`, which goes with e^a or e^-a; of several the one that changes most, of limits of several joints the factor.
+  std::function<double(double amount)> value;
   std::function<MotionProblem(double amount)> problem;  ///< may throw InputError
 };
 
@@ -29,6 +30,9 @@ struct Knob {
 /// velocity and position limits of all joints; each goal that is away from the start; each place that a contact has to
 /// land on, if it is known where it was before; swing clearance. They refer to the problem, which must outlive them.
 std::vector<Knob> knobs_of(const MotionProblem& problem);
+
+/// That amount or a little more, at which value() has three digits and no more: what a user reads, and writes into a file.
+double printable_amount(const Knob& knob, double amount);
 
 /// Those of limits of some joints only: LimitKind torque, joint_velocity or joint_position.
 Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints);

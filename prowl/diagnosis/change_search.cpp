@@ -9,6 +9,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
+#include "prowl/trajectory/certificate.hpp"
 #include "prowl/transcription/initial_guess.hpp"
 #include "prowl/transcription/mesh.hpp"
 #include "prowl/transcription/transcription.hpp"
@@ -21,6 +22,9 @@ constexpr double kFirst = 0.4;      // amount: half as much again
 constexpr double kFurther = 2.5;    // from one amount to the next
 constexpr double kPrecision = 0.05;  // where a bisection ends: 5 % of the number, and 10 % of a large amount
 constexpr double kNoMatch = 2.0;   // a change is told of besides a smaller one up to so many times its amount
+/// Of the shipped tasks on about 20 intervals 21 drift by 0.6 mm or less, a jump by 4 mm, and those that only a finer mesh
+/// solves (three trots, a walk) by 25 mm and more.
+constexpr double kMostDrift = 5.0 * CertificateLimits::contact_drift;
 constexpr int kMostIterations = 100;  // on a coarse mesh; what has a solution takes 10 to 80
 
 /// Stops a solve that gets nowhere: without a solution there is none to find, and that is what most solves of a search
@@ -59,11 +63,11 @@ double ChangeSearch::seconds_of_solve(double part, double most) const {
   return std::max(std::min(most, part * seconds_left()), kLeast);
 }
 
-bool ChangeSearch::solves(const MotionProblem& problem) const {
-  if (!may_go_on()) return false;
+std::optional<Trajectory> ChangeSearch::solution(const MotionProblem& problem) const {
+  if (!may_go_on()) return {};
   try {
     validate(problem);
-    if (!proofs_of_infeasibility(problem).empty()) return false;
+    if (!proofs_of_infeasibility(problem).empty()) return {};
     const Mesh mesh = make_mesh(problem);
     const Trajectory guess = initial_guess(problem, mesh);
     Transcription nlp(problem, mesh, guess);
@@ -71,10 +75,20 @@ bool ChangeSearch::solves(const MotionProblem& problem) const {
     options.max_iterations = std::min(options.max_iterations, kMostIterations);
     options.max_seconds = seconds_of_solve();
     const StallWatch watch(options);
-    return solver_.solve(nlp, nlp.pack(guess), options).status == SolveStatus::converged;
+    const SolveResult result = solver_.solve(nlp, nlp.pack(guess), options);
+    if (result.status != SolveStatus::converged) return {};
+    return nlp.unpack(result.z);
   } catch (const Error&) {  // bounds that contradict each other, a model that cannot be evaluated: no plan either
-    return false;
+    return {};
   }
+}
+
+bool ChangeSearch::solves(const MotionProblem& problem) const {
+  const std::optional<Trajectory> motion = solution(problem);
+  if (!motion) return false;
+  const Certificate certificate = certify(problem, *motion);
+  const CertificateCheck* const drift = certificate.find("contact drift");
+  return !drift || drift->worst <= kMostDrift;
 }
 
 bool ChangeSearch::solves(const Knob& knob, double amount) const {
@@ -120,6 +134,7 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_s
     if (!any_left || result.out_of_time) break;
     before = turned;
   }
+  std::erase_if(found, [&](const FoundChange& one) { return one.weighted() > kNoMatch * enough; });
   std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
   // What differs by less than bisections tell is equal, and a limit comes before what the task asks.
   const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return !one.knob.is_asked; });

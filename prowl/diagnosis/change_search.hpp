@@ -9,6 +9,7 @@
 
 #include "prowl/diagnosis/change.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/trajectory/trajectory.hpp"
 
 namespace prowl {
 
@@ -41,6 +42,9 @@ class ChangeSearch {
 
   /// Whether the solver converges on the problem's mesh from its guess. Not if there is a proof against it, or the time
   /// is up.
+  bool converges(const MotionProblem& problem) const { return solution(problem).has_value(); }
+  /// Whether it does so, and to a motion in which contacts stay where they are: on a coarse mesh they may drift by
+  /// centimetres in between the nodes, and what needs that has no plan.
   bool solves(const MotionProblem& problem) const;
   bool solves(const Knob& knob, double amount) const;
 
@@ -51,6 +55,7 @@ class ChangeSearch {
 
  private:
   using Clock = std::chrono::steady_clock;
+  std::optional<Trajectory> solution(const MotionProblem& problem) const;
   double bisected(const Knob& knob, double too_little, double enough) const;
 
   const NlpSolver& solver_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "prowl/diagnosis/change_search.hpp"
@@ -22,7 +23,7 @@ namespace {
 /// Of the time that is left, what an elastic solve may take: it is an explanation, and the changes are the answer.
 constexpr double kElasticPart = 0.5;
 constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
-constexpr double kOwnPart = 0.1;  // of the time, for a task that has no solution on one of its meshes
+constexpr double kOwnPart = 0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
 constexpr int kElasticIterations = 500;
 constexpr double kElasticTolerance = 1e-5;  // a tenth of a thousandth of a weight or a limit
 
@@ -57,15 +58,14 @@ class Diagnoser {
     if (result_.reasons.empty()) {
       const bool is_solved = solves_all_meshes();
       plan_as_it_is(is_solved ? 1.0 : kOwnPart);
-      if (result_.solvable || search_.interrupted()) return result_;
-      if (is_solved) {
-        result_.out_of_time = result_.status == SolveStatus::time_limit;
-        return result_;
-      }
+      if (is_solved) result_.out_of_time = result_.status == SolveStatus::time_limit;
+      if (!result_.solvable && !is_solved) look_for_changes();
+      if (result_.undecided) go_on_as_it_is();
     } else {
       result_.status = SolveStatus::infeasible;
+      look_for_changes();
     }
-    look_for_changes();
+    result_.interrupted = search_.interrupted();
     return result_;
   }
 
@@ -76,6 +76,7 @@ class Diagnoser {
 
   /// Whether there is a motion on the search mesh and on all finer ones of the task. Else `searched_` is on the coarsest
   /// without: there it costs least to look for changes.
+  /// Feet may drift here: that is the mesh, and a finer one will tell.
   bool solves_all_meshes() {
     std::vector<MotionProblem> meshes{searched_};
     for (MotionProblem& level : mesh_levels(problem_)) {
@@ -84,28 +85,44 @@ class Diagnoser {
     for (MotionProblem& mesh : meshes) {
       searched_ = std::move(mesh);
       step(fmt::format("solving as it is, {} intervals", count_intervals(searched_)));
-      if (!search_.solves(searched_)) return false;
+      if (!search_.converges(searched_)) return false;
     }
     return true;
   }
 
-  /// As prowl plan does, in a part of the time that is left.
-  Plan planned(const MotionProblem& problem, double part) const {
-    PlanOptions options{.solver = options_.solver};
+  /// As prowl plan does, in a part of the time that is left; from the beginning, or from where it was stopped.
+  Plan planned(const MotionProblem& problem, double part, const Plan& stopped = {}) const {
+    PlanOptions options{.solver = options_.solver, .start_from = stopped.trajectory, .resume = !stopped.trajectory.empty()};
     options.hint_solver = &elastic_;
-    options.solver.max_seconds = search_.seconds_of_solve(part, options.solver.max_seconds);
+    options.solver.max_seconds = search_.seconds_of_solve(part, options.solver.max_seconds - stopped.result.seconds);
     return make_plan(problem, solver_, options);
   }
 
   void plan_as_it_is(double part) {
     step("planning as it is");
-    const Plan plan = planned(problem_, part);
-    result_.status = plan.result.status;
-    result_.message = plan.result.message;
-    result_.solvable = plan.result.status == SolveStatus::converged;
+    as_it_is_ = planned(problem_, part);
+    judge_as_it_is();
+  }
+
+  void go_on_as_it_is() {
+    if (!search_.may_go_on() || as_it_is_.result.seconds >= options_.solver.max_seconds) return;
+    step("planning as it is, from where it was stopped");
+    Plan plan = planned(problem_, 1.0, as_it_is_);
+    plan.result.seconds += as_it_is_.result.seconds;
+    as_it_is_ = std::move(plan);
+    if (as_it_is_.result.status == SolveStatus::converged) result_ = {};  // what was found meanwhile is of no use
+    judge_as_it_is();
+  }
+
+  void judge_as_it_is() {
+    result_.status = as_it_is_.result.status;
+    result_.message = as_it_is_.result.message;
+    result_.solvable = result_.status == SolveStatus::converged;
+    result_.undecided = result_.status == SolveStatus::time_limit || result_.status == SolveStatus::interrupted;
+    result_.planned_seconds = as_it_is_.result.seconds;
     if (!result_.solvable) return;
-    result_.certificate = plan.certificate;
-    result_.hints = plan.hints;
+    result_.certificate = as_it_is_.certificate;
+    result_.hints = as_it_is_.hints;
   }
 
   void look_for_changes() {
@@ -119,7 +136,7 @@ class Diagnoser {
     name(found);
     narrow_down(found);
     for (const FoundChange& change : found) result_.changes.push_back(as_change(change));
-    if (!found.empty()) prove(found.front());
+    prove(found);
     result_.out_of_time = changes.out_of_time || search_.seconds_left() <= 0.0;
   }
 
@@ -190,25 +207,37 @@ class Diagnoser {
     }
   }
 
-  /// The same change on the mesh of the task, the whole way to the certificate; a little more of it if need be.
-  void prove(FoundChange& found) {
-    double last = -1.0;
-    for (const double more : {0.0, 0.05, 0.15}) {
-      const double amount = std::min(found.amount + more, found.knob.most);
-      if (amount == last || !search_.may_go_on()) return;
-      last = amount;
-      step(fmt::format("the smallest change on the mesh of the task, {:.3g} {}", found.knob.value(amount), found.knob.unit));
-      try {
-        const Plan plan = planned(with_steps_of(found.knob.problem(amount), problem_), 1.0);
-        if (plan.result.status != SolveStatus::converged || !plan.certificate.passed) continue;
-      } catch (const Error&) {
-        continue;
-      }
-      found.amount = amount;
-      result_.changes.front() = as_change(found);
-      result_.changes.front().passes = true;
+  /// Up to the first that holds: with that one there is something to go on with.
+  void prove(std::vector<FoundChange>& found) {
+    constexpr std::size_t kMost = 3;
+    for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) {
+      const std::optional<Certificate> certificate = proof(found[i]);
+      if (!certificate) continue;
+      result_.changes[i] = as_change(found[i]);
+      result_.changes[i].is_proved = true;
+      result_.changes[i].passes = certificate->passed;
       return;
     }
+  }
+
+  /// The same change, as it is told, on the mesh of the task, the whole way to the certificate; a little more of it if need be.
+  std::optional<Certificate> proof(FoundChange& found) const {
+    double last = -1.0;
+    for (const double more : {0.0, 0.05, 0.15}) {
+      const double amount = printable_amount(found.knob, std::min(found.amount + more, found.knob.most));
+      if (amount == last || !search_.may_go_on()) return {};
+      last = amount;
+      step(fmt::format("on the mesh of the task, {} {} {:.3g} {}", found.knob.kind, found.knob.subject, found.knob.value(amount), found.knob.unit));
+      try {
+        Plan plan = planned(with_steps_of(found.knob.problem(amount), problem_), 1.0);
+        if (plan.result.status != SolveStatus::converged || !fails_by_mesh_only(plan.certificate)) continue;
+        found.amount = amount;
+        return std::move(plan.certificate);
+      } catch (const Error&) {  // bounds that contradict each other
+        continue;
+      }
+    }
+    return {};
   }
 
   const MotionProblem& problem_;
@@ -217,6 +246,7 @@ class Diagnoser {
   const DiagnosisOptions& options_;
   ChangeSearch search_;
   MotionProblem searched_ = on_search_mesh(problem_);
+  Plan as_it_is_;
   Diagnosis result_;
 };
 

@@ -20,15 +20,21 @@ struct Change {
   double from = 0.0, to = 0.0;
   std::string unit;
   double amount = 0.0;  ///< |log(to / from)|: how changes of different numbers are compared
-  bool passes = false;  ///< solved on the task's own mesh, and passed its certificate; else solved on that of the search
+  /// Solved on the task's own mesh, and what of its certificate fails is the error of that mesh; else solved on the mesh of the
+  /// search, and no more.
+  bool is_proved = false;
+  bool passes = false;  ///< that, and the whole certificate
 };
 
 /// Why a task has no plan, as far as can be found out.
 struct Diagnosis {
   bool solvable = false;   ///< the task as it is has a plan; nothing else was looked for then
   Certificate certificate;  ///< of that plan
+  /// The time was up, or an interrupt came, before the task as it is was planned to an end: it may have a plan all the same.
+  bool undecided = false;
   SolveStatus status = SolveStatus::solver_failed;  ///< of the task as it is
   std::string message;                              ///< the solver's
+  double planned_seconds = 0.0;                     ///< that its solve took
   std::vector<std::string> reasons;                 ///< proofs_of_infeasibility()
   std::vector<std::string> hints;                   ///< doubts(); of a plan that fails its certificate, Plan::hints
   /// What is named: the kind of the smallest change, or if none was found, of the limit that gives way most. Empty if
@@ -42,6 +48,7 @@ struct Diagnosis {
   std::vector<Change> changes;   ///< smallest first, each by itself; of joints, if these are enough, those that gave way
   int tried = 0;                 ///< numbers that were turned
   bool out_of_time = false;      ///< before all was tried that could have been
+  bool interrupted = false;      ///< likewise
 };
 
 struct DiagnosisOptions {
@@ -59,7 +66,8 @@ struct DiagnosisOptions {
 /// 3. an elastic solve by `elastic_solver` with the limits of the kind that was named, to read where, when and by how
 ///    much;
 /// 4. joints are narrowed down to those that gave way, if these alone suffice;
-/// 5. the task with the smallest change on its own mesh, with its certificate.
+/// 5. the task with each of the smallest changes on its own mesh, up to the first that passes its certificate, or fails it by that mesh alone;
+/// 6. what is left of the time for the task as it is, if it was cut off in step 1.
 /// Throws InputError if the problem makes no sense, as make_plan does.
 Diagnosis diagnose(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
                    const DiagnosisOptions& options);

@@ -112,10 +112,10 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
 /// Throws FileError where no other folder can take this one's name: what something is mounted on, or what is another
 /// user's in a folder where only owners may rename (as /tmp).
 void check_exchangeable(const fs::path& path) {
-  struct stat here, above;
+  struct stat here = {}, above = {};
   if (::stat(path.c_str(), &here) != 0) fail(path, "cannot look at this folder", errno);
   if (::stat(path.parent_path().c_str(), &above) != 0) fail(path.parent_path(), "cannot look at this folder", errno);
-  struct statx more;
+  struct statx more = {};
   const bool is_known = ::statx(AT_FDCWD, path.c_str(), 0, STATX_BASIC_STATS, &more) == 0 &&
                         (more.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0;
   const bool is_mounted = is_known ? (more.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 : here.st_dev != above.st_dev;

@@ -61,9 +61,44 @@ std::string what_it_turns(const Change& change, const MotionProblem& problem) {
 std::string in_words(const Change& change, const MotionProblem& problem) {
   const bool several = (change.kind == "torque" || change.kind.starts_with("joint")) &&
                        (change.subject.empty() || change.subject.find(',') != std::string::npos);
-  if (several) return fmt::format("{} times {:.3g}", what_it_turns(change, problem), std::exp(change.amount));
+  if (several) return fmt::format("{} times {:.3g}", what_it_turns(change, problem), change.to);
   return fmt::format("{} {} instead of {}", what_it_turns(change, problem), with_unit(change.to, change.unit),
                      with_unit(change.from, change.unit));
+}
+
+/// Before the first semicolon of the headline: why there is no plan, or that it is not known whether there is one.
+std::string what_is_missing(const Diagnosis& diagnosis, const MotionProblem& problem) {
+  std::string missing = diagnosis.breaches.empty() ? "" : in_words(diagnosis.breaches.front(), problem);
+  if (missing.empty() && !diagnosis.reasons.empty()) missing = diagnosis.reasons.front();
+  if (diagnosis.undecided) {
+    const std::string stopped = diagnosis.interrupted
+                                    ? "interrupted"
+                                    : fmt::format("the time was up after {:.2g} s of planning it", diagnosis.planned_seconds);
+    return "not known whether the task has a plan, " + stopped +
+           (missing.empty() ? "" : fmt::format("; on {} mesh intervals {}", diagnosis.search_intervals, missing));
+  }
+  if (!missing.empty()) return missing;
+  if (diagnosis.elastic_status == SolveStatus::converged) {
+    return fmt::format("not solved ({}), though on {} mesh intervals no limit has to give way: the solver may have missed a solution",
+                       diagnosis.message, diagnosis.search_intervals);
+  }
+  return fmt::format("not solved ({})", diagnosis.message);
+}
+
+/// After it: "solvable with friction of floor 0.61 instead of 0.52, perhaps with duration of phase 1 0.55 s instead of 0.4 s".
+std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& problem) {
+  if (diagnosis.search_intervals == 0) return "each of its meshes is solved from the initial guess, so no limit has to give way";
+  if (diagnosis.changes.empty()) {
+    return diagnosis.out_of_time || diagnosis.interrupted ? "no change of one number was found in the time"
+                                                          : "no change of one number was found that makes it solvable";
+  }
+  constexpr std::size_t kMostPerhaps = 2;
+  std::vector<std::string> proved, perhaps;
+  for (const Change& change : diagnosis.changes) (change.is_proved ? proved : perhaps).push_back(in_words(change, problem));
+  perhaps.resize(std::min(perhaps.size(), kMostPerhaps));
+  std::string help = proved.empty() ? "" : fmt::format("solvable with {}", fmt::join(proved, ", or "));
+  if (perhaps.empty()) return help;
+  return fmt::format("{} with {}", help.empty() ? "perhaps solvable" : help + ", perhaps", fmt::join(perhaps, ", or "));
 }
 
 Json to_json(const Breach& breach, const MotionProblem& problem) {
@@ -78,7 +113,7 @@ Json phase_to_json(int phase) { return phase < 0 ? Json(nullptr) : Json(phase + 
 Json to_json(const Change& change, const MotionProblem& problem) {
   return {{"kind", change.kind}, {"phase", phase_to_json(change.phase)}, {"subject", change.subject},
           {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"factor", std::exp(change.amount)},
-          {"passes", change.passes}, {"words", in_words(change, problem)}};
+          {"is_proved", change.is_proved}, {"passes", change.passes}, {"words", in_words(change, problem)}};
 }
 
 }  // namespace
@@ -89,25 +124,7 @@ std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& 
     return "the task has a plan, but it fails its certificate: " + failed_checks(diagnosis.certificate) +
            (fails_by_mesh_only(diagnosis.certificate) ? "; its mesh is too coarse: prowl plan --refine" : "; all checks: prowl plan, prowl check");
   }
-  std::string line;
-  if (!diagnosis.breaches.empty()) line = in_words(diagnosis.breaches.front(), problem);
-  if (line.empty() && !diagnosis.reasons.empty()) line = diagnosis.reasons.front();
-  if (line.empty() && diagnosis.elastic_status == SolveStatus::converged) {
-    line = fmt::format("not solved ({}), though on {} mesh intervals no limit has to give way: the solver may have missed a "
-                       "solution", diagnosis.message, diagnosis.search_intervals);
-  }
-  if (line.empty() && diagnosis.search_intervals == 0) {
-    return fmt::format("not solved ({}), though each of its meshes is, from the initial guess: no limit has to give way", diagnosis.message);
-  }
-  if (line.empty()) line = fmt::format("not solved ({})", diagnosis.message);
-  if (diagnosis.changes.empty()) {
-    return line + (diagnosis.out_of_time ? "; no change of one number was found in the time" : "; no change of one number was found that makes it solvable");
-  }
-  std::vector<std::string> words;
-  for (const Change& change : diagnosis.changes) {
-    if (words.size() < 3) words.push_back(in_words(change, problem));
-  }
-  return fmt::format("{}; solvable with {}", line, fmt::join(words, ", or "));
+  return fmt::format("{}; {}", what_is_missing(diagnosis, problem), what_would_help(diagnosis, problem));
 }
 
 std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& problem) {
@@ -123,18 +140,20 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
     text += fmt::format("  gives way    and {} more limits\n", diagnosis.breaches.size() - kMostBreaches);
   }
   for (const Change& change : diagnosis.changes) {
-    text += fmt::format("  solvable     with {}{}\n", in_words(change, problem),
-                        change.passes ? " (this plan passes its certificate)"
-                                      : fmt::format(" (on {} mesh intervals)", diagnosis.search_intervals));
+    const std::string proof = change.passes      ? "this plan passes its certificate"
+                              : change.is_proved ? "on the mesh of the task, which is too coarse for the certificate"
+                                                 : fmt::format("solved on {} mesh intervals only", diagnosis.search_intervals);
+    text += fmt::format("  {:<11}  with {} ({})\n", change.is_proved ? "solvable" : "perhaps", in_words(change, problem), proof);
   }
-  if (diagnosis.out_of_time) text += "the time is up: not all that could help was tried (--max-time)\n";
+  if (diagnosis.interrupted) text += "interrupted: not all that could help was tried\n";
+  else if (diagnosis.out_of_time) text += "the time is up: not all that could help was tried (--max-time)\n";
   return text;
 }
 
 std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& problem) {
   Json json = {{"name", problem.name},
                {"robot", problem.robot.name()},
-               {"solvable", diagnosis.solvable},
+               {"solvable", diagnosis.undecided ? Json(nullptr) : Json(diagnosis.solvable)},
                {"passes", diagnosis.certificate.passed},
                {"status", to_string(diagnosis.status)},
                {"message", diagnosis.message},
@@ -147,7 +166,8 @@ std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& prob
                {"breaches", Json::array()},
                {"changes", Json::array()},
                {"tried", diagnosis.tried},
-               {"out_of_time", diagnosis.out_of_time}};
+               {"out_of_time", diagnosis.out_of_time},
+               {"interrupted", diagnosis.interrupted}};
   if (!diagnosis.kind.empty()) {
     json["cause"] = {{"kind", diagnosis.kind}, {"phase", phase_to_json(diagnosis.phase)}, {"subject", diagnosis.subject}};
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -28,13 +27,6 @@ std::optional<int> intervals_option(const Task& task, double needed) {
 }
 
 }  // namespace
-
-bool fails_by_mesh_only(const Certificate& certificate) {
-  constexpr std::array kOfTheMesh{"local integration error", "integration error in a second", "re-integration"};
-  return std::ranges::all_of(certificate.checks, [&](const CertificateCheck& check) {
-    return check.passed || std::ranges::find(kOfTheMesh, check.name) != kOfTheMesh.end();
-  });
-}
 
 std::string mesh_advice(const PlanRecord& record) {
   const auto& errors = record.plan.certificate.interval_errors;

@@ -12,7 +12,4 @@ namespace prowl {
 /// "" if it is there already, or if the solver did not converge: then the error says nothing of the mesh.
 std::string mesh_advice(const PlanRecord& record);
 
-/// Whether a finer mesh would do: no check fails but those of the integration error.
-bool fails_by_mesh_only(const Certificate& certificate);
-
 }  // namespace prowl

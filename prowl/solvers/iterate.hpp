@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace prowl {
@@ -12,10 +13,12 @@ struct IterateFigures {
   double dual_violation = std::numeric_limits<double>::infinity();
 };
 
-/// Whether a solver that is stopped should rather give back `a`: less violation, and among those within tolerance less cost.
+/// Whether a solver that is stopped should rather give back `a`: less violation, and among those within tolerance less cost. NaN is
+/// as bad as infinity.
 inline bool is_better(const IterateFigures& a, const IterateFigures& b, double tolerance) {
-  const double violation_a = std::max(a.violation, tolerance), violation_b = std::max(b.violation, tolerance);
-  return violation_a < violation_b || (violation_a == violation_b && a.cost < b.cost);
+  const auto size = [](double figure) { return std::isnan(figure) ? std::numeric_limits<double>::infinity() : figure; };
+  const double violation_a = std::max(size(a.violation), tolerance), violation_b = std::max(size(b.violation), tolerance);
+  return violation_a < violation_b || (violation_a == violation_b && size(a.cost) < size(b.cost));
 }
 
 }  // namespace prowl

@@ -86,6 +86,9 @@ struct Certificate {
 
 const char* to_string(Grade grade);
 
+/// Whether a finer mesh would do: no check fails but those of the integration error.
+bool fails_by_mesh_only(const Certificate& certificate);
+
 /// Re-evaluates everything by dynamics of its own (ConstrainedDynamicsOracle), without the projection and without the
 /// transcription. Never throws because a motion is bad: that is a failed check. A motion whose nodes do not fit the
 /// problem, or with a NaN or infinity in it, gets these checks only: the others would mean nothing.

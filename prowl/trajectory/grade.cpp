@@ -1,5 +1,8 @@
 #include "prowl/trajectory/certificate.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace prowl {
 
 const char* to_string(Grade grade) {
@@ -12,6 +15,13 @@ const char* to_string(Grade grade) {
       break;
   }
   return "failed";
+}
+
+bool fails_by_mesh_only(const Certificate& certificate) {
+  constexpr std::array kOfTheMesh{"local integration error", "integration error in a second", "re-integration"};
+  return std::ranges::all_of(certificate.checks, [&](const CertificateCheck& check) {
+    return check.passed || std::ranges::find(kOfTheMesh, check.name) != kOfTheMesh.end();
+  });
 }
 
 }  // namespace prowl

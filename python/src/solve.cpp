@@ -112,6 +112,7 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
     PlanRecord record{.task = task, .plan = std::move(found), .versions = cli::versions(), .feedback = {},
                       .iterations = observer.iterations(),
                       .warm_start = start_from && start_from->read_from ? start_from->read_from->string() : ""};
+    record.task.problem = mesh_of(task.problem, record.plan);
     if (gains && !observer.stop()) note = add_feedback(record, observer);
     plan = std::make_shared<PlanObject>(std::move(record));
   }

@@ -107,6 +107,20 @@ TEST_F(Checkpoints, AreKeptWhereTheyAreResumed) {
   EXPECT_GT(violation(), before);
 }
 
+/// Where it is stopped early, neither the plan nor the checkpoint goes on to finer meshes.
+TEST_F(Checkpoints, StayOnTheMeshWhereTheTimeRanOut) {
+  const std::string command = "$prowl plan bow.toml $dirs --intervals 200 --out out ";
+  const Outcome stopped = run(command + "--max-time 1e-6 --checkpoint so_far --checkpoint-every 0");
+  EXPECT_EQ(stopped.status, 6) << stopped.error;
+  EXPECT_THAT(stopped.error, HasSubstr("to go on from there: --resume out, all else as before\n"));
+  EXPECT_EQ(intervals(plan()), std::vector{13});
+  EXPECT_EQ(plan().at("problem").at("phases").at(0).at("intervals"), 13);
+  EXPECT_EQ(read_plan("so_far").at("problem").at("phases").at(0).at("intervals"), 13);
+  EXPECT_EQ(run("$prowl check out $dirs").status, 6);
+  EXPECT_EQ(run(command + "--resume out").status, 0);
+  EXPECT_EQ(intervals(plan()), (std::vector{13, 50, 200}));
+}
+
 TEST_F(Checkpoints, OfSomethingElseAreRefused) {
   ASSERT_EQ(run("$prowl plan bow.toml $dirs --out out --max-iterations 2 --checkpoint so_far --checkpoint-every 0").status, 6);
   const auto refusal = [&](const std::string& arguments) {
@@ -140,6 +154,11 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --out other --max-iterations 1 --checkpoint other2").status, 6) << "a beginning of a name is no folder";
   EXPECT_THAT(run("$prowl plan bow.toml $dirs --out other --checkpoint good").error, HasSubstr("--checkpoint good: holds a plan that passed"));
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --checkpoint-every 3").status, 2) << "of no checkpoint";
+  for (const std::string option : {"--checkpoint", "--resume", "--out", "--warm-start"}) {
+    const Outcome result = run("$prowl plan bow.toml $dirs " + option + " ''");
+    EXPECT_EQ(result.status, 2) << option;
+    EXPECT_THAT(result.error, HasSubstr(option + ": is empty; need a folder"));
+  }
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --checkpoint so_far --checkpoint-every nan").status, 2);
   folder_.write("mine/thesis.tex", "years of work");
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --checkpoint mine").status, 4);
@@ -156,7 +175,8 @@ int count(const std::string& text, const std::string& what) {
 
 TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
-    for (const std::string signal : {"INT", "TERM"}) {
+    for (const std::string signal : {"INT", "TERM", "HUP"}) {
+      if (signal == "HUP" && solver != "riccati") continue;  // the same to a solver
       const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; "
                                  "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; kill -" + signal + " $pid; wait $pid");
       EXPECT_EQ(result.status, 130) << solver << " " << signal << result.error;
@@ -167,6 +187,13 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
       EXPECT_LE(count(progress.substr(notice), " s\n"), 1) << solver << ": one was under way\n" << progress;
     }
   }
+}
+
+/// Who starts it with nohup wants it to outlive the terminal.
+TEST_F(Checkpoints, NohupIsHeeded) {
+  const Outcome result = run(": >progress; nohup $prowl plan bow.toml $dirs --out out --intervals 300 >said 2>progress & pid=$!; "
+                             "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; kill -HUP $pid; wait $pid");
+  EXPECT_EQ(result.status, 0) << result.error;
 }
 
 TEST_F(Checkpoints, LimitsOfTimeAndIterationsHold) {

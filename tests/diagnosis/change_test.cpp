@@ -1,5 +1,6 @@
 #include "prowl/diagnosis/change.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -41,6 +42,17 @@ TEST(Change, OfNothingChangesNothing) {
     EXPECT_TRUE(same.boundary_conditions.back().q_ref.isApprox(step.boundary_conditions.back().q_ref));
     EXPECT_LT((*same.phases[2].contacts[0].place - *step.phases[2].contacts[0].place).norm(), 1e-12);
     for (std::size_t p = 0; p < step.phases.size(); ++p) EXPECT_EQ(same.phases[p].duration.max, step.phases[p].duration.max);
+  }
+}
+
+TEST(Change, IsToldWithThreeDigitsAndALittleMore) {
+  const MotionProblem step = shipped("hyq/step");
+  for (const Knob& one : knobs_of(step)) {
+    const double amount = printable_amount(one, kAmount), value = one.value(amount);
+    EXPECT_NEAR(value / std::stod(fmt::format("{:.3g}", value)), 1.0, 1e-9) << one.kind;
+    EXPECT_GE(amount, kAmount - 1e-8) << one.kind;
+    EXPECT_LT(amount, kAmount + 0.011) << one.kind << ": 1.01 for 1.001 is the worst that three digits do";
+    EXPECT_NEAR(printable_amount(one, amount), amount, 1e-8) << one.kind << ": it is told as it is already";
   }
 }
 

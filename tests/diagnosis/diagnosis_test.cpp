@@ -1,8 +1,10 @@
 #include "prowl/diagnosis/diagnosis.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "prowl/diagnosis/change_search.hpp"
@@ -76,6 +78,8 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
   ASSERT_FALSE(found.changes.empty());
   const Change& change = found.changes.front();
   EXPECT_NEAR(change.from, 0.15, 1e-12);
+  EXPECT_TRUE(change.is_proved);
+  EXPECT_NEAR(change.to, std::stod(fmt::format("{:.3g}", change.to)), 1e-9) << "what is printed is not what was proved";
   EXPECT_NEAR(0.5 * (change.to - change.from), breach.amount, 0.05) << "two ways to the same: a range wider on both sides";
   EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
                                                       HasSubstr("rad beyond its bound; solvable with position range of lh_kfe_joint")));
@@ -136,10 +140,75 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
     EXPECT_FALSE(found.solvable);
     EXPECT_EQ(found.status, status);
     EXPECT_EQ(found.out_of_time, status == SolveStatus::time_limit);
+    EXPECT_EQ(found.undecided, status == SolveStatus::time_limit);
     EXPECT_TRUE(found.kind.empty());
     EXPECT_TRUE(found.changes.empty());
-    EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("though each of its meshes is, from the initial guess"));
+    EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("each of its meshes is solved from the initial guess"));
   }
+}
+
+/// A task that takes longer than its part of the time may have a plan, whatever a coarse mesh says.
+TEST_F(DiagnosisTest, OfATaskThatWasCutOffIsThatItIsNotKnown) {
+  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const Diagnosis found = diagnose(stiff, test::FailingSolver(0, SolveStatus::time_limit), IpoptSolver(), {});
+  EXPECT_TRUE(found.undecided);
+  EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(testing::StartsWith("not known whether the task has a plan, the time was up after "),
+                                                     HasSubstr("on 8 mesh intervals phase 1 'crouch', "), HasSubstr("beyond its bound")));
+  EXPECT_THAT(diagnosis_json(found, stiff), HasSubstr("\"solvable\": null"));
+}
+
+TEST_F(DiagnosisTest, GoesOnWithATaskThatWasCutOff) {
+  std::vector<std::string> steps;
+  const auto keep = [&](const std::string& what) { steps.push_back(what); };
+  const Diagnosis found = diagnose(problem(kCrouch), test::FailingSolver(0, SolveStatus::time_limit, 2), IpoptSolver(), {.on_step = keep});
+  EXPECT_EQ(steps.back(), "planning as it is, from where it was stopped");
+  EXPECT_TRUE(found.solvable);
+  EXPECT_FALSE(found.undecided);
+  EXPECT_TRUE(found.changes.empty()) << "found while it was thought to have no plan";
+  EXPECT_TRUE(found.kind.empty());
+}
+
+TEST_F(DiagnosisTest, KeepsWhatWasFoundBeforeAnInterrupt) {
+  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  std::atomic<bool> stop = false;
+  DiagnosisOptions options;
+  options.solver.interrupt = &stop;
+  options.on_step = [&](const std::string& what) { stop = what.starts_with("elastic solve"); };
+  const Diagnosis found = diagnose(stiff, RiccatiSolver(), IpoptSolver(), options);
+  EXPECT_TRUE(found.interrupted);
+  EXPECT_FALSE(found.changes.empty());
+  EXPECT_THAT(diagnosis_text(found, stiff), AllOf(HasSubstr("perhaps"), HasSubstr("interrupted: not all")));
+}
+
+/// On 20 intervals a walk is solved with feet that drift by centimetres; on its own mesh it is another motion.
+TEST(ChangeSearch, TakesNoMotionInWhichFeetDrift) {
+  const auto on_20 = [](const std::string& name) {
+    return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml", test::test_search(), {.intervals = 20}).problem;
+  };
+  const RiccatiSolver solver;
+  const ChangeSearch search(solver, {}, 1000.0);
+  EXPECT_TRUE(search.converges(on_20("crouch")));
+  EXPECT_TRUE(search.solves(on_20("crouch")));
+  EXPECT_TRUE(search.converges(on_20("walk")));
+  EXPECT_FALSE(search.solves(on_20("walk")));
+}
+
+/// What a finer mesh has not shown is not said to be so.
+TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
+  const MotionProblem crouch = problem(kCrouch);
+  Diagnosis found;
+  found.search_intervals = 8;
+  found.message = "stalled";
+  const auto change = [](double to, bool passes) {
+    return Change{.kind = "clearance", .from = 1.0, .to = to, .unit = "m", .amount = 1.0, .is_proved = passes, .passes = passes};
+  };
+  found.changes = {change(2.0, false)};
+  EXPECT_EQ(diagnosis_headline(found, crouch), "not solved (stalled); perhaps solvable with swing clearance 2 m instead of 1 m");
+  found.changes.push_back(change(3.0, true));
+  EXPECT_EQ(diagnosis_headline(found, crouch),
+            "not solved (stalled); solvable with swing clearance 3 m instead of 1 m, perhaps with swing clearance 2 m instead of 1 m");
+  EXPECT_THAT(diagnosis_text(found, crouch), AllOf(HasSubstr("  perhaps      with swing clearance 2 m instead of 1 m (solved on 8 mesh intervals only)\n"),
+                                                   HasSubstr("  solvable     with swing clearance 3 m instead of 1 m (this plan passes its certificate)\n")));
 }
 
 }  // namespace
