@@ -29,7 +29,7 @@ struct DiagnoseArguments {
 ExitStatus exit_status(const Diagnosis& diagnosis) {
   if (diagnosis.solvable) return diagnosis.certificate.passed ? kPassed : kCertificateFailed;
   if (diagnosis.interrupted) return kInterrupted;
-  return diagnosis.undecided ? kLimit : kNotSolved;
+  return diagnosis.is_undecided() ? kLimit : kNotSolved;
 }
 
 int run_diagnose(const DiagnoseArguments& arguments) {

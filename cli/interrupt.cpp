@@ -9,16 +9,22 @@
 namespace prowl::cli {
 namespace {
 
-std::atomic<bool> interrupted = false;
+std::atomic<bool> interrupted = false, hung_up = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
 
-extern "C" void on_interrupt(int) {
-  if (interrupted.exchange(true)) ::_exit(kInterrupted);
+extern "C" void on_interrupt(int signal) {
+  if (signal == SIGHUP) hung_up = true;
+  if (interrupted.exchange(true)) {
+    if (signal == SIGHUP) return;  // a shell and the kernel may both send one
+    ::_exit(kInterrupted);
+  }
   constexpr char kNotice[] = "\nstopping as soon as what is running allows; once more to end at once\n";
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kNotice, sizeof(kNotice) - 1);
 }
 
 }  // namespace
+
+bool is_terminal_gone() { return hung_up; }
 
 const std::atomic<bool>& catch_interrupts() {
   struct sigaction action = {};

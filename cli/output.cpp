@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "interrupt.hpp"
 #include "prowl/error.hpp"
 #include "prowl/model/shown_text.hpp"
 
@@ -30,7 +31,8 @@ void print_result(const std::string& text) { print_bytes(printable(text)); }
 
 void print_bytes(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  if (!written || std::fflush(stdout) != 0) throw FileError(std::string("standard output: ") + std::strerror(errno));
+  const bool is_out = std::fflush(stdout) == 0 && written;
+  if (!is_out && !is_terminal_gone()) throw FileError(std::string("standard output: ") + std::strerror(errno));
 }
 
 void print_message(const std::string& text) { draw(printable(text)); }

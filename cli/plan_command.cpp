@@ -21,6 +21,7 @@
 #include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
 #include "refine_option.hpp"
 #include "shared_options.hpp"
 #include "wrap.hpp"
@@ -145,6 +146,7 @@ int run_plan(const PlanArguments& arguments) {
   const auto solver = make_solver(arguments.solver);
   Plan plan = arguments.refine ? make_refined(task.problem, *solver, options, *arguments.refine, was_interrupted)
                                : make_plan(task.problem, *solver, options);
+  const int asked = count_intervals(task.problem);
   if (!arguments.refine) task.problem = mesh_of(task.problem, plan);
 
   PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
@@ -157,7 +159,11 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   const bool may_go_on = !is_good(record.plan) && (status == kLimit || status == kInterrupted);
-  if (may_go_on) print_message(fmt::format("to go on from there: --resume {}, all else as before\n", out.string()));
+  if (const int reached = count_intervals(record.task.problem); may_go_on && reached < asked) {
+    print_message(fmt::format("note: stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one\n", reached, asked));
+  }
+  if (may_go_on) print_message(fmt::format("to go on from there: --resume {}{}, all else as before\n", out.string(),
+                                             arguments.warm_start.empty() ? "" : " in place of --warm-start"));
   if (status == kNotSolved || status == kLimit) {
     print_message(fmt::format("why, and what would change that: prowl diagnose {}\n", arguments.task));
   }

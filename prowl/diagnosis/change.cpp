@@ -72,7 +72,11 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
             }
             return time * std::exp(sign * a);
           },
-          .problem = [&problem, scaled](double a) { return scaled(problem, a); }};
+          .problem = [&problem, scaled](double a) { return scaled(problem, a); },
+          .words = sign > 0.0 ? std::function<std::string(double)>() : [&problem, scaled, phase](double a) {
+            const Duration duration = scaled(problem, a).phases[static_cast<std::size_t>(phase)].duration;
+            return duration.is_fixed() ? fmt::format("{:.3g} s", duration.min) : fmt::format("[{:.3g}, {:.3g}] s", duration.min, duration.max);
+          }};
 }
 
 /// Phases of a gait come from one number, and there are many: up to so many phases have durations of their own to turn.
@@ -105,8 +109,7 @@ MotionProblem with_joints(const MotionProblem& problem, LimitKind kind, const st
       limits.torque_over_position = times(limits.torque_over_position, factor);
       limits.torque_over_velocity = times(limits.torque_over_velocity, factor);
     } else if (kind == LimitKind::joint_velocity) {
-      // A torque over the velocity is known up to the limit only, and stays as it is there.
-      if (limits.torque_over_velocity.empty()) limits.velocity = factor * robot.velocity_limit()(j);
+      limits.velocity = factor * robot.velocity_limit()(j);
     } else {
       widen(limits, robot.position_lower()(j), robot.position_upper()(j), factor);
     }
@@ -139,6 +142,8 @@ BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, d
 struct Away {
   MotionLimit entry;
   double off = 0.0;
+  std::optional<double> at = {};  ///< the coordinate that it asks for, if it has one
+  int entries = 0;  ///< that are away from the start
 };
 
 /// The entry that is farthest away, each measured by its size. None: off is 0.
@@ -146,15 +151,19 @@ Away farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
   const RobotModel& robot = problem.robot;
   const VectorXd& start = problem.start_configuration();
   Away most;
-  const auto look = [&most](const MotionLimit& entry, double lower, double upper) {
+  const auto look = [&most](const MotionLimit& entry, double lower, double upper, std::optional<double> from = {}) {
     const double off = lower > 0.0 ? lower : upper < 0.0 ? upper : 0.0;
-    if (std::isfinite(off) && std::abs(off) / entry.size > std::abs(most.off) / most.entry.size + 1e-9) most = {entry, off};
+    if (off == 0.0 || !std::isfinite(off)) return;
+    const int entries = most.entries + 1;
+    if (std::abs(off) / entry.size > std::abs(most.off) / most.entry.size + 1e-9) most = {entry, off, from ? std::optional(*from + off) : from};
+    most.entries = entries;
   };
   for (int i = 0; i < robot.nv(); ++i) {
     if (i >= 3 && i < 6) continue;
     const Index at = i < 3 ? i : i + 1;  // a configuration has a quaternion where its tangent has a rotation
     const double shift = goal.q_ref(at) - start(at);
-    look(limit_of_goal(robot, goal.name, i, false), shift + goal.configuration_lower(i), shift + goal.configuration_upper(i));
+    look(limit_of_goal(robot, goal.name, i, false), shift + goal.configuration_lower(i), shift + goal.configuration_upper(i),
+         start(at));
   }
   if (goal.configuration_lower.segment<3>(3).allFinite()) {
     MotionLimit rotation = limit_of_goal(robot, goal.name, 3, false);
@@ -176,6 +185,15 @@ Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& 
             MotionProblem changed = problem;
             changed.boundary_conditions[condition] = nearer(problem, problem.boundary_conditions[condition], std::exp(-a));
             return changed;
+          },
+          .words = [away](double a) {
+            const double off = away.off * std::exp(-a);
+            if (!away.at) return fmt::format("{:.3g} {}", off, away.entry.unit);
+            const double at = *away.at - away.off + off;
+            return fmt::format("{:.4g} {unit} ({:.3g} {unit} from the start)", at, off, fmt::arg("unit", away.entry.unit));
+          },
+          .besides = [away](double a) {
+            return away.entries > 1 ? fmt::format("all that it asks for {:.3g} times as far from the start", std::exp(-a)) : "";
           }};
 }
 
@@ -221,23 +239,33 @@ double printable_amount(const Knob& knob, double amount) {
   if (from == 0.0) return amount;  // friction of ice: no factor helps
   const double digit = std::pow(10.0, std::floor(std::log10(to)) - 2.0);
   const double rounded = digit * (to > from ? std::ceil(to / digit - kRounding) : std::floor(to / digit + kRounding));
-  return std::min(std::abs(std::log(rounded / from)), knob.most);
+  const double more = std::min(std::abs(std::log(rounded / from)), knob.most);
+  return more >= amount - kRounding ? more : amount;  // a range that may not be wider
 }
 
 Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints) {
   const RobotModel& robot = problem.robot;
   const int first = joints.front();
-  const double value = kind == LimitKind::torque           ? robot.torque_limit()(first)
-                       : kind == LimitKind::joint_velocity ? robot.velocity_limit()(first)
-                                                           : robot.position_upper()(first) - robot.position_lower()(first);
+  const auto value = [kind, first](const RobotModel& of) {
+    if (kind == LimitKind::torque) return of.torque_limit()(first);
+    if (kind == LimitKind::joint_velocity) return of.velocity_limit()(first);
+    return of.position_upper()(first) - of.position_lower()(first);
+  };
+  const auto range = [&problem, kind, joints, first](double a) {
+    const RobotModel wider = with_joints(problem, kind, joints, std::exp(a)).robot;
+    return fmt::format("[{:.4g}, {:.4g}] {}", wider.position_lower()(first), wider.position_upper()(first), limit_of_joint(wider, kind, first).unit);
+  };
   std::vector<std::string> names;
   for (const int j : joints) names.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
   const bool all = static_cast<int>(joints.size()) == robot.nu();
   const bool several = joints.size() > 1;  // whose limits may differ: the factor is what they have in common
   return {.kind = to_string(kind), .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMost,
           .unit = several ? "" : limit_of_joint(robot, kind, first).unit,
-          .value = [value = several ? 1.0 : value](double a) { return value * std::exp(a); },
-          .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); }};
+          .value = [&problem, kind, joints, several, value](double a) {
+            return several ? std::exp(a) : value(with_joints(problem, kind, joints, std::exp(a)).robot);
+          },
+          .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); },
+          .words = several || kind != LimitKind::joint_position ? std::function<std::string(double)>() : range};
 }
 
 std::vector<Knob> knobs_of(const MotionProblem& problem) {
@@ -257,7 +285,15 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   std::vector<int> joints(static_cast<std::size_t>(problem.robot.nu()));
   std::iota(joints.begin(), joints.end(), 0);
   for (const LimitKind kind : {LimitKind::torque, LimitKind::joint_velocity, LimitKind::joint_position}) {
-    knobs.push_back(joint_knob(problem, kind, joints));
+    std::vector<int> turned = joints;
+    // Their torque over the velocity is known up to the limit only.
+    const auto has_curve = [&](int j) {
+      const auto& limits = problem.robot.description().limits;
+      const auto found = limits.find(problem.robot.joint_names()[static_cast<std::size_t>(j)]);
+      return found != limits.end() && !found->second.torque_over_velocity.empty();
+    };
+    if (kind == LimitKind::joint_velocity) std::erase_if(turned, has_curve);
+    if (!turned.empty()) knobs.push_back(joint_knob(problem, kind, turned));
   }
   const int phases = static_cast<int>(problem.phases.size());
   for (int p = 0; p < phases && phases <= kMostPhases; ++p) {

@@ -20,9 +20,12 @@ struct Knob {
   bool is_asked = false;  ///< by the task (goal, place, clearance, duration); else a limit of the robot or the ground
   double weight = 1.0;  ///< amounts of different kinds are compared after multiplication with this
   std::string unit;
-  /// The number, in `unit`, which goes with e^a or e^-a; of several the one that changes most, of limits of several joints the factor.
+  /// The number, in `unit`, which goes with e^a or e^-a but where a range may not be so wide; of several the one that
+  /// changes most, of limits of several joints the factor.
   std::function<double(double amount)> value;
   std::function<MotionProblem(double amount)> problem;  ///< may throw InputError
+  std::function<std::string(double amount)> words = {};    ///< the number as a file says it, with unit, where value() is another; may be empty
+  std::function<std::string(double amount)> besides = {};  ///< what else it turns; may be empty
 };
 
 /// All knobs that a problem has: friction of each surface in use, if below that of rubber on dry concrete; duration of
@@ -31,7 +34,7 @@ struct Knob {
 /// land on, if it is known where it was before; swing clearance. They refer to the problem, which must outlive them.
 std::vector<Knob> knobs_of(const MotionProblem& problem);
 
-/// That amount or a little more, at which value() has three digits and no more: what a user reads, and writes into a file.
+/// That amount or a little more, at which value() has three digits and no more, so that what is printed is what was solved.
 double printable_amount(const Knob& knob, double amount);
 
 /// Those of limits of some joints only: LimitKind torque, joint_velocity or joint_position.

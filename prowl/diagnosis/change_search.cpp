@@ -63,7 +63,7 @@ double ChangeSearch::seconds_of_solve(double part, double most) const {
   return std::max(std::min(most, part * seconds_left()), kLeast);
 }
 
-std::optional<Trajectory> ChangeSearch::solution(const MotionProblem& problem) const {
+std::optional<Trajectory> ChangeSearch::motion(const MotionProblem& problem) const {
   if (!may_go_on()) return {};
   try {
     validate(problem);
@@ -72,7 +72,7 @@ std::optional<Trajectory> ChangeSearch::solution(const MotionProblem& problem) c
     const Trajectory guess = initial_guess(problem, mesh);
     Transcription nlp(problem, mesh, guess);
     SolverOptions options = options_;
-    options.max_iterations = std::min(options.max_iterations, kMostIterations);
+    options.max_iterations = kMostIterations;
     options.max_seconds = seconds_of_solve();
     const StallWatch watch(options);
     const SolveResult result = solver_.solve(nlp, nlp.pack(guess), options);
@@ -84,9 +84,9 @@ std::optional<Trajectory> ChangeSearch::solution(const MotionProblem& problem) c
 }
 
 bool ChangeSearch::solves(const MotionProblem& problem) const {
-  const std::optional<Trajectory> motion = solution(problem);
-  if (!motion) return false;
-  const Certificate certificate = certify(problem, *motion);
+  const std::optional<Trajectory> found = motion(problem);
+  if (!found) return false;
+  const Certificate certificate = certify(problem, *found);
   const CertificateCheck* const drift = certificate.find("contact drift");
   return !drift || drift->worst <= kMostDrift;
 }
@@ -121,17 +121,17 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_s
       const Knob& knob = knobs[i];
       const double too_little = before / knob.weight, amount = std::min(turned / knob.weight, knob.most);
       if (done[i] || too_little >= knob.most) continue;
-      result.out_of_time = !may_go_on() || seconds_left() < end;
-      if (result.out_of_time) break;
+      result.out_of_time = seconds_left() <= std::max(end, 0.0);
+      if (result.out_of_time || interrupted()) break;
       any_left = true;
       if (on_step) on_step(fmt::format("{} {} {:.3g} {}", knob.kind, knob.subject, knob.value(amount), knob.unit));
       if (before == 0.0) ++result.tried;
       if (!solves(knob, amount)) continue;
       done[i] = true;
-      found.push_back({knob, bisected(knob, too_little, amount)});
+      found.push_back({knob, printable_amount(knob, bisected(knob, too_little, amount))});
       enough = std::min(enough, found.back().weighted());
     }
-    if (!any_left || result.out_of_time) break;
+    if (!any_left || result.out_of_time || interrupted()) break;
     before = turned;
   }
   std::erase_if(found, [&](const FoundChange& one) { return one.weighted() > kNoMatch * enough; });

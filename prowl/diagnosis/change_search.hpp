@@ -40,11 +40,11 @@ class ChangeSearch {
   bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
   bool may_go_on() const { return seconds_left() > 0.0 && !interrupted(); }
 
-  /// Whether the solver converges on the problem's mesh from its guess. Not if there is a proof against it, or the time
-  /// is up.
-  bool converges(const MotionProblem& problem) const { return solution(problem).has_value(); }
-  /// Whether it does so, and to a motion in which contacts stay where they are: on a coarse mesh they may drift by
-  /// centimetres in between the nodes, and what needs that has no plan.
+  /// What the solver converges to on the problem's mesh from its guess. None if it does not, if there is a proof against
+  /// it, or the time is up.
+  std::optional<Trajectory> motion(const MotionProblem& problem) const;
+  /// Whether there is one in which contacts stay where they are: on a coarse mesh they may drift by centimetres in
+  /// between the nodes, and what needs that has no plan.
   bool solves(const MotionProblem& problem) const;
   bool solves(const Knob& knob, double amount) const;
 
@@ -55,7 +55,6 @@ class ChangeSearch {
 
  private:
   using Clock = std::chrono::steady_clock;
-  std::optional<Trajectory> solution(const MotionProblem& problem) const;
   double bisected(const Knob& knob, double too_little, double enough) const;
 
   const NlpSolver& solver_;

@@ -24,6 +24,7 @@ namespace {
 constexpr double kElasticPart = 0.5;
 constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
 constexpr double kOwnPart = 0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
+constexpr double kGoOnPart = 0.5;  // of the time that is left after the search, for a task whose first part was too short
 constexpr int kElasticIterations = 500;
 constexpr double kElasticTolerance = 1e-5;  // a tenth of a thousandth of a weight or a limit
 
@@ -39,8 +40,11 @@ double value_of_limit(const RobotModel& robot, LimitKind kind, int joint) {
 }
 
 Change as_change(const FoundChange& found) {
-  return {found.knob.kind, found.knob.phase, found.knob.subject, found.knob.value(0.0), found.knob.value(found.amount),
-          found.knob.unit, found.amount};
+  const Knob& knob = found.knob;
+  const auto words = [&](double amount) { return knob.words ? knob.words(amount) : std::string(); };
+  return {.kind = knob.kind, .phase = knob.phase, .subject = knob.subject, .from = knob.value(0.0), .to = knob.value(found.amount),
+          .unit = knob.unit, .from_words = words(0.0), .to_words = words(found.amount),
+          .besides = knob.besides ? knob.besides(found.amount) : "", .amount = found.amount};
 }
 
 class Diagnoser {
@@ -55,17 +59,19 @@ class Diagnoser {
 
   Diagnosis run() {
     result_.reasons = proofs_of_infeasibility(problem_);
-    if (result_.reasons.empty()) {
-      const bool is_solved = solves_all_meshes();
-      plan_as_it_is(is_solved ? 1.0 : kOwnPart);
-      if (is_solved) result_.out_of_time = result_.status == SolveStatus::time_limit;
-      if (!result_.solvable && !is_solved) look_for_changes();
-      if (result_.undecided) go_on_as_it_is();
-    } else {
+    if (!result_.reasons.empty()) {
       result_.status = SolveStatus::infeasible;
       look_for_changes();
+    } else if (const std::optional<Trajectory> motion = solve_all_meshes()) {
+      plan_as_it_is(1.0);
+      if (!result_.solvable) take_from_one_mesh(*motion);
+    } else {
+      plan_as_it_is(kOwnPart);
+      if (!result_.solvable) look_for_changes();
+      if (result_.status == SolveStatus::time_limit) go_on_as_it_is();
     }
     result_.interrupted = search_.interrupted();
+    if (!result_.solvable && search_.seconds_left() <= 0.0) result_.out_of_time = true;
     return result_;
   }
 
@@ -74,20 +80,22 @@ class Diagnoser {
     if (options_.on_step) options_.on_step(what);
   }
 
-  /// Whether there is a motion on the search mesh and on all finer ones of the task. Else `searched_` is on the coarsest
-  /// without: there it costs least to look for changes.
-  /// Feet may drift here: that is the mesh, and a finer one will tell.
-  bool solves_all_meshes() {
+  /// The motion on the task's own mesh, if there is one on the search mesh, on all finer ones of the task and on that. Else
+  /// `searched_` is on the coarsest without: there it costs least to look for changes. Feet may drift on coarse ones: a finer
+  /// one will tell.
+  std::optional<Trajectory> solve_all_meshes() {
     std::vector<MotionProblem> meshes{searched_};
     for (MotionProblem& level : mesh_levels(problem_)) {
       if (count_intervals(level) > count_intervals(meshes.front())) meshes.push_back(std::move(level));
     }
+    std::optional<Trajectory> motion;
     for (MotionProblem& mesh : meshes) {
       searched_ = std::move(mesh);
       step(fmt::format("solving as it is, {} intervals", count_intervals(searched_)));
-      if (!search_.converges(searched_)) return false;
+      motion = search_.motion(searched_);
+      if (!motion) break;
     }
-    return true;
+    return motion;
   }
 
   /// As prowl plan does, in a part of the time that is left; from the beginning, or from where it was stopped.
@@ -107,22 +115,40 @@ class Diagnoser {
   void go_on_as_it_is() {
     if (!search_.may_go_on() || as_it_is_.result.seconds >= options_.solver.max_seconds) return;
     step("planning as it is, from where it was stopped");
-    Plan plan = planned(problem_, 1.0, as_it_is_);
+    Plan plan = planned(problem_, kGoOnPart, as_it_is_);
     plan.result.seconds += as_it_is_.result.seconds;
     as_it_is_ = std::move(plan);
-    if (as_it_is_.result.status == SolveStatus::converged) result_ = {};  // what was found meanwhile is of no use
+    // What was found meanwhile is of no use, unless this is a motion that only its mesh allows.
+    if (as_it_is_.result.status == SolveStatus::converged && fails_by_mesh_only(as_it_is_.certificate)) result_ = {};
     judge_as_it_is();
+  }
+
+  /// prowl plan got nowhere from a coarse mesh, but the task's own was solved from the initial guess.
+  void take_from_one_mesh(const Trajectory& motion) {
+    result_.solvable = result_.needs_one_mesh = true;
+    result_.stopped_by.clear();
+    result_.certificate = certify(problem_, motion);
   }
 
   void judge_as_it_is() {
     result_.status = as_it_is_.result.status;
     result_.message = as_it_is_.result.message;
     result_.solvable = result_.status == SolveStatus::converged;
-    result_.undecided = result_.status == SolveStatus::time_limit || result_.status == SolveStatus::interrupted;
-    result_.planned_seconds = as_it_is_.result.seconds;
+    result_.stopped_by = what_stopped(as_it_is_.result);
     if (!result_.solvable) return;
     result_.certificate = as_it_is_.certificate;
     result_.hints = as_it_is_.hints;
+  }
+
+  std::string what_stopped(const SolveResult& plan) const {
+    if (plan.status == SolveStatus::interrupted) return "interrupted";
+    if (plan.status == SolveStatus::iteration_limit) {
+      return fmt::format("stopped after its solver.max_iterations ({})", options_.solver.max_iterations);
+    }
+    if (plan.status != SolveStatus::time_limit) return "";
+    return plan.seconds >= options_.solver.max_seconds
+               ? fmt::format("stopped after its solver.max_time_s ({:g} s)", options_.solver.max_seconds)
+               : fmt::format("the time was up after {:.1f} s of planning it", plan.seconds);
   }
 
   void look_for_changes() {
@@ -137,7 +163,7 @@ class Diagnoser {
     narrow_down(found);
     for (const FoundChange& change : found) result_.changes.push_back(as_change(change));
     prove(found);
-    result_.out_of_time = changes.out_of_time || search_.seconds_left() <= 0.0;
+    result_.out_of_time = changes.out_of_time;
   }
 
   /// Reads where the limits give way of the kind that is to be changed; of all kinds if nothing is found to change, or
@@ -212,10 +238,19 @@ class Diagnoser {
     constexpr std::size_t kMost = 3;
     for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) {
       const std::optional<Certificate> certificate = proof(found[i]);
+      result_.changes[i].was_tried = search_.may_go_on();
       if (!certificate) continue;
-      result_.changes[i] = as_change(found[i]);
-      result_.changes[i].is_proved = true;
-      result_.changes[i].passes = certificate->passed;
+      Change proved = as_change(found[i]);
+      proved.is_proved = proved.was_tried = true;
+      proved.passes = certificate->passed;
+      result_.changes[i] = std::move(proved);
+      const auto place = static_cast<std::ptrdiff_t>(i);
+      std::rotate(found.begin(), found.begin() + place, found.begin() + place + 1);
+      std::rotate(result_.changes.begin(), result_.changes.begin() + place, result_.changes.begin() + place + 1);
+      if (i > 0 && search_.may_go_on()) {  // what was named first does not help
+        result_.breaches.clear();
+        name(found);
+      }
       return;
     }
   }

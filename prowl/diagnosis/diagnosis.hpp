@@ -19,24 +19,30 @@ struct Change {
   std::string subject;  ///< surface, joints, goal, contact or phase; "" for all
   double from = 0.0, to = 0.0;
   std::string unit;
+  std::string from_words, to_words;  ///< the same in the terms of a file where these are others, with unit: "[-2.44, -0.97] rad"
+  std::string besides;               ///< what changes with it, "" if nothing: "all that it asks for 0.6 times as far"
   double amount = 0.0;  ///< |log(to / from)|: how changes of different numbers are compared
   /// Solved on the task's own mesh, and what of its certificate fails is the error of that mesh; else solved on the mesh of the
   /// search, and no more.
   bool is_proved = false;
   bool passes = false;  ///< that, and the whole certificate
+  bool was_tried = false;  ///< on the task's own mesh, to the end; if it is not proved, without success
 };
 
 /// Why a task has no plan, as far as can be found out.
 struct Diagnosis {
-  bool solvable = false;   ///< the task as it is has a plan; nothing else was looked for then
+  bool solvable = false;   ///< the task as it is has a plan
   Certificate certificate;  ///< of that plan
-  /// The time was up, or an interrupt came, before the task as it is was planned to an end: it may have a plan all the same.
-  bool undecided = false;
+  bool needs_one_mesh = false;  ///< that plan is found on the task's mesh at once (PlanOptions::coarse_first false), not by way of coarse ones
+  /// What stopped the plan of the task as it is before its end, in words: time, iterations, an interrupt. There may be one all
+  /// the same. "" if nothing did.
+  std::string stopped_by;
+  bool is_undecided() const { return !stopped_by.empty(); }
   SolveStatus status = SolveStatus::solver_failed;  ///< of the task as it is
   std::string message;                              ///< the solver's
-  double planned_seconds = 0.0;                     ///< that its solve took
   std::vector<std::string> reasons;                 ///< proofs_of_infeasibility()
   std::vector<std::string> hints;                   ///< doubts(); of a plan that fails its certificate, Plan::hints
+  /// From here on empty if the task has a plan, unless that was found late and fails its certificate by more than its mesh.
   /// What is named: the kind of the smallest change, or if none was found, of the limit that gives way most. Empty if
   /// neither.
   std::string kind;
@@ -45,7 +51,7 @@ struct Diagnosis {
   SolveStatus elastic_status = SolveStatus::solver_failed;  ///< of the solve that the breaches are from
   std::vector<Breach> breaches;  ///< of the limits of that kind alone if they suffice, else of all together; worst first
   int search_intervals = 0;      ///< of the mesh that breaches and changes are from; 0: each mesh of the task was solved
-  std::vector<Change> changes;   ///< smallest first, each by itself; of joints, if these are enough, those that gave way
+  std::vector<Change> changes;   ///< each by itself; the one that is proved, then smallest first; of joints, if these are enough, those that gave way
   int tried = 0;                 ///< numbers that were turned
   bool out_of_time = false;      ///< before all was tried that could have been
   bool interrupted = false;      ///< likewise

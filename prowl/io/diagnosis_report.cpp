@@ -62,19 +62,17 @@ std::string in_words(const Change& change, const MotionProblem& problem) {
   const bool several = (change.kind == "torque" || change.kind.starts_with("joint")) &&
                        (change.subject.empty() || change.subject.find(',') != std::string::npos);
   if (several) return fmt::format("{} times {:.3g}", what_it_turns(change, problem), change.to);
-  return fmt::format("{} {} instead of {}", what_it_turns(change, problem), with_unit(change.to, change.unit),
-                     with_unit(change.from, change.unit));
+  const auto words = [&](const std::string& own, double value) { return own.empty() ? with_unit(value, change.unit) : own; };
+  return fmt::format("{} {} instead of {}{}", what_it_turns(change, problem), words(change.to_words, change.to),
+                     words(change.from_words, change.from), change.besides.empty() ? "" : ", " + change.besides);
 }
 
 /// Before the first semicolon of the headline: why there is no plan, or that it is not known whether there is one.
 std::string what_is_missing(const Diagnosis& diagnosis, const MotionProblem& problem) {
   std::string missing = diagnosis.breaches.empty() ? "" : in_words(diagnosis.breaches.front(), problem);
   if (missing.empty() && !diagnosis.reasons.empty()) missing = diagnosis.reasons.front();
-  if (diagnosis.undecided) {
-    const std::string stopped = diagnosis.interrupted
-                                    ? "interrupted"
-                                    : fmt::format("the time was up after {:.2g} s of planning it", diagnosis.planned_seconds);
-    return "not known whether the task has a plan, " + stopped +
+  if (diagnosis.is_undecided()) {
+    return "not known whether the task has a plan, " + diagnosis.stopped_by +
            (missing.empty() ? "" : fmt::format("; on {} mesh intervals {}", diagnosis.search_intervals, missing));
   }
   if (!missing.empty()) return missing;
@@ -87,7 +85,6 @@ std::string what_is_missing(const Diagnosis& diagnosis, const MotionProblem& pro
 
 /// After it: "solvable with friction of floor 0.61 instead of 0.52, perhaps with duration of phase 1 0.55 s instead of 0.4 s".
 std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& problem) {
-  if (diagnosis.search_intervals == 0) return "each of its meshes is solved from the initial guess, so no limit has to give way";
   if (diagnosis.changes.empty()) {
     return diagnosis.out_of_time || diagnosis.interrupted ? "no change of one number was found in the time"
                                                           : "no change of one number was found that makes it solvable";
@@ -96,7 +93,8 @@ std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& pro
   std::vector<std::string> proved, perhaps;
   for (const Change& change : diagnosis.changes) (change.is_proved ? proved : perhaps).push_back(in_words(change, problem));
   perhaps.resize(std::min(perhaps.size(), kMostPerhaps));
-  std::string help = proved.empty() ? "" : fmt::format("solvable with {}", fmt::join(proved, ", or "));
+  const bool is_fine = std::ranges::none_of(diagnosis.changes, [](const Change& change) { return change.is_proved && !change.passes; });
+  std::string help = proved.empty() ? "" : fmt::format("solvable {}with {}", is_fine ? "" : "on a finer mesh (--refine) ", fmt::join(proved, ", or "));
   if (perhaps.empty()) return help;
   return fmt::format("{} with {}", help.empty() ? "perhaps solvable" : help + ", perhaps", fmt::join(perhaps, ", or "));
 }
@@ -113,16 +111,20 @@ Json phase_to_json(int phase) { return phase < 0 ? Json(nullptr) : Json(phase + 
 Json to_json(const Change& change, const MotionProblem& problem) {
   return {{"kind", change.kind}, {"phase", phase_to_json(change.phase)}, {"subject", change.subject},
           {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"factor", std::exp(change.amount)},
-          {"is_proved", change.is_proved}, {"passes", change.passes}, {"words", in_words(change, problem)}};
+          {"besides", change.besides}, {"is_proved", change.is_proved}, {"was_tried", change.was_tried}, {"passes", change.passes}, {"words", in_words(change, problem)}};
 }
 
 }  // namespace
 
 std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& problem) {
-  if (diagnosis.solvable && diagnosis.certificate.passed) return "the task has a plan, and it passes its certificate";
+  const std::string found = diagnosis.needs_one_mesh ? "the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes"
+                                                     : "the task has a plan";
+  if (diagnosis.solvable && diagnosis.certificate.passed) return found + ", and it passes its certificate";
   if (diagnosis.solvable) {
-    return "the task has a plan, but it fails its certificate: " + failed_checks(diagnosis.certificate) +
-           (fails_by_mesh_only(diagnosis.certificate) ? "; its mesh is too coarse: prowl plan --refine" : "; all checks: prowl plan, prowl check");
+    const std::string next = fails_by_mesh_only(diagnosis.certificate) ? "its mesh is too coarse: prowl plan --refine"
+                             : diagnosis.changes.empty()               ? "all checks: prowl plan, prowl check"
+                                                                       : what_would_help(diagnosis, problem);
+    return fmt::format("{}, but it fails its certificate: {}; {}", found, failed_checks(diagnosis.certificate), next);
   }
   return fmt::format("{}; {}", what_is_missing(diagnosis, problem), what_would_help(diagnosis, problem));
 }
@@ -132,7 +134,6 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, headline);
   for (const std::string& reason : diagnosis.reasons) text += fmt::format("  certain      {}\n", reason);
   for (const std::string& hint : diagnosis.hints) text += fmt::format("  doubtful     {}\n", hint);
-  if (diagnosis.solvable) return text;
   for (std::size_t i = 0; i < std::min(diagnosis.breaches.size(), kMostBreaches); ++i) {
     text += fmt::format("  gives way    {}\n", in_words(diagnosis.breaches[i], problem));
   }
@@ -141,10 +142,12 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   }
   for (const Change& change : diagnosis.changes) {
     const std::string proof = change.passes      ? "this plan passes its certificate"
-                              : change.is_proved ? "on the mesh of the task, which is too coarse for the certificate"
+                              : change.is_proved ? "on the mesh of the task, which is too coarse for the certificate: --refine"
+                              : change.was_tried ? fmt::format("solved on {} mesh intervals, but not on the task's own", diagnosis.search_intervals)
                                                  : fmt::format("solved on {} mesh intervals only", diagnosis.search_intervals);
     text += fmt::format("  {:<11}  with {} ({})\n", change.is_proved ? "solvable" : "perhaps", in_words(change, problem), proof);
   }
+  if (diagnosis.solvable) return text;
   if (diagnosis.interrupted) text += "interrupted: not all that could help was tried\n";
   else if (diagnosis.out_of_time) text += "the time is up: not all that could help was tried (--max-time)\n";
   return text;
@@ -153,8 +156,9 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
 std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& problem) {
   Json json = {{"name", problem.name},
                {"robot", problem.robot.name()},
-               {"solvable", diagnosis.undecided ? Json(nullptr) : Json(diagnosis.solvable)},
+               {"solvable", diagnosis.is_undecided() ? Json(nullptr) : Json(diagnosis.solvable)},
                {"passes", diagnosis.certificate.passed},
+               {"needs_one_mesh", diagnosis.needs_one_mesh},
                {"status", to_string(diagnosis.status)},
                {"message", diagnosis.message},
                {"headline", diagnosis_headline(diagnosis, problem)},

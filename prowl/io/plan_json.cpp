@@ -242,7 +242,7 @@ Certificate read_certificate(const Reader& json, int version) {
   return certificate;
 }
 
-/// The mesh of the plan: that of the task, unless it was refined.
+/// The mesh of the plan: that of the task, unless it was refined or stopped on a coarser one.
 MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
   const std::vector<Reader> phases = plan.object("problem").list("phases");
   if (phases.size() != problem.phases.size()) {

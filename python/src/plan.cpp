@@ -96,7 +96,7 @@ void bind_plan(nb::module_& module) {
       .def_prop_ro("versions", [](const PlanObject& p) { return p.record.versions; }, "Of Prowl and of what it used.")
       .def_prop_ro("certificate", [](const PlanObject& p) -> const Certificate& { return p.record.plan.certificate; },
                    nb::rv_policy::reference_internal)
-      .def_prop_ro("task", [](const PlanObject& p) -> const Task& { return p.record.task; }, nb::rv_policy::reference_internal)
+      .def_prop_ro("task", [](const PlanObject& p) -> const Task& { return p.asked ? *p.asked : p.record.task; }, nb::rv_policy::reference_internal)
       .def_prop_ro("robot", [](const PlanObject& p) -> const RobotModel& { return p.problem().robot; },
                    nb::rv_policy::reference_internal)
       .def_prop_ro("tracker", [](const PlanObject& p) { return p.tracker; }, nb::sig("def tracker(self) -> Tracker | None"),

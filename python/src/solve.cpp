@@ -15,6 +15,7 @@
 #include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
 #include "signals.hpp"
 
 namespace prowl::python {
@@ -115,6 +116,7 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
     record.task.problem = mesh_of(task.problem, record.plan);
     if (gains && !observer.stop()) note = add_feedback(record, observer);
     plan = std::make_shared<PlanObject>(std::move(record));
+    if (count_intervals(plan->problem()) != count_intervals(task.problem)) plan->asked = task;
   }
   const nb::object result = nb::cast(plan);
   if (auto& error = observer.error()) {

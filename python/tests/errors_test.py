@@ -111,6 +111,19 @@ def test_ctrl_c_stops_a_solve_and_keeps_its_best_motion():
     assert np.isfinite(plan.q).all() and len(plan) > 10
 
 
+def test_a_plan_that_was_stopped_goes_on_to_the_mesh_that_was_asked_for():
+    def stop(progress: prowl.Progress) -> None:
+        if progress.iteration == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(prowl.Interrupted) as stopped:
+        prowl.solve(prowl.read_task("hyq/crouch", intervals=200), on_iteration=stop)
+    plan = stopped.value.plan
+    assert len(plan) < 100, "it was on a coarse mesh"
+    done = prowl.solve(plan.task, start_from=plan, progress=False)
+    assert done.status == "converged" and len(done) == 201
+
+
 def test_ctrl_c_stops_a_simulation(crouch):
     started = time.monotonic()
     prowl.simulate(crouch, control_rate=2000.0)

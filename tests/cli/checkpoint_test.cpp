@@ -112,6 +112,7 @@ TEST_F(Checkpoints, StayOnTheMeshWhereTheTimeRanOut) {
   const std::string command = "$prowl plan bow.toml $dirs --intervals 200 --out out ";
   const Outcome stopped = run(command + "--max-time 1e-6 --checkpoint so_far --checkpoint-every 0");
   EXPECT_EQ(stopped.status, 6) << stopped.error;
+  EXPECT_THAT(stopped.error, HasSubstr("note: stopped on a coarse mesh, of 13 intervals in place of 200; "));
   EXPECT_THAT(stopped.error, HasSubstr("to go on from there: --resume out, all else as before\n"));
   EXPECT_EQ(intervals(plan()), std::vector{13});
   EXPECT_EQ(plan().at("problem").at("phases").at(0).at("intervals"), 13);
@@ -187,6 +188,14 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
       EXPECT_LE(count(progress.substr(notice), " s\n"), 1) << solver << ": one was under way\n" << progress;
     }
   }
+}
+
+/// A shell and the kernel may both tell of it, and nobody reads what is printed.
+TEST_F(Checkpoints, TheEndOfTheTerminalKeepsThePlan) {
+  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >/dev/full & pid=$!; "
+                             "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; kill -HUP $pid; kill -HUP $pid; wait $pid");
+  EXPECT_EQ(result.status, 130) << result.error;
+  EXPECT_EQ(plan().at("status"), "interrupted");
 }
 
 /// Who starts it with nohup wants it to outlive the terminal.

@@ -18,7 +18,7 @@ if(PROWL_BUILD_CLI)
   find_package(CLI11 REQUIRED)
   # A command of verbs of verbs, for the completion of what prowl itself need not have.
   add_executable(cli_completion_tree ${CMAKE_CURRENT_LIST_DIR}/completion_tree.cpp ${PROJECT_SOURCE_DIR}/cli/completion_command.cpp
-    ${PROJECT_SOURCE_DIR}/cli/output.cpp ${PROJECT_SOURCE_DIR}/cli/shared_options.cpp)
+    ${PROJECT_SOURCE_DIR}/cli/interrupt.cpp ${PROJECT_SOURCE_DIR}/cli/output.cpp ${PROJECT_SOURCE_DIR}/cli/shared_options.cpp)
   target_link_libraries(cli_completion_tree PRIVATE prowl::io CLI11::CLI11 fmt::fmt)
   target_compile_definitions(cli_completion_test PRIVATE PROWL_COMPLETION_TREE="$<TARGET_FILE:cli_completion_tree>")
   add_dependencies(cli_completion_test cli_completion_tree)

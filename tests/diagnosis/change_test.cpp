@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "prowl/io/task_file.hpp"
 #include "tests/io/test_files.hpp"
@@ -54,6 +55,38 @@ TEST(Change, IsToldWithThreeDigitsAndALittleMore) {
     EXPECT_LT(amount, kAmount + 0.011) << one.kind << ": 1.01 for 1.001 is the worst that three digits do";
     EXPECT_NEAR(printable_amount(one, amount), amount, 1e-8) << one.kind << ": it is told as it is already";
   }
+}
+
+/// In the terms of the file, where the number that is turned is none of them.
+TEST(Change, OfAGoalTellsWhereItIs) {
+  MotionProblem stand = shipped("hyq/stand");
+  BoundaryCondition& goal = stand.boundary_conditions.back();
+  const int nu = stand.robot.nu();
+  goal.configuration_lower.head(6).setConstant(-std::numeric_limits<double>::infinity());
+  goal.configuration_upper.head(6).setConstant(std::numeric_limits<double>::infinity());
+  goal.configuration_lower.tail(nu).setZero();
+  goal.configuration_upper.tail(nu).setZero();
+  goal.q_ref.tail(nu) = stand.start_configuration().tail(nu);
+  goal.q_ref(7 + 2) += 1.0;
+  const Knob of_joint = knob(knobs_of(stand), "goal", 0);
+  const double start = stand.start_configuration()(7 + 2), half = std::log(2.0);
+  EXPECT_EQ(of_joint.words(0.0), fmt::format("{:.4g} rad (1 rad from the start)", start + 1.0));
+  EXPECT_EQ(of_joint.words(half), fmt::format("{:.4g} rad (0.5 rad from the start)", start + 0.5));
+  EXPECT_EQ(of_joint.besides(half), "");
+  EXPECT_NEAR(of_joint.problem(half).boundary_conditions.back().q_ref(7 + 2), start + 0.5, 1e-12);
+  goal.q_ref(7 + 1) += 0.1;
+  EXPECT_EQ(knob(knobs_of(stand), "goal", 0).besides(half), "all that it asks for 0.5 times as far from the start");
+}
+
+/// A range that is cut where its torque is not known is told as it is.
+TEST(Change, OfARangeTellsBothBounds) {
+  const MotionProblem step = shipped("hyq/step");
+  const int knee = 2;
+  ASSERT_FALSE(step.robot.description().limits.at(step.robot.joint_names()[knee]).torque_over_position.empty());
+  const Knob range = joint_knob(step, LimitKind::joint_position, {knee});
+  const RobotModel wider = range.problem(2.0).robot;
+  EXPECT_EQ(range.words(2.0), fmt::format("[{:.4g}, {:.4g}] rad", wider.position_lower()(knee), wider.position_upper()(knee)));
+  EXPECT_NEAR(range.value(2.0), wider.position_upper()(knee) - wider.position_lower()(knee), 1e-12);
 }
 
 TEST(Change, TurnsTheNumberThatItTellsOf) {

@@ -82,7 +82,8 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
   EXPECT_NEAR(change.to, std::stod(fmt::format("{:.3g}", change.to)), 1e-9) << "what is printed is not what was proved";
   EXPECT_NEAR(0.5 * (change.to - change.from), breach.amount, 0.05) << "two ways to the same: a range wider on both sides";
   EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
-                                                      HasSubstr("rad beyond its bound; solvable with position range of lh_kfe_joint")));
+                                                      HasSubstr("rad beyond its bound; solvable on a finer mesh (--refine) with position range of lh_kfe_joint ["),
+                                                      HasSubstr("] rad instead of [1.4, 1.55] rad")));
 }
 
 TEST_F(DiagnosisTest, NamesWeakJoints) {
@@ -137,13 +138,14 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
   const MotionProblem crouch = problem(kCrouch);
   for (const SolveStatus status : {SolveStatus::time_limit, SolveStatus::solver_failed}) {
     const Diagnosis found = diagnose(crouch, test::FailingSolver(1, status), IpoptSolver(), {});
-    EXPECT_FALSE(found.solvable);
+    EXPECT_TRUE(found.solvable) << "a motion on its own mesh is at hand";
     EXPECT_EQ(found.status, status);
-    EXPECT_EQ(found.out_of_time, status == SolveStatus::time_limit);
-    EXPECT_EQ(found.undecided, status == SolveStatus::time_limit);
+    EXPECT_FALSE(found.is_undecided());
+    EXPECT_FALSE(found.out_of_time);
     EXPECT_TRUE(found.kind.empty());
     EXPECT_TRUE(found.changes.empty());
-    EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("each of its meshes is solved from the initial guess"));
+    EXPECT_THAT(diagnosis_headline(found, crouch), AllOf(HasSubstr("the task has a plan with prowl plan --one-mesh"), HasSubstr("local integration error")))
+        << "eight intervals are few";
   }
 }
 
@@ -151,7 +153,7 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
 TEST_F(DiagnosisTest, OfATaskThatWasCutOffIsThatItIsNotKnown) {
   const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   const Diagnosis found = diagnose(stiff, test::FailingSolver(0, SolveStatus::time_limit), IpoptSolver(), {});
-  EXPECT_TRUE(found.undecided);
+  EXPECT_TRUE(found.is_undecided());
   EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(testing::StartsWith("not known whether the task has a plan, the time was up after "),
                                                      HasSubstr("on 8 mesh intervals phase 1 'crouch', "), HasSubstr("beyond its bound")));
   EXPECT_THAT(diagnosis_json(found, stiff), HasSubstr("\"solvable\": null"));
@@ -160,10 +162,13 @@ TEST_F(DiagnosisTest, OfATaskThatWasCutOffIsThatItIsNotKnown) {
 TEST_F(DiagnosisTest, GoesOnWithATaskThatWasCutOff) {
   std::vector<std::string> steps;
   const auto keep = [&](const std::string& what) { steps.push_back(what); };
-  const Diagnosis found = diagnose(problem(kCrouch), test::FailingSolver(0, SolveStatus::time_limit, 2), IpoptSolver(), {.on_step = keep});
+  const test::FailingSolver solver(0, SolveStatus::time_limit, 2);
+  const Diagnosis found = diagnose(problem(kCrouch), solver, IpoptSolver(), {.on_step = keep});
   EXPECT_EQ(steps.back(), "planning as it is, from where it was stopped");
+  const auto off = [&](const Eigen::VectorXd& start) { return (start - solver.ends[1]).lpNorm<Eigen::Infinity>(); };
+  EXPECT_LT(off(solver.starts.back()), 1e-3 * off(solver.starts[1])) << "it began anew";
   EXPECT_TRUE(found.solvable);
-  EXPECT_FALSE(found.undecided);
+  EXPECT_FALSE(found.is_undecided());
   EXPECT_TRUE(found.changes.empty()) << "found while it was thought to have no plan";
   EXPECT_TRUE(found.kind.empty());
 }
@@ -187,10 +192,22 @@ TEST(ChangeSearch, TakesNoMotionInWhichFeetDrift) {
   };
   const RiccatiSolver solver;
   const ChangeSearch search(solver, {}, 1000.0);
-  EXPECT_TRUE(search.converges(on_20("crouch")));
+  EXPECT_TRUE(search.motion(on_20("crouch")));
   EXPECT_TRUE(search.solves(on_20("crouch")));
-  EXPECT_TRUE(search.converges(on_20("walk")));
+  EXPECT_TRUE(search.motion(on_20("walk")));
   EXPECT_FALSE(search.solves(on_20("walk")));
+}
+
+/// The limit of iterations is no property of the task.
+TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
+  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  DiagnosisOptions options;
+  options.solver.max_iterations = 2;
+  EXPECT_THAT(diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff),
+              testing::StartsWith("not known whether the task has a plan, stopped after its solver.max_iterations (2); "));
+  const Diagnosis found = diagnose(problem(kCrouch), RiccatiSolver(), IpoptSolver(), options);
+  EXPECT_TRUE(found.solvable) << "the search has iterations of its own";
+  EXPECT_TRUE(found.needs_one_mesh);
 }
 
 /// What a finer mesh has not shown is not said to be so.
@@ -207,6 +224,12 @@ TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
   found.changes.push_back(change(3.0, true));
   EXPECT_EQ(diagnosis_headline(found, crouch),
             "not solved (stalled); solvable with swing clearance 3 m instead of 1 m, perhaps with swing clearance 2 m instead of 1 m");
+  found.changes.back().passes = false;
+  EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("; solvable on a finer mesh (--refine) with swing clearance 3 m instead of 1 m, perhaps with "));
+  found.changes.back().passes = true;
+  found.changes.front().was_tried = true;
+  EXPECT_THAT(diagnosis_text(found, crouch), HasSubstr("(solved on 8 mesh intervals, but not on the task's own)"));
+  found.changes.front().was_tried = false;
   EXPECT_THAT(diagnosis_text(found, crouch), AllOf(HasSubstr("  perhaps      with swing clearance 2 m instead of 1 m (solved on 8 mesh intervals only)\n"),
                                                    HasSubstr("  solvable     with swing clearance 3 m instead of 1 m (this plan passes its certificate)\n")));
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "prowl/solvers/riccati_solver.hpp"
 
 namespace prowl::test {
@@ -13,9 +15,13 @@ class FailingSolver : public NlpSolver {
   std::optional<std::string> why_unsupported(Nlp& nlp) const override { return solver_.why_unsupported(nlp); }
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& start, const SolverOptions& options) const override {
     SolveResult result = solver_.solve(nlp, start, options);
+    starts.push_back(start);
+    ends.push_back(result.z);
     if (left_-- <= 0 && failures_-- > 0) result.status = status_;
     return result;
   }
+
+  mutable std::vector<Eigen::VectorXd> starts, ends;  ///< of each solve
 
  private:
   RiccatiSolver solver_;
