@@ -27,8 +27,9 @@ struct DiagnoseArguments {
 };
 
 ExitStatus exit_status(const Diagnosis& diagnosis) {
+  const bool was_planned = diagnosis.solvable && diagnosis.stopped_by.empty();
+  if (diagnosis.interrupted && !was_planned) return kInterrupted;
   if (diagnosis.solvable) return diagnosis.certificate.passed ? kPassed : kCertificateFailed;
-  if (diagnosis.interrupted) return kInterrupted;
   return diagnosis.is_undecided() ? kLimit : kNotSolved;
 }
 
@@ -61,8 +62,8 @@ void add_diagnose_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb, {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
              "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, whether or not a\n"
-             "cause was found; 6 the time was up before that was known; 7 there is a plan, but its certificate\n"
-             "fails; 130 interrupted: what was found so far.");
+             "cause was found; 6 time or iterations were up before that was known; 7 there is a plan, but its\n"
+             "certificate fails; 130 interrupted: what was found so far.");
   verb->callback([arguments, &status] { status = run_diagnose(*arguments); });
 }
 

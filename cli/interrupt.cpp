@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 
 #include "exit_status.hpp"
@@ -18,8 +19,10 @@ extern "C" void on_interrupt(int signal) {
     if (signal == SIGHUP) return;  // a shell and the kernel may both send one
     ::_exit(kInterrupted);
   }
+  const int before = errno;  // of what is interrupted
   constexpr char kNotice[] = "\nstopping as soon as what is running allows; once more to end at once\n";
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kNotice, sizeof(kNotice) - 1);
+  errno = before;
 }
 
 }  // namespace

@@ -31,8 +31,10 @@ void print_result(const std::string& text) { print_bytes(printable(text)); }
 
 void print_bytes(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
-  const bool is_out = std::fflush(stdout) == 0 && written;
-  if (!is_out && !is_terminal_gone()) throw FileError(std::string("standard output: ") + std::strerror(errno));
+  if (std::fflush(stdout) == 0 && written) return;
+  const int reason = errno;
+  const bool nobody_reads = is_terminal_gone() && (reason == EIO || reason == EPIPE);
+  if (!nobody_reads) throw FileError(std::string("standard output: ") + std::strerror(reason));
 }
 
 void print_message(const std::string& text) { draw(printable(text)); }

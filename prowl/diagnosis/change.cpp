@@ -119,6 +119,34 @@ MotionProblem with_joints(const MotionProblem& problem, LimitKind kind, const st
   return changed;
 }
 
+std::string range_of(const RobotModel& robot, int joint) {
+  return fmt::format("[{:.6g}, {:.6g}] {}", robot.position_lower()(joint), robot.position_upper()(joint),
+                     limit_of_joint(robot, LimitKind::joint_position, joint).unit);
+}
+
+/// Which keys of a robot file are turned besides the torque limits of these joints.
+std::string tables_with_torque(const RobotModel& robot, const std::vector<int>& joints, double factor) {
+  std::set<std::string> tables;
+  for (const RobotModel::TorqueCurve& curve : robot.torque_curves()) {
+    if (std::ranges::find(joints, curve.joint) == joints.end()) continue;
+    tables.insert(curve.over_velocity ? "torque_over_velocity" : "torque_over_position");
+  }
+  return tables.empty() ? "" : fmt::format("and {} times {:.5g}", fmt::join(tables, " and "), factor);
+}
+
+/// Of joints whose position ranges go with a factor those that are not so wide, for their torque is not known beyond.
+std::string narrower_ranges(const MotionProblem& problem, const std::vector<int>& joints, double factor) {
+  constexpr double kRounding = 1e-9;
+  const RobotModel wider = with_joints(problem, LimitKind::joint_position, joints, factor).robot;
+  std::vector<std::string> ranges;
+  for (const int j : joints) {
+    const auto width = [j](const RobotModel& robot) { return robot.position_upper()(j) - robot.position_lower()(j); };
+    if (width(wider) >= factor * width(problem.robot) * (1.0 - kRounding)) continue;
+    ranges.push_back(fmt::format("{} {}", problem.robot.joint_names()[static_cast<std::size_t>(j)], range_of(wider, j)));
+  }
+  return ranges.empty() ? "" : fmt::format("but as far as torque_over_position goes {}", fmt::join(ranges, ", "));
+}
+
 /// The goal that part of the way from the start: pose, joints and velocities; not torques.
 BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, double part) {
   const VectorXd& start = problem.start_configuration();
@@ -190,7 +218,7 @@ Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& 
             const double off = away.off * std::exp(-a);
             if (!away.at) return fmt::format("{:.3g} {}", off, away.entry.unit);
             const double at = *away.at - away.off + off;
-            return fmt::format("{:.4g} {unit} ({:.3g} {unit} from the start)", at, off, fmt::arg("unit", away.entry.unit));
+            return fmt::format("{:.6g} {unit} ({:.3g} {unit} from the start)", at, off, fmt::arg("unit", away.entry.unit));
           },
           .besides = [away](double a) {
             return away.entries > 1 ? fmt::format("all that it asks for {:.3g} times as far from the start", std::exp(-a)) : "";
@@ -252,8 +280,7 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
     return of.position_upper()(first) - of.position_lower()(first);
   };
   const auto range = [&problem, kind, joints, first](double a) {
-    const RobotModel wider = with_joints(problem, kind, joints, std::exp(a)).robot;
-    return fmt::format("[{:.4g}, {:.4g}] {}", wider.position_lower()(first), wider.position_upper()(first), limit_of_joint(wider, kind, first).unit);
+    return range_of(with_joints(problem, kind, joints, std::exp(a)).robot, first);
   };
   std::vector<std::string> names;
   for (const int j : joints) names.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
@@ -265,7 +292,11 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
             return several ? std::exp(a) : value(with_joints(problem, kind, joints, std::exp(a)).robot);
           },
           .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); },
-          .words = several || kind != LimitKind::joint_position ? std::function<std::string(double)>() : range};
+          .words = several || kind != LimitKind::joint_position ? std::function<std::string(double)>() : range,
+          .besides = [&problem, kind, joints, several](double a) {
+            if (kind == LimitKind::torque) return tables_with_torque(problem.robot, joints, std::exp(a));
+            return several && kind == LimitKind::joint_position ? narrower_ranges(problem, joints, std::exp(a)) : "";
+          }};
 }
 
 std::vector<Knob> knobs_of(const MotionProblem& problem) {
@@ -288,9 +319,7 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
     std::vector<int> turned = joints;
     // Their torque over the velocity is known up to the limit only.
     const auto has_curve = [&](int j) {
-      const auto& limits = problem.robot.description().limits;
-      const auto found = limits.find(problem.robot.joint_names()[static_cast<std::size_t>(j)]);
-      return found != limits.end() && !found->second.torque_over_velocity.empty();
+      return std::ranges::any_of(problem.robot.torque_curves(), [j](const auto& curve) { return curve.joint == j && curve.over_velocity; });
     };
     if (kind == LimitKind::joint_velocity) std::erase_if(turned, has_curve);
     if (!turned.empty()) knobs.push_back(joint_knob(problem, kind, turned));

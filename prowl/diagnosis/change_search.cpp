@@ -101,7 +101,8 @@ bool ChangeSearch::solves(const Knob& knob, double amount) const {
 
 double ChangeSearch::bisected(const Knob& knob, double too_little, double enough) const {
   while (enough - too_little > std::max(kPrecision, 0.1 * enough) && may_go_on()) {
-    const double middle = 0.5 * (too_little + enough);
+    const double middle = printable_amount(knob, 0.5 * (too_little + enough));
+    if (middle >= enough) break;  // as it is told, there is no number between
     (solves(knob, middle) ? enough : too_little) = middle;
   }
   return enough;
@@ -119,7 +120,7 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_s
     bool any_left = false;
     for (std::size_t i = 0; i < knobs.size(); ++i) {
       const Knob& knob = knobs[i];
-      const double too_little = before / knob.weight, amount = std::min(turned / knob.weight, knob.most);
+      const double too_little = before / knob.weight, amount = printable_amount(knob, std::min(turned / knob.weight, knob.most));
       if (done[i] || too_little >= knob.most) continue;
       result.out_of_time = seconds_left() <= std::max(end, 0.0);
       if (result.out_of_time || interrupted()) break;
@@ -128,7 +129,7 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_s
       if (before == 0.0) ++result.tried;
       if (!solves(knob, amount)) continue;
       done[i] = true;
-      found.push_back({knob, printable_amount(knob, bisected(knob, too_little, amount))});
+      found.push_back({knob, bisected(knob, too_little, amount)});
       enough = std::min(enough, found.back().weighted());
     }
     if (!any_left || result.out_of_time || interrupted()) break;

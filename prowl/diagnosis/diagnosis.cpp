@@ -24,7 +24,6 @@ namespace {
 constexpr double kElasticPart = 0.5;
 constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
 constexpr double kOwnPart = 0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
-constexpr double kGoOnPart = 0.5;  // of the time that is left after the search, for a task whose first part was too short
 constexpr int kElasticIterations = 500;
 constexpr double kElasticTolerance = 1e-5;  // a tenth of a thousandth of a weight or a limit
 
@@ -42,10 +41,17 @@ double value_of_limit(const RobotModel& robot, LimitKind kind, int joint) {
 Change as_change(const FoundChange& found) {
   const Knob& knob = found.knob;
   const auto words = [&](double amount) { return knob.words ? knob.words(amount) : std::string(); };
-  return {.kind = knob.kind, .phase = knob.phase, .subject = knob.subject, .from = knob.value(0.0), .to = knob.value(found.amount),
+  const double from = knob.value(0.0), to = knob.value(found.amount), ratio = std::abs(std::log(to / from));
+  return {.kind = knob.kind, .phase = knob.phase, .subject = knob.subject, .from = from, .to = to,
           .unit = knob.unit, .from_words = words(0.0), .to_words = words(found.amount),
-          .besides = knob.besides ? knob.besides(found.amount) : "", .amount = found.amount};
+          .besides = knob.besides ? knob.besides(found.amount) : "", .amount = std::isfinite(ratio) ? ratio : found.amount};
 }
+
+/// What became of a change on the mesh of the task.
+struct Proof {
+  std::optional<Certificate> certificate;  ///< of its motion, if that holds but for the error of its mesh
+  bool was_tried = false;                  ///< nothing ended that early
+};
 
 class Diagnoser {
  public:
@@ -64,7 +70,7 @@ class Diagnoser {
       look_for_changes();
     } else if (const std::optional<Trajectory> motion = solve_all_meshes()) {
       plan_as_it_is(1.0);
-      if (!result_.solvable) take_from_one_mesh(*motion);
+      if (!result_.solvable) take_from_own_mesh(*motion);
     } else {
       plan_as_it_is(kOwnPart);
       if (!result_.solvable) look_for_changes();
@@ -98,11 +104,11 @@ class Diagnoser {
     return motion;
   }
 
-  /// As prowl plan does, in a part of the time that is left; from the beginning, or from where it was stopped.
-  Plan planned(const MotionProblem& problem, double part, const Plan& stopped = {}) const {
-    PlanOptions options{.solver = options_.solver, .start_from = stopped.trajectory, .resume = !stopped.trajectory.empty()};
+  /// As prowl plan does, in a part of the time that is left, of which so much was spent on it before.
+  Plan planned(const MotionProblem& problem, double part, PlanOptions options = {}, double seconds_before = 0.0) const {
+    options.solver = options_.solver;
     options.hint_solver = &elastic_;
-    options.solver.max_seconds = search_.seconds_of_solve(part, options.solver.max_seconds - stopped.result.seconds);
+    options.solver.max_seconds = search_.seconds_of_solve(part, options.solver.max_seconds - seconds_before);
     return make_plan(problem, solver_, options);
   }
 
@@ -115,19 +121,31 @@ class Diagnoser {
   void go_on_as_it_is() {
     if (!search_.may_go_on() || as_it_is_.result.seconds >= options_.solver.max_seconds) return;
     step("planning as it is, from where it was stopped");
-    Plan plan = planned(problem_, kGoOnPart, as_it_is_);
-    plan.result.seconds += as_it_is_.result.seconds;
-    as_it_is_ = std::move(plan);
+    const double seconds_before = as_it_is_.result.seconds;
+    PlanOptions options;
+    options.resume = !as_it_is_.trajectory.empty();
+    options.start_from = std::move(as_it_is_.trajectory);
+    as_it_is_ = planned(problem_, 1.0, std::move(options), seconds_before);
+    as_it_is_.result.seconds += seconds_before;
     // What was found meanwhile is of no use, unless this is a motion that only its mesh allows.
-    if (as_it_is_.result.status == SolveStatus::converged && fails_by_mesh_only(as_it_is_.certificate)) result_ = {};
+    if (as_it_is_.result.status == SolveStatus::converged && holds_but_for_its_mesh(as_it_is_.certificate)) result_ = {};
     judge_as_it_is();
   }
 
-  /// prowl plan got nowhere from a coarse mesh, but the task's own was solved from the initial guess.
-  void take_from_one_mesh(const Trajectory& motion) {
-    result_.solvable = result_.needs_one_mesh = true;
-    result_.stopped_by.clear();
+  /// prowl plan did not get there, but the task's own mesh was solved from the initial guess.
+  void take_from_own_mesh(const Trajectory& motion) {
+    result_.solvable = true;
     result_.certificate = certify(problem_, motion);
+    const bool has_coarse_meshes = mesh_levels(problem_).size() > 1;
+    if (!result_.stopped_by.empty() || !has_coarse_meshes || !search_.may_go_on()) return;
+    step("planning as it is, on its own mesh at once");
+    PlanOptions options;
+    options.coarse_first = false;
+    Plan plan = planned(problem_, 1.0, std::move(options));
+    if (plan.result.status != SolveStatus::converged) return;
+    result_.needs_one_mesh = true;
+    result_.certificate = std::move(plan.certificate);
+    result_.hints = std::move(plan.hints);
   }
 
   void judge_as_it_is() {
@@ -223,7 +241,7 @@ class Diagnoser {
     step("trying " + some.subject);
     double last = 0.0;
     for (const double amount : {smallest.amount, needed + kALittleMore, needed + 4.0 * kALittleMore}) {
-      const double turned = std::clamp(amount, smallest.amount, some.most);
+      const double turned = printable_amount(some, std::clamp(amount, smallest.amount, some.most));
       if (turned == last || !search_.solves(some, last = turned)) continue;
       smallest = {some, turned};
       result_.subject = some.subject;
@@ -237,17 +255,17 @@ class Diagnoser {
   void prove(std::vector<FoundChange>& found) {
     constexpr std::size_t kMost = 3;
     for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) {
-      const std::optional<Certificate> certificate = proof(found[i]);
-      result_.changes[i].was_tried = search_.may_go_on();
-      if (!certificate) continue;
+      const Proof proof = proof_of(found[i]);
+      result_.changes[i].was_tried = proof.was_tried;
+      if (!proof.certificate) continue;
       Change proved = as_change(found[i]);
       proved.is_proved = proved.was_tried = true;
-      proved.passes = certificate->passed;
+      proved.passes = proof.certificate->passed;
       result_.changes[i] = std::move(proved);
       const auto place = static_cast<std::ptrdiff_t>(i);
       std::rotate(found.begin(), found.begin() + place, found.begin() + place + 1);
       std::rotate(result_.changes.begin(), result_.changes.begin() + place, result_.changes.begin() + place + 1);
-      if (i > 0 && search_.may_go_on()) {  // what was named first does not help
+      if (i > 0) {  // what was named first does not help
         result_.breaches.clear();
         name(found);
       }
@@ -256,23 +274,26 @@ class Diagnoser {
   }
 
   /// The same change, as it is told, on the mesh of the task, the whole way to the certificate; a little more of it if need be.
-  std::optional<Certificate> proof(FoundChange& found) const {
+  Proof proof_of(FoundChange& found) const {
     double last = -1.0;
+    bool was_tried = true;
     for (const double more : {0.0, 0.05, 0.15}) {
       const double amount = printable_amount(found.knob, std::min(found.amount + more, found.knob.most));
-      if (amount == last || !search_.may_go_on()) return {};
+      if (amount == last) break;
+      if (!search_.may_go_on()) return {};
       last = amount;
       step(fmt::format("on the mesh of the task, {} {} {:.3g} {}", found.knob.kind, found.knob.subject, found.knob.value(amount), found.knob.unit));
       try {
         Plan plan = planned(with_steps_of(found.knob.problem(amount), problem_), 1.0);
-        if (plan.result.status != SolveStatus::converged || !fails_by_mesh_only(plan.certificate)) continue;
+        was_tried = was_tried && what_stopped(plan.result).empty();
+        if (plan.result.status != SolveStatus::converged || !holds_but_for_its_mesh(plan.certificate)) continue;
         found.amount = amount;
-        return std::move(plan.certificate);
+        return {std::move(plan.certificate), true};
       } catch (const Error&) {  // bounds that contradict each other
         continue;
       }
     }
-    return {};
+    return {{}, was_tried};
   }
 
   const MotionProblem& problem_;
@@ -286,6 +307,12 @@ class Diagnoser {
 };
 
 }  // namespace
+
+bool holds_but_for_its_mesh(const Certificate& certificate) {
+  constexpr double kMost = 100.0;  // times its limit: an error that five times the intervals would take away
+  const auto is_near = [](const CertificateCheck& check) { return check.passed || check.worst <= kMost * check.limit; };
+  return fails_by_mesh_only(certificate) && std::ranges::all_of(certificate.checks, is_near);
+}
 
 Diagnosis diagnose(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
                    const DiagnosisOptions& options) {

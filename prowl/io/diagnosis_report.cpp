@@ -59,12 +59,13 @@ std::string what_it_turns(const Change& change, const MotionProblem& problem) {
 
 /// "friction of floor 0.61 instead of 0.52"; of several joints, whose limits may differ, the factor.
 std::string in_words(const Change& change, const MotionProblem& problem) {
+  const std::string besides = change.besides.empty() ? "" : ", " + change.besides;
   const bool several = (change.kind == "torque" || change.kind.starts_with("joint")) &&
                        (change.subject.empty() || change.subject.find(',') != std::string::npos);
-  if (several) return fmt::format("{} times {:.3g}", what_it_turns(change, problem), change.to);
+  if (several) return fmt::format("{} times {:.3g}{}", what_it_turns(change, problem), change.to, besides);
   const auto words = [&](const std::string& own, double value) { return own.empty() ? with_unit(value, change.unit) : own; };
   return fmt::format("{} {} instead of {}{}", what_it_turns(change, problem), words(change.to_words, change.to),
-                     words(change.from_words, change.from), change.besides.empty() ? "" : ", " + change.besides);
+                     words(change.from_words, change.from), besides);
 }
 
 /// Before the first semicolon of the headline: why there is no plan, or that it is not known whether there is one.
@@ -84,6 +85,7 @@ std::string what_is_missing(const Diagnosis& diagnosis, const MotionProblem& pro
 }
 
 /// After it: "solvable with friction of floor 0.61 instead of 0.52, perhaps with duration of phase 1 0.55 s instead of 0.4 s".
+/// What was tried on the task's mesh and did not hold is for the text below.
 std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& problem) {
   if (diagnosis.changes.empty()) {
     return diagnosis.out_of_time || diagnosis.interrupted ? "no change of one number was found in the time"
@@ -91,12 +93,24 @@ std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& pro
   }
   constexpr std::size_t kMostPerhaps = 2;
   std::vector<std::string> proved, perhaps;
-  for (const Change& change : diagnosis.changes) (change.is_proved ? proved : perhaps).push_back(in_words(change, problem));
+  bool is_fine = true;
+  for (const Change& change : diagnosis.changes) {
+    if (change.is_proved || !change.was_tried) (change.is_proved ? proved : perhaps).push_back(in_words(change, problem));
+    is_fine = is_fine && (change.passes || !change.is_proved);
+  }
   perhaps.resize(std::min(perhaps.size(), kMostPerhaps));
-  const bool is_fine = std::ranges::none_of(diagnosis.changes, [](const Change& change) { return change.is_proved && !change.passes; });
-  std::string help = proved.empty() ? "" : fmt::format("solvable {}with {}", is_fine ? "" : "on a finer mesh (--refine) ", fmt::join(proved, ", or "));
+  if (proved.empty() && perhaps.empty()) return "no change of one number was found that makes it solvable on its own mesh";
+  std::string help = proved.empty() ? "" : fmt::format("{} with {}", is_fine ? "solvable" : "solved but for the error of its mesh (--refine)", fmt::join(proved, ", or "));
   if (perhaps.empty()) return help;
   return fmt::format("{} with {}", help.empty() ? "perhaps solvable" : help + ", perhaps", fmt::join(perhaps, ", or "));
+}
+
+/// Of a task that has a plan.
+std::string how_it_is_found(const Diagnosis& diagnosis) {
+  if (diagnosis.needs_one_mesh) return "the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes";
+  if (diagnosis.status == SolveStatus::converged) return "the task has a plan";
+  return fmt::format("the task has a plan (its mesh was solved from the initial guess), but not as prowl plan goes about it: {}",
+                     diagnosis.stopped_by.empty() ? diagnosis.message : diagnosis.stopped_by);
 }
 
 Json to_json(const Breach& breach, const MotionProblem& problem) {
@@ -117,13 +131,12 @@ Json to_json(const Change& change, const MotionProblem& problem) {
 }  // namespace
 
 std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& problem) {
-  const std::string found = diagnosis.needs_one_mesh ? "the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes"
-                                                     : "the task has a plan";
+  const std::string found = how_it_is_found(diagnosis), plan = diagnosis.needs_one_mesh ? "prowl plan --one-mesh" : "prowl plan";
   if (diagnosis.solvable && diagnosis.certificate.passed) return found + ", and it passes its certificate";
   if (diagnosis.solvable) {
-    const std::string next = fails_by_mesh_only(diagnosis.certificate) ? "its mesh is too coarse: prowl plan --refine"
-                             : diagnosis.changes.empty()               ? "all checks: prowl plan, prowl check"
-                                                                       : what_would_help(diagnosis, problem);
+    const std::string next = holds_but_for_its_mesh(diagnosis.certificate) ? "its mesh is too coarse: " + plan + " --refine"
+                             : diagnosis.changes.empty()                   ? fmt::format("all checks: {}, prowl check", plan)
+                                                                           : what_would_help(diagnosis, problem);
     return fmt::format("{}, but it fails its certificate: {}; {}", found, failed_checks(diagnosis.certificate), next);
   }
   return fmt::format("{}; {}", what_is_missing(diagnosis, problem), what_would_help(diagnosis, problem));
@@ -142,10 +155,10 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   }
   for (const Change& change : diagnosis.changes) {
     const std::string proof = change.passes      ? "this plan passes its certificate"
-                              : change.is_proved ? "on the mesh of the task, which is too coarse for the certificate: --refine"
+                              : change.is_proved ? "on the mesh of the task, whose error is too large for the certificate: --refine"
                               : change.was_tried ? fmt::format("solved on {} mesh intervals, but not on the task's own", diagnosis.search_intervals)
                                                  : fmt::format("solved on {} mesh intervals only", diagnosis.search_intervals);
-    text += fmt::format("  {:<11}  with {} ({})\n", change.is_proved ? "solvable" : "perhaps", in_words(change, problem), proof);
+    text += fmt::format("  {:<11}  with {} ({})\n", change.passes ? "solvable" : change.is_proved ? "solved" : "perhaps", in_words(change, problem), proof);
   }
   if (diagnosis.solvable) return text;
   if (diagnosis.interrupted) text += "interrupted: not all that could help was tried\n";

@@ -17,6 +17,7 @@
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
+#include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/library_release.hpp"
 #include "prowl/solvers/stopwatch.hpp"
 
@@ -198,7 +199,9 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetIntegerValue("print_level", 0);
   list.SetStringValue("hessian_approximation", "exact");
   list.SetNumericValue("tol", options.tolerance);
-  list.SetNumericValue("constr_viol_tol", options.tolerance);
+  // Less than what the result is judged by (judge()): Ipopt looks before it puts the variables back within the bounds that it
+  // relaxed, below.
+  list.SetNumericValue("constr_viol_tol", 0.9 * options.tolerance);
   // `tol` is about the problem as Ipopt scales it; these two about the problem itself, and their defaults are loose.
   list.SetNumericValue("dual_inf_tol", options.tolerance);
   list.SetNumericValue("compl_inf_tol", options.tolerance);
@@ -269,20 +272,6 @@ std::optional<std::string> why_missing(IpoptLinearSolver linear_solver) {
                      spral ? "SPRAL" : "MUMPS");
 }
 
-/// Figures of the result from the point itself, whatever Ipopt says of it; false if it cannot be evaluated.
-bool evaluate_result(GuardedNlp& guarded, const Iterate& iterate, SolveResult& result) {
-  result.z = iterate.z;
-  result.multipliers = iterate.multipliers;
-  result.dual_violation = iterate.dual_violation;
-  VectorXd g(guarded.nlp().num_constraints());
-  if (!guarded.finite_point(result.z) || !guarded.cost(result.z, result.cost) || !guarded.constraints(result.z, g)) {
-    result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
-    return false;
-  }
-  result.constraint_violation = constraint_violation(guarded.nlp(), result.z, g);
-  return true;
-}
-
 void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options,
                IpoptLinearSolver linear_solver, double start, SolveResult& result) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication(false);  // prints nothing
@@ -310,12 +299,10 @@ void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions
 
   const bool finished = status == SolveStatus::converged || status == SolveStatus::infeasible;
   const Iterate& chosen = finished ? problem->last() : problem->best();
-  if (chosen.z.size() == 0) {
-    evaluate_result(guarded, {{}, z_start, {}}, result);  // failed before the first iterate
-  } else if (!evaluate_result(guarded, chosen, result) && finished) {
-    result.status = SolveStatus::evaluation_failed;
-    result.message = fmt::format("result cannot be evaluated: {}", guarded.failure());
-  }
+  if (chosen.z.size() == 0) return;  // failed before the first iterate
+  result.z = chosen.z;
+  result.multipliers = chosen.multipliers;
+  result.dual_violation = chosen.dual_violation;
 }
 
 }  // namespace
@@ -360,6 +347,7 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
     result.status = SolveStatus::evaluation_failed;
     result.message = fmt::format("start: {}", guarded.failure());
   }
+  if (!guarded.broken()) judge(nlp, options.tolerance, name(), result);
   result.times = guarded.times();
   result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = wall_seconds() - start;

@@ -92,8 +92,10 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
     s.cholesky.compute(N.topLeftCorner(free, free));
     if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite()) return Outcome::indefinite;
     s.G = N.bottomLeftCorner(states, free).transpose();
-    s.cholesky.matrixL().solveInPlace(s.G);
-    if (states > 0) s.P.selfadjointView<Eigen::Lower>().rankUpdate(s.G.transpose(), -1.0);
+    if (states > 0) {  // Eigen's triangular solve of nothing takes a reference to it
+      s.cholesky.matrixL().solveInPlace(s.G);
+      s.P.selfadjointView<Eigen::Lower>().rankUpdate(s.G.transpose(), -1.0);
+    }
   }
   s.P.triangularView<Eigen::StrictlyUpper>() = s.P.transpose();
   return s.P.allFinite() ? Outcome::solvable : Outcome::indefinite;
@@ -150,15 +152,17 @@ void StageKkt::eliminate(Stage& s, const MatrixXd& equalities, const MatrixXd& M
   N.triangularView<Eigen::Lower>() = M.bottomRightCorner(rest, rest);
   if (rank == 0) return;
   const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
-  if (states > 0) in_states.noalias() = s.lu.permutationP() * equalities.rightCols(states);
   auto determining = in_states.topRows(rank);
-  lu.triangularView<Eigen::UnitLower>().solveInPlace(determining);
+  if (states > 0) {
+    in_states.noalias() = s.lu.permutationP() * equalities.rightCols(states);
+    lu.triangularView<Eigen::UnitLower>().solveInPlace(determining);
+  }
   const Index left = in_states.rows() - rank;
   in_states.bottomRows(left).noalias() -= s.lu.matrixLU().bottomLeftCorner(left, rank) * determining;
   s.K.resize(rank, rest);
   s.K.leftCols(s.free()) = -s.lu.matrixLU().topRightCorner(rank, s.free());
   s.K.rightCols(states) = -determining;
-  lu.triangularView<Eigen::Upper>().solveInPlace(s.K);
+  if (rest > 0) lu.triangularView<Eigen::Upper>().solveInPlace(s.K);
 
   s.M_dd = M.topLeftCorner(rank, rank);
   MatrixXd& M_ddK = work_.M_ddK.of_size(rank, rest);

@@ -86,7 +86,7 @@ struct Certificate {
 
 const char* to_string(Grade grade);
 
-/// Whether a finer mesh would do: no check fails but those of the integration error, and those by less than a hundred times.
+/// Whether a finer mesh may do: no check fails but those of the integration error.
 bool fails_by_mesh_only(const Certificate& certificate);
 
 /// Re-evaluates everything by dynamics of its own (ConstrainedDynamicsOracle), without the projection and without the

@@ -190,11 +190,21 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
   }
 }
 
-/// A shell and the kernel may both tell of it, and nobody reads what is printed.
-TEST_F(Checkpoints, TheEndOfTheTerminalKeepsThePlan) {
-  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >/dev/full & pid=$!; "
-                             "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; kill -HUP $pid; kill -HUP $pid; wait $pid");
+/// A shell and the kernel may both tell of it.
+TEST_F(Checkpoints, ASecondHangUpIsIgnored) {
+  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; "
+                             "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; kill -HUP $pid; "
+                             "for i in $(seq 6000); do grep -q 'stopping as' progress && break; sleep 0.001; done; kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
+  EXPECT_EQ(plan().at("status"), "interrupted");
+  EXPECT_THAT(test::read_file(folder_.path() / "said"), testing::HasSubstr("interrupted")) << "it did not end at once";
+}
+
+/// A terminal that is gone reads nothing; a disk that is full has lost what was to be kept.
+TEST_F(Checkpoints, AHangUpHidesNoFullDisk) {
+  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >/dev/full & pid=$!; "
+                             "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; kill -HUP $pid; wait $pid");
+  EXPECT_EQ(result.status, 4) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
 }
 

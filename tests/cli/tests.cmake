@@ -47,8 +47,8 @@ if(PROWL_BUILD_CLI)
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/bad_input_test.py $<TARGET_FILE:prowl_cli>)
   set_tests_properties(cli/bad_input PROPERTIES TIMEOUT 1200 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
 
-  # What prowl writes, read by somebody else's code.
-  foreach(name determinism exports export_command plan_schema)
+  # What prowl writes, read by somebody else's code; and a terminal for it that closes.
+  foreach(name determinism exports export_command plan_schema hang_up)
     add_test(NAME cli/${name}
       COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/${name}_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
     set_tests_properties(cli/${name} PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")

@@ -70,8 +70,8 @@ TEST(Change, OfAGoalTellsWhereItIs) {
   goal.q_ref(7 + 2) += 1.0;
   const Knob of_joint = knob(knobs_of(stand), "goal", 0);
   const double start = stand.start_configuration()(7 + 2), half = std::log(2.0);
-  EXPECT_EQ(of_joint.words(0.0), fmt::format("{:.4g} rad (1 rad from the start)", start + 1.0));
-  EXPECT_EQ(of_joint.words(half), fmt::format("{:.4g} rad (0.5 rad from the start)", start + 0.5));
+  EXPECT_EQ(of_joint.words(0.0), fmt::format("{:.6g} rad (1 rad from the start)", start + 1.0));
+  EXPECT_EQ(of_joint.words(half), fmt::format("{:.6g} rad (0.5 rad from the start)", start + 0.5));
   EXPECT_EQ(of_joint.besides(half), "");
   EXPECT_NEAR(of_joint.problem(half).boundary_conditions.back().q_ref(7 + 2), start + 0.5, 1e-12);
   goal.q_ref(7 + 1) += 0.1;
@@ -85,8 +85,26 @@ TEST(Change, OfARangeTellsBothBounds) {
   ASSERT_FALSE(step.robot.description().limits.at(step.robot.joint_names()[knee]).torque_over_position.empty());
   const Knob range = joint_knob(step, LimitKind::joint_position, {knee});
   const RobotModel wider = range.problem(2.0).robot;
-  EXPECT_EQ(range.words(2.0), fmt::format("[{:.4g}, {:.4g}] rad", wider.position_lower()(knee), wider.position_upper()(knee)));
+  EXPECT_EQ(range.words(2.0), fmt::format("[{:.6g}, {:.6g}] rad", wider.position_lower()(knee), wider.position_upper()(knee)));
   EXPECT_NEAR(range.value(2.0), wider.position_upper()(knee) - wider.position_lower()(knee), 1e-12);
+}
+
+/// Who turns the torque limit alone still has a table in the way; and a range is no wider than a table.
+TEST(Change, OfJointsTellsWhatTheirTablesNeed) {
+  const MotionProblem step = shipped("hyq/step");
+  const double twice = std::log(2.0);
+  const int hip = 0, knee = 2;
+  EXPECT_EQ(joint_knob(step, LimitKind::torque, {hip}).besides(twice), "");
+  EXPECT_EQ(joint_knob(step, LimitKind::torque, {knee}).besides(twice), "and torque_over_position times 2");
+  EXPECT_EQ(knob(knobs_of(step), "torque").besides(twice), "and torque_over_position times 2");
+  const Knob ranges = joint_knob(step, LimitKind::joint_position, {hip, knee});
+  const RobotModel wider = ranges.problem(twice).robot;
+  const auto width = [](const RobotModel& robot, int j) { return robot.position_upper()(j) - robot.position_lower()(j); };
+  EXPECT_NEAR(width(wider, hip), 2.0 * width(step.robot, hip), 1e-12);
+  ASSERT_LT(width(wider, knee), 1.9 * width(step.robot, knee));
+  EXPECT_EQ(ranges.besides(twice), fmt::format("but as far as torque_over_position goes {} [{:.6g}, {:.6g}] rad", step.robot.joint_names()[knee],
+                                               wider.position_lower()(knee), wider.position_upper()(knee)));
+  EXPECT_EQ(joint_knob(step, LimitKind::joint_position, {hip, hip + 1}).besides(twice), "");
 }
 
 TEST(Change, TurnsTheNumberThatItTellsOf) {

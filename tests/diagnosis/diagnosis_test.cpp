@@ -11,6 +11,7 @@
 #include "prowl/io/diagnosis_report.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
 #include "tests/support/failing_solver.hpp"
 #include "tests/support/task_test.hpp"
 
@@ -82,7 +83,7 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
   EXPECT_NEAR(change.to, std::stod(fmt::format("{:.3g}", change.to)), 1e-9) << "what is printed is not what was proved";
   EXPECT_NEAR(0.5 * (change.to - change.from), breach.amount, 0.05) << "two ways to the same: a range wider on both sides";
   EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
-                                                      HasSubstr("rad beyond its bound; solvable on a finer mesh (--refine) with position range of lh_kfe_joint ["),
+                                                      HasSubstr("rad beyond its bound; solved but for the error of its mesh (--refine) with position range of lh_kfe_joint ["),
                                                       HasSubstr("] rad instead of [1.4, 1.55] rad")));
 }
 
@@ -144,9 +145,27 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
     EXPECT_FALSE(found.out_of_time);
     EXPECT_TRUE(found.kind.empty());
     EXPECT_TRUE(found.changes.empty());
-    EXPECT_THAT(diagnosis_headline(found, crouch), AllOf(HasSubstr("the task has a plan with prowl plan --one-mesh"), HasSubstr("local integration error")))
+    EXPECT_FALSE(found.needs_one_mesh) << "eight intervals have no coarser mesh, and this one was seen not to be solved";
+    EXPECT_THAT(diagnosis_headline(found, crouch),
+                AllOf(testing::StartsWith("the task has a plan (its mesh was solved from the initial guess), but not as prowl plan goes about it: "),
+                      HasSubstr(status == SolveStatus::time_limit ? "the time was up after " : "optimal"), HasSubstr("local integration error")))
         << "eight intervals are few";
+    EXPECT_THAT(diagnosis_json(found, crouch), HasSubstr("\"solvable\": true"));
   }
+}
+
+TEST_F(DiagnosisTest, NamesOneMeshWhereThatWasSeenToDo) {
+  const MotionProblem crouch = problem(test::replaced(kCrouch, "intervals = 8", "intervals = 60"));
+  ASSERT_EQ(mesh_levels(crouch).size(), 2u);
+  constexpr int kSearch = 2;  // solves before, on 20 and 60 intervals
+  const Diagnosis found = diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed, 2), IpoptSolver(), {});
+  EXPECT_TRUE(found.solvable);
+  EXPECT_TRUE(found.needs_one_mesh);
+  EXPECT_THAT(diagnosis_headline(found, crouch), testing::StartsWith("the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes, "));
+  const Diagnosis neither = diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed), IpoptSolver(), {});
+  EXPECT_TRUE(neither.solvable);
+  EXPECT_FALSE(neither.needs_one_mesh);
+  EXPECT_THAT(diagnosis_headline(neither, crouch), HasSubstr("but not as prowl plan goes about it: "));
 }
 
 /// A task that takes longer than its part of the time may have a plan, whatever a coarse mesh says.
@@ -207,7 +226,8 @@ TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
               testing::StartsWith("not known whether the task has a plan, stopped after its solver.max_iterations (2); "));
   const Diagnosis found = diagnose(problem(kCrouch), RiccatiSolver(), IpoptSolver(), options);
   EXPECT_TRUE(found.solvable) << "the search has iterations of its own";
-  EXPECT_TRUE(found.needs_one_mesh);
+  EXPECT_FALSE(found.needs_one_mesh) << "it has the same limit";
+  EXPECT_THAT(diagnosis_headline(found, problem(kCrouch)), HasSubstr("not as prowl plan goes about it: stopped after its solver.max_iterations (2), but it fails its certificate: "));
 }
 
 /// What a finer mesh has not shown is not said to be so.
@@ -225,10 +245,14 @@ TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
   EXPECT_EQ(diagnosis_headline(found, crouch),
             "not solved (stalled); solvable with swing clearance 3 m instead of 1 m, perhaps with swing clearance 2 m instead of 1 m");
   found.changes.back().passes = false;
-  EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("; solvable on a finer mesh (--refine) with swing clearance 3 m instead of 1 m, perhaps with "));
+  EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("; solved but for the error of its mesh (--refine) with swing clearance 3 m instead of 1 m, perhaps with "));
   found.changes.back().passes = true;
   found.changes.front().was_tried = true;
   EXPECT_THAT(diagnosis_text(found, crouch), HasSubstr("(solved on 8 mesh intervals, but not on the task's own)"));
+  EXPECT_EQ(diagnosis_headline(found, crouch), "not solved (stalled); solvable with swing clearance 3 m instead of 1 m");
+  found.changes.pop_back();
+  EXPECT_EQ(diagnosis_headline(found, crouch), "not solved (stalled); no change of one number was found that makes it solvable on its own mesh");
+  found.changes.push_back(change(3.0, true));
   found.changes.front().was_tried = false;
   EXPECT_THAT(diagnosis_text(found, crouch), AllOf(HasSubstr("  perhaps      with swing clearance 2 m instead of 1 m (solved on 8 mesh intervals only)\n"),
                                                    HasSubstr("  solvable     with swing clearance 3 m instead of 1 m (this plan passes its certificate)\n")));
