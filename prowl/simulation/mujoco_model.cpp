@@ -180,6 +180,9 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
 
 MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
                               const PhysicsOptions& options) {
+  // MuJoCo does not promise that specs may be made and compiled in several threads; ThreadSanitizer sees a race within it.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
   const MujocoSpec spec = make_mujoco_spec(robot, surfaces, options);
   MujocoModel result;
   result.model.reset(mj_compile(spec.get(), nullptr));
