@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "output.hpp"
@@ -11,7 +12,7 @@
 namespace prowl::cli {
 namespace {
 
-CLI::Validator finite_number(const std::string& range, bool (*is_in_range)(double)) {
+CLI::Validator finite_number(const std::string& range, const std::function<bool(double)>& is_in_range) {
   return {[range, is_in_range](const std::string& text) {
             double value = 0.0;
             const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && is_in_range(value);
@@ -51,7 +52,7 @@ void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
                   key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))->type_name("N");
   verb.add_option("--tolerance", overrides.tolerance, key_meaning(keys, "solver", "tolerance") + "; in place of solver.tolerance")
-      ->check(CLI::Range(1e-12, 1e-2))->type_name("X");
+      ->check(number_between(1e-12, 1e-2))->type_name("X");
 }
 
 void add_hessian(CLI::App& verb, HessianKind& hessian) {
@@ -64,6 +65,10 @@ void add_hessian(CLI::App& verb, HessianKind& hessian) {
 
 CLI::Validator positive_number() { return finite_number("> 0", [](double value) { return value > 0.0; }); }
 CLI::Validator nonnegative_number() { return finite_number(">= 0", [](double value) { return value >= 0.0; }); }
+
+CLI::Validator number_between(double lower, double upper) {
+  return finite_number(fmt::format("from {} to {}", lower, upper), [lower, upper](double value) { return value >= lower && value <= upper; });
+}
 
 CLI::Validator whole_number() {
   return {[](const std::string& text) {

@@ -18,9 +18,10 @@ void add_json(CLI::App& verb, bool& json);                                 ///< 
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);          ///< --max-time, --max-iterations, --tolerance
 void add_hessian(CLI::App& verb, HessianKind& hessian);                    ///< --hessian
 
-/// A finite number > 0 or >= 0; CLI11's own checks let NaN through.
+/// A finite number > 0, >= 0 or from one to another; CLI11's own checks let NaN through.
 CLI::Validator positive_number();
 CLI::Validator nonnegative_number();
+CLI::Validator number_between(double lower, double upper);
 CLI::Validator whole_number();  ///< >= 0; CLI11 takes -1 for the largest
 
 /// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.

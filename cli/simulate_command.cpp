@@ -156,7 +156,7 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
       verb.add_option("--push", arguments.push, "Push the base: time [s] and impulse [N s], world axes; may be given again")
           ->type_name("T IX IY IZ")->expected(4)->take_all(),
       verb.add_option("--push-duration", arguments.push_duration, "Of every push; default 0.1")
-          ->type_name("S")->check(CLI::PositiveNumber),
+          ->type_name("S")->check(positive_number()),
       verb.add_option("--step", options.physics.step, "Of the physics; default 0.0005")->type_name("S"),
       verb.add_option("--seed", options.seed, "Of all random numbers; default 1")->check(whole_number())->type_name("N"),
       verb.add_option("--case", arguments.sweep_case, "Perturbed as the case of that seed in prowl sweep without options")

@@ -91,9 +91,9 @@ void add_sweep_command(CLI::App& app, int& status) {
   add_plan_directory(*verb, arguments->directory);
   verb->add_option("--n", arguments->cases, "How many; default 200")->type_name("N")->check(CLI::Range(1, 1000000));
   verb->add_option("--seed", arguments->seed, "Of the first case, the others count on; default 1")->check(whole_number())->type_name("N");
-  verb->add_option("--mass-spread", ranges.mass, "Masses are off by up to this share; default 0.1")->type_name("X")->check(CLI::Range(0.0, 0.9));
-  verb->add_option("--push-impulse", ranges.push, "Impulse on the base; default 10")->type_name("NS")->check(CLI::NonNegativeNumber);
-  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet, "While two feet or fewer are down; default 2")->type_name("NS")->check(CLI::NonNegativeNumber);
+  verb->add_option("--mass-spread", ranges.mass, "Masses are off by up to this share; default 0.1")->type_name("X")->check(number_between(0.0, 0.9));
+  verb->add_option("--push-impulse", ranges.push, "Impulse on the base; default 10")->type_name("NS")->check(nonnegative_number());
+  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet, "While two feet or fewer are down; default 2")->type_name("NS")->check(nonnegative_number());
   verb->add_option("--breakdown", arguments->breakdown_cases,
                    "Simulations for each size of a perturbation alone; default 20, 0: do not look for it")->type_name("N")->check(CLI::Range(0, 100000));
   verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");

@@ -140,8 +140,8 @@ std::string narrower_ranges(const MotionProblem& problem, const std::vector<int>
   const RobotModel wider = with_joints(problem, LimitKind::joint_position, joints, factor).robot;
   std::vector<std::string> ranges;
   for (const int j : joints) {
-    const auto width = [j](const RobotModel& robot) { return robot.position_upper()(j) - robot.position_lower()(j); };
-    if (width(wider) >= factor * width(problem.robot) * (1.0 - kRounding)) continue;
+    const double width = value_of_limit(problem.robot, LimitKind::joint_position, j);
+    if (value_of_limit(wider, LimitKind::joint_position, j) >= factor * width * (1.0 - kRounding)) continue;
     ranges.push_back(fmt::format("{} {}", problem.robot.joint_names()[static_cast<std::size_t>(j)], range_of(wider, j)));
   }
   return ranges.empty() ? "" : fmt::format("but as far as torque_over_position goes {}", fmt::join(ranges, ", "));
@@ -271,14 +271,15 @@ double printable_amount(const Knob& knob, double amount) {
   return more >= amount - kRounding ? more : amount;  // a range that may not be wider
 }
 
+double value_of_limit(const RobotModel& robot, LimitKind kind, int joint) {
+  if (kind == LimitKind::torque) return robot.torque_limit()(joint);
+  if (kind == LimitKind::joint_velocity) return robot.velocity_limit()(joint);
+  return robot.position_upper()(joint) - robot.position_lower()(joint);
+}
+
 Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints) {
   const RobotModel& robot = problem.robot;
   const int first = joints.front();
-  const auto value = [kind, first](const RobotModel& of) {
-    if (kind == LimitKind::torque) return of.torque_limit()(first);
-    if (kind == LimitKind::joint_velocity) return of.velocity_limit()(first);
-    return of.position_upper()(first) - of.position_lower()(first);
-  };
   const auto range = [&problem, kind, joints, first](double a) {
     return range_of(with_joints(problem, kind, joints, std::exp(a)).robot, first);
   };
@@ -288,8 +289,8 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
   const bool several = joints.size() > 1;  // whose limits may differ: the factor is what they have in common
   return {.kind = to_string(kind), .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMost,
           .unit = several ? "" : limit_of_joint(robot, kind, first).unit,
-          .value = [&problem, kind, joints, several, value](double a) {
-            return several ? std::exp(a) : value(with_joints(problem, kind, joints, std::exp(a)).robot);
+          .value = [&problem, kind, joints, several, first](double a) {
+            return several ? std::exp(a) : value_of_limit(with_joints(problem, kind, joints, std::exp(a)).robot, kind, first);
           },
           .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); },
           .words = several || kind != LimitKind::joint_position ? std::function<std::string(double)>() : range,

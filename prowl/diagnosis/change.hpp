@@ -37,6 +37,9 @@ std::vector<Knob> knobs_of(const MotionProblem& problem);
 /// That amount or a little more, at which value() has three digits and no more, so that what is printed is what was solved.
 double printable_amount(const Knob& knob, double amount);
 
+/// A joint's limit: LimitKind torque, joint_velocity or joint_position, of which it is the width of the range.
+double value_of_limit(const RobotModel& robot, LimitKind kind, int joint);
+
 /// Those of limits of some joints only: LimitKind torque, joint_velocity or joint_position.
 Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints);
 

@@ -31,13 +31,6 @@ bool is_of_joints(LimitKind kind) {
   return kind == LimitKind::torque || kind == LimitKind::joint_velocity || kind == LimitKind::joint_position;
 }
 
-/// What a breach of a joint's limit adds to; of a range, which widens on both sides, half of it.
-double value_of_limit(const RobotModel& robot, LimitKind kind, int joint) {
-  if (kind == LimitKind::torque) return robot.torque_limit()(joint);
-  if (kind == LimitKind::joint_velocity) return robot.velocity_limit()(joint);
-  return 0.5 * (robot.position_upper()(joint) - robot.position_lower()(joint));
-}
-
 Change as_change(const FoundChange& found) {
   const Knob& knob = found.knob;
   const auto words = [&](double amount) { return knob.words ? knob.words(amount) : std::string(); };
@@ -233,7 +226,8 @@ class Diagnoser {
       kind = breach.kind;
       const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
       joints.insert(joint);
-      needed = std::max(needed, std::log1p(breach.amount / value_of_limit(searched_.robot, breach.kind, joint)));
+      const double sides = breach.kind == LimitKind::joint_position ? 2.0 : 1.0;  // on which the limit yields
+      needed = std::max(needed, std::log1p(sides * breach.amount / value_of_limit(searched_.robot, breach.kind, joint)));
     }
     if (joints.empty() || static_cast<int>(joints.size()) == searched_.robot.nu()) return;
     const Knob some = joint_knob(searched_, kind, {joints.begin(), joints.end()});

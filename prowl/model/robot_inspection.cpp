@@ -9,6 +9,7 @@
 #include <functional>
 #include <numbers>
 #include <pinocchio/algorithm/frames.hpp>
+#include <pinocchio/algorithm/jacobian.hpp>
 
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/mirror_name.hpp"
@@ -162,10 +163,11 @@ void check_contact_symmetry(const RobotModel& robot, const std::vector<Eigen::Ve
 }
 
 Eigen::MatrixXd contact_jacobian(const PinocchioModel& pin, pinocchio::Data& data, const Eigen::VectorXd& q) {
+  pinocchio::computeJointJacobians(pin.model, data, q);
   Eigen::MatrixXd J(3 * pin.contact_frames.size(), pin.model.nv);
   for (std::size_t c = 0; c < pin.contact_frames.size(); ++c) {
     Eigen::Matrix<double, 6, Eigen::Dynamic> spatial = Eigen::MatrixXd::Zero(6, pin.model.nv);
-    pinocchio::computeFrameJacobian(pin.model, data, q, pin.contact_frames[c], pinocchio::LOCAL_WORLD_ALIGNED, spatial);
+    pinocchio::getFrameJacobian(pin.model, data, pin.contact_frames[c], pinocchio::LOCAL_WORLD_ALIGNED, spatial);
     J.middleRows<3>(static_cast<Eigen::Index>(3 * c)) = spatial.topRows<3>();
   }
   return J;

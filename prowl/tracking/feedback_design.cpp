@@ -4,7 +4,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -48,12 +47,13 @@ MatrixXd aligned(const MatrixXd& Z, const MatrixXd& next, const VectorXd& weight
 /// Largest and mean singular value, and the coordinate that leads in the worst initial deviation.
 void fill_decay(const RobotModel& robot, const MatrixXd& transition, const MatrixXd& Z, const VectorXd& weight,
                 PhaseDecay& decay) {
-  const Eigen::BDCSVD<MatrixXd> svd(transition, Eigen::ComputeThinV);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(transition.transpose() * transition);  // a fifth of an SVD's time to compile
+  const Eigen::Index largest = Z.cols() - 1;
   decay.directions = static_cast<int>(Z.cols());
-  decay.worst = svd.singularValues()(0);
+  decay.worst = std::sqrt(gram.eigenvalues()(largest));
   decay.mean = transition.norm() / std::sqrt(static_cast<double>(Z.cols()));
   Eigen::Index leading = 0;
-  (weight.cwiseSqrt().asDiagonal() * (Z * svd.matrixV().col(0))).cwiseAbs().maxCoeff(&leading);
+  (weight.cwiseSqrt().asDiagonal() * (Z * gram.eigenvectors().col(largest))).cwiseAbs().maxCoeff(&leading);
   decay.worst_direction = state_name(robot, leading);
 }
 

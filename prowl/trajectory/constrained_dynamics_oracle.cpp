@@ -42,7 +42,8 @@ struct ConstrainedDynamicsOracle::Workspace {
   }
 
   void factorise(const Eigen::VectorXd& q) {
-    pinocchio::crba(pinocchio.model, data, q);
+    // With this type it is in Pinocchio's library; with another it takes half a minute to compile.
+    pinocchio::crba(pinocchio.model, data, Eigen::Ref<const Eigen::VectorXd>(q));
     mass.compute(data.M.selfadjointView<Eigen::Upper>());
     if (contacts.empty()) return;
     pinocchio::computeJointJacobians(pinocchio.model, data, q);

@@ -242,7 +242,7 @@ TEST_F(Command, PrintsPhasesInPlaceOfPlanning) {
 TEST_F(Command, WritesNothingOnBadInput) {
   folder_.write("bad.toml", test::replaced(kHold, "duration_s", "duration"));
   for (const char* arguments : {"bad.toml $dirs", "missing.toml", ". $dirs", "hold.toml $dirs --dt nan",
-                                "hold.toml $dirs --max-time 0", "hold.toml $dirs --intervals 0", "hold.toml $dirs --dt 1e-9"}) {
+                                "hold.toml $dirs --max-time 0", "hold.toml $dirs --tolerance nan", "hold.toml $dirs --intervals 0", "hold.toml $dirs --dt 1e-9"}) {
     const Outcome result = run(std::string("$prowl plan --out out ") + arguments);
     EXPECT_EQ(result.status, 2) << arguments << result.error;
     EXPECT_FALSE(written()) << arguments;

@@ -82,7 +82,8 @@ TEST_F(Compare, HasALineForAllChoices) {
                               "--solver all --max-iterations 1 --out out");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_EQ(table().at("runs").size(), table().at("runs_asked"));
-  for (const auto& line : table().at("runs")) {
+  const nlohmann::json compared = table();
+  for (const auto& line : compared.at("runs")) {
     const bool was_run = line.at("status") != "not run";
     EXPECT_EQ(was_run, line.at("cost").is_number()) << line;
     if (!was_run) EXPECT_TRUE(line.at("note").is_string() && line.at("note") != "") << line;

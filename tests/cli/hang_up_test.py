@@ -37,6 +37,7 @@ class HangUp(unittest.TestCase):
             status = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
             self.assertEqual(status, 130)
             self.assertEqual(json.loads((folder / "out/plan.json").read_text())["status"], "interrupted")
+            self.assertIn("status", json.loads((folder / "so_far/plan.json").read_text()), "the checkpoint is whole")
 
 
 if __name__ == "__main__":

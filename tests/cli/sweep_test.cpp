@@ -25,6 +25,14 @@ class Sweep : public test::Command {
   }
 };
 
+TEST_F(Sweep, RefusesWhatIsNoSize) {
+  for (const std::string option : {"--mass-spread nan", "--mass-spread 0.91", "--push-impulse nan", "--push-impulse inf", "--push-impulse-on-two-feet -1"}) {
+    const Outcome refused = run("$prowl sweep out $dirs --n 1 --breakdown 0 " + option);
+    EXPECT_EQ(refused.status, 2) << option;
+    EXPECT_THAT(refused.error, HasSubstr(option.substr(option.find(' ') + 1) + " is not allowed; need a finite number ")) << option;
+  }
+}
+
 TEST_F(Sweep, KeepsFinishedCasesOnInterrupt) {
   const Outcome stopped = interrupted_at(" of 100 simulations", "--n 100 --seed 5");
   EXPECT_EQ(stopped.status, 130) << stopped.error;

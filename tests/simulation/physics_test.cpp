@@ -31,7 +31,7 @@ TEST_P(EveryRobot, HasTheMassMatrixAndBiasOfPinocchio) {
   for (int i = 0; i < 50; ++i) {
     const Eigen::VectorXd q = states.configuration(), v = states.velocity();
     physics.set_state(q, v);
-    Eigen::MatrixXd mass = pinocchio::crba(model, data, q);
+    Eigen::MatrixXd mass = pinocchio::crba(model, data, Eigen::Ref<const Eigen::VectorXd>(q));
     mass.triangularView<Eigen::StrictlyLower>() = mass.transpose().triangularView<Eigen::StrictlyLower>();
     EXPECT_LT((physics.mass_matrix() - mass).lpNorm<Eigen::Infinity>(), 1e-10 * mass.lpNorm<Eigen::Infinity>());
     const Eigen::VectorXd bias = pinocchio::nonLinearEffects(model, data, q, v);

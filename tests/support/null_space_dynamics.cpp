@@ -57,7 +57,7 @@ void NullSpaceDynamics::set_configuration(const Eigen::VectorXd& q) {
 
 Eigen::VectorXd NullSpaceDynamics::solve(const Eigen::VectorXd& v, const Eigen::VectorXd& tau) {
   auto& [model, data, frames, q] = *workspace_;
-  pinocchio::crba(model, data, q);
+  pinocchio::crba(model, data, Eigen::Ref<const Eigen::VectorXd>(q));
   M = data.M.selfadjointView<Eigen::Upper>();
   applied = -pinocchio::nonLinearEffects(model, data, q, v);
   applied.tail(tau.size()) += tau;

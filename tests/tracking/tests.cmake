@@ -1,6 +1,5 @@
 prowl_test(tracking/riccati_flow prowl::tracking)
-prowl_test(tracking/linearised_dynamics prowl::tracking pinocchio::pinocchio_default)
-target_sources(tracking_linearised_dynamics_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/support/null_space_dynamics.cpp)
+prowl_test(tracking/linearised_dynamics prowl::tracking null_space_dynamics)
 prowl_test(tracking/feedback_design prowl::prowl)
 prowl_test(tracking/rollout prowl::prowl)
 prowl_test(tracking/rollout_measures prowl::tracking)

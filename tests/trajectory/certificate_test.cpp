@@ -233,7 +233,8 @@ TEST(Certificate, CatchesJointsThatAreTooFast) {
 TEST(Certificate, SaysWhenAndWhere) {
   Case c = standing(test::hyq());
   c.trajectory.nodes[6].force(3 * 2) += 100.0;
-  const CertificateCheck& check = find(certify(c.problem, c.trajectory), "planned contact force");
+  const Certificate certificate = certify(c.problem, c.trajectory);
+  const CertificateCheck& check = find(certificate, "planned contact force");
   EXPECT_NEAR(check.worst, 100.0, 1e-6);
   EXPECT_NEAR(check.time, 0.6, 1e-12);
   EXPECT_EQ(check.where, c.problem.robot.contacts()[2].name);

@@ -1,7 +1,5 @@
 prowl_test(trajectory/trajectory prowl::trajectory)
-prowl_test(trajectory/constrained_dynamics_oracle prowl::trajectory pinocchio::pinocchio_default)
-target_sources(trajectory_constrained_dynamics_oracle_test PRIVATE
-  ${CMAKE_CURRENT_SOURCE_DIR}/support/null_space_dynamics.cpp)
+prowl_test(trajectory/constrained_dynamics_oracle prowl::trajectory null_space_dynamics)
 prowl_test(trajectory/contact_places prowl::trajectory)
 prowl_test(trajectory/ground_distance prowl::trajectory)
 prowl_test(trajectory/integration_error prowl::trajectory)
