@@ -27,7 +27,7 @@ State state_rate(const State& x, const Eigen::VectorXd& tau, ConstrainedDynamics
   const Eigen::Index nv = tau.size() + 6;
   Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(x.data(), nv + 1);
   const Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(x.data() + nv + 1, nv);
-  // The step that blew up is not taken; with assertions Pinocchio would end the program.
+  // What has blown up stays so; handed a NaN, Pinocchio with assertions would end the program.
   if (!q.allFinite()) return State(x.size(), std::numeric_limits<double>::quiet_NaN());
   q.segment<4>(3).normalize();
   const Eigen::Quaterniond turn = base_quaternion(q);

@@ -168,9 +168,6 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
 /// So many that a dozen iterations take longer than a signal.
 std::string size_for(const std::string& solver) { return solver == "uno" ? "20" : solver.starts_with("ipopt") ? "100" : "300"; }
 
-/// Waits for the first iteration of a plan that runs in the background and writes to `progress`.
-const std::string kAfterAnIteration = "for i in $(seq 6000); do grep -q ' s$' progress && break; sleep 0.01; done; ";
-
 int count(const std::string& text, const std::string& what) {
   int found = 0;
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
@@ -181,8 +178,8 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
     for (const std::string signal : {"INT", "TERM", "HUP"}) {
       if (signal == "HUP" && solver != "riccati") continue;  // the same to a solver
-      const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; "
-                                 + kAfterAnIteration + "kill -" + signal + " $pid; wait $pid");
+      const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; " +
+                                 test::until(test::kIteration) + "kill -" + signal + " $pid; wait $pid");
       EXPECT_EQ(result.status, 130) << solver << " " << signal << result.error;
       EXPECT_EQ(plan().at("status"), "interrupted") << solver;
       const std::string progress = test::read_file(folder_.path() / "progress");
@@ -195,8 +192,8 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
 
 /// A shell and the kernel may both tell of it.
 TEST_F(Checkpoints, ASecondHangUpIsIgnored) {
-  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; "
-                             + kAfterAnIteration + "kill -HUP $pid; "
+  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; " +
+                             test::until(test::kIteration) + "kill -HUP $pid; "
                              "for i in $(seq 6000); do grep -q 'stopping as' progress && break; sleep 0.001; done; kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
@@ -205,16 +202,16 @@ TEST_F(Checkpoints, ASecondHangUpIsIgnored) {
 
 /// A terminal that is gone reads nothing; a disk that is full has lost what was to be kept.
 TEST_F(Checkpoints, AHangUpHidesNoFullDisk) {
-  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >/dev/full & pid=$!; "
-                             + kAfterAnIteration + "kill -HUP $pid; wait $pid");
+  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >/dev/full & pid=$!; " +
+                             test::until(test::kIteration) + "kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 4) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
 }
 
 /// Who starts it with nohup wants it to outlive the terminal.
 TEST_F(Checkpoints, NohupIsHeeded) {
-  const Outcome result = run(": >progress; nohup $prowl plan bow.toml $dirs --out out --intervals 300 >said 2>progress & pid=$!; "
-                             + kAfterAnIteration + "kill -HUP $pid; wait $pid");
+  const Outcome result = run(": >progress; nohup $prowl plan bow.toml $dirs --out out --intervals 300 >said 2>progress & pid=$!; " +
+                             test::until(test::kIteration) + "kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 0) << result.error;
 }
 

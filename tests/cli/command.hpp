@@ -29,6 +29,12 @@ struct Outcome {
   std::string out, error;
 };
 
+/// Shell: waits, for a minute at most, until what runs in the background has written `pattern` (of grep) to the file `progress`.
+inline std::string until(const std::string& pattern) {
+  return "for i in $(seq 6000); do grep -q '" + pattern + "' progress && break; sleep 0.01; done; ";
+}
+inline const std::string kIteration = " s$";  ///< ends the line of each iteration of a plan
+
 class Command : public testing::Test {
  protected:
   Command() {

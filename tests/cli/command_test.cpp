@@ -380,8 +380,8 @@ TEST_F(Command, KeepsTheBestIterateOnInterrupt) {
   folder_.write("shift.toml", kHold + shift);
   // Ctrl-C once the first iteration is reported; 400 intervals take far longer than the signal.
   const Outcome result = run(
-      "$prowl plan shift.toml $dirs --out out --intervals 400 2>progress & pid=$!; "
-      "for i in $(seq 600); do grep -q ' s$' progress && break; sleep 0.1; done; kill -INT $pid; wait $pid");
+      "$prowl plan shift.toml $dirs --out out --intervals 400 2>progress & pid=$!; " +
+      test::until(test::kIteration) + "kill -INT $pid; wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
   ASSERT_TRUE(written());
   EXPECT_EQ(plan().at("status"), "interrupted");

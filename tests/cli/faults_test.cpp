@@ -202,8 +202,8 @@ TEST_F(Faults, ACheckpointThatCannotBeWrittenIsANote) {
 }
 
 TEST_F(Faults, AFolderThatVanishesIsMadeAgain) {
-  const Outcome result = run("mkdir gone; $prowl plan hold.toml $dirs --out gone/out 2>progress & pid=$!; "
-                             "for i in $(seq 600); do grep -q ' s$' progress && break; sleep 0.01; done; rm -rf gone; wait $pid");
+  const Outcome result = run("mkdir gone; $prowl plan hold.toml $dirs --out gone/out 2>progress & pid=$!; " +
+                             test::until(test::kIteration) + "rm -rf gone; wait $pid");
   EXPECT_EQ(result.status, 0) << read("progress");
   EXPECT_TRUE(fs::exists(path("gone/out/plan.json")));
 }

@@ -20,8 +20,8 @@ class Sweep : public test::Command {
 
   /// Ctrl-C once `text` is on stderr.
   Outcome interrupted_at(const std::string& text, const std::string& options) const {
-    return run("$prowl sweep out $dirs " + options + " 2>progress & pid=$!; "
-               "for i in $(seq 600); do grep -q '" + text + "' progress && break; sleep 0.05; done; kill -INT $pid; wait $pid");
+    return run("$prowl sweep out $dirs " + options + " 2>progress & pid=$!; " +
+               test::until(text) + "kill -INT $pid; wait $pid");
   }
 };
 
