@@ -9,6 +9,7 @@
 #include "json_result.hpp"
 #include "output.hpp"
 #include "prowl/diagnosis/diagnosis.hpp"
+#include "prowl/feasibility/plausibility.hpp"
 #include "prowl/io/diagnosis_report.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
@@ -36,6 +37,7 @@ ExitStatus exit_status(const Diagnosis& diagnosis) {
 int run_diagnose(const DiagnoseArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs));
+  print_notes(implausibilities(task.problem));
   DiagnosisOptions options{.solver = task.solver, .max_seconds = arguments.max_seconds};
   options.solver.interrupt = &interrupted;
   options.on_step = [](const std::string& what) { print_progress(what + "\n"); };

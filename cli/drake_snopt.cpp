@@ -49,8 +49,8 @@ class Conversation {
       Got got = receive(&word, 1);
       if (got == Got::all && word == 'r') return result();
       if (got == Got::all) got = receive(z.data(), bytes(z));
-      if (got == Got::stopped) return stopped(*why_stop());
-      if (got == Got::end || !answer(z)) return ended();
+      if (const auto reason = why_stop(); got == Got::stopped && reason) return stopped(*reason);
+      if (got != Got::all || !answer(z)) return ended();
     }
   }
   /// Of the process, if it ended before it had a result.

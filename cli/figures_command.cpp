@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <optional>
+#include <sstream>
+#include <string>
 
 #include "commands.hpp"
 #include "environment.hpp"
@@ -38,8 +39,10 @@ struct FiguresArguments {
 void draw(const FiguresArguments& arguments, const fs::path& work, const std::string& joint) {
   std::optional<ProgressBar> bar;
   const auto on_line = [&bar](const std::string& line) {
+    std::istringstream words(line);
+    std::string figures, of;
     int done = 0, total = 0;
-    if (std::sscanf(line.c_str(), "figures %d of %d", &done, &total) != 2 || total < 1) {
+    if (!(words >> figures >> done >> of >> total) || figures != "figures" || total < 1) {
       print_message(line + "\n");
       return;
     }

@@ -61,7 +61,7 @@ void print_json(const JsonResult& result) {
 void print_json_error(const std::string& verb, int exit_status, const std::string& message) noexcept {
   try {
     print_bytes(json_text({{"verb", verb}, {"exit_status", exit_status}, {"error", error_to_json(exit_status, message)}}));
-  } catch (const std::exception&) {
+  } catch (const std::exception&) {  // nobody listens
   }
 }
 

@@ -39,6 +39,10 @@ void print_bytes(const std::string& text) {
 
 void print_message(const std::string& text) { draw(printable(text)); }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) print_message("note: " + note + "\n");
+}
+
 void draw(const std::string& text) noexcept {
   [[maybe_unused]] const std::size_t written = std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);

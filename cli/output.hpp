@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace prowl::cli {
 
@@ -17,6 +18,7 @@ void print_bytes(const std::string& text);
 /// Writes a message to stderr as far as that goes: nobody has to listen, and no plan fails for it. Control characters as
 /// above; draw() leaves them, for a bar.
 void print_message(const std::string& text);
+void print_notes(const std::vector<std::string>& notes);  ///< print_message() of each, a line after "note: "
 void draw(const std::string& text) noexcept;
 
 /// print_message() of what says only how far the work is; nothing after be_quiet().

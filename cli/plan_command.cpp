@@ -13,6 +13,7 @@
 #include "progress.hpp"
 #include "progress_bar.hpp"
 #include "prowl/error.hpp"
+#include "prowl/feasibility/plausibility.hpp"
 #include "prowl/io/phase_table.hpp"
 #include "prowl/io/plan_brief.hpp"
 #include "prowl/io/plan_directory.hpp"
@@ -121,6 +122,7 @@ int run_plan(const PlanArguments& arguments) {
     throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *arguments.step, duration));
   }
 
+  print_notes(implausibilities(task.problem));
   ProgressPrinter progress;
   PlanOptions options{.solver = task.solver};
   progress.watch(options);

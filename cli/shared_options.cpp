@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 
@@ -72,8 +74,11 @@ CLI::Validator number_between(double lower, double upper) {
 
 CLI::Validator whole_number() {
   return {[](const std::string& text) {
-            const bool ok = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-            return ok ? std::string{} : fmt::format("{} is not allowed; need a whole number >= 0", text);
+            std::uint64_t number = 0;
+            const char* const end = text.data() + text.size();
+            const auto [rest, error] = std::from_chars(text.data(), end, number);
+            const bool ok = error == std::errc() && rest == end;
+            return ok ? std::string{} : fmt::format("{} is not allowed; need a whole number from 0 to {}", text, std::numeric_limits<std::uint64_t>::max());
           },
           ""};  // the help says N already
 }

@@ -22,7 +22,7 @@ void add_hessian(CLI::App& verb, HessianKind& hessian);                    ///< 
 CLI::Validator positive_number();
 CLI::Validator nonnegative_number();
 CLI::Validator number_between(double lower, double upper);
-CLI::Validator whole_number();  ///< >= 0; CLI11 takes -1 for the largest
+CLI::Validator whole_number();  ///< of 64 bits; CLI11 takes -1, and what is larger, for the largest
 
 /// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status);

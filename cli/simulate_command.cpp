@@ -11,6 +11,7 @@
 #include "plan_tracker.hpp"
 #include "progress_bar.hpp"
 #include "prowl/error.hpp"
+#include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/report_file.hpp"
 #include "prowl/io/rollout_files.hpp"
@@ -124,6 +125,7 @@ Outcome run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, 
 int run_simulate(const SimulateArguments& arguments) {
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
   const Tracker tracker = read_tracker(arguments.directory, plan.task.problem);
+  check_writable(arguments.directory);
   const Outcome outcome =
       arguments.engine == "rollout" ? run_rollout(arguments, plan, tracker) : run_mujoco(arguments, plan, tracker);
   if (!arguments.json) {
@@ -148,7 +150,7 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
   const std::vector<CLI::Option*> all = {
       verb.add_flag("--perfect-state", options.perfect_state, "The controller sees the true state: no sensors, no estimator"),
       verb.add_option("--noise", options.noise_scale, "Factor on the sensors' noise and bias; default 1")->type_name("X"),
-      verb.add_option("--delay", arguments.delay_ms, "From sensors to torque; default 2")->type_name("MS"),
+      verb.add_option("--delay", arguments.delay_ms, "From sensors to torque; default 2")->check(number_between(0.0, 1000.0))->type_name("MS"),
       verb.add_option("--bandwidth", options.bandwidth, "Of the actuators, first order; default 0: they follow at once")
           ->type_name("HZ"),
       verb.add_option("--mass", options.physics.mass_scale, "Factor on all masses and inertias; default 1")->type_name("X"),

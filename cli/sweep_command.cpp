@@ -45,6 +45,7 @@ int run_sweep(const SweepArguments& arguments) {
   check_mujoco();
   const std::atomic<bool>& interrupted = catch_interrupts();
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
+  check_writable(arguments.directory);
   const MotionProblem& problem = plan.task.problem;
   const Tracker tracker = read_tracker(arguments.directory, problem);
   SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = arguments.ranges};

@@ -58,6 +58,15 @@ class StallWatch {
 
 }  // namespace
 
+ChangeSearch ChangeSearch::within(double part) const {
+  return {solver_, options_, part * std::max(seconds_left(), 0.0)};
+}
+
+ChangeSearch::Clock::time_point ChangeSearch::in(double seconds) {
+  constexpr double kForEver = 1e9;  // [s], 30 years: the clock counts nanoseconds in 64 bits
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kForEver)));
+}
+
 double ChangeSearch::seconds_of_solve(double part, double most) const {
   constexpr double kLeast = 1e-3;
   return std::max(std::min(most, part * seconds_left()), kLeast);
@@ -74,7 +83,7 @@ std::optional<Trajectory> ChangeSearch::motion(const MotionProblem& problem) con
     SolverOptions options = options_;
     options.max_iterations = kMostIterations;
     options.max_seconds = seconds_of_solve();
-    const StallWatch watch(options);
+    StallWatch watch(options);
     const SolveResult result = solver_.solve(nlp, nlp.pack(guess), options);
     if (result.status != SolveStatus::converged) return {};
     return nlp.unpack(result.z);
@@ -108,13 +117,11 @@ double ChangeSearch::bisected(const Knob& knob, double too_little, double enough
   return enough;
 }
 
-ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_seconds,
-                                    const std::function<void(const std::string&)>& on_step) const {
+ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const std::function<void(const std::string&)>& on_step) const {
   ChangesFound result;
   std::vector<FoundChange>& found = result.found;
   std::vector<bool> done(knobs.size(), false);
   double enough = std::numeric_limits<double>::infinity();  // of the smallest found, weighted
-  const double end = seconds_left() - max_seconds;
   double before = 0.0;
   for (double turned = kFirst; before < kNoMatch * enough; turned *= kFurther) {
     bool any_left = false;
@@ -122,8 +129,7 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_s
       const Knob& knob = knobs[i];
       const double too_little = before / knob.weight, amount = printable_amount(knob, std::min(turned / knob.weight, knob.most));
       if (done[i] || too_little >= knob.most) continue;
-      result.out_of_time = seconds_left() <= std::max(end, 0.0);
-      if (result.out_of_time || interrupted()) break;
+      if (!may_go_on()) break;
       any_left = true;
       if (on_step) on_step(fmt::format("{} {} {:.3g} {}", knob.kind, knob.subject, knob.value(amount), knob.unit));
       if (before == 0.0) ++result.tried;
@@ -132,9 +138,10 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, double max_s
       found.push_back({knob, bisected(knob, too_little, amount)});
       enough = std::min(enough, found.back().weighted());
     }
-    if (!any_left || result.out_of_time || interrupted()) break;
+    if (!any_left || !may_go_on()) break;
     before = turned;
   }
+  result.out_of_time = seconds_left() <= 0.0;
   std::erase_if(found, [&](const FoundChange& one) { return one.weighted() > kNoMatch * enough; });
   std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
   // What differs by less than bisections tell is equal, and a limit comes before what the task asks.

@@ -31,8 +31,9 @@ struct ChangesFound {
 class ChangeSearch {
  public:
   ChangeSearch(const NlpSolver& solver, const SolverOptions& options, double max_seconds)
-      : solver_(solver), options_(options), end_(Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                                    std::chrono::duration<double>(max_seconds))) {}
+      : solver_(solver), options_(options), end_(in(max_seconds)) {}
+  /// The same search, which ends after that part of the time that is left.
+  ChangeSearch within(double part) const;
 
   double seconds_left() const { return std::chrono::duration<double>(end_ - Clock::now()).count(); }
   /// What a solve may take: a part of the time that is left, at most so many seconds, but never no time at all.
@@ -49,12 +50,12 @@ class ChangeSearch {
   bool solves(const Knob& knob, double amount) const;
 
   /// All knobs are turned a little, then further and further, each until its problem is solved; then between the last
-  /// two amounts by bisection. Ends where what is left would be no match for the smallest, or after so many seconds.
-  ChangesFound smallest(const std::vector<Knob>& knobs, double max_seconds,
-                        const std::function<void(const std::string&)>& on_step) const;
+  /// two amounts by bisection. Ends where what is left would be no match for the smallest, or when the time is up.
+  ChangesFound smallest(const std::vector<Knob>& knobs, const std::function<void(const std::string&)>& on_step) const;
 
  private:
   using Clock = std::chrono::steady_clock;
+  static Clock::time_point in(double seconds);
   double bisected(const Knob& knob, double too_little, double enough) const;
 
   const NlpSolver& solver_;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "prowl/diagnosis/change_search.hpp"
+#include "prowl/diagnosis/joint_knobs.hpp"
 #include "prowl/diagnosis/search_mesh.hpp"
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
@@ -25,7 +26,7 @@ constexpr double kElasticPart = 0.5;
 constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
 constexpr double kOwnPart = 0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
 constexpr int kElasticIterations = 500;
-constexpr double kElasticTolerance = 1e-5;  // a tenth of a thousandth of a weight or a limit
+constexpr double kElasticTolerance = 1e-5;  // of a weight or a limit
 
 bool is_of_joints(LimitKind kind) {
   return kind == LimitKind::torque || kind == LimitKind::joint_velocity || kind == LimitKind::joint_position;
@@ -35,7 +36,7 @@ Change as_change(const FoundChange& found) {
   const Knob& knob = found.knob;
   const auto words = [&](double amount) { return knob.words ? knob.words(amount) : std::string(); };
   const double from = knob.value(0.0), to = knob.value(found.amount), ratio = std::abs(std::log(to / from));
-  return {.kind = knob.kind, .phase = knob.phase, .subject = knob.subject, .from = from, .to = to,
+  return {.kind = knob.kind, .phase = knob.phase, .subject = knob.subject, .is_factor = knob.is_factor, .from = from, .to = to,
           .unit = knob.unit, .from_words = words(0.0), .to_words = words(found.amount),
           .besides = knob.besides ? knob.besides(found.amount) : "", .amount = std::isfinite(ratio) ? ratio : found.amount};
 }
@@ -166,8 +167,7 @@ class Diagnoser {
     result_.search_intervals = count_intervals(searched_);
     step("postures of the initial guess");
     result_.hints = doubts(problem_, initial_guess(problem_, make_mesh(problem_)), elastic_);
-    ChangesFound changes = search_.smallest(knobs_of(searched_), kSearchPart * search_.seconds_left(),
-                                            [&](const std::string& what) { step("trying " + what); });
+    ChangesFound changes = search_.within(kSearchPart).smallest(knobs_of(searched_), [&](const std::string& what) { step("trying " + what); });
     std::vector<FoundChange>& found = changes.found;
     result_.tried = changes.tried;
     name(found);
@@ -220,11 +220,14 @@ class Diagnoser {
     const std::vector<std::string>& names = searched_.robot.joint_names();
     LimitKind kind = LimitKind::friction;
     std::set<int> joints;
+    std::vector<int> turnable;
     double needed = 0.0;  // amount that brings each of them as far as the elastic solution went
     for (const Breach& breach : result_.breaches) {
       if (!is_of_joints(breach.kind) || to_string(breach.kind) != smallest.knob.kind) continue;
       kind = breach.kind;
       const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
+      if (turnable.empty()) turnable = turnable_joints(searched_.robot, kind);
+      if (std::ranges::find(turnable, joint) == turnable.end()) return;  // these alone cannot do
       joints.insert(joint);
       const double sides = breach.kind == LimitKind::joint_position ? 2.0 : 1.0;  // on which the limit yields
       needed = std::max(needed, std::log1p(sides * breach.amount / value_of_limit(searched_.robot, breach.kind, joint)));
@@ -236,7 +239,9 @@ class Diagnoser {
     double last = 0.0;
     for (const double amount : {smallest.amount, needed + kALittleMore, needed + 4.0 * kALittleMore}) {
       const double turned = printable_amount(some, std::clamp(amount, smallest.amount, some.most));
-      if (turned == last || !search_.solves(some, last = turned)) continue;
+      if (turned == last) continue;
+      last = turned;
+      if (!search_.solves(some, turned)) continue;
       smallest = {some, turned};
       result_.subject = some.subject;
       // Of fewer joints more may be needed than of something else.
@@ -271,7 +276,7 @@ class Diagnoser {
   Proof proof_of(FoundChange& found) const {
     double last = -1.0;
     bool was_tried = true;
-    for (const double more : {0.0, 0.05, 0.15}) {
+    for (const double more : {0.0, 0.05, 0.15, 0.4}) {
       const double amount = printable_amount(found.knob, std::min(found.amount + more, found.knob.most));
       if (amount == last) break;
       if (!search_.may_go_on()) return {};

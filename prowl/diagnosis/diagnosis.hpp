@@ -17,6 +17,7 @@ struct Change {
   std::string kind;     ///< "friction", "torque", "joint_position", "joint_velocity", "goal", "place", "clearance", "duration"
   int phase = -1;       ///< -1: not of one phase
   std::string subject;  ///< surface, joints, goal, contact or phase; "" for all
+  bool is_factor = false;  ///< `to` is what the limits of several joints, which may differ, are multiplied with; `from` is 1
   double from = 0.0, to = 0.0;
   std::string unit;
   std::string from_words, to_words;  ///< the same in the terms of a file where these are others, with unit: "[-2.44, -0.97] rad"

@@ -98,8 +98,9 @@ std::optional<std::string> why_it_slides(const MotionProblem& problem) {
       const double slid = 0.5 * acceleration * time * time - speed * time;
       const double allowed = slide->direction.dot(start.position) - hold.least_along_d;
       if (!(slid > allowed + kMargin)) continue;
-      return fmt::format("phase '{}': {}. Within {:.3g} s the robot would slide {:.2f} m or more, and {} allows {:.2f} m at "
-                         "most", phase.name, friction_in_words(surfaces), time, slid, hold.name, std::max(0.0, allowed));
+      return fmt::format("phase '{}': {}. Within {:.3g} s the robot would {} {:.2f} m or more, and {} allows {:.2f} m at "
+                         "most", phase.name, friction_in_words(surfaces), time, surfaces.empty() ? "fall" : "slide", slid, hold.name,
+                         std::max(0.0, allowed));
     }
   }
   return std::nullopt;

@@ -44,11 +44,28 @@ class Descriptor {
   void sync() const {
     if (::fsync(number_) != 0) fail(path_, "cannot write to disk", errno);
   }
+  /// Permissions and group of what is to be replaced, if there is something: who made it private, or a group's, meant that.
+  void be_as_private_as(const fs::path& old) const {
+    constexpr mode_t kPermissions = 07777;
+    struct stat was = {}, is = {};
+    if (::stat(old.c_str(), &was) != 0 || ::fstat(number_, &is) != 0) return;
+    if (was.st_gid != is.st_gid && ::fchown(number_, static_cast<uid_t>(-1), was.st_gid) != 0) return;  // not a group of this user
+    const bool is_same = (was.st_mode & kPermissions) == (is.st_mode & kPermissions) && was.st_gid == is.st_gid;
+    if (!is_same && ::fchmod(number_, was.st_mode & kPermissions) != 0) fail(path_, "cannot get the permissions of the old one", errno);
+  }
 
  private:
   fs::path path_;
   int number_;
 };
+
+/// Writes and syncs a file that is to take the place of `old`, which need not be there.
+void write_new(const fs::path& file, const std::string& text, const fs::path& old) {
+  const Descriptor descriptor(file, O_WRONLY | O_CREAT | O_EXCL);
+  descriptor.be_as_private_as(old);
+  descriptor.write_all(text);
+  descriptor.sync();
+}
 
 constexpr std::chrono::hours kLeftoverAge{1};  // no write takes nearly as long, on any machine that sees the folder
 
@@ -68,15 +85,24 @@ void remove_leftovers(const fs::path& folder) {
   }
 }
 
+/// Another process that tries whether it could write takes the empty folders above away again, at any moment.
+constexpr int kMostAttempts = 1000;
+
+enum class FolderAbove { has_to_exist, is_made };
+
 /// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the old.
 class SiblingFolder {
  public:
-  explicit SiblingFolder(const fs::path& folder) {
-    remove_leftovers(folder.parent_path());
-    for (int attempt = 0;; ++attempt) {
-      path_ = folder.parent_path() / fmt::format(".prowl-{}-{}.new", ::getpid(), attempt);
+  SiblingFolder(const fs::path& folder, FolderAbove above) {
+    const fs::path parent = folder.parent_path();
+    remove_leftovers(parent);
+    for (int attempt = 0, taken = 0;; ++attempt) {
+      if (above == FolderAbove::is_made) make_folder(parent);
+      path_ = parent / fmt::format(".prowl-{}-{}.new", ::getpid(), taken);
       if (::mkdir(path_.c_str(), 0777) == 0) return;
-      if (errno != EEXIST || attempt == 100) fail(path_, "cannot make this folder", errno);
+      const bool is_gone = errno == ENOENT && above == FolderAbove::is_made;
+      if ((errno != EEXIST && !is_gone) || attempt == kMostAttempts) fail(path_, "cannot make this folder", errno);
+      if (errno == EEXIST) ++taken;
     }
   }
   ~SiblingFolder() {
@@ -88,6 +114,15 @@ class SiblingFolder {
   const fs::path& path() const { return path_; }
 
  private:
+  /// But where one above it goes meanwhile: the next attempt makes that, too.
+  static void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error && error != std::errc::no_such_file_or_directory) {
+      throw FileError(fmt::format("{}: cannot make this folder: {}", folder.string(), error.message()));
+    }
+  }
+
   fs::path path_;
 };
 
@@ -112,6 +147,7 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
 /// Throws FileError where no other folder can take this one's name: what something is mounted on, or what is another
 /// user's in a folder where only owners may rename (as /tmp).
 void check_exchangeable(const fs::path& path) {
+  if (::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0) fail(path, "cannot be replaced", errno);
   struct stat here = {}, above = {};
   if (::stat(path.c_str(), &here) != 0) fail(path, "cannot look at this folder", errno);
   if (::stat(path.parent_path().c_str(), &above) != 0) fail(path.parent_path(), "cannot look at this folder", errno);
@@ -141,8 +177,7 @@ void try_to_make(const fs::path& path) {
     for (const fs::path& folder : missing) ::rmdir(folder.c_str());
   };
   try {
-    fs::create_directories(path.parent_path());
-    const SiblingFolder trial(path);
+    const SiblingFolder trial(path, FolderAbove::is_made);
     if (fs::exists(path, error)) {
       check_exchangeable(path);
     } else if (::rename(trial.path().c_str(), path.c_str()) == 0) {
@@ -150,9 +185,6 @@ void try_to_make(const fs::path& path) {
     } else if (errno != ENOTEMPTY && errno != EEXIST) {  // another process may have made it meanwhile
       fail(path, "cannot put the new folder in place", errno);
     }
-  } catch (const fs::filesystem_error& failure) {
-    remove_missing();
-    throw FileError(fmt::format("{}: cannot make this folder: {}", failure.path1().string(), failure.code().message()));
   } catch (const FileError&) {
     remove_missing();
     throw;
@@ -175,7 +207,11 @@ bool is_own(const std::string& name, const fs::directory_entry& entry, const std
 
 fs::path real_path(const fs::path& folder) {
   std::error_code error;
-  fs::path path = fs::weakly_canonical(fs::absolute(folder), error);
+  fs::path path;
+  int attempt = 0;
+  do {
+    path = fs::weakly_canonical(fs::absolute(folder), error);
+  } while (error == std::errc::no_such_file_or_directory && ++attempt < kMostAttempts);
   if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
   return path.has_filename() ? path : path.parent_path();
 }
@@ -200,17 +236,11 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
                              const std::set<std::string>& own_names) {
   check_replaceable(folder, own_names);
   const fs::path path = real_path(folder);
-  std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  if (error) throw FileError(fmt::format("{}: {}", path.parent_path().string(), error.message()));
-
-  const SiblingFolder fresh(path);
-  for (const auto& [name, text] : files) {
-    const Descriptor file(fresh.path() / name, O_WRONLY | O_CREAT | O_EXCL);
-    file.write_all(text);
-    file.sync();
-  }
-  Descriptor(fresh.path(), O_RDONLY | O_DIRECTORY).sync();
+  const SiblingFolder fresh(path, FolderAbove::is_made);
+  for (const auto& [name, text] : files) write_new(fresh.path() / name, text, path / name);
+  const Descriptor descriptor(fresh.path(), O_RDONLY | O_DIRECTORY);
+  descriptor.be_as_private_as(path);
+  descriptor.sync();
   try {
     exchange(fresh.path(), path);
   } catch (const FileError& failure) {  // all is written, after hours of work perhaps
@@ -221,6 +251,8 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
   Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
 }
 
+void check_writable(const fs::path& folder) { const SiblingFolder trial(real_path(folder) / "file", FolderAbove::has_to_exist); }
+
 void write_files_atomically(const fs::path& folder, const std::map<std::string, std::string>& files) {
   const fs::path place = real_path(folder);
   std::error_code error;
@@ -228,12 +260,8 @@ void write_files_atomically(const fs::path& folder, const std::map<std::string, 
     const fs::file_status old = fs::status(place / name, error);
     if (fs::exists(old) && !fs::is_regular_file(old)) throw FileError(fmt::format("{}: not a file", (place / name).string()));
   }
-  const SiblingFolder fresh(place / "file");
-  for (const auto& [name, text] : files) {
-    const Descriptor descriptor(fresh.path() / name, O_WRONLY | O_CREAT | O_EXCL);
-    descriptor.write_all(text);
-    descriptor.sync();
-  }
+  const SiblingFolder fresh(place / "file", FolderAbove::has_to_exist);
+  for (const auto& [name, text] : files) write_new(fresh.path() / name, text, place / name);
   for (const auto& [name, text] : files) {
     const fs::path target = place / name;
     if (::rename((fresh.path() / name).c_str(), target.c_str()) != 0) fail(target, "cannot put the new file in place", errno);

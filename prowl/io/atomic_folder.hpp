@@ -27,6 +27,10 @@ void check_replaceable(const std::filesystem::path& folder, const std::set<std::
 void write_folder_atomically(const std::filesystem::path& folder, const std::map<std::string, std::string>& files,
                              const std::set<std::string>& own_names);
 
+/// Throws FileError unless write_files_atomically can be expected to work: it makes something in the folder and removes it again.
+/// For a look before hours of work.
+void check_writable(const std::filesystem::path& folder);
+
 /// Files in a folder that holds others, too: written and synced beside them, then renamed one after the other. Throws FileError;
 /// unless that came of a rename, all old ones are as they were. A kill between two renames leaves each file whole, old or new.
 void write_files_atomically(const std::filesystem::path& folder, const std::map<std::string, std::string>& files);

@@ -21,7 +21,8 @@ IterateFigures figures(const SolveResult& result) {
 }
 
 std::chrono::steady_clock::duration seconds(double s) {
-  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(s));
+  constexpr double kNever = 1e9;  // [s], 30 years: the clock counts nanoseconds in 64 bits
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(std::min(s, kNever)));
 }
 
 bool is_same_mesh(const MotionProblem& a, const MotionProblem& b) {

@@ -9,6 +9,7 @@
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/mesh_advice.hpp"
 #include "prowl/io/summary.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 
@@ -60,9 +61,7 @@ std::string what_it_turns(const Change& change, const MotionProblem& problem) {
 /// "friction of floor 0.61 instead of 0.52"; of several joints, whose limits may differ, the factor.
 std::string in_words(const Change& change, const MotionProblem& problem) {
   const std::string besides = change.besides.empty() ? "" : ", " + change.besides;
-  const bool several = (change.kind == "torque" || change.kind.starts_with("joint")) &&
-                       (change.subject.empty() || change.subject.find(',') != std::string::npos);
-  if (several) return fmt::format("{} times {:.3g}{}", what_it_turns(change, problem), change.to, besides);
+  if (change.is_factor) return fmt::format("{} times {:.3g}{}", what_it_turns(change, problem), change.to, besides);
   const auto words = [&](const std::string& own, double value) { return own.empty() ? with_unit(value, change.unit) : own; };
   return fmt::format("{} {} instead of {}{}", what_it_turns(change, problem), words(change.to_words, change.to),
                      words(change.from_words, change.from), besides);
@@ -156,6 +155,8 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   for (const Change& change : diagnosis.changes) {
     const std::string proof = change.passes      ? "this plan passes its certificate"
                               : change.is_proved ? "on the mesh of the task, whose error is too large for the certificate: --refine"
+                              : change.was_tried && diagnosis.search_intervals == count_intervals(problem)
+                                  ? "solved from the initial guess, but prowl plan's motion is none that passes its certificate"
                               : change.was_tried ? fmt::format("solved on {} mesh intervals, but not on the task's own", diagnosis.search_intervals)
                                                  : fmt::format("solved on {} mesh intervals only", diagnosis.search_intervals);
     text += fmt::format("  {:<11}  with {} ({})\n", change.passes ? "solvable" : change.is_proved ? "solved" : "perhaps", in_words(change, problem), proof);

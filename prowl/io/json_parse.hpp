@@ -12,7 +12,7 @@ namespace prowl {
 nlohmann::ordered_json parse_json(const SourceText& source);
 
 constexpr int kDeepestJson = 32;          ///< plan.json has 6
-constexpr int kMostJsonKeys = 1000;       ///< of one object; plan.json has 20
+constexpr int kMostJsonKeys = 200;        ///< of one object, whose keys are compared with each other; plan.json has 20
 constexpr int kMostJsonValues = 2000000;  ///< in all, 16 bytes and more each; plan.json has 6 a mesh interval
 
 }  // namespace prowl

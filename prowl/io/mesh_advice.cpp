@@ -17,11 +17,12 @@ constexpr double kMargin = 1.25;  // on the error
 /// The least --intervals, `needed` or more, that keeps every goal at a node.
 std::optional<int> intervals_option(const Task& task, double needed) {
   const std::vector<int> of_phase = interval_divisors(task.problem);
-  for (double total = std::ceil(needed); total <= kMostIntervals; ++total) {
-    const std::vector<int> shares = share_intervals(task.file_intervals, static_cast<int>(total));
+  if (!(needed <= kMostIntervals)) return std::nullopt;
+  for (int total = static_cast<int>(std::ceil(needed)); total <= kMostIntervals; ++total) {
+    const std::vector<int> shares = share_intervals(task.file_intervals, total);
     bool keeps_goals = true;
     for (std::size_t p = 0; p < shares.size(); ++p) keeps_goals = keeps_goals && shares[p] % of_phase[p] == 0;
-    if (keeps_goals) return static_cast<int>(total);
+    if (keeps_goals) return total;
   }
   return std::nullopt;
 }

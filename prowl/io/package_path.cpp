@@ -91,7 +91,7 @@ fs::path resolve_uri(const std::string& uri, const fs::path& robot_file, const s
   for (const fs::path& folder : folders_to_search(robot_path, package_dirs, search)) {
     fs::path base = fs::absolute(folder).lexically_normal();
     if (!base.has_filename()) base = base.parent_path();  // "folder/"
-    const fs::path in_folder = base / package / rest;
+    fs::path in_folder = base / package / rest;
     if (is_file(in_folder)) return in_folder;
     if (base.filename() == package && is_file(base / rest)) return base / rest;
     tried += "\n  " + in_folder.string();

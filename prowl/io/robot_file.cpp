@@ -4,6 +4,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/io/toml_value.hpp"
+#include "prowl/model/description_error.hpp"
 
 namespace prowl {
 namespace {
@@ -71,41 +72,10 @@ JointLimits read_limits(const TomlTable& table) {
   return limits;
 }
 
-/// What RobotModel says about a description; "" if nothing.
-std::string complaint(const RobotDescription& description) {
-  try {
-    RobotModel{description};
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
-/// Where the robot file says what RobotModel complains of: the first key without which it no longer does; else the URDF.
-std::string place_of_culprit(const SourceText& source, const RobotDescription& description, const std::string& message) {
-  const auto value = [&](const std::string& key) { return locate(source, key) + key; };
-  const auto name = [&](const std::string& key) { return locate_key(source, key) + key; };  // a joint that there is not
-  RobotDescription bare;
-  bare.name = description.name;
-  bare.urdf = description.urdf;
-  bare.urdf_text = description.urdf_text;
-  if (complaint(bare) == message) return value("urdf");
-  for (std::size_t i = 0; i < description.contacts.size(); ++i) {
-    RobotDescription without = description;
-    without.contacts.erase(without.contacts.begin() + static_cast<std::ptrdiff_t>(i));
-    if (complaint(without) != message) return value(fmt::format("contact[{}].frame", i));
-  }
-  for (const auto& [joint, position] : description.nominal_joints) {
-    RobotDescription without = description;
-    without.nominal_joints.erase(joint);
-    if (complaint(without) != message) return name("nominal.joints." + joint);
-  }
-  for (const auto& [joint, limits] : description.limits) {
-    RobotDescription without = description;
-    without.limits.erase(joint);
-    if (complaint(without) != message) return name("limits." + joint);
-  }
-  return value("urdf");
+/// Where a robot file has that key: of joints the name, which may be no joint's, of others the value.
+std::string place_of(const SourceText& source, const std::string& key) {
+  const bool is_joint = key.starts_with("limits.") || key.starts_with("nominal.");
+  return (is_joint ? locate_key(source, key) : locate(source, key)) + key;
 }
 
 }  // namespace
@@ -147,8 +117,10 @@ RobotModel load_robot(const SourceText& source, const PackageSearch& search, con
   const RobotDescription description = parse_robot_file(source, search, reading);
   try {
     return RobotModel(description);
+  } catch (const DescriptionError& error) {
+    throw InputError(fmt::format("{}: {}", place_of(source, error.key()), error.what()));
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", place_of_culprit(source, description, error.what()), error.what()));
+    throw InputError(fmt::format("{}: {}", place_of(source, "urdf"), error.what()));
   }
 }
 

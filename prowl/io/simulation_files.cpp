@@ -85,6 +85,11 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
                       options.control_rate, 1e3 * options.delay, options.perfect_state ? 0.0 : options.noise_scale,
                       options.physics.mass_scale != 1.0 ? fmt::format(", masses x {:g}", options.physics.mass_scale) : "",
                       options.physics.friction ? fmt::format(", friction {:g}", *options.physics.friction) : "");
+  if (options.bandwidth > 0.0) text += fmt::format("  actuators of {:g} Hz\n", options.bandwidth);
+  for (const Push& push : options.pushes) {
+    text += fmt::format("  push of {:.3g} N s along [{:.3g}, {:.3g}, {:.3g}] from {:.3g} s for {:.3g} s\n", push.impulse.norm(), push.impulse.x(),
+                        push.impulse.y(), push.impulse.z(), push.time, push.duration);
+  }
   for (const std::string& failure : result.failures) text += fmt::format("  failed: {}\n", failure);
   text += error_heading();
   text += error_line("base position", result.base_position, 0.01, "cm ");

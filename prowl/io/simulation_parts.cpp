@@ -39,8 +39,10 @@ Json torque_json(const TorqueUse& use) {
 }
 
 std::string torque_line(const TorqueUse& use) {
-  return fmt::format("  torque      {:.0f} % of the limit at most ({}), at a limit {:.1f} % of the time, {:.0f} J of work\n",
-                     100 * use.largest_share, use.joint, 100 * use.saturated, use.positive_work);
+  const std::string largest = std::isfinite(use.largest_share)
+                                  ? fmt::format("{:.0f} % of the limit at most ({})", 100 * use.largest_share, use.joint)
+                                  : fmt::format("{} was where it can give none", use.joint);
+  return fmt::format("  torque      {}, at a limit {:.1f} % of the time, {:.0f} J of work\n", largest, 100 * use.saturated, use.positive_work);
 }
 
 std::string error_heading() { return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "in rest"); }

@@ -53,8 +53,9 @@ std::string failed_checks(const Certificate& certificate) {
   std::string text;
   for (const CertificateCheck& check : certificate.checks) {
     if (check.passed) continue;
-    text += fmt::format("{}{} ({} > {})", text.empty() ? "" : ", ", check.name, with_unit(check.worst, ""),
-                        with_unit(check.limit, check.unit));
+    const std::string limit = with_unit(check.limit, ""), worst = with_unit(check.worst, "");
+    text += fmt::format("{}{} ({} > {})", text.empty() ? "" : ", ", check.name,
+                        worst == limit ? fmt::format("{:.9g}", check.worst) : worst, with_unit(check.limit, check.unit));
   }
   return text;
 }

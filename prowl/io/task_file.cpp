@@ -8,6 +8,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/io/check_overrides.hpp"
+#include "prowl/io/duration_range.hpp"
 #include "prowl/io/interval_shares.hpp"
 #include "prowl/io/problem_fields.hpp"
 #include "prowl/io/robot_file.hpp"
@@ -171,7 +172,7 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
       if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
     }
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
-    const Bounds duration = table.need("duration_s").as_range(NumberRange::positive());
+    const Bounds duration = table.need("duration_s").as_range(duration_range());
     phase.duration = {duration.lower, duration.upper};
     phase.intervals = table.need("intervals").as_integer(1, kMostIntervals);
     auto steps = table.find("steps");
@@ -226,11 +227,19 @@ void override_intervals(std::vector<Phase>& phases, const std::vector<int>& file
   for (std::size_t p = 0; p < phases.size(); ++p) phases[p].intervals = shares[p];
 }
 
-void check_intervals(const TomlTable& root, const std::vector<Phase>& phases) {
+void check_lengths(const TomlTable& root, const std::vector<Phase>& phases) {
   long total = 0;
-  for (const Phase& phase : phases) total += phase.intervals;
-  if (total <= kMostIntervals) return;
-  root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
+  double seconds = 0.0;
+  for (const Phase& phase : phases) {
+    total += phase.intervals;
+    seconds += phase.duration.max;
+  }
+  if (total > kMostIntervals) {
+    root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
+  }
+  if (seconds > kLongestMotion) {
+    root.value().fail(fmt::format("phases of {:g} s in all are not allowed; need at most {:g} s", seconds, kLongestMotion));
+  }
 }
 
 SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
@@ -261,7 +270,7 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
   std::vector<Phase>& phases = read.phases;
   for (const Phase& phase : phases) file_intervals.push_back(phase.intervals);
   if (overrides.intervals) override_intervals(phases, file_intervals, *overrides.intervals);
-  check_intervals(root, phases);
+  check_lengths(root, phases);
 
   std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
   for (BoundaryCondition& goal : read_goals(root, robot, start, phases)) conditions.push_back(std::move(goal));

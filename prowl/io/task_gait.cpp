@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "prowl/io/duration_range.hpp"
 #include "prowl/motion/gait.hpp"
 
 namespace prowl {
@@ -39,7 +40,7 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
   Gait gait;
   gait.pattern = read_pattern(table);
   gait.strides = table.need("strides").as_integer(1, kMostStrides);
-  const Bounds stride = table.need("stride_s").as_range(NumberRange::positive());
+  const Bounds stride = table.need("stride_s").as_range(duration_range());
   gait.stride = {stride.lower, stride.upper};
   gait.duty_factor = gait.pattern.duty_factor;
   if (const auto value = table.find("duty_factor")) {
@@ -47,8 +48,8 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
                                          .upper = kLargestDutyFactor,
                                          .hint = "; with less, swings overlap: write the phases out as [[phase]]"});
   }
-  if (const auto value = table.find("start_s")) gait.start = value->as_number(NumberRange::positive());
-  if (const auto value = table.find("settle_s")) gait.settle = value->as_number(NumberRange::positive());
+  if (const auto value = table.find("start_s")) gait.start = value->as_number(duration_range());
+  if (const auto value = table.find("settle_s")) gait.settle = value->as_number(duration_range());
   if (const auto value = table.find("intervals_per_second")) {
     gait.intervals_per_second = value->as_number(NumberRange::positive());
   }

@@ -184,6 +184,22 @@ std::vector<std::string> contact_frame_names(const RobotModel& robot) {
   return names;
 }
 
+std::vector<std::string> implausible_sizes(const RobotModel& robot) {
+  constexpr double kLargestBall = 0.25;                    // of the robot's size; feet have a tenth of that
+  constexpr double kThinnest = 1.0, kDensest = 1e4;        // [kg/m^3], of a cube as large as the robot; ours have 50 to 500
+  std::vector<std::string> lines;
+  const double size = robot.size(), density = robot.mass() / (size * size * size);
+  if (!robot.contacts().empty() && (density < kThinnest || density > kDensest)) {
+    lines.push_back(fmt::format("{:.3g} kg, and contacts {:.3g} m from the base: is the robot in kilograms and metres?", robot.mass(), size));
+  }
+  for (const ContactPoint& contact : robot.contacts()) {
+    if (contact.radius <= kLargestBall * size) continue;
+    lines.push_back(fmt::format("contact '{}' has a radius of {:.3g} m, and is {:.3g} m from the base: is it in metres?", contact.name,
+                                contact.radius, size));
+  }
+  return lines;
+}
+
 RobotInspection inspect(const RobotModel& robot) {
   const PinocchioModel& pin = robot.pinocchio();
   const Eigen::VectorXd& q = robot.nominal_configuration();
@@ -200,6 +216,7 @@ RobotInspection inspect(const RobotModel& robot) {
   check_joint_symmetry(robot, result.warnings);
   check_contact_symmetry(robot, points, result.warnings);
   check_posture(robot, result.warnings);
+  for (std::string& text : implausible_sizes(robot)) result.warnings.push_back({Kind::size, std::move(text)});
 
   result.contact_rows = static_cast<int>(3 * points.size());
   if (points.empty()) return result;

@@ -19,7 +19,8 @@ struct RobotWarning {
     ground,    ///< contacts not level in the nominal posture
     symmetry,  ///< left and right differ
     contacts,  ///< two at one point, or the rank of the contact Jacobian hangs on the threshold
-    posture    ///< nominal posture outside the joint limits
+    posture,   ///< nominal posture outside the joint limits
+    size       ///< millimetres or grams, as it seems
   };
   Kind kind;
   std::string text;  ///< one sentence, with names, values and units
@@ -36,6 +37,9 @@ struct RobotInspection {
 };
 
 RobotInspection inspect(const RobotModel& robot);
+
+/// Of those the ones of kind size, as text: a robot in other units than metres and kilograms.
+std::vector<std::string> implausible_sizes(const RobotModel& robot);
 
 /// What a contact may be fixed to: the links and fixed joints of the URDF.
 std::vector<std::string> contact_frame_names(const RobotModel& robot);

@@ -14,6 +14,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/description_error.hpp"
 #include "prowl/model/nearest_name.hpp"
 #include "prowl/model/physical_inertia.hpp"
 #include "prowl/model/pinocchio_model.hpp"
@@ -31,8 +32,10 @@ constexpr std::uintmax_t kLargestUrdf = 4u << 20;  // [bytes]; the largest known
 
 std::string read_text(const std::filesystem::path& path) {
   std::error_code error;
-  std::ifstream stream(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, error) || !stream) {
+  const bool is_file = std::filesystem::is_regular_file(path, error);  // first: to open a pipe may take for ever
+  std::ifstream stream;
+  if (is_file) stream.open(path, std::ios::binary);
+  if (!is_file || !stream) {
     throw FileError(fmt::format("{}: cannot be read; expected a URDF file", path.string()));
   }
   if (std::filesystem::file_size(path, error) > kLargestUrdf) {
@@ -90,20 +93,21 @@ std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& de
   const std::vector<std::string> links = link_names(model);
   std::vector<pinocchio::FrameIndex> frames;
   std::set<std::string> names;
-  for (const ContactPoint& contact : description.contacts) {
-    const std::string where = fmt::format("robot '{}': contact '{}'", description.name, contact.name);
-    if (contact.name.empty() || !names.insert(contact.name).second) {
-      throw InputError(where + ": the name of a contact must be unique and not empty");
-    }
+  for (std::size_t i = 0; i < description.contacts.size(); ++i) {
+    const ContactPoint& contact = description.contacts[i];
+    const auto refuse = [&](const std::string& why) {
+      throw DescriptionError(fmt::format("contact[{}].frame", i), fmt::format("robot '{}': contact '{}': {}", description.name, contact.name, why));
+    };
+    if (contact.name.empty() || !names.insert(contact.name).second) refuse("the name of a contact must be unique and not empty");
     const std::optional<pinocchio::FrameIndex> found = find_frame(model, contact.frame);
     if (!found) {
-      throw InputError(fmt::format("{}: frame '{}' is no link or fixed joint of {}{}", where, shown(contact.frame),
-                                   description.urdf.string(), did_you_mean(contact.frame, links)));
+      refuse(fmt::format("frame '{}' is no link or fixed joint of {}{}", shown(contact.frame), description.urdf.string(),
+                         did_you_mean(contact.frame, links)));
     }
     if (!(contact.radius >= 0.0) || !std::isfinite(contact.radius)) {
-      throw InputError(fmt::format("{}: radius {} is not allowed; need radius >= 0 [m]", where, contact.radius));
+      refuse(fmt::format("radius {} is not allowed; need radius >= 0 [m]", contact.radius));
     }
-    if (!contact.offset.allFinite()) throw InputError(where + ": offset must be three finite numbers [m]");
+    if (!contact.offset.allFinite()) refuse("offset must be three finite numbers [m]");
     const pinocchio::FrameIndex frame = *found;
     if (contact.offset.isZero(0.0)) {
       frames.push_back(frame);
@@ -122,8 +126,8 @@ Eigen::Index joint_index(const RobotDescription& description, const std::vector<
                          const std::string& field, const std::string& name) {
   const auto joint = std::find(joints.begin(), joints.end(), name);
   if (joint == joints.end()) {
-    throw InputError(fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, shown(name),
-                                 description.urdf.string(), did_you_mean(name, joints)));
+    throw DescriptionError(field + "." + name, fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, shown(name),
+                                                           description.urdf.string(), did_you_mean(name, joints)));
   }
   return joint - joints.begin();
 }
@@ -131,16 +135,19 @@ Eigen::Index joint_index(const RobotDescription& description, const std::vector<
 void check_limits(const RobotModel& robot) {
   for (int j = 0; j < robot.nu(); ++j) {
     const std::string& joint = robot.joint_names()[static_cast<std::size_t>(j)];
-    const auto refuse = [&](const std::string& found, const std::string& expected) {
-      throw InputError(
+    const auto own = robot.description().limits.find(joint);
+    const JointLimits limits = own == robot.description().limits.end() ? JointLimits() : own->second;
+    const auto refuse = [&](bool is_own, const std::string& found, const std::string& expected) {
+      throw DescriptionError(
+          is_own ? "limits." + joint : "urdf",
           fmt::format("{}: joint '{}': {} is not allowed; need {} (in the URDF, or in limits.{} of the robot)",
                       robot.description().urdf.string(), joint, found, expected, joint));
     };
     const double lower = robot.position_lower()(j), upper = robot.position_upper()(j);
     const double velocity = robot.velocity_limit()(j), torque = robot.torque_limit()(j);
-    if (!(lower < upper)) refuse(fmt::format("position from {} to {}", lower, upper), "lower < upper");
-    if (!(velocity > 0.0)) refuse(fmt::format("velocity limit {}", velocity), "velocity > 0");
-    if (!(torque > 0.0)) refuse(fmt::format("torque limit (effort) {}", torque), "effort > 0");
+    if (!(lower < upper)) refuse(limits.position_lower || limits.position_upper, fmt::format("position from {} to {}", lower, upper), "lower < upper");
+    if (!(velocity > 0.0)) refuse(limits.velocity.has_value(), fmt::format("velocity limit {}", velocity), "velocity > 0");
+    if (!(torque > 0.0)) refuse(limits.torque.has_value(), fmt::format("torque limit (effort) {}", torque), "effort > 0");
   }
 }
 
@@ -211,8 +218,8 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   for (const auto& [name, position] : description_.nominal_joints) {
     const Eigen::Index j = joint_index(description_, joint_names_, "nominal.joints", name);
     if (!std::isfinite(position)) {
-      throw InputError(
-          fmt::format("robot '{}': nominal.joints.{}: {} is not a finite position", this->name(), name, position));
+      throw DescriptionError("nominal.joints." + name, fmt::format("robot '{}': nominal.joints.{}: {} is not a finite position",
+                                                                   this->name(), name, position));
     }
     nominal_configuration_(7 + j) = position;
   }

@@ -1,6 +1,7 @@
 #include "prowl/solvers/riccati_solver.hpp"
 
 #include <exception>
+#include <optional>
 
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/interior_point.hpp"
@@ -29,9 +30,15 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     result.message = *reason;
     return result;
   }
-  const int threads = nlp.use_threads(options.threads);
   StagewiseNlp& stages = *nlp.stagewise();
-  InteriorPoint method(stages, options, threads);
+  std::optional<InteriorPoint> made;
+  try {
+    made.emplace(stages, options, nlp.use_threads(options.threads));
+  } catch (const std::exception& error) {  // no memory, no threads
+    result.message = error.what();
+    return result;
+  }
+  InteriorPoint& method = *made;
   IterateFigures best;
   StageVectors best_stages;
   const auto watch = [&](int iteration, const IterateFigures& figures) -> std::optional<InteriorPoint::Ending> {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <exception>
 #include <limits>
 #include <mutex>
 #include <vector>
@@ -33,15 +34,24 @@ class SnoptProblem {
 
   const VectorXd& best() const { return best_z_; }  ///< empty if nothing was evaluated
   std::optional<SolveStatus> why_stopped() const { return why_stopped_; }
+  const std::string& mistake() const { return mistake_; }  ///< what an exception said that must not go through Fortran; else empty
 
   static void callback(int* status, int* n, double x[], int* need_values, int*, double values[], int* need_derivatives, int*,
                        double derivatives[], char[], int*, int iu[], int*, double[], int*) {
     SnoptProblem* self = nullptr;
     std::memcpy(&self, iu, sizeof self);  // the only thing that the interface hands through
-    const VectorXd z = Eigen::Map<VectorXd>(x, *n);
-    if (self->should_stop()) *status = -2;
-    else if (!self->evaluate(z, *need_values > 0 ? values : nullptr, *need_derivatives > 0 ? derivatives : nullptr)) {
-      *status = self->guarded_.broken() ? -2 : -1;
+    try {
+      const VectorXd z = Eigen::Map<VectorXd>(x, *n);
+      if (self->should_stop()) *status = -2;
+      else if (!self->evaluate(z, *need_values > 0 ? values : nullptr, *need_derivatives > 0 ? derivatives : nullptr)) {
+        *status = self->guarded_.broken() ? -2 : -1;
+      }
+    } catch (const std::exception& error) {
+      self->mistake_ = error.what();
+      *status = -2;
+    } catch (...) {
+      self->mistake_ = "stopped by something that is not a std::exception";
+      *status = -2;
     }
   }
 
@@ -84,6 +94,7 @@ class SnoptProblem {
   IterateFigures best_;
   int evaluations_ = 0;
   std::optional<SolveStatus> why_stopped_;
+  std::string mistake_;
 };
 
 template <class T>
@@ -247,6 +258,10 @@ SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   result.status = problem.why_stopped().value_or(status);
   result.message = fmt::format("{} (SNOPT INFO {})", words, info);
   if (guarded.broken()) result.status = SolveStatus::solver_failed;
+  if (!problem.mistake().empty()) {
+    result.status = SolveStatus::solver_failed;
+    result.message = problem.mistake();
+  }
   if (!guarded.failure().empty() && !problem.why_stopped()) result.message += "; " + guarded.failure();
   result.iterations = work.major_iterations();
   if (result.status == SolveStatus::converged || result.status == SolveStatus::infeasible) {

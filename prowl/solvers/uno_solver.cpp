@@ -279,6 +279,9 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
   } catch (const std::exception& error) {
     result.message = fmt::format("Uno: {}", error.what());
     result.iterations = problem.iterations();
+  } catch (...) {
+    result.message = "Uno: stopped by something that is not a std::exception";
+    result.iterations = problem.iterations();
   }
   if (guarded.broken()) {
     result.status = SolveStatus::solver_failed;

@@ -13,6 +13,11 @@ Conventions are Pinocchio's: q has the base position in the world [m], its quate
 v has the base twist in the base frame [m/s, rad/s], then the joint rates. SI units throughout. docs/python.md has more.
 """
 
+import importlib.util as _util
+
+if _util.find_spec("prowl._prowl") is None:
+    raise ImportError(f"prowl: its compiled part is not in {__path__[0]}: scripts/setup builds it, or install the wheel")
+
 from . import _notebook
 from ._files import parse_robot, parse_task, read_robot, read_task, shipped_robots, shipped_tasks
 from ._prowl import (

@@ -66,6 +66,8 @@ class Plans:
             yield bad(f"plan.json, objects {depth} deep", first('"x":' + '{"a":' * depth + "1" + "}" * depth), "deep")
             yield bad(f"plan.json, version {depth} deep", self.text.replace('"schema_version": ', '"schema_version": ' + "[" * depth + "]" * depth + ', "y": ', 1), "deep")
         yield bad("plan.json, 300000 keys", first(",".join(f'"k{i}":1' for i in range(300_000))), "keys")
+        yield bad("plan.json, 2000 objects of 1000 keys", first('"x":[' + ",".join(["{" + ",".join(f'"k{i}":1' for i in range(1000)) + "}"] * 2000) + "]"), "keys")
+        yield self.case("plan.json, 9000 objects of 200 keys", {"plan.json": first('"x":[' + ",".join(["{" + ",".join(f'"k{i}":1' for i in range(200)) + "}"] * 9000) + "]")}, status=3)
         yield bad("plan.json, 9 million numbers", first('"x":[' + "0," * 9_000_000 + "0]"), "values")
         yield bad("plan.json, NaN", self.text.replace('"seconds": ', '"seconds": NaN, "s": ', 1))
         yield bad("plan.json, half a character", self.text.replace('"name": "', '"name": "\\ud800', 1))

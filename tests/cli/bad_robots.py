@@ -137,6 +137,13 @@ def robot_file_cases():
     yield robot("90 contacts, one without a frame", "contact = [", "contact = [" + "".join(f'{{name="c{i}",frame="foot"}},' for i in range(90))
                 + '{name="x",frame="no"},', "robot.toml:3:", "contact[90].frame")
     yield robot("20000 nominal joints", "hip = 0.1", "".join(f"hip{i} = 0.1\n" for i in range(20_000)), "robot.toml:", "joint")
+    velocity, effort = replaced(URDF, 'velocity="', 'velocity="0" x="'), 'effort="0" y="'
+    at = velocity.rindex('effort="')
+    yield Case("robot: a limit mended, another not, and 40000 joints that are not there",
+               {"robot.urdf": velocity[:at] + effort + velocity[at + len('effort="'):],
+                "robot.toml": replaced(ROBOT, "[nominal.joints]", "[limits.hip]\nvelocity_radps = 1\n[nominal.joints]\n"
+                                       + "".join(f"j{i} = 0\n" for i in range(40_000)))},
+               ROBOT_COMMAND, ("robot.toml:", "urdf:", "effort"))
     yield robot("5000 limits", "[nominal.joints]", "".join(f"[limits.h{i}]\n" for i in range(5000)) + "[nominal.joints]", "robot.toml:", "joint")
     yield robot("a torque curve of 100000", "[nominal.joints]", "[limits.hip]\ntorque_over_position = [" + ",".join(f"[{i},1]" for i in range(100_000))
                 + "]\n[nominal.joints]", "robot.toml:", "at most")

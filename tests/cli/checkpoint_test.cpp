@@ -178,7 +178,7 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
     for (const std::string signal : {"INT", "TERM", "HUP"}) {
       if (signal == "HUP" && solver != "riccati") continue;  // the same to a solver
-      const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; " +
+      const Outcome result = run(": >progress; $at_terminal plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; " +
                                  test::until(test::kIteration) + "kill -" + signal + " $pid; wait $pid");
       EXPECT_EQ(result.status, 130) << solver << " " << signal << result.error;
       EXPECT_EQ(plan().at("status"), "interrupted") << solver;
@@ -206,6 +206,13 @@ TEST_F(Checkpoints, AHangUpHidesNoFullDisk) {
                              test::until(test::kIteration) + "kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 4) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
+}
+
+/// A script that was stopped by Ctrl-C may have started it on purpose beside what that stops.
+TEST_F(Checkpoints, CtrlCIsIgnoredWhereItWasBefore) {
+  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --intervals 300 2>progress & pid=$!; " +
+                             test::until(test::kIteration) + "kill -INT $pid; wait $pid");
+  EXPECT_EQ(result.status, 0) << result.error;
 }
 
 /// Who starts it with nohup wants it to outlive the terminal.

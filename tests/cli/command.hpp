@@ -41,10 +41,11 @@ class Command : public testing::Test {
     folder_.write("hyq.toml", kHyqFile);
     folder_.write("hold.toml", kHold);
   }
-  /// Runs a shell script in the test's folder, in which $prowl is the command and $dirs finds the robots.
+  /// Runs a shell script in the test's folder, in which $prowl is the command and $dirs finds the robots. What a script runs in the
+  /// background ignores Ctrl-C, but for $at_terminal, which is the command as a terminal starts it.
   Outcome run(const std::string& script) const {
     const std::string setup = "cd '" + folder_.path().string() + "'; prowl='" PROWL_COMMAND
-                              "'; dirs='--package-dir " PROWL_ROBOTS_DATA "'; (" + script + ") >.out 2>.err";
+                              "'; at_terminal=\"env --default-signal=INT $prowl\"; dirs='--package-dir " PROWL_ROBOTS_DATA "'; (" + script + ") >.out 2>.err";
     const int status = std::system(setup.c_str());
     return {WEXITSTATUS(status), read_file(folder_.path() / ".out"), read_file(folder_.path() / ".err")};
   }

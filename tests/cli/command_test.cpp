@@ -349,6 +349,15 @@ TEST_F(Command, StandsOnIce) {
   EXPECT_EQ(result.status, 0) << result.out;
 }
 
+TEST_F(Command, SaysWhatIsSeldomMeant) {
+  folder_.write("glue.toml", kHold + "[[surface]]\nname = \"glue\"\nfriction = 50\n");
+  const Outcome result = run("$prowl plan glue.toml $dirs --out out");
+  EXPECT_EQ(result.status, 0) << result.out;
+  EXPECT_THAT(result.error, HasSubstr("note: surface 'glue' has friction 50; rubber on dry concrete has about 1\n"));
+  EXPECT_THAT(run("$prowl diagnose glue.toml $dirs").error, HasSubstr("note: surface 'glue'"));
+  EXPECT_THAT(run("$prowl plan hold.toml $dirs --out usual").error, Not(HasSubstr("note:")));
+}
+
 TEST_F(Command, StartsFromAPlan) {
   const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.02, 0, -0.05]\n";
   folder_.write("shift.toml", kHold + shift);
@@ -380,7 +389,7 @@ TEST_F(Command, KeepsTheBestIterateOnInterrupt) {
   folder_.write("shift.toml", kHold + shift);
   // Ctrl-C once the first iteration is reported; 400 intervals take far longer than the signal.
   const Outcome result = run(
-      "$prowl plan shift.toml $dirs --out out --intervals 400 2>progress & pid=$!; " +
+      "$at_terminal plan shift.toml $dirs --out out --intervals 400 2>progress & pid=$!; " +
       test::until(test::kIteration) + "kill -INT $pid; wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
   ASSERT_TRUE(written());

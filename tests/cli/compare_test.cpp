@@ -157,7 +157,7 @@ TEST_F(Compare, LeavesOtherFilesAlone) {
 TEST_F(Compare, KeepsFinishedRunsOnInterrupt) {
   std::string meshes = "5";
   for (int i = 1; i < 50; ++i) meshes += ",30";
-  const Outcome stopped = run("$prowl compare shift.toml $dirs --out out --solver ipopt --intervals " + meshes +
+  const Outcome stopped = run("$at_terminal compare shift.toml $dirs --out out --solver ipopt --intervals " + meshes +
                               " 2>progress & pid=$!; " + test::until(" of 50 runs") + "kill -INT $pid; wait $pid");
   EXPECT_EQ(stopped.status, 130) << stopped.error;
   const nlohmann::json left = table();
@@ -170,7 +170,7 @@ TEST_F(Compare, KeepsFinishedRunsOnInterrupt) {
 }
 
 TEST_F(Compare, WritesNothingIfNothingWasFinished) {
-  const Outcome stopped = run("$prowl compare shift.toml $dirs --out out --solver ipopt --intervals 300 --tolerance 1e-12 "
+  const Outcome stopped = run("$at_terminal compare shift.toml $dirs --out out --solver ipopt --intervals 300 --tolerance 1e-12 "
                               "--json 2>err & pid=$!; sleep 1; kill -INT $pid; wait $pid");
   EXPECT_EQ(stopped.status, 130);
   EXPECT_EQ(nlohmann::json::parse(stopped.out).at("error").at("kind"), "interrupted");

@@ -20,7 +20,7 @@ class Sweep : public test::Command {
 
   /// Ctrl-C once `text` is on stderr.
   Outcome interrupted_at(const std::string& text, const std::string& options) const {
-    return run("$prowl sweep out $dirs " + options + " 2>progress & pid=$!; " +
+    return run("$at_terminal sweep out $dirs " + options + " 2>progress & pid=$!; " +
                test::until(text) + "kill -INT $pid; wait $pid");
   }
 };

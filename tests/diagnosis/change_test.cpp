@@ -7,8 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "prowl/diagnosis/joint_knobs.hpp"
 #include "prowl/io/task_file.hpp"
 #include "tests/io/test_files.hpp"
+#include "tests/support/small_robot.hpp"
+#include "tests/support/standing_problem.hpp"
 
 namespace prowl {
 namespace {
@@ -129,6 +132,43 @@ TEST(Change, TurnsTheNumberThatItTellsOf) {
   const MotionProblem shorter = knob(knobs, "place", 2).problem(kAmount);
   EXPECT_NEAR(0.5708 - shorter.phases[2].contacts[0].place->x(), (1.0 - kDown) * 0.2, 1e-3) << "a step of 20 cm";
   EXPECT_EQ(shorter.phases[2].contacts[0].place->z(), 0.0) << "on the floor";
+}
+
+/// As a task file says it.
+TEST(Change, OfAPlaceTellsItsCoordinates) {
+  const MotionProblem step = shipped("hyq/step");
+  const Knob place = knob(knobs_of(step), "place", 2);
+  EXPECT_EQ(place.words(0.0), "[0.5708, 0.3241, 0] m (0.2 m from where it stood)");
+  EXPECT_THAT(place.words(std::log(2.0)), testing::AllOf(testing::StartsWith("[0.4707"), testing::EndsWith(", 0] m (0.1 m from where it stood)")));
+}
+
+/// The limit itself where there is but one.
+TEST(Change, OfSeveralJointsIsAFactor) {
+  const MotionProblem step = shipped("hyq/step");
+  EXPECT_TRUE(knob(knobs_of(step), "torque").is_factor);
+  EXPECT_TRUE(joint_knob(step, LimitKind::torque, {0, 1}).is_factor);
+  const Knob one = joint_knob(step, LimitKind::torque, {0});
+  EXPECT_FALSE(one.is_factor);
+  EXPECT_EQ(one.value(0.0), step.robot.torque_limit()(0));
+  RobotDescription leg{.name = "hopper"};
+  leg.urdf_text = test::chain_urdf(1);
+  leg.contacts = {{"tip", "l1"}};
+  const MotionProblem hopper = test::standing_problem(RobotModel(leg));
+  const std::vector<Knob> knobs = knobs_of(hopper);
+  EXPECT_FALSE(knob(knobs, "torque").is_factor);
+  EXPECT_EQ(knob(knobs, "torque").subject, hopper.robot.joint_names()[0]) << "all joints are this one";
+}
+
+/// The torque over it is not known beyond.
+TEST(Change, OfAVelocityLimitEndsWhereACurveDoes) {
+  MotionProblem step = shipped("hyq/step");
+  RobotDescription robot = step.robot.description();
+  const double limit = step.robot.velocity_limit()(1);
+  robot.limits[step.robot.joint_names()[1]].torque_over_velocity = {{-limit, 100.0}, {0.0, 100.0}, {0.5 * limit, 80.0}, {limit, 50.0}};
+  step.robot = RobotModel(robot);
+  using testing::Not;
+  EXPECT_THAT(turnable_joints(step.robot, LimitKind::joint_velocity), Not(Contains(1)));
+  EXPECT_THAT(turnable_joints(step.robot, LimitKind::torque), Contains(1));
 }
 
 TEST(Change, OfARangeWidensItBothWays) {

@@ -123,11 +123,11 @@ TEST_F(DiagnosisTest, SaysThatASearchWasCutOff) {
   const RiccatiSolver solver;
   const ChangeSearch search(solver, {}, 1000.0);
   const std::vector<Knob> knobs = knobs_of(high);
-  const ChangesFound cut_off = search.smallest(knobs, 0.0, {});
+  const ChangesFound cut_off = search.within(0.0).smallest(knobs, {});
   EXPECT_TRUE(cut_off.out_of_time);
   EXPECT_EQ(cut_off.tried, 0);
   EXPECT_TRUE(cut_off.found.empty());
-  const ChangesFound whole = search.smallest(knobs, 1000.0, {});
+  const ChangesFound whole = search.smallest(knobs, {});
   EXPECT_FALSE(whole.out_of_time);
   EXPECT_EQ(whole.tried, static_cast<int>(knobs.size()));
   EXPECT_FALSE(whole.found.empty());

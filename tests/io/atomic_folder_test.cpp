@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <iterator>
+#include <thread>
 
 #include "test_files.hpp"
 
@@ -48,6 +53,41 @@ TEST_F(AtomicFolder, HoldsExactlyTheNewFiles) {
 TEST_F(AtomicFolder, MakesTheFoldersAbove) {
   write_folder_atomically(folder_.path() / "x/y/z/", {{"a.txt", "1"}}, kNames);
   EXPECT_EQ(test::read_file(folder_.path() / "x/y/z/a.txt"), "1");
+}
+
+/// As another prowl does that tries whether it could write there.
+TEST_F(AtomicFolder, MakesTheFoldersAboveAgainThatAnotherProcessTakesAway) {
+  std::atomic<bool> done = false;
+  std::thread other([&] {
+    while (!done) {
+      ::rmdir((folder_.path() / "x/y").c_str());
+      ::rmdir((folder_.path() / "x").c_str());
+      std::this_thread::sleep_for(std::chrono::microseconds(50));  // else nobody else gets to make them
+    }
+  });
+  for (int i = 0; i < 300; ++i) {
+    EXPECT_NO_THROW(write_folder_atomically(folder_.path() / "x/y/z", {{"a.txt", "1"}}, kNames)) << i;
+    fs::remove_all(folder_.path() / "x/y/z");
+  }
+  done = true;
+  other.join();
+}
+
+mode_t permissions(const fs::path& path) {
+  struct stat status = {};
+  ::stat(path.c_str(), &status);
+  return status.st_mode & 07777;
+}
+
+TEST_F(AtomicFolder, KeepsThePermissionsOfWhatItReplaces) {
+  write_folder_atomically(out_, {{"a.txt", "1"}}, kNames);
+  ::chmod(out_.c_str(), 02750);
+  ::chmod((out_ / "a.txt").c_str(), 0600);
+  write_folder_atomically(out_, {{"a.txt", "2"}, {"b.txt", "2"}}, kNames);
+  EXPECT_EQ(permissions(out_), 02750u);
+  EXPECT_EQ(permissions(out_ / "a.txt"), 0600u);
+  write_file_atomically(out_ / "a.txt", "3");
+  EXPECT_EQ(permissions(out_ / "a.txt"), 0600u);
 }
 
 TEST_F(AtomicFolder, LeavesFoldersWithOtherFilesAlone) {
@@ -99,6 +139,24 @@ TEST_F(AtomicFolder, RefusesFoldersWithoutPermission) {
   EXPECT_THROW(check_replaceable(out_, kNames), FileError);
   EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "1"}}, kNames), FileError);
   fs::permissions(folder_.path(), fs::perms::owner_all);
+}
+
+/// Its owner, without write permission for it, may rename it all the same.
+TEST_F(AtomicFolder, RefusesAFolderThatIsReadOnly) {
+  write_folder_atomically(out_, {{"a.txt", "1"}}, kNames);
+  fs::permissions(out_, fs::perms::owner_read | fs::perms::owner_exec);
+  const uid_t user = ::geteuid();
+  constexpr uid_t kNobody = 65534;
+  if (user == 0) {  // root may write everywhere
+    fs::permissions(folder_.path(), fs::perms::all);
+    ASSERT_EQ(::chown(out_.c_str(), kNobody, static_cast<gid_t>(-1)), 0);
+    ASSERT_EQ(::seteuid(kNobody), 0);
+  }
+  EXPECT_THROW(check_replaceable(out_, kNames), FileError);
+  EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "2"}}, kNames), FileError);
+  ASSERT_EQ(::seteuid(user), 0);
+  fs::permissions(out_, fs::perms::owner_all);
+  EXPECT_EQ(test::read_file(out_ / "a.txt"), "1");
 }
 
 TEST_F(AtomicFolder, ReplacesThePlaceThatALinkPointsTo) {

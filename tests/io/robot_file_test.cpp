@@ -59,6 +59,12 @@ TEST_F(RobotFile, NamesTheNearestJoint) {
   EXPECT_THAT(limits, StartsWith("hyq.toml:22:9: limits.lf_haa: "));
 }
 
+/// Where the fault is, not where something was mended.
+TEST_F(RobotFile, NamesTheUrdfForWhatItDoesNotReplace) {
+  const std::string mended = kHyqFile + "[limits.lf_haa_joint]\nvelocity_radps = 5\n[limits.lf_kfe_joint]\nposition_rad = [-1, -1]\n";
+  EXPECT_THAT(message_of(mended), StartsWith("hyq.toml:24:9: limits.lf_kfe_joint: "));
+}
+
 TEST_F(RobotFile, RefusesUnknownKeysWithTheNearest) {
   EXPECT_EQ(message("frame = \"lf_foot\", radius_m", "frame = \"lf_foot\", radius_mm"),
             "hyq.toml:4:42: contact[0].radius_mm: unknown key; did you mean 'radius_m'? "

@@ -263,7 +263,7 @@ TEST_F(TaskFile, RefusesUnknownSurface) {
 
 TEST_F(TaskFile, RefusesWrongType) {
   EXPECT_EQ(message("2.0\nintervals", "\"2 s\"\nintervals"),
-            "task.toml:6:14: phase[0].duration_s: \"2 s\" is not allowed; need a finite number > 0 [s]");
+            "task.toml:6:14: phase[0].duration_s: \"2 s\" is not allowed; need a number from 0.001 to 600 [s]");
   EXPECT_EQ(message("intervals = 5", "intervals = 5.0"),
             "task.toml:7:13: phase[0].intervals: 5 is not allowed; need an integer from 1 to 10000");
   EXPECT_EQ(message("[[phase]]", "[phase]"),
@@ -272,9 +272,17 @@ TEST_F(TaskFile, RefusesWrongType) {
 
 TEST_F(TaskFile, RefusesNegativeAndZeroDuration) {
   EXPECT_EQ(message("2.0\nintervals", "-2.0\nintervals"),
-            "task.toml:6:14: phase[0].duration_s: -2 is not allowed; need a finite number > 0 [s]");
+            "task.toml:6:14: phase[0].duration_s: -2 is not allowed; need a number from 0.001 to 600 [s]");
   EXPECT_EQ(message("2.0\nintervals", "0\nintervals"),
-            "task.toml:6:14: phase[0].duration_s: 0 is not allowed; need a finite number > 0 [s]");
+            "task.toml:6:14: phase[0].duration_s: 0 is not allowed; need a number from 0.001 to 600 [s]");
+}
+
+/// Milliseconds, mostly; and the certificate of what is left takes seconds.
+TEST_F(TaskFile, RefusesMotionsOfMoreThanTenMinutes) {
+  EXPECT_EQ(message("2.0\nintervals", "2000\nintervals"),
+            "task.toml:6:14: phase[0].duration_s: 2000 is not allowed; need a number from 0.001 to 600 [s]");
+  EXPECT_THAT(message("[[phase]]", "[[phase]]\nname = \"wait\"\ncontacts = \"all\"\nduration_s = 599\nintervals = 5\n\n[[phase]]"),
+              HasSubstr("phases of 601 s in all are not allowed; need at most 600 s"));
 }
 
 TEST_F(TaskFile, DurationMayBeFreeWithinBounds) {

@@ -114,6 +114,18 @@ TEST(RobotInspection, WarnsOfALongerLegTwice) {
   EXPECT_THAT(texts(longer, Kind::symmetry), ElementsAre(HasSubstr("5.0 mm apart")));
 }
 
+TEST(RobotInspection, WarnsOfMillimetresAndGrams) {
+  for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2(), test::talos()}) {
+    EXPECT_THAT(implausible_sizes(robot), IsEmpty()) << robot.name();
+  }
+  RobotDescription hyq = test::hyq_description();
+  hyq.contacts[1].radius = 21.75;
+  EXPECT_THAT(texts(inspect(RobotModel(hyq)), Kind::size), Contains(AllOf(HasSubstr("'lh_foot'"), HasSubstr("radius of 21.8 m"), HasSubstr("metres?"))));
+  RobotDescription grams = test::small_description("/nowhere/small.urdf");
+  grams.urdf_text = test::replaced(test::small_urdf(), "mass value=\"10\"", "mass value=\"10000\"");
+  EXPECT_THAT(implausible_sizes(RobotModel(grams)), ElementsAre(HasSubstr("in kilograms and metres?")));
+}
+
 TEST(RobotInspection, WarnsOfPosturesThatLeanOrPassTheLimits) {
   RobotDescription robot = test::hyq_description();
   robot.nominal_joints["lf_haa_joint"] = 0.2;  // mirrored feet need the same sign as rf_haa_joint

@@ -2,12 +2,14 @@
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <limits>
 #include <pinocchio/algorithm/frames.hpp>
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/description_error.hpp"
 #include "prowl/model/pinocchio_model.hpp"
 #include "tests/support/robots.hpp"
 #include "tests/support/small_robot.hpp"
@@ -219,6 +221,10 @@ TEST(RobotModel, RefusesFilesThatCannotBeReadOrAreNoRobot) {
   const test::TemporaryFolder folder;
   EXPECT_THAT(message_for<FileError>(test::small_description("/no/such/robot.urdf")),
               HasSubstr("/no/such/robot.urdf: cannot be read"));
+  const std::filesystem::path pipe = folder.write("pipe", "");
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(message_for<FileError>(test::small_description(pipe)), HasSubstr("cannot be read")) << "nobody writes to it";
   EXPECT_THAT(message_for(test::small_description(folder.write("a.urdf", "[robot]"))), HasSubstr("not an XML file"));
   EXPECT_THAT(message_for(test::small_description(folder.write("b.urdf", "<sdf/>"))), HasSubstr("not a URDF"));
   EXPECT_EQ(message_for(test::small_description(folder.write("c.urdf", test::small_urdf()))), "accepted");
@@ -239,6 +245,31 @@ TEST(RobotModel, RefusesBodiesAndLimitsThatCannotBe) {
   EXPECT_THAT(message("velocity=\"10\"", "velocity=\"0\""), HasSubstr("'left_hip': velocity limit 0"));
   EXPECT_THAT(message("lower=\"-0.5\"", "lower=\"1.6\""), HasSubstr("position from 1.6 to 1.5"));
   EXPECT_THAT(message("mass value=\"1\"", "mass value=\"nan\""), HasSubstr("\"nan\""));
+}
+
+/// The robot file's, if it is that which replaces what cannot be.
+TEST(RobotModel, SaysWhichKeyIsToBlame) {
+  RobotDescription robot = test::small_description("/nowhere/small.urdf");
+  robot.urdf_text = test::replaced(test::small_urdf(), "effort=\"50\"", "effort=\"0\"");
+  const auto key = [&] {
+    try {
+      RobotModel{robot};
+    } catch (const DescriptionError& error) {
+      return error.key();
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(key(), "urdf");
+  robot.limits["left_hip"].velocity = 5.0;
+  EXPECT_EQ(key(), "urdf") << "that replaces another limit";
+  robot.limits["left_hip"].torque = 0.0;
+  EXPECT_EQ(key(), "limits.left_hip");
+  robot.limits["left_hip"].torque = 10.0;
+  EXPECT_EQ(key(), "none");
+  robot.nominal_joints["hip"] = 0.0;
+  EXPECT_EQ(key(), "nominal.joints.hip");
+  robot.contacts.push_back({"toe", "nothing"});
+  EXPECT_EQ(key(), "contact[" + std::to_string(robot.contacts.size() - 1) + "].frame");
 }
 
 TEST(RobotModel, TextStandsForTheFile) {

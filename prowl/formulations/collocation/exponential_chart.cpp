@@ -53,7 +53,7 @@ class ExponentialChart : public BaseChart {
   Vector3d coordinates(const Matrix3d& R, const Vector3d& near) const override {
     const Vector3d e = so3::log(origin_.transpose() * R);
     const double angle = e.norm();
-    if (angle == 0.0) return e;
+    if (angle == 0.0) return Vector3d::Zero();
     // The other rotation vector of the same rotation.
     const Vector3d other = (1.0 - 2.0 * std::numbers::pi / angle) * e;
     const Vector3d chosen = (other - near).norm() < (e - near).norm() ? other : e;

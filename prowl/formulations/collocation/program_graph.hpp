@@ -25,8 +25,8 @@ class ProgramGraph {
   };
   /// factor * h^power * vector
   struct Term {
-    double factor;
-    int power;
+    double factor = 0.0;
+    int power = 0;
     Vector vector;
   };
   using Pattern = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>;  ///< 1 where an entry may differ from zero

@@ -1,0 +1,38 @@
+#include "prowl/feasibility/plausibility.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/standing_problem.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Plausibility, SaysNothingOfWhatIsUsual) {
+  EXPECT_THAT(implausibilities(test::standing_problem(test::hyq(), 0.0, 1.2)), IsEmpty());
+}
+
+TEST(Plausibility, NamesTheSurfaceThatNoSoleSticksTo) {
+  EXPECT_THAT(implausibilities(test::standing_problem(test::hyq(), 0.0, 50.0)), ElementsAre(AllOf(HasSubstr("'slope'"), HasSubstr("friction 50;"))));
+}
+
+TEST(Plausibility, NamesThePhaseWithMillisecondsForSeconds) {
+  MotionProblem problem = test::standing_problem();
+  problem.phases[0].duration = {2000.0, 2000.0};
+  EXPECT_THAT(implausibilities(problem), ElementsAre(AllOf(HasSubstr("'stand'"), HasSubstr("intervals of 250 s"))));
+}
+
+TEST(Plausibility, LooksAtTheShortestDurationAndTheLongestInterval) {
+  MotionProblem problem = test::standing_problem();
+  problem.phases[0].duration = {2.0, 2000.0};
+  EXPECT_THAT(implausibilities(problem), IsEmpty());
+  problem.phases[0].shares = {0.65, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05, 0.05};
+  EXPECT_THAT(implausibilities(problem), ElementsAre(HasSubstr("intervals of 1.3 s")));
+}
+
+}  // namespace
+}  // namespace prowl
