@@ -131,9 +131,9 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
   plan.reasons = proofs_of_infeasibility(problem);
   plan.trajectory = options.start_from;
   const std::vector<MotionProblem> meshes = meshes_of(problem, options, plan.reasons.empty());
-  const MotionProblem* solved = nullptr;
+  const MotionProblem* solved = &meshes.front();  // there is one, if only for its guess
   for (const MotionProblem& mesh : meshes) {
-    if (solved && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
+    if (&mesh != &meshes.front() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(mesh, solver, options, plan);
     solved = &mesh;
     if (is_stopped(plan.result.status)) break;  // what a finer mesh makes of it in no time is further off, and worse to resume

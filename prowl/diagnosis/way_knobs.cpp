@@ -124,7 +124,7 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
 
 /// Feet lifted less.
 Knob clearance_knob(const MotionProblem& problem) {
-  return {.kind = "clearance", .subject = "", .most = kMostOfWay, .is_asked = true, .weight = kWeightOfWay, .unit = "m",
+  return {.kind = "clearance", .subject = "", .most = kMostAmount, .is_asked = true, .weight = kWeightOfWay, .unit = "m",
           .value = [&problem](double a) { return problem.swing_clearance * std::exp(-a); },
           .problem = [&problem](double a) {
             MotionProblem changed = problem;

@@ -77,7 +77,7 @@ Json parse_simulation(const ReportInputs& inputs) {
 
 /// In place of the placeholder. '<' is only ever inside a string of the JSON, where \u003c means the same; without it no
 /// text can end the element or begin another.
-std::string filled(const std::string& page, std::string data) {
+std::string filled(const std::string& page, const std::string& data) {
   const std::size_t place = page.find(kPlaceholder);
   if (place == std::string::npos || page.find(kPlaceholder, place + 1) != std::string::npos) {
     throw FileError(fmt::format("the page of the report is not one that was built for it: need {} in it once", kPlaceholder));

@@ -33,7 +33,7 @@ std::string aligned(const std::vector<Row>& rows, std::size_t left) {
       for (const Row& other : rows) width = std::max(width, other[c].size());
       text += c < left ? fmt::format("  {:<{}}", row[c], width) : fmt::format("  {:>{}}", row[c], width);
     }
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

@@ -108,7 +108,7 @@ void TomlValue::fail_type(const std::string& needed, const std::string& hint) co
 
 double TomlValue::as_number(const NumberRange& range) const {
   if (!node_->is_number()) fail_type(range.to_words());
-  const double value = *node_->value<double>();
+  const double value = node_->value_or(std::numeric_limits<double>::quiet_NaN());
   if (std::isfinite(value) && std::abs(value) > NumberRange::kLargest) {
     fail(fmt::format("{:g} is not allowed; need a number of at most {:g} in size", value, NumberRange::kLargest));
   }

@@ -32,7 +32,7 @@ std::optional<std::string> right_counterpart(const std::string& left, const std:
       {"LH", "RH"},      {"fl", "fr"},      {"FL", "FR"},      {"hl", "hr"}, {"HL", "HR"}, {"rl", "rr"},
       {"RL", "RR"},      {"l_", "r_"},      {"L_", "R_"},      {"L", "R"}};
   for (const auto& [left_word, right_word] : kWords) {
-    const std::string right = mirrored(left, left_word, right_word);
+    std::string right = mirrored(left, left_word, right_word);
     if (right != left && std::find(names.begin(), names.end(), right) != names.end()) return right;
   }
   return std::nullopt;

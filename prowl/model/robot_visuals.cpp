@@ -108,7 +108,7 @@ std::optional<RobotVisual> inertia_box(const BodyTree& tree, int index) {
   const Body& body = tree.bodies[static_cast<std::size_t>(index)];
   if (!(body.mass > 0.0)) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(body.inertia);
-  const Eigen::Vector3d moment = axes.eigenvalues();
+  const Eigen::Vector3d& moment = axes.eigenvalues();
   RobotVisual box;
   box.link = body.name;
   box.body = index;

@@ -59,7 +59,7 @@ void set_inertia(const Body& from, double scale, mjsBody* to) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(from.inertia);
   Eigen::Matrix3d axes = principal.eigenvectors();
   if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
-  to->explicitinertial = 1;
+  to->explicitinertial = true;
   to->mass = scale * from.mass;
   copy(from.center, to->ipos);
   copy(scale * principal.eigenvalues(), to->inertia);
@@ -116,9 +116,9 @@ void add_surface(const Surface& surface, double friction, mjSpec* spec, mjsBody*
 }
 
 void set_options(const PhysicsOptions& options, mjSpec* spec) {
-  spec->compiler.degree = 0;
-  spec->compiler.alignfree = 0;
-  spec->compiler.usethread = 0;
+  spec->compiler.degree = false;
+  spec->compiler.alignfree = false;
+  spec->compiler.usethread = false;
   mjOption& option = spec->option;
   option.timestep = options.step;
   copy({0.0, 0.0, -RobotModel::kGravity}, option.gravity);

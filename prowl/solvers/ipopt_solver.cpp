@@ -266,7 +266,7 @@ std::string loaded_file() {
 std::optional<std::string> why_missing(IpoptLinearSolver linear_solver) {
   if (auto reason = IpoptSolver::why_wrong_library()) return reason;
   const bool spral = linear_solver == IpoptLinearSolver::spral;
-  const unsigned built_in = IpoptGetAvailableLinearSolvers(true);
+  const unsigned built_in = IpoptGetAvailableLinearSolvers(true);  // NOLINT(clang-analyzer-core.CallAndMessage): that it is there was seen above
   if (built_in & (spral ? IPOPTLINEARSOLVER_SPRAL : IPOPTLINEARSOLVER_MUMPS)) return std::nullopt;
   return fmt::format("the libipopt.so that is loaded was built without {}; that of the pinned casadi wheel has it (scripts/setup)",
                      spral ? "SPRAL" : "MUMPS");

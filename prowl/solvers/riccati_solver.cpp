@@ -61,7 +61,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     ending = method.run(stages.stages(z_start), watch);
   } catch (const std::exception& error) {
     ending.message = error.what();
-  } catch (...) {
+  } catch (...) {  // as it says already
   }
   result.status = ending.status;
   result.message = ending.message;

@@ -51,8 +51,8 @@ class Slacks {
 
  private:
   struct Bound {
-    Eigen::Index row;
-    double at;
+    Eigen::Index row = 0;
+    double at = 0.0;
     double z = 0.0, dz = 0.0;
   };
   double distance_below(const Bound& b) const { return s(b.row) - b.at; }

@@ -3,14 +3,14 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <string_view>
+#include <string>
 #include <type_traits>
 
 namespace prowl {
 
 namespace {
 
-constexpr std::string_view kNoFile = "/dev/null";
+const std::string kNoFile = "/dev/null";
 
 }  // namespace
 

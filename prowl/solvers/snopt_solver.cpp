@@ -39,7 +39,7 @@ class SnoptProblem {
   static void callback(int* status, int* n, double x[], int* need_values, int*, double values[], int* need_derivatives, int*,
                        double derivatives[], char[], int*, int iu[], int*, double[], int*) {
     SnoptProblem* self = nullptr;
-    std::memcpy(&self, iu, sizeof self);  // the only thing that the interface hands through
+    std::memcpy(static_cast<void*>(&self), iu, sizeof(SnoptProblem*));  // the only thing that the interface hands through
     try {
       const VectorXd z = Eigen::Map<VectorXd>(x, *n);
       if (self->should_stop()) *status = -2;
@@ -210,8 +210,8 @@ int call(const SnoptLibrary& library, const Nlp& nlp, SnoptProblem& problem, Wor
   vector<double> values(static_cast<std::size_t>(num_rows), 0.0), x_multipliers(point.x.size(), 0.0);
   vector<int> x_state(point.x.size(), 0), row_state(values.size(), 0);
   SnoptProblem* const self = &problem;
-  int user[sizeof self / sizeof(int)];
-  std::memcpy(user, &self, sizeof self);
+  int user[sizeof(SnoptProblem*) / sizeof(int)];
+  std::memcpy(user, static_cast<const void*>(&self), sizeof(SnoptProblem*));
   int no_index = 0, info = 0, num_superbasics = 0, num_infeasible = 0, integers = 0, reals = 0;
   double no_number = 0.0, sum_infeasible = 0.0;
   constexpr int kCold = 0, kCostRow = 1, kNoneLinear = 0;

@@ -23,7 +23,7 @@ double rounded(double x) { return kRounding * std::round(x / kRounding) + 0.0; }
 
 /// The foot turned so that its sole is level, about the origin of its body.
 Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {
-  const Eigen::Matrix3d R = pose.body(leg.foot).rotation();
+  Eigen::Matrix3d R = pose.body(leg.foot).rotation();
   if (leg.joints.size() < kSoleJoints) return R;
   Eigen::Vector3d down = -Eigen::Vector3d::UnitZ();
   double best = std::cos(kSnap);
@@ -174,12 +174,11 @@ class FootFinder {
 
   /// Without a shape: the lowest frame of the foot.
   FootContacts bare_frame() const {
-    const RobotLink* lowest = nullptr;
-    for (const RobotLink& link : pose_.links()) {
-      if (link.body != leg_.foot) continue;
-      if (lowest == nullptr || (level_ * (link.placement.translation() - lowest->placement.translation())).z() < 0.0) lowest = &link;
-    }
-    return {{contact_at(*lowest, lowest->name, lowest->placement.translation(), 0.0)},
+    const auto height = [&](const RobotLink& link) {
+      return link.body == leg_.foot ? (level_ * link.placement.translation()).z() : std::numeric_limits<double>::infinity();
+    };
+    const RobotLink& lowest = *std::ranges::min_element(pose_.links(), {}, height);
+    return {{contact_at(lowest, lowest.name, lowest.placement.translation(), 0.0)},
             "the origin of the frame: the URDF has no shape there that can be read"};
   }
 

@@ -75,7 +75,7 @@ std::string contacts(const NewRobot& robot) {
       if (!contact.offset.isZero(0.0)) {
         text += fmt::format("offset_m = [{}, {}, {}]\n", number(contact.offset.x()), number(contact.offset.y()), number(contact.offset.z()));
       }
-      text += "\n";
+      text += '\n';
     }
   }
   return text;
@@ -120,7 +120,7 @@ std::string limits(const NewRobot& robot) {
     if (guess.velocity) text += fmt::format("velocity_radps = {}   # guess: the URDF has none\n", number(*guess.velocity));
     if (guess.torque) text += fmt::format("torque_Nm = {}   # guess: five times what standing takes; the URDF has none\n", number(*guess.torque));
     if (guess.torque_is_no_limit) text += "# torque_Nm =      the URDF's 1000 N m or more is no limit\n";
-    text += "\n";
+    text += '\n';
   }
   return text;
 }
@@ -135,7 +135,7 @@ std::string robot_template(const NewRobot& robot, const std::string& urdf, const
                                  fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
                                  fmt::arg("urdf", toml_string(urdf)), fmt::arg("others", others));
   for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# A mesh that was not read: {}\n", one_line(mesh));
-  text += "\n";
+  text += '\n';
   text += contacts(robot);
   text += posture(robot, file);
   text += limits(robot);

@@ -48,7 +48,7 @@ std::optional<Rectangle> find_sole(const Eigen::Matrix3Xd& points) {
   if (points.cols() < 3) return std::nullopt;
   const auto hull = hull_of_lowest(points);
   if (!hull) return std::nullopt;
-  bg::model::box<Point> box;
+  bg::model::box<Point> box{};
   bg::envelope(*hull, box);
   const Eigen::Vector2d lower(box.min_corner().x(), box.min_corner().y()), upper(box.max_corner().x(), box.max_corner().y());
   // Feet are symmetrical across, and not along: the ends of the length are free, of the width only its half.

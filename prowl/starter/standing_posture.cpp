@@ -166,8 +166,6 @@ class PostureSearch {
     const double bent = 2.0 * std::acos(std::clamp(stretch, 0.0, 1.0));
     const double lower = robot_.position_lower()(knee.joint), upper = robot_.position_upper()(knee.joint);
     const double margin = std::min(0.05, 0.02 * (upper - lower));
-    double best = std::numeric_limits<double>::infinity();
-    std::optional<Eigen::VectorXd> found;
     // A hip that starts half as much bent the other way keeps the foot below it.
     for (const double share : {1.0, 0.6, 1.4}) {
       Eigen::VectorXd q = pose_.q();
@@ -175,15 +173,11 @@ class PostureSearch {
       q(7 + knee.joint) = std::clamp(knee.straight + side * share * bent, lower + margin, upper - margin);
       if (side * (q(7 + knee.joint) - knee.straight) < 0.3 * bent) continue;
       const InverseKinematics ik = inverse_kinematics(robot_, q, targets(leg, ground, shift));
-      const Eigen::VectorXd joints = ik.q.tail(robot_.nu());
+      Eigen::VectorXd joints = ik.q.tail(robot_.nu());
       if (ik.residual > kFitted || side * (joints(knee.joint) - knee.straight) < 0.3 * bent) continue;
-      if (ik.residual < best && is_inside(leg, joints)) {
-        best = ik.residual;
-        found = joints;
-        break;
-      }
+      if (is_inside(leg, joints)) return joints;
     }
-    return found;
+    return std::nullopt;
   }
 
   bool is_inside(std::size_t leg, const Eigen::VectorXd& joints) const {

@@ -186,7 +186,8 @@ class BackwardPass {
     const MatrixXd A = 0.5 * (left.A + now_.A), B = 0.5 * (left.B + now_.B);
     const Eigen::Index n = A.rows();
     const RiccatiFlow flow = riccati_flow(A, control_of(B), MatrixXd::Identity(n, n), h);
-    const MatrixXd optimal = flow.closed_loop(S_), gain_at_end = gain_;
+    MatrixXd optimal = flow.closed_loop(S_);
+    const MatrixXd gain_at_end = gain_;
     const bool was_limited = is_limited_;
     S_ = flow.back(S_);
     now_ = std::move(left);

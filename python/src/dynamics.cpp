@@ -157,7 +157,7 @@ class Dynamics {
  private:
   /// Derivatives of a quantity of the given shape for all rows of a batch.
   struct Jacobians {
-    Jacobians(const Dynamics& d, const Batch& batch, std::vector<std::size_t> shape)
+    Jacobians(const Dynamics& d, const Batch& batch, const std::vector<std::size_t>& shape)
         : q(batch, with(shape, d.nv())), v(batch, with(shape, d.nv())), a(batch, with(shape, d.nv())),
           tau(batch, with(shape, d.nv() - 6)) {}
     static std::vector<std::size_t> with(std::vector<std::size_t> shape, std::size_t columns) {
