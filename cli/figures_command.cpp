@@ -74,14 +74,15 @@ int run_figures(const FiguresArguments& arguments) {
   }
   write_file_atomically(work.path() / "legs.csv", legs_csv(problem.robot));
   std::error_code ignored;
-  if (fs::exists(directory / "tracker.bin", ignored)) {
+  const bool has_gains = fs::exists(directory / "tracker.bin", ignored);
+  if (has_gains) {
     write_file_atomically(work.path() / "gains.csv", gains_csv(problem.robot, read_tracker(directory, problem), joint));
   } else {
     print_message(fmt::format("no gains in {}: without figure gains; prowl plan writes them (tracker.bin)\n", arguments.directory));
   }
   if (!fs::exists(directory / "simulate.csv", ignored)) {
-    print_message(fmt::format("no simulation in {}: planned motion only, without base_error and joint_error; for all figures first\n"
-                              "  prowl simulate {}\n", arguments.directory, arguments.directory));
+    print_message(fmt::format("no simulation in {}: planned motion only, without base_error and joint_error\n", arguments.directory));
+    if (has_gains) print_message(fmt::format("for all figures first\n  prowl simulate {}\n", arguments.directory));
   }
   draw(arguments, work.path(), problem.robot.joint_names()[static_cast<std::size_t>(joint)]);
 

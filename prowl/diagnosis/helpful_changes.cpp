@@ -1,0 +1,194 @@
+#include "prowl/diagnosis/helpful_changes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "prowl/diagnosis/elastic_solve.hpp"
+#include "prowl/diagnosis/joint_knobs.hpp"
+#include "prowl/diagnosis/search_mesh.hpp"
+#include "prowl/error.hpp"
+#include "prowl/feasibility/feasibility.hpp"
+#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/mesh_levels.hpp"
+
+namespace prowl {
+
+namespace {
+
+/// Of the time that is left, what an elastic solve may take: it is an explanation, and the changes are the answer.
+constexpr double kElasticPart = 0.5;
+constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
+constexpr int kElasticIterations = 500;
+constexpr double kElasticTolerance = 1e-5;  // of a weight or a limit
+
+bool is_of_joints(LimitKind kind) {
+  return kind == LimitKind::torque || kind == LimitKind::joint_velocity || kind == LimitKind::joint_position;
+}
+
+Change as_change(const FoundChange& found) {
+  const Knob& knob = found.knob;
+  const auto words = [&](double amount) { return knob.words ? knob.words(amount) : std::string(); };
+  const double from = knob.value(0.0), to = knob.value(found.amount), ratio = std::abs(std::log(to / from));
+  return {.kind = knob.kind, .phase = knob.phase, .subject = knob.subject, .is_factor = knob.is_factor, .from = from, .to = to,
+          .unit = knob.unit, .from_words = words(0.0), .to_words = words(found.amount),
+          .besides = knob.besides ? knob.besides(found.amount) : "", .amount = std::isfinite(ratio) ? ratio : found.amount};
+}
+
+/// What became of a change on the mesh of the task.
+struct Proof {
+  std::optional<Certificate> certificate;  ///< of its motion, if that holds but for the error of its mesh
+  bool was_tried = false;                  ///< nothing ended that early
+};
+
+class HelpfulChanges {
+ public:
+  explicit HelpfulChanges(DiagnosisRun& run) : run_(run) {}
+
+  void run() {
+    run_.result.search_intervals = count_intervals(run_.searched);
+    run_.step("postures of the initial guess");
+    run_.result.hints = doubts(run_.problem, initial_guess(run_.problem, make_mesh(run_.problem)), run_.elastic);
+    ChangesFound changes = run_.search.within(kSearchPart).smallest(knobs_of(run_.searched), [&](const std::string& what) { run_.step("trying " + what); });
+    std::vector<FoundChange>& found = changes.found;
+    run_.result.tried = changes.tried;
+    name(found);
+    narrow_down(found);
+    for (const FoundChange& change : found) run_.result.changes.push_back(as_change(change));
+    prove(found);
+    run_.result.out_of_time = changes.out_of_time;
+  }
+
+ private:
+  /// Reads where the limits give way of the kind that is to be changed; of all kinds if nothing is found to change, or
+  /// if it is the time, or if that kind alone does not do.
+  void name(const std::vector<FoundChange>& found) {
+    if (!found.empty()) {
+      const Knob& knob = found.front().knob;
+      run_.result.kind = knob.kind;
+      run_.result.phase = knob.phase;
+      run_.result.subject = knob.subject;
+      if (knob.kind != "duration") read_breaches(knob.kind);
+    }
+    if (run_.result.breaches.empty()) read_breaches("");
+    if (!found.empty() || run_.result.breaches.empty()) return;
+    const Breach& worst = run_.result.breaches.front();
+    run_.result.kind = to_string(worst.kind);
+    run_.result.phase = worst.phase;
+    run_.result.subject = worst.subject;
+  }
+
+  void read_breaches(const std::string& kind) {
+    if (!run_.search.may_go_on()) return;
+    run_.step(kind.empty() ? "elastic solve, all limits" : "elastic solve, " + kind);
+    SolverOptions options = run_.options.solver;
+    options.tolerance = std::max(options.tolerance, kElasticTolerance);
+    options.max_iterations = kElasticIterations;
+    options.max_seconds = run_.search.seconds_of_solve(kElasticPart);
+    try {
+      const ElasticResult elastic = elastic_solve(run_.searched, run_.elastic, options, [&](const MotionLimit& limit) {
+        return kind.empty() || kind == to_string(limit.kind);
+      });
+      run_.result.elastic_status = elastic.status;
+      if (elastic.status == SolveStatus::converged) run_.result.breaches = elastic.breaches;
+    } catch (const Error&) {  // bounds that contradict each other: nothing to give way
+      run_.result.elastic_status = SolveStatus::evaluation_failed;
+    }
+  }
+
+  /// Joints that gave way are named, if no other has to.
+  void narrow_down(std::vector<FoundChange>& found) {
+    if (found.empty()) return;
+    FoundChange& smallest = found.front();
+    const std::vector<std::string>& names = run_.searched.robot.joint_names();
+    LimitKind kind = LimitKind::friction;
+    std::set<int> joints;
+    std::vector<int> turnable;
+    double needed = 0.0;  // amount that brings each of them as far as the elastic solution went
+    for (const Breach& breach : run_.result.breaches) {
+      if (!is_of_joints(breach.kind) || to_string(breach.kind) != smallest.knob.kind) continue;
+      kind = breach.kind;
+      const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
+      if (turnable.empty()) turnable = turnable_joints(run_.searched.robot, kind);
+      if (std::ranges::find(turnable, joint) == turnable.end()) return;  // these alone cannot do
+      joints.insert(joint);
+      const double sides = breach.kind == LimitKind::joint_position ? 2.0 : 1.0;  // on which the limit yields
+      needed = std::max(needed, std::log1p(sides * breach.amount / value_of_limit(run_.searched.robot, breach.kind, joint)));
+    }
+    if (joints.empty() || static_cast<int>(joints.size()) == run_.searched.robot.nu()) return;
+    const Knob some = joint_knob(run_.searched, kind, {joints.begin(), joints.end()});
+    constexpr double kALittleMore = 0.1;  // a solution has room, an elastic one none
+    run_.step("trying " + some.subject);
+    double last = 0.0;
+    for (const double amount : {smallest.amount, needed + kALittleMore, needed + 4.0 * kALittleMore}) {
+      const double turned = printable_amount(some, std::clamp(amount, smallest.amount, some.most));
+      if (turned == last) continue;
+      last = turned;
+      if (!run_.search.solves(some, turned)) continue;
+      smallest = {some, turned};
+      run_.result.subject = some.subject;
+      // Of fewer joints more may be needed than of something else.
+      std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
+      return;
+    }
+  }
+
+  /// Up to the first that holds: with that one there is something to go on with.
+  void prove(std::vector<FoundChange>& found) {
+    constexpr std::size_t kMost = 3;
+    for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) {
+      const Proof proof = proof_of(found[i]);
+      run_.result.changes[i].was_tried = proof.was_tried;
+      if (!proof.certificate) continue;
+      Change proved = as_change(found[i]);
+      proved.is_proved = proved.was_tried = true;
+      proved.passes = proof.certificate->passed;
+      run_.result.changes[i] = std::move(proved);
+      const auto place = static_cast<std::ptrdiff_t>(i);
+      std::rotate(found.begin(), found.begin() + place, found.begin() + place + 1);
+      std::rotate(run_.result.changes.begin(), run_.result.changes.begin() + place, run_.result.changes.begin() + place + 1);
+      if (i > 0) {  // what was named first does not help
+        run_.result.breaches.clear();
+        name(found);
+      }
+      return;
+    }
+  }
+
+  /// The same change, as it is told, on the mesh of the task, the whole way to the certificate; a little more of it if need be.
+  Proof proof_of(FoundChange& found) const {
+    double last = -1.0;
+    bool was_tried = true;
+    for (const double more : {0.0, 0.05, 0.15, 0.4}) {
+      const double amount = printable_amount(found.knob, std::min(found.amount + more, found.knob.most));
+      if (amount == last) break;
+      if (!run_.search.may_go_on()) return {};
+      last = amount;
+      run_.step(fmt::format("on the mesh of the task, {} {} {:.3g} {}", found.knob.kind, found.knob.subject, found.knob.value(amount), found.knob.unit));
+      try {
+        Plan plan = run_.planned(with_steps_of(found.knob.problem(amount), run_.problem), 1.0);
+        was_tried = was_tried && run_.what_stopped(plan.result).empty();
+        if (plan.result.status != SolveStatus::converged || !holds_but_for_its_mesh(plan.certificate)) continue;
+        found.amount = amount;
+        return {std::move(plan.certificate), true};
+      } catch (const Error&) {  // bounds that contradict each other
+        continue;
+      }
+    }
+    return {{}, was_tried};
+  }
+
+  DiagnosisRun& run_;
+};
+
+}  // namespace
+
+void look_for_changes(DiagnosisRun& run) { HelpfulChanges(run).run(); }
+
+}  // namespace prowl

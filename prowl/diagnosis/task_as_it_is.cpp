@@ -1,0 +1,72 @@
+#include "prowl/diagnosis/task_as_it_is.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <vector>
+
+#include "prowl/transcription/mesh_levels.hpp"
+
+namespace prowl {
+
+std::optional<Trajectory> TaskAsItIs::solve_all_meshes() {
+  std::vector<MotionProblem> meshes{run_.searched};
+  for (MotionProblem& level : mesh_levels(run_.problem)) {
+    if (count_intervals(level) > count_intervals(meshes.front())) meshes.push_back(std::move(level));
+  }
+  std::optional<Trajectory> motion;
+  for (MotionProblem& mesh : meshes) {
+    run_.searched = std::move(mesh);
+    run_.step(fmt::format("solving as it is, {} intervals", count_intervals(run_.searched)));
+    motion = run_.search.motion(run_.searched);
+    if (!motion) break;
+  }
+  return motion;
+}
+
+void TaskAsItIs::plan(double part) {
+  run_.step("planning as it is");
+  plan_ = run_.planned(run_.problem, part);
+  judge();
+}
+
+void TaskAsItIs::go_on() {
+  if (!run_.search.may_go_on() || plan_.result.seconds >= run_.options.solver.max_seconds) return;
+  run_.step("planning as it is, from where it was stopped");
+  const double seconds_before = plan_.result.seconds;
+  PlanOptions options;
+  options.resume = !plan_.trajectory.empty();
+  options.start_from = std::move(plan_.trajectory);
+  plan_ = run_.planned(run_.problem, 1.0, std::move(options), seconds_before);
+  plan_.result.seconds += seconds_before;
+  // What was found meanwhile is of no use, unless this is a motion that only its mesh allows.
+  if (plan_.result.status == SolveStatus::converged && holds_but_for_its_mesh(plan_.certificate)) run_.result = {};
+  judge();
+}
+
+void TaskAsItIs::take_from_own_mesh(const Trajectory& motion) {
+  run_.result.solvable = true;
+  run_.result.certificate = certify(run_.problem, motion);
+  const bool has_coarse_meshes = mesh_levels(run_.problem).size() > 1;
+  if (!run_.result.stopped_by.empty() || !has_coarse_meshes || !run_.search.may_go_on()) return;
+  run_.step("planning as it is, on its own mesh at once");
+  PlanOptions options;
+  options.coarse_first = false;
+  Plan plan = run_.planned(run_.problem, 1.0, std::move(options));
+  if (plan.result.status != SolveStatus::converged) return;
+  run_.result.needs_one_mesh = true;
+  run_.result.certificate = std::move(plan.certificate);
+  run_.result.hints = std::move(plan.hints);
+}
+
+void TaskAsItIs::judge() {
+  run_.result.status = plan_.result.status;
+  run_.result.message = plan_.result.message;
+  run_.result.solvable = run_.result.status == SolveStatus::converged;
+  run_.result.stopped_by = run_.what_stopped(plan_.result);
+  if (!run_.result.solvable) return;
+  run_.result.certificate = plan_.certificate;
+  run_.result.hints = plan_.hints;
+}
+
+}  // namespace prowl
