@@ -65,12 +65,10 @@ std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& argumen
   const bool is_resumed = !arguments.resume.empty() && real_path(arguments.resume) == folder;
   if (!is_resumed) so_far.plan = {};
   if (!is_resumed && fs::exists(folder / "plan.json")) {
-    print_message(fmt::format("note: replaces what is in {}; --resume would go on from it\n", arguments.folder));
+    print_note(fmt::format("replaces what is in {}; --resume would go on from it", arguments.folder));
   }
   auto checkpoint = std::make_unique<Checkpoint>(arguments.folder, arguments.every, std::move(so_far));
-  checkpoint->watch(options, [](const std::string& why) {
-    print_message(fmt::format("note: no checkpoint, planning goes on: {}\n", why));
-  });
+  checkpoint->watch(options, [](const std::string& why) { print_note("no checkpoint, planning goes on: " + why); });
   return checkpoint;
 }
 

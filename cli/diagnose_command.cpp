@@ -37,7 +37,7 @@ ExitStatus exit_status(const Diagnosis& diagnosis) {
 int run_diagnose(const DiagnoseArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs));
-  print_notes(implausibilities(task.problem));
+  for (const std::string& line : implausibilities(task.problem)) print_note(line);
   DiagnosisOptions options{.solver = task.solver, .max_seconds = arguments.max_seconds};
   options.solver.interrupt = &interrupted;
   options.on_step = [](const std::string& what) { print_progress(what + "\n"); };

@@ -12,12 +12,12 @@
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/nlp/dual_violation.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/snopt_solver.hpp"
-#include "prowl/solvers/stopwatch.hpp"
 
 namespace prowl::cli {
 namespace {

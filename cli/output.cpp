@@ -39,9 +39,7 @@ void print_bytes(const std::string& text) {
 
 void print_message(const std::string& text) { draw(printable(text)); }
 
-void print_notes(const std::vector<std::string>& notes) {
-  for (const std::string& note : notes) print_message("note: " + note + "\n");
-}
+void print_note(const std::string& text) { print_message("note: " + text + "\n"); }
 
 void draw(const std::string& text) noexcept {
   [[maybe_unused]] const std::size_t written = std::fwrite(text.data(), 1, text.size(), stderr);

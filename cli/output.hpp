@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace prowl::cli {
 
@@ -18,7 +17,7 @@ void print_bytes(const std::string& text);
 /// Writes a message to stderr as far as that goes: nobody has to listen, and no plan fails for it. Control characters as
 /// above; draw() leaves them, for a bar.
 void print_message(const std::string& text);
-void print_notes(const std::vector<std::string>& notes);  ///< print_message() of each, a line after "note: "
+void print_note(const std::string& text);  ///< print_message() of a line that begins with "note: "
 void draw(const std::string& text) noexcept;
 
 /// print_message() of what says only how far the work is; nothing after be_quiet().

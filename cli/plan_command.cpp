@@ -75,7 +75,7 @@ void add_feedback(PlanRecord& record) {
       if (sample.phase < std::ssize(grid)) bar.show(++done);  // the phase of standing on is one more
     });
   } catch (const NumericalError& error) {
-    print_message(fmt::format("note: {}\n", error.what()));
+    print_note(error.what());
   }
 }
 
@@ -122,7 +122,7 @@ int run_plan(const PlanArguments& arguments) {
     throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *arguments.step, duration));
   }
 
-  print_notes(implausibilities(task.problem));
+  for (const std::string& line : implausibilities(task.problem)) print_note(line);
   ProgressPrinter progress;
   PlanOptions options{.solver = task.solver};
   progress.watch(options);
@@ -155,14 +155,14 @@ int run_plan(const PlanArguments& arguments) {
                     .feedback = {}, .iterations = progress.iterations(), .warm_start = start};
   if (!arguments.no_gains) add_feedback(record);
   if (holds_good_plan(out))
-    print_message(fmt::format("note: replaces an earlier plan that passed, in {}\n", out.string()));
+    print_note("replaces an earlier plan that passed, in " + out.string());
   write_plan(out, record, arguments.step);
   if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
   if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   const bool may_go_on = !is_good(record.plan) && (status == kLimit || status == kInterrupted);
   if (const int reached = count_intervals(record.task.problem); may_go_on && reached < asked) {
-    print_message(fmt::format("note: stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one\n", reached, asked));
+    print_note(fmt::format("stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one", reached, asked));
   }
   if (may_go_on) print_message(fmt::format("to go on from there: --resume {}{}, all else as before\n", out.string(),
                                              arguments.warm_start.empty() ? "" : " in place of --warm-start"));

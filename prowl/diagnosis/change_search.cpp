@@ -62,11 +62,6 @@ ChangeSearch ChangeSearch::within(double part) const {
   return {solver_, options_, part * std::max(seconds_left(), 0.0)};
 }
 
-ChangeSearch::Clock::time_point ChangeSearch::in(double seconds) {
-  constexpr double kForEver = 1e9;  // [s], 30 years: the clock counts nanoseconds in 64 bits
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kForEver)));
-}
-
 double ChangeSearch::seconds_of_solve(double part, double most) const {
   constexpr double kLeast = 1e-3;
   return std::max(std::min(most, part * seconds_left()), kLeast);

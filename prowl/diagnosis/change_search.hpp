@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -9,6 +8,7 @@
 
 #include "prowl/diagnosis/change.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 
 namespace prowl {
@@ -31,11 +31,11 @@ struct ChangesFound {
 class ChangeSearch {
  public:
   ChangeSearch(const NlpSolver& solver, const SolverOptions& options, double max_seconds)
-      : solver_(solver), options_(options), end_(in(max_seconds)) {}
+      : solver_(solver), options_(options), end_(wall_seconds() + max_seconds) {}
   /// The same search, which ends after that part of the time that is left.
   ChangeSearch within(double part) const;
 
-  double seconds_left() const { return std::chrono::duration<double>(end_ - Clock::now()).count(); }
+  double seconds_left() const { return end_ - wall_seconds(); }
   /// What a solve may take: a part of the time that is left, at most so many seconds, but never no time at all.
   double seconds_of_solve(double part = 1.0, double most = std::numeric_limits<double>::infinity()) const;
   bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
@@ -54,13 +54,11 @@ class ChangeSearch {
   ChangesFound smallest(const std::vector<Knob>& knobs, const std::function<void(const std::string&)>& on_step) const;
 
  private:
-  using Clock = std::chrono::steady_clock;
-  static Clock::time_point in(double seconds);
   double bisected(const Knob& knob, double too_little, double enough) const;
 
   const NlpSolver& solver_;
   SolverOptions options_;
-  Clock::time_point end_;
+  double end_;  ///< in wall_seconds()
 };
 
 }  // namespace prowl

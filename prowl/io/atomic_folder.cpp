@@ -48,10 +48,13 @@ class Descriptor {
   void be_as_private_as(const fs::path& old) const {
     constexpr mode_t kPermissions = 07777;
     struct stat was = {}, is = {};
-    if (::stat(old.c_str(), &was) != 0 || ::fstat(number_, &is) != 0) return;
-    if (was.st_gid != is.st_gid && ::fchown(number_, static_cast<uid_t>(-1), was.st_gid) != 0) return;  // not a group of this user
-    const bool is_same = (was.st_mode & kPermissions) == (is.st_mode & kPermissions) && was.st_gid == is.st_gid;
-    if (!is_same && ::fchmod(number_, was.st_mode & kPermissions) != 0) fail(path_, "cannot get the permissions of the old one", errno);
+    if (::stat(old.c_str(), &was) != 0) return;
+    mode_t permissions = was.st_mode & kPermissions;
+    if (::fchown(number_, static_cast<uid_t>(-1), was.st_gid) != 0) {  // no group of this user: another may do what all may
+      permissions = (permissions & ~static_cast<mode_t>(S_ISGID | S_IRWXG)) | ((permissions & S_IRWXO) << 3);
+    }
+    const bool is_same = ::fstat(number_, &is) == 0 && (is.st_mode & kPermissions) == permissions;
+    if (!is_same && ::fchmod(number_, permissions) != 0) fail(path_, "cannot get the permissions of the old one", errno);
   }
 
  private:

@@ -10,6 +10,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/io/json_text.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
 
@@ -18,11 +19,6 @@ namespace {
 
 IterateFigures figures(const SolveResult& result) {
   return {result.cost, result.constraint_violation, result.dual_violation};
-}
-
-std::chrono::steady_clock::duration seconds(double s) {
-  constexpr double kNever = 1e9;  // [s], 30 years: the clock counts nanoseconds in 64 bits
-  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(std::min(s, kNever)));
 }
 
 bool is_same_mesh(const MotionProblem& a, const MotionProblem& b) {
@@ -36,7 +32,7 @@ bool is_same_mesh(const MotionProblem& a, const MotionProblem& b) {
 }  // namespace
 
 Checkpoint::Checkpoint(std::filesystem::path folder, double every, PlanRecord so_far)
-    : folder_(std::move(folder)), every_(every), best_(std::move(so_far)), next_(Clock::now() + seconds(every)) {
+    : folder_(std::move(folder)), every_(every), best_(std::move(so_far)), next_(wall_seconds() + every) {
   check_plan_directory(folder_);
 }
 
@@ -59,13 +55,13 @@ void Checkpoint::take(const MotionProblem& on_its_mesh, Plan iterate) {
     best_.plan = std::move(iterate);
     is_written_ = false;
   }
-  if (!is_written_ && Clock::now() >= next_) write();
+  if (!is_written_ && wall_seconds() >= next_) write();
 }
 
 void Checkpoint::write() {
-  next_ = Clock::now() + seconds(every_);  // also after a failure: a disk that is full stays so for a while
+  next_ = wall_seconds() + every_;  // also after a failure: a disk that is full stays so for a while
   write_plan(folder_, best_);
-  next_ = Clock::now() + seconds(every_);
+  next_ = wall_seconds() + every_;
   is_written_ = true;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -25,8 +24,6 @@ class Checkpoint {
   void watch(PlanOptions& options, std::function<void(const std::string& why)> on_failure);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   void take(const MotionProblem& on_its_mesh, Plan iterate);
   void write();
 
@@ -34,7 +31,7 @@ class Checkpoint {
   double every_;  ///< [s]
   PlanRecord best_;
   bool is_written_ = true;
-  Clock::time_point next_;
+  double next_;  ///< in wall_seconds()
   std::function<void(const std::string&)> on_failure_;
 };
 

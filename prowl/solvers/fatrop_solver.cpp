@@ -16,11 +16,12 @@ extern "C" {  // the header does not say so itself
 }
 
 #include "prowl/error.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/library_release.hpp"
-#include "prowl/solvers/stopwatch.hpp"
+#include "prowl/solvers/what_was_thrown.hpp"
 
 namespace prowl {
 namespace {
@@ -402,11 +403,8 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     stopped = reason;
     gave_up = false;
     result.iterations = problem->iterations();
-  } catch (const std::exception& error) {
-    stopped = {SolveStatus::solver_failed, error.what()};
-    result.iterations = problem->iterations();
   } catch (...) {
-    stopped = {SolveStatus::solver_failed, "stopped by something that is not a std::exception"};
+    stopped = {SolveStatus::solver_failed, what_was_thrown()};
     result.iterations = problem->iterations();
   }
   result.status = stopped.status;

@@ -6,7 +6,7 @@
 #include <exception>
 
 #include "prowl/error.hpp"
-#include "prowl/solvers/stopwatch.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 
 namespace prowl {
 

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "prowl/error.hpp"
-#include "prowl/solvers/stopwatch.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 
 namespace prowl {
 

@@ -14,12 +14,13 @@
 #include <limits>
 
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/library_release.hpp"
-#include "prowl/solvers/stopwatch.hpp"
+#include "prowl/solvers/what_was_thrown.hpp"
 
 // MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: another BLAS may not have it.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
@@ -336,12 +337,9 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   } else if (guarded.finite_point(z_start)) {
     try {
       run_ipopt(guarded, z_start, options, linear_solver_, start, result);
-    } catch (const std::exception& error) {
-      result.status = SolveStatus::solver_failed;
-      result.message = fmt::format("Ipopt: {}", error.what());
     } catch (...) {
       result.status = SolveStatus::solver_failed;
-      result.message = "Ipopt: stopped by something that is not a std::exception";
+      result.message = "Ipopt: " + what_was_thrown();
     }
   } else {
     result.status = SolveStatus::evaluation_failed;

@@ -1,12 +1,12 @@
 #include "prowl/solvers/riccati_solver.hpp"
 
-#include <exception>
 #include <optional>
 
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/interior_point.hpp"
 #include "prowl/solvers/judge.hpp"
-#include "prowl/solvers/stopwatch.hpp"
+#include "prowl/solvers/what_was_thrown.hpp"
 
 namespace prowl {
 
@@ -34,8 +34,8 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
   std::optional<InteriorPoint> made;
   try {
     made.emplace(stages, options, nlp.use_threads(options.threads));
-  } catch (const std::exception& error) {  // no memory, no threads
-    result.message = error.what();
+  } catch (...) {  // no memory, no threads
+    result.message = what_was_thrown();
     return result;
   }
   InteriorPoint& method = *made;
@@ -56,12 +56,11 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     if (iteration >= options.max_iterations) return {{iteration_limit, "iteration limit reached"}};
     return std::nullopt;
   };
-  InteriorPoint::Ending ending{SolveStatus::solver_failed, "stopped by something that is not a std::exception"};
+  InteriorPoint::Ending ending{SolveStatus::solver_failed, ""};
   try {
     ending = method.run(stages.stages(z_start), watch);
-  } catch (const std::exception& error) {
-    ending.message = error.what();
-  } catch (...) {  // as it says already
+  } catch (...) {
+    ending.message = what_was_thrown();
   }
   result.status = ending.status;
   result.message = ending.message;

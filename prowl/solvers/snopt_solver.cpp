@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 #include <limits>
 #include <mutex>
 #include <vector>
@@ -12,12 +11,13 @@
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/nlp/dual_violation.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/snopt_library.hpp"
-#include "prowl/solvers/stopwatch.hpp"
+#include "prowl/solvers/what_was_thrown.hpp"
 
 namespace prowl {
 
@@ -46,11 +46,8 @@ class SnoptProblem {
       else if (!self->evaluate(z, *need_values > 0 ? values : nullptr, *need_derivatives > 0 ? derivatives : nullptr)) {
         *status = self->guarded_.broken() ? -2 : -1;
       }
-    } catch (const std::exception& error) {
-      self->mistake_ = error.what();
-      *status = -2;
     } catch (...) {
-      self->mistake_ = "stopped by something that is not a std::exception";
+      self->mistake_ = what_was_thrown();
       *status = -2;
     }
   }

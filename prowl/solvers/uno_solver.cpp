@@ -9,12 +9,13 @@
 #include <mutex>
 
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/library_release.hpp"
-#include "prowl/solvers/stopwatch.hpp"
+#include "prowl/solvers/what_was_thrown.hpp"
 
 namespace prowl {
 namespace {
@@ -276,11 +277,8 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
     result.status = stopped.status;
     result.message = stopped.message;
     result.iterations = problem.iterations();
-  } catch (const std::exception& error) {
-    result.message = fmt::format("Uno: {}", error.what());
-    result.iterations = problem.iterations();
   } catch (...) {
-    result.message = "Uno: stopped by something that is not a std::exception";
+    result.message = "Uno: " + what_was_thrown();
     result.iterations = problem.iterations();
   }
   if (guarded.broken()) {

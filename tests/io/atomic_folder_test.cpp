@@ -1,6 +1,7 @@
 #include "prowl/io/atomic_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <grp.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <csignal>
 #include <iterator>
 #include <thread>
+#include <vector>
 
 #include "test_files.hpp"
 
@@ -139,6 +141,29 @@ TEST_F(AtomicFolder, RefusesFoldersWithoutPermission) {
   EXPECT_THROW(check_replaceable(out_, kNames), FileError);
   EXPECT_THROW(write_folder_atomically(out_, {{"a.txt", "1"}}, kNames), FileError);
   fs::permissions(folder_.path(), fs::perms::owner_all);
+}
+
+/// Who may not keep the group must not open it to another: what the group may is then no more than what all may.
+TEST_F(AtomicFolder, IsNoLessPrivateWhereTheGroupCannotBeKept) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to be somebody else";
+  write_folder_atomically(out_, {{"a.txt", "1"}, {"b.txt", "1"}}, kNames);
+  constexpr uid_t kNobody = 65534;
+  for (const fs::path& path : {out_, out_ / "a.txt", out_ / "b.txt"}) ASSERT_EQ(::chown(path.c_str(), kNobody, 0), 0);
+  ::chmod((out_ / "a.txt").c_str(), 0600);
+  ::chmod((out_ / "b.txt").c_str(), 02664);
+  fs::permissions(folder_.path(), fs::perms::all);
+  std::vector<gid_t> groups(static_cast<std::size_t>(::getgroups(0, nullptr)));
+  ASSERT_GE(::getgroups(static_cast<int>(groups.size()), groups.data()), 0);
+  ASSERT_EQ(::setgroups(0, nullptr), 0);
+  ASSERT_EQ(::setegid(kNobody), 0);
+  ASSERT_EQ(::seteuid(kNobody), 0);
+  EXPECT_NO_THROW(write_folder_atomically(out_, {{"a.txt", "2"}, {"b.txt", "2"}}, kNames));
+  ASSERT_EQ(::seteuid(0), 0);
+  ASSERT_EQ(::setegid(::getgid()), 0);
+  ASSERT_EQ(::setgroups(groups.size(), groups.data()), 0);
+  EXPECT_EQ(test::read_file(out_ / "a.txt"), "2");
+  EXPECT_EQ(permissions(out_ / "a.txt"), 0600u);
+  EXPECT_EQ(permissions(out_ / "b.txt"), 0644u);
 }
 
 /// Its owner, without write permission for it, may rename it all the same.
