@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "output.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -34,7 +35,8 @@ std::string clock(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string what, int total, Start start) : what_(std::move(what)), total_(total) {
+ProgressBar::ProgressBar(std::string what, int total, Start start)
+    : what_(std::move(what)), total_(total), start_(wall_seconds()) {
   if (start == Start::at_once) open();
 }
 
@@ -85,9 +87,7 @@ void ProgressBar::show_line(int done) {
   print_message(fmt::format("{} of {} {}: {}\n", done, total_, what_, times(done)));
 }
 
-double ProgressBar::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
+double ProgressBar::seconds() const { return wall_seconds() - start_; }
 
 std::string ProgressBar::times(int done) const {
   const double passed = seconds();

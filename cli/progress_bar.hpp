@@ -1,7 +1,6 @@
 #pragma once
 
 #include <boost/timer/progress_display.hpp>
-#include <chrono>
 #include <optional>
 #include <string>
 
@@ -34,7 +33,7 @@ class ProgressBar {
 
   std::string what_;
   int total_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double start_;  ///< in wall_seconds()
   std::optional<boost::timer::progress_display> bar_;
   std::size_t behind_ = 0;  ///< characters behind the bar
   int tenths_ = 0;          ///< that have their line

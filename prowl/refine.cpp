@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
@@ -100,16 +100,12 @@ class Meshes {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  double seconds_left() const {
-    return options_.solver.max_seconds - std::chrono::duration<double>(Clock::now() - begin_).count();
-  }
+  double seconds_left() const { return options_.solver.max_seconds - (wall_seconds() - begin_); }
 
   const NlpSolver& solver_;
   PlanOptions options_;
   bool coarse_first_;
-  Clock::time_point begin_ = Clock::now();
+  double begin_ = wall_seconds();
   SolveResult total_;
   std::vector<LevelResult> levels_;
 };

@@ -1,6 +1,7 @@
 """What became of the plans of many tasks, and what that says of Prowl: silence, exceptions and growing memory are failures."""
 
 import collections
+from collections.abc import Callable
 
 from load.quantiles import quantiles
 
@@ -23,19 +24,23 @@ def in_words(seconds: list[float]) -> str:
 
 
 class Tally:
-    def __init__(self) -> None:
+    def __init__(self, diagnose: Callable[[object], str]) -> None:
+        """diagnose: why a task has no plan, for those whose plan does not say; "" if it finds nothing."""
+        self.diagnose = diagnose
         self.outcomes = collections.Counter()
         self.seconds: dict[str, list[float]] = {"solved": [], "not solved": []}
         self.silent: list[int] = []
+        self.diagnosed: list[int] = []
         self.thrown: list[str] = []
         self.memory: list[int] = []
 
-    def add(self, number: int, plan, seconds: float) -> str:
+    def add(self, number: int, task, plan, seconds: float) -> str:
         reason = "" if plan.good else why(plan)
         outcome = "good" if plan.good else "refused before the solve" if plan.reasons else \
             "converged, certificate failed" if plan.status == "converged" else plan.status
         if not plan.good and not reason:
-            self.silent.append(number)
+            reason = self.diagnose(task)
+            (self.diagnosed if reason else self.silent).append(number)
         self.outcomes[outcome] += 1
         self.seconds["solved" if plan.good else "not solved"].append(seconds)
         return f"{outcome}: {reason}" if reason else outcome
@@ -52,6 +57,7 @@ class Tally:
         total = sum(self.outcomes.values())
         for outcome, count in self.outcomes.most_common():
             print(f"{outcome:32} {count:5}  {100.0 * count / total:5.1f} %")
+        print(f"{'why: only a diagnosis says':32} {len(self.diagnosed):5}")
         for name, seconds in self.seconds.items():
             print(f"time of those {name:11} [s]  {in_words(seconds)}")
         if len(self.memory) > SETTLED:

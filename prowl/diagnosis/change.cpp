@@ -8,6 +8,7 @@
 
 #include "prowl/diagnosis/joint_knobs.hpp"
 #include "prowl/diagnosis/way_knobs.hpp"
+#include "prowl/motion/duration_limits.hpp"
 
 namespace prowl {
 
@@ -36,6 +37,15 @@ double seconds_of(const MotionProblem& problem, int phase, double sign) {
   return time;
 }
 
+/// Amount by which a duration may be turned: to what a task file may ask for.
+double most_of_duration(const MotionProblem& problem, int phase, double sign) {
+  const double seconds = seconds_of(problem, phase, sign);
+  if (sign < 0.0) return std::clamp(std::log(seconds / kShortestPhase), 0.0, kMostAmount);
+  constexpr double kUsual = 3.0;  // [s], of a phase that was written in milliseconds or so
+  const double longest = kLongestMotion - (seconds_of(problem, -1, sign) - seconds);
+  return std::min(std::max(kMostAmount, std::log(kUsual / seconds)), std::log(std::max(longest / seconds, 1.0)));
+}
+
 /// Phase -1: all together. sign -1: shorter.
 Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
   const auto scaled = [phase, sign](MotionProblem changed, double a) {
@@ -49,10 +59,9 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
     }
     return changed;
   };
-  constexpr double kUsual = 3.0;  // [s], of a phase that was written in milliseconds or so
-  const double most = std::max(kMostAmount, sign > 0.0 ? std::log(kUsual / seconds_of(problem, phase, sign)) : 0.0);
   return {.kind = "duration", .phase = phase,
-          .subject = phase < 0 ? "" : problem.phases[static_cast<std::size_t>(phase)].name, .most = most,
+          .subject = phase < 0 ? "" : problem.phases[static_cast<std::size_t>(phase)].name,
+          .most = most_of_duration(problem, phase, sign),
           .is_asked = true, .weight = phase < 0 ? kWeightOfAllTimes : kWeightOfTime, .unit = "s",
           .value = [&problem, phase, sign](double a) { return seconds_of(problem, phase, sign) * std::exp(sign * a); },
           .problem = [&problem, scaled](double a) { return scaled(problem, a); },

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
@@ -31,7 +32,7 @@ constexpr int kMostIterations = 200;  // on a coarse mesh; what has a solution t
 /// are.
 class StallWatch {
  public:
-  explicit StallWatch(SolverOptions& options) : interrupt_(options.interrupt) {
+  explicit StallWatch(SolverOptions& options) : interrupt_(options.interrupt), other_(std::move(options.on_iteration)) {
     options.interrupt = &stop_;
     options.on_iteration = [this](const SolveProgress& progress) { look(progress); };
   }
@@ -40,6 +41,7 @@ class StallWatch {
 
  private:
   void look(const SolveProgress& progress) {
+    if (other_) other_(progress);
     constexpr int kPatience = 30;      // iterations in which the violation has to halve
     constexpr double kNearly = 1e-4;   // a violation below this is about to vanish
     if (progress.constraint_violation < 0.5 * best_) {
@@ -51,6 +53,7 @@ class StallWatch {
   }
 
   const std::atomic<bool>* interrupt_;
+  std::function<void(const SolveProgress&)> other_;  ///< that was to be told already
   std::atomic<bool> stop_ = false;
   double best_ = std::numeric_limits<double>::infinity();
   int since_ = 0;

@@ -42,7 +42,7 @@ struct Diagnosis {
   SolveStatus status = SolveStatus::solver_failed;
   std::string message;                              ///< the solver's
   std::vector<std::string> reasons;                 ///< proofs_of_infeasibility()
-  std::vector<std::string> hints;                   ///< doubts(); of a plan that fails its certificate, Plan::hints
+  std::vector<std::string> hints;                   ///< Plan::hints; doubts() besides a proof
   /// From here on empty if the task has a plan, unless that was found late and fails its certificate by more than its mesh.
   /// What is named: what the change turns that is smallest while joints are turned all together; if that did not hold on the task's
   /// mesh, the one that did; if no change was found, the limit that gives way most. Empty if neither.
@@ -52,7 +52,7 @@ struct Diagnosis {
   SolveStatus elastic_status = SolveStatus::solver_failed;  ///< of the solve that the breaches are from
   std::vector<Breach> breaches;  ///< of the limits of that kind alone if they suffice, else of all together; worst first
   int search_intervals = 0;      ///< of the mesh that breaches and changes are from; 0: each mesh of the task was solved
-  std::vector<Change> changes;   ///< each by itself; the one that is proved, then smallest first; of joints, if these are enough, those that gave way
+  std::vector<Change> changes;   ///< each by itself; the one that is proved, then smallest first; of joints, in the one named first, those that gave way if they are enough
   int tried = 0;                 ///< numbers that were turned
   bool out_of_time = false;      ///< before all was tried that could have been
   bool interrupted = false;      ///< likewise

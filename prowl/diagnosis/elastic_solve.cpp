@@ -29,7 +29,7 @@ double share(const MotionLimit& limit, const Mesh& mesh) {
 }
 
 std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vector<SoftBound>& soft,
-                         const Eigen::VectorXd& violations) {
+                         const Eigen::VectorXd& violations, const Trajectory& motion) {
   std::map<std::tuple<LimitKind, int, std::string>, Breach> breaches;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const MotionLimit& limit = limits[i];
@@ -39,7 +39,8 @@ std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vect
     breach.total += soft[i].price * amount / limit.size;
     if (amount <= breach.amount) continue;
     const double total = breach.total;
-    breach = {limit.kind, limit.phase, limit.time, limit.subject, amount, limit.unit, amount / limit.size, total};
+    breach = {limit.kind, limit.phase, motion.nodes[static_cast<std::size_t>(limit.node)].time, limit.subject, amount, limit.unit,
+              amount / limit.size, total};
   }
   std::vector<Breach> result;
   for (auto& [key, breach] : breaches) result.push_back(std::move(breach));
@@ -64,7 +65,7 @@ ElasticResult elastic_solve(const MotionProblem& problem, const NlpSolver& solve
   const Eigen::VectorXd start = hard.pack(guess);
   ElasticNlp elastic(hard, soft, kOwnCost);
   const SolveResult solved = solver.solve(elastic, elastic.start(start), options);
-  return {solved.status, read(limits, soft, elastic.violations(solved.z)), solved.seconds};
+  return {solved.status, read(limits, soft, elastic.violations(solved.z), hard.unpack(elastic.inner(solved.z)))};
 }
 
 }  // namespace prowl

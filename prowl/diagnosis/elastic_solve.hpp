@@ -14,7 +14,7 @@ namespace prowl {
 struct Breach {
   LimitKind kind = LimitKind::friction;
   int phase = 0;
-  double time = 0.0;    ///< [s]
+  double time = 0.0;    ///< in the motion of the elastic solve, which chooses free durations [s]
   std::string subject;  ///< contact, joint, or what a goal is about
   double amount = 0.0;  ///< how much is missing, > 0, in `unit`
   std::string unit;
@@ -25,7 +25,6 @@ struct Breach {
 struct ElasticResult {
   SolveStatus status = SolveStatus::solver_failed;
   std::vector<Breach> breaches;  ///< one for each limit and phase, those that cost most first; none below 0.1 % of their size
-  double seconds = 0.0;
 };
 
 /// Solves the problem once more with limits that give way (ElasticNlp): dynamics, start, contacts and landings stay

@@ -53,8 +53,10 @@ class HelpfulChanges {
 
   void run() {
     run_.result.search_intervals = count_intervals(run_.searched);
-    run_.step("postures of the initial guess");
-    run_.result.hints = doubts(run_.problem, initial_guess(run_.problem, make_mesh(run_.problem)), run_.elastic);
+    if (!run_.result.reasons.empty() && run_.search.may_go_on()) {  // else the plan has told
+      run_.step("postures of the initial guess");
+      run_.result.hints = doubts(run_.problem, initial_guess(run_.problem, make_mesh(run_.problem)), run_.elastic);
+    }
     ChangesFound changes = run_.search.within(kSearchPart).smallest(knobs_of(run_.searched), [&](const std::string& what) { run_.step("trying " + what); });
     std::vector<FoundChange>& found = changes.found;
     run_.result.tried = changes.tried;
@@ -82,6 +84,16 @@ class HelpfulChanges {
     run_.result.kind = to_string(worst.kind);
     run_.result.phase = worst.phase;
     run_.result.subject = worst.subject;
+  }
+
+  /// What was named first does not help; what gave way for it did, and is told if there is no time for more.
+  void rename(const std::vector<FoundChange>& found) {
+    const std::vector<Breach> before = std::exchange(run_.result.breaches, {});
+    const SolveStatus status = run_.result.elastic_status;
+    name(found);
+    if (!run_.result.breaches.empty()) return;
+    run_.result.breaches = before;
+    run_.result.elastic_status = status;
   }
 
   void read_breaches(const std::string& kind) {
@@ -153,10 +165,7 @@ class HelpfulChanges {
       const auto place = static_cast<std::ptrdiff_t>(i);
       std::rotate(found.begin(), found.begin() + place, found.begin() + place + 1);
       std::rotate(run_.result.changes.begin(), run_.result.changes.begin() + place, run_.result.changes.begin() + place + 1);
-      if (i > 0) {  // what was named first does not help
-        run_.result.breaches.clear();
-        name(found);
-      }
+      if (i > 0) rename(found);
       return;
     }
   }

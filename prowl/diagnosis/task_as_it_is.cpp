@@ -64,9 +64,8 @@ void TaskAsItIs::judge() {
   run_.result.message = plan_.result.message;
   run_.result.solvable = run_.result.status == SolveStatus::converged;
   run_.result.stopped_by = run_.what_stopped(plan_.result);
-  if (!run_.result.solvable) return;
-  run_.result.certificate = plan_.certificate;
   run_.result.hints = plan_.hints;
+  if (run_.result.solvable) run_.result.certificate = plan_.certificate;
 }
 
 }  // namespace prowl

@@ -48,9 +48,10 @@ class Descriptor {
   void be_as_private_as(const fs::path& old) const {
     constexpr mode_t kPermissions = 07777;
     struct stat was = {}, is = {};
-    if (::stat(old.c_str(), &was) != 0) return;
+    if (::stat(old.c_str(), &was) != 0 || ::fstat(number_, &is) != 0) return;
     mode_t permissions = was.st_mode & kPermissions;
-    if (::fchown(number_, static_cast<uid_t>(-1), was.st_gid) != 0) {  // no group of this user: another may do what all may
+    // Not a group of this user, so that members of another get what all may do.
+    if (is.st_gid != was.st_gid && ::fchown(number_, static_cast<uid_t>(-1), was.st_gid) != 0) {
       permissions = (permissions & ~static_cast<mode_t>(S_ISGID | S_IRWXG)) | ((permissions & S_IRWXO) << 3);
     }
     const bool is_same = ::fstat(number_, &is) == 0 && (is.st_mode & kPermissions) == permissions;
@@ -93,16 +94,20 @@ constexpr int kMostAttempts = 1000;
 
 enum class FolderAbove { has_to_exist, is_made };
 
-/// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the old.
+/// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the old. This
+/// user's alone where there is a `folder`, or one for files: what they replace may be private.
 class SiblingFolder {
  public:
   SiblingFolder(const fs::path& folder, FolderAbove above) {
     const fs::path parent = folder.parent_path();
     remove_leftovers(parent);
+    std::error_code error;
+    const bool is_new = above == FolderAbove::is_made && !fs::exists(folder, error);
+    const mode_t mode = is_new ? 0777 : 0700;
     for (int attempt = 0, taken = 0;; ++attempt) {
       if (above == FolderAbove::is_made) make_folder(parent);
       path_ = parent / fmt::format(".prowl-{}-{}.new", ::getpid(), taken);
-      if (::mkdir(path_.c_str(), 0777) == 0) return;
+      if (::mkdir(path_.c_str(), mode) == 0) return;
       const bool is_gone = errno == ENOENT && above == FolderAbove::is_made;
       if ((errno != EEXIST && !is_gone) || attempt == kMostAttempts) fail(path_, "cannot make this folder", errno);
       if (errno == EEXIST) ++taken;
@@ -115,6 +120,12 @@ class SiblingFolder {
   SiblingFolder(const SiblingFolder&) = delete;
   SiblingFolder& operator=(const SiblingFolder&) = delete;
   const fs::path& path() const { return path_; }
+  /// Permissions and group of what it is to replace, on the disk.
+  void finish(const fs::path& old) const {
+    const Descriptor descriptor(path_, O_RDONLY | O_DIRECTORY);
+    descriptor.be_as_private_as(old);
+    descriptor.sync();
+  }
 
  private:
   /// But where one above it goes meanwhile: the next attempt makes that, too.
@@ -148,11 +159,14 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
 }
 
 /// Throws FileError where no other folder can take this one's name: what something is mounted on, or what is another
-/// user's in a folder where only owners may rename (as /tmp).
+/// user's in a folder where only owners may rename (as /tmp). One that another process takes away meanwhile is in nobody's way.
 void check_exchangeable(const fs::path& path) {
-  if (::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0) fail(path, "cannot be replaced", errno);
   struct stat here = {}, above = {};
-  if (::stat(path.c_str(), &here) != 0) fail(path, "cannot look at this folder", errno);
+  if (::stat(path.c_str(), &here) != 0) {
+    if (errno == ENOENT) return;
+    fail(path, "cannot look at this folder", errno);
+  }
+  if (::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0 && errno != ENOENT) fail(path, "cannot be replaced", errno);
   if (::stat(path.parent_path().c_str(), &above) != 0) fail(path.parent_path(), "cannot look at this folder", errno);
   struct statx more = {};
   const bool is_known = ::statx(AT_FDCWD, path.c_str(), 0, STATX_BASIC_STATS, &more) == 0 &&
@@ -183,6 +197,7 @@ void try_to_make(const fs::path& path) {
     const SiblingFolder trial(path, FolderAbove::is_made);
     if (fs::exists(path, error)) {
       check_exchangeable(path);
+      trial.finish(path);
     } else if (::rename(trial.path().c_str(), path.c_str()) == 0) {
       ::rmdir(path.c_str());
     } else if (errno != ENOTEMPTY && errno != EEXIST) {  // another process may have made it meanwhile
@@ -195,15 +210,34 @@ void try_to_make(const fs::path& path) {
   remove_missing();
 }
 
-/// A file of one of these names, a folder that one of them goes through, or what a killed process left.
+/// A file of one of these names, a folder that one of them goes through, what a killed process left, or what is gone meanwhile.
 bool is_own(const std::string& name, const fs::directory_entry& entry, const std::set<std::string>& own_names) {
   for (const fs::path& part : fs::path(name)) {
     if (is_sibling_name(part.string())) return true;
   }
-  if (entry.is_regular_file()) return own_names.contains(name);
-  if (entry.is_symlink()) return false;  // what it leads to is not looked through
+  std::error_code ignored;
+  if (entry.is_regular_file(ignored)) return own_names.contains(name);
+  const fs::file_type type = entry.symlink_status(ignored).type();
+  if (type == fs::file_type::not_found) return true;
+  if (type != fs::file_type::directory) return false;  // what a link leads to is not looked through
   const auto inside = own_names.lower_bound(name + "/");
-  return entry.is_directory() && inside != own_names.end() && inside->starts_with(name + "/");
+  return inside != own_names.end() && inside->starts_with(name + "/");
+}
+
+/// Name of something in the folder that is not one's own; "" if all is.
+std::string not_own(const fs::path& folder, const std::set<std::string>& own_names) {
+  for (int attempt = 0;; ++attempt) {
+    std::error_code error;
+    for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+      const std::string name = entry->path().lexically_relative(folder).generic_string();
+      if (!is_own(name, *entry, own_names)) return name;
+    }
+    if (!error) return "";
+    if (error != std::errc::no_such_file_or_directory || attempt == kMostAttempts) {  // else a folder in it went meanwhile
+      throw FileError(fmt::format("{}: cannot look at this folder: {}", folder.string(), error.message()));
+    }
+    if (!fs::exists(folder, error)) return "";
+  }
 }
 
 }  // namespace
@@ -224,31 +258,30 @@ void check_replaceable(const fs::path& folder, const std::set<std::string>& own_
   std::error_code error;
   if (fs::exists(path, error)) {
     if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", folder.string()));
-    for (const auto& entry : fs::recursive_directory_iterator(path, error)) {
-      const std::string name = entry.path().lexically_relative(path).generic_string();
-      if (is_own(name, entry, own_names)) continue;
+    if (const std::string name = not_own(path, own_names); !name.empty()) {
       throw FileError(fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another --out",
                                   folder.string(), name));
     }
-    if (error) throw FileError(fmt::format("{}: {}", folder.string(), error.message()));
   }
   try_to_make(path);
 }
 
 void write_folder_atomically(const fs::path& folder, const std::map<std::string, std::string>& files,
                              const std::set<std::string>& own_names) {
-  check_replaceable(folder, own_names);
   const fs::path path = real_path(folder);
   const SiblingFolder fresh(path, FolderAbove::is_made);
   for (const auto& [name, text] : files) write_new(fresh.path() / name, text, path / name);
-  const Descriptor descriptor(fresh.path(), O_RDONLY | O_DIRECTORY);
-  descriptor.be_as_private_as(path);
-  descriptor.sync();
   try {
+    check_replaceable(folder, own_names);
+    fresh.finish(path);
     exchange(fresh.path(), path);
   } catch (const FileError& failure) {  // all is written, after hours of work perhaps
     const fs::path kept = fmt::format("{}.prowl-{}.new", path.string(), ::getpid());
-    if (::rename(fresh.path().c_str(), kept.c_str()) != 0) throw;
+    try {
+      exchange(fresh.path(), kept);  // with what was kept before, if there is such
+    } catch (const FileError&) {
+      throw failure;
+    }
     throw FileError(fmt::format("{}; what was to be there is in {}", failure.what(), kept.string()));
   }
   Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();

@@ -19,7 +19,7 @@ void check_replaceable(const std::filesystem::path& folder, const std::set<std::
 /// Makes `folder` hold exactly these files (name -> content), whole or not at all: they are written and synced in a
 /// folder beside it, which then takes its place by one rename; what was there before is removed after that. A folder that
 /// holds anything not in `own_names` is left alone. Throws FileError, and then the old content is as it was; if all was
-/// written and only the exchange failed, the message says where the new is: FOLDER.prowl-PID.new.
+/// written and only could not take its place, the message says where the new is: FOLDER.prowl-PID.new.
 ///
 /// A process that is killed leaves what it was writing beside the folder, as ".prowl-PID-N.new"; what is an hour old of that is
 /// removed by the next that writes there. Where the file system cannot exchange folders (some network ones), a kill between two

@@ -32,7 +32,6 @@ class ElasticNlp : public StoredNlp {
   /// A view of `inner`, which must outlive it. Bounds that are soft twice are a mistake of the caller.
   ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_factor);
 
-  const std::vector<SoftBound>& soft() const { return soft_; }
   /// From variables of the other program: slacks as large as they have to be, and a little larger.
   Eigen::VectorXd start(const Eigen::VectorXd& z);
   Eigen::VectorXd inner(const Eigen::VectorXd& z) const { return z.head(inner_.num_variables()); }

@@ -23,7 +23,6 @@ std::vector<MotionLimit> Transcription::limits() const {
     limit.index = index;
     limit.node = k;
     limit.phase = phase_of(k);
-    limit.time = mesh_node(k).time;
     result.push_back(std::move(limit));
   };
 

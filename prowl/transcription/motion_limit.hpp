@@ -23,7 +23,6 @@ struct MotionLimit {
   int index = 0;        ///< row or variable
   int node = 0;         ///< of the mesh
   int phase = 0;
-  double time = 0.0;    ///< [s]; in phases of free duration that of the initial mesh
   std::string subject;  ///< contact, joint, or what a goal is about: "goal 1, base z"
   std::string unit;     ///< "N", "N m", "rad", ...
   double si = 1.0;      ///< of one of the row or variable, in that unit

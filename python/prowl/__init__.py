@@ -25,6 +25,7 @@ from ._prowl import (
     Check,
     Contact,
     Derivatives,
+    Diagnosis,
     Dynamics,
     Error,
     ErrorMeasure,
@@ -44,6 +45,7 @@ from ._prowl import (
     Task,
     Tracker,
     __version__,
+    diagnose,
     difference,
     integrate,
     read_plan,
@@ -57,8 +59,8 @@ _notebook.show_as_tables()
 del _notebook
 
 __all__ = [
-    "Certificate", "Check", "Contact", "Derivatives", "Dynamics", "Error", "ErrorMeasure", "Evaluation", "FileError",
+    "Certificate", "Check", "Contact", "Derivatives", "Diagnosis", "Dynamics", "Error", "ErrorMeasure", "Evaluation", "FileError",
     "InputError", "Interrupted", "JudgedPoint", "Motion", "NumericalError", "Phase", "Plan", "Program", "Progress", "Robot", "Simulation", "Task", "Tracker",
-    "__version__", "difference", "integrate", "parse_robot", "parse_task", "read_plan", "read_robot", "read_task",
+    "__version__", "diagnose", "difference", "integrate", "parse_robot", "parse_task", "read_plan", "read_robot", "read_task",
     "shipped_robots", "shipped_tasks", "simulate", "solve", "solver_names", "versions",
 ]

@@ -14,6 +14,7 @@ void bind_tracker(nanobind::module_& module);
 void bind_plan(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
 void bind_solve(nanobind::module_& module);
+void bind_diagnosis(nanobind::module_& module);
 void bind_dynamics(nanobind::module_& module);
 void bind_program(nanobind::module_& module);
 

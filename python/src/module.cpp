@@ -19,6 +19,7 @@ NB_MODULE(_prowl, module) {
   bind_plan(module);
   bind_simulation(module);
   bind_solve(module);
+  bind_diagnosis(module);
   bind_dynamics(module);
   bind_program(module);
   module.def("versions", &prowl::cli::versions, "Versions of Prowl and of what it uses.");

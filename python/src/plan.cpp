@@ -33,6 +33,7 @@ void write(const PlanObject& plan, const std::filesystem::path& directory, std::
   }
   if (step && !(*step > 0.0)) throw InputError(fmt::format("step: {} is not allowed; need a number > 0 [s]", *step));
   const nb::gil_scoped_release others_may_run;
+  check_plan_directory(directory);
   write_plan(directory, plan.record, step);
 }
 

@@ -2,6 +2,10 @@
 
 #include <nanobind/nanobind.h>
 
+#include <atomic>
+#include <optional>
+#include <utility>
+
 namespace prowl::python {
 
 /// Lets Python look whether there was a Ctrl-C, from code that runs without the GIL. Throws nanobind::python_error if so
@@ -21,6 +25,35 @@ class SignalCheck {
 
  private:
   int every_, calls_ = 0;
+};
+
+/// Between C++ that runs without the GIL and Python: Ctrl-C and a callback's exceptions set stop(), and wait here until C++ has
+/// returned, for they must not pass through foreign code.
+class Stop {
+ public:
+  /// Calls `callback`, with the GIL, unless it is stopped already.
+  template <class Callback>
+  void ask(const Callback& callback) {
+    if (stop_) return;
+    const nanobind::gil_scoped_acquire in_python;
+    try {
+      if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
+      callback();
+    } catch (nanobind::python_error& error) {
+      keep(std::move(error));
+    }
+  }
+  void keep(nanobind::python_error error) {
+    error_.emplace(std::move(error));
+    stop_ = true;
+  }
+
+  const std::atomic<bool>& stop() const { return stop_; }
+  std::optional<nanobind::python_error>& error() { return error_; }
+
+ private:
+  std::optional<nanobind::python_error> error_;
+  std::atomic<bool> stop_ = false;
 };
 
 }  // namespace prowl::python

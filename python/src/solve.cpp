@@ -5,7 +5,6 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <atomic>
 
 #include "bindings.hpp"
 #include "environment.hpp"
@@ -27,9 +26,8 @@ struct Progress {
   SolveProgress solve;
 };
 
-/// Between a solver that runs without the GIL and Python: Ctrl-C and the callback's exceptions stop the solver, and wait
-/// here until it has returned, for they must not pass through foreign code.
-class Observer {
+/// Tells Python of iterations, which may stop the solver.
+class Observer : public Stop {
  public:
   explicit Observer(nb::object callback) : callback_(std::move(callback)) {}
 
@@ -39,23 +37,11 @@ class Observer {
   }
   void operator()(const SolveProgress& solve) {
     iterations_.push_back({std::max(level_, 0), solve});
-    if (stop_) return;
-    const nb::gil_scoped_acquire in_python;
-    try {
-      if (PyErr_CheckSignals() != 0) throw nb::python_error();
-      progress_.solve = solve;
+    progress_.solve = solve;
+    ask([this] {
       if (!callback_.is_none()) callback_(progress_);
-    } catch (nb::python_error& error) {
-      keep(std::move(error));
-    }
+    });
   }
-  void keep(nb::python_error error) {
-    error_.emplace(std::move(error));
-    stop_ = true;
-  }
-
-  const std::atomic<bool>& stop() const { return stop_; }
-  std::optional<nb::python_error>& error() { return error_; }
   const std::vector<MeshIteration>& iterations() const { return iterations_; }
 
  private:
@@ -63,8 +49,6 @@ class Observer {
   Progress progress_;
   int level_ = -1;
   std::vector<MeshIteration> iterations_;
-  std::optional<nb::python_error> error_;
-  std::atomic<bool> stop_ = false;
 };
 
 /// Gains for a plan that is good. "" or why there are none: the plan is as good without.

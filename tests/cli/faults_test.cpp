@@ -126,6 +126,12 @@ TEST_F(Faults, AKillBetweenTwoRenamesLosesNothing) {
 }
 
 /// 20 kills; PROWL_KILLS=200 for more. Checkpoints are written all the time, so that many kills meet a write.
+TEST_F(Faults, WhatAKillLeavesIsNobodyElsesIfTheOldWasPrivate) {
+  ASSERT_EQ(run("chmod 700 out; umask 022; FAULTY_PATH=plan.json FAULTY_FILES='2 KILL' " + kFaulty + plan_other()).status, kKilled);
+  EXPECT_EQ(run("stat -c %a .prowl-*.new out").out, "700\n700\n");
+  EXPECT_EQ(held(), "old");
+}
+
 TEST_F(Faults, AKillAtARandomMomentLeavesWholePlansAndCheckpoints) {
   const char* const asked = std::getenv("PROWL_KILLS");
   const int kills = asked ? std::atoi(asked) : 20;

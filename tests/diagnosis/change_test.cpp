@@ -221,6 +221,28 @@ TEST(Change, OfAPlaceNeedsToKnowWhereTheContactWas) {
   EXPECT_EQ(places(), 0);
 }
 
+/// What is proposed has to be what a task file may ask for: 600 s in all, and a millisecond a phase.
+TEST(Change, OfADurationIsOneThatATaskMayHave) {
+  MotionProblem step = shipped("hyq/step");
+  for (Phase& phase : step.phases) phase.duration = {40.0, 40.0};
+  const double others = 40.0 * static_cast<double>(step.phases.size() - 1);
+  const std::vector<Knob> knobs = knobs_of(step);
+  const Knob& one = knob(knobs, "duration", 0);
+  const auto is_of_all = [](const Knob& each) { return each.kind == "duration" && each.phase < 0; };
+  const auto all = std::ranges::find_if(knobs, is_of_all);
+  ASSERT_NE(all, knobs.end());
+  EXPECT_NEAR(one.value(one.most), 600.0 - others, 1e-9);
+  EXPECT_NEAR(all->value(all->most), 600.0, 1e-9);
+
+  MotionProblem jump = shipped("hyq/jump");
+  jump.phases[2].duration = {0.004, 0.004};
+  const std::vector<Knob> of_jump = knobs_of(jump);
+  const auto is_shorter = [](const Knob& each) { return each.kind == "duration" && each.phase == 2 && each.value(1.0) < each.value(0.0); };
+  const auto shorter = std::ranges::find_if(of_jump, is_shorter);
+  ASSERT_NE(shorter, of_jump.end());
+  EXPECT_NEAR(shorter->value(shorter->most), 0.001, 1e-12);
+}
+
 TEST(Change, OfAFlightMayBeShorter) {
   const MotionProblem jump = shipped("hyq/jump");
   const std::vector<Knob> knobs = knobs_of(jump);

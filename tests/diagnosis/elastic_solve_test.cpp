@@ -65,5 +65,16 @@ TEST(ElasticSolve, FindsHowFarAGoalIsOutOfReach) {
   EXPECT_LT(result.breaches.front().amount, 0.35);
 }
 
+/// The initial mesh has the middle of a range; what the optimiser makes of it is another motion.
+TEST(ElasticSolve, TellsTimesOfItsOwnMotion) {
+  MotionProblem high = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.4});
+  high.running_cost.acceleration_weight.setOnes();
+  high.phases.front().duration = {1.0, 3.0};
+  const ElasticResult result = elastic_solve(high, IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::goal));
+  ASSERT_EQ(result.status, SolveStatus::converged);
+  ASSERT_EQ(result.breaches.size(), 1u);
+  EXPECT_NEAR(result.breaches.front().time, 3.0, 0.05) << "the slower the less it accelerates";
+}
+
 }  // namespace
 }  // namespace prowl

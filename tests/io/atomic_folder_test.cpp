@@ -100,6 +100,40 @@ TEST_F(AtomicFolder, LeavesFoldersWithOtherFilesAlone) {
   EXPECT_EQ(test::read_file(out_ / "thesis.tex"), "years of work");
 }
 
+/// Hours of work, and then somebody opens a file there in an editor.
+TEST_F(AtomicFolder, KeepsWhatCannotTakeItsPlaceAndOfThatTheLatest) {
+  folder_.write("out/.a.txt.swp", "of an editor");
+  const fs::path kept = out_.string() + ".prowl-" + std::to_string(::getpid()) + ".new";
+  for (const std::string text : {"1", "2", "3"}) {
+    try {
+      write_folder_atomically(out_, {{"a.txt", text}}, kNames);
+      FAIL() << "was replaced";
+    } catch (const FileError& error) {
+      EXPECT_TRUE(std::string(error.what()).ends_with("is in " + kept.string())) << error.what();
+    }
+    EXPECT_EQ(test::read_file(kept / "a.txt"), text);
+  }
+  EXPECT_EQ(entries(), 2u) << "something else is left beside it";
+}
+
+/// As another prowl does that exchanges a folder in it.
+TEST_F(AtomicFolder, LooksAgainWhereFoldersInItComeAndGo) {
+  const std::set<std::string> names = {"a.txt", "pictures/b.png"};
+  folder_.write("out/a.txt", "1");
+  std::atomic<bool> done = false;
+  std::thread other([&] {
+    while (!done) {
+      for (const char* name : {"out/.prowl-1-0.new", "out/pictures"}) {
+        ::mkdir((folder_.path() / name).c_str(), 0777);
+        ::rmdir((folder_.path() / name).c_str());
+      }
+    }
+  });
+  for (int i = 0; i < 2000; ++i) EXPECT_NO_THROW(check_replaceable(out_, names)) << i;
+  done = true;
+  other.join();
+}
+
 TEST_F(AtomicFolder, KeepsTheOldContentIfTheDiskIsFull) {
   write_folder_atomically(out_, {{"a.txt", "old"}, {"b.txt", "old too"}}, kNames);
   // The largest file that this process may write stands for the space on the disk.
@@ -143,27 +177,49 @@ TEST_F(AtomicFolder, RefusesFoldersWithoutPermission) {
   fs::permissions(folder_.path(), fs::perms::owner_all);
 }
 
+/// Nobody's, who is in no group but that of this name: what belongs to root's group is another's.
+class AsNobody : public AtomicFolder {
+ protected:
+  static constexpr uid_t kNobody = 65534;
+
+  void SetUp() override {
+    if (::geteuid() != 0) GTEST_SKIP() << "needs root, to be somebody else";
+    write_folder_atomically(out_, {{"a.txt", "1"}, {"b.txt", "1"}}, kNames);
+    for (const fs::path& path : {out_, out_ / "a.txt", out_ / "b.txt"}) ASSERT_EQ(::chown(path.c_str(), kNobody, 0), 0);
+    ::chmod((out_ / "a.txt").c_str(), 0600);
+    ::chmod((out_ / "b.txt").c_str(), 0664);
+    fs::permissions(folder_.path(), fs::perms::all);
+  }
+
+  void write_as_nobody() const {
+    std::vector<gid_t> groups(static_cast<std::size_t>(::getgroups(0, nullptr)));
+    ASSERT_GE(::getgroups(static_cast<int>(groups.size()), groups.data()), 0);
+    ASSERT_EQ(::setgroups(0, nullptr), 0);
+    ASSERT_EQ(::setegid(kNobody), 0);
+    ASSERT_EQ(::seteuid(kNobody), 0);
+    EXPECT_NO_THROW(write_folder_atomically(out_, {{"a.txt", "2"}, {"b.txt", "2"}}, kNames));
+    ASSERT_EQ(::seteuid(0), 0);
+    ASSERT_EQ(::setegid(::getgid()), 0);
+    ASSERT_EQ(::setgroups(groups.size(), groups.data()), 0);
+    EXPECT_EQ(test::read_file(out_ / "a.txt"), "2");
+  }
+};
+
 /// Who may not keep the group must not open it to another: what the group may is then no more than what all may.
-TEST_F(AtomicFolder, IsNoLessPrivateWhereTheGroupCannotBeKept) {
-  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to be somebody else";
-  write_folder_atomically(out_, {{"a.txt", "1"}, {"b.txt", "1"}}, kNames);
-  constexpr uid_t kNobody = 65534;
-  for (const fs::path& path : {out_, out_ / "a.txt", out_ / "b.txt"}) ASSERT_EQ(::chown(path.c_str(), kNobody, 0), 0);
-  ::chmod((out_ / "a.txt").c_str(), 0600);
-  ::chmod((out_ / "b.txt").c_str(), 02664);
-  fs::permissions(folder_.path(), fs::perms::all);
-  std::vector<gid_t> groups(static_cast<std::size_t>(::getgroups(0, nullptr)));
-  ASSERT_GE(::getgroups(static_cast<int>(groups.size()), groups.data()), 0);
-  ASSERT_EQ(::setgroups(0, nullptr), 0);
-  ASSERT_EQ(::setegid(kNobody), 0);
-  ASSERT_EQ(::seteuid(kNobody), 0);
-  EXPECT_NO_THROW(write_folder_atomically(out_, {{"a.txt", "2"}, {"b.txt", "2"}}, kNames));
-  ASSERT_EQ(::seteuid(0), 0);
-  ASSERT_EQ(::setegid(::getgid()), 0);
-  ASSERT_EQ(::setgroups(groups.size(), groups.data()), 0);
-  EXPECT_EQ(test::read_file(out_ / "a.txt"), "2");
+TEST_F(AsNobody, IsNoLessPrivateWhereTheGroupCannotBeKept) {
+  write_as_nobody();
   EXPECT_EQ(permissions(out_ / "a.txt"), 0600u);
   EXPECT_EQ(permissions(out_ / "b.txt"), 0644u);
+}
+
+/// A project's folder hands its group on to what is made in it, whoever is in that group.
+TEST_F(AsNobody, KeepsWhatTheGroupMayWhereTheFolderAboveGivesTheGroup) {
+  ASSERT_EQ(::chmod(folder_.path().c_str(), 02777), 0);
+  ASSERT_EQ(::chmod(out_.c_str(), 0775), 0);
+  write_as_nobody();
+  EXPECT_EQ(permissions(out_), 0775u);
+  EXPECT_EQ(permissions(out_ / "a.txt"), 0600u);
+  EXPECT_EQ(permissions(out_ / "b.txt"), 0664u);
 }
 
 /// Its owner, without write permission for it, may rename it all the same.

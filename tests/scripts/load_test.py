@@ -93,23 +93,25 @@ def plan(status: str, *failed: str, good: bool = False, hints: tuple[str, ...] =
 
 class WhatBecameOfThem(unittest.TestCase):
     def test_a_failure_has_to_say_why(self) -> None:
-        tally = Tally()
-        self.assertEqual(tally.add(0, plan("converged", good=True), 0.1), "good")
-        self.assertEqual(tally.add(1, plan("converged", "friction cone"), 0.1), "converged, certificate failed: certificate: friction cone")
-        self.assertEqual(tally.add(2, plan("solver_failed", "friction cone", hints=("too weak",)), 0.1), "solver_failed: too weak")
-        self.assertEqual(tally.add(3, plan("iteration_limit", message="it passes, though"), 0.1), "iteration_limit: it passes, though")
-        self.assertEqual(tally.failures(), [])
-        tally.add(4, plan("solver_failed", "friction cone", message="no step is an improvement"), 0.1)
-        self.assertEqual(tally.failures(), ["task 4 failed and does not say why"])
+        tally = Tally({"steep": "too little friction", "easy": ""}.__getitem__)
+        self.assertEqual(tally.add(0, "easy", plan("converged", good=True), 0.1), "good")
+        self.assertEqual(tally.add(1, "easy", plan("converged", "friction cone"), 0.1), "converged, certificate failed: certificate: friction cone")
+        self.assertEqual(tally.add(2, "easy", plan("solver_failed", "friction cone", hints=("too weak",)), 0.1), "solver_failed: too weak")
+        self.assertEqual(tally.add(3, "easy", plan("iteration_limit", message="it passes, though"), 0.1), "iteration_limit: it passes, though")
+        silent = plan("solver_failed", "friction cone", message="no step is an improvement")
+        self.assertEqual(tally.add(4, "steep", silent, 0.1), "solver_failed: too little friction")
+        self.assertEqual((tally.diagnosed, tally.failures()), ([4], []))
+        tally.add(5, "easy", silent, 0.1)
+        self.assertEqual(tally.failures(), ["task 5 failed and does not say why"])
 
     def test_memory_may_not_grow(self) -> None:
         for growth, expected in ((1.04, []), (1.06, ["memory grew from 100.0 to 106.0 MB"])):
-            tally = Tally()
+            tally = Tally(str)
             tally.memory = [2e8] * (SETTLED - 1) + [1e8] * 50 + [growth * 1e8] * 10
             self.assertEqual(tally.failures(), expected)
 
     def test_exceptions_are_failures(self) -> None:
-        tally = Tally()
+        tally = Tally(str)
         tally.thrown.append("task 7: NumericalError: singular")
         self.assertEqual(tally.failures(), ["task 7: NumericalError: singular"])
 

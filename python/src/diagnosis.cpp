@@ -1,0 +1,72 @@
+#include "prowl/diagnosis/diagnosis.hpp"
+
+#include <fmt/format.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <cmath>
+#include <optional>
+
+#include "bindings.hpp"
+#include "prowl/error.hpp"
+#include "prowl/io/diagnosis_report.hpp"
+#include "prowl/io/task_file.hpp"
+#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
+#include "signals.hpp"
+
+namespace nb = nanobind;
+
+namespace prowl::python {
+namespace {
+
+/// What was found, in words: its numbers are in the JSON.
+struct DiagnosisObject {
+  Diagnosis found;
+  std::string headline, summary, json;
+};
+
+DiagnosisObject run_diagnosis(const Task& task, double max_time, const nb::object& on_step) {
+  if (!(max_time > 0.0)) throw InputError(fmt::format("max_time: {} is not allowed; need a number > 0 [s]", max_time));
+  Stop python;
+  DiagnosisOptions options{.solver = task.solver, .max_seconds = max_time};
+  options.solver.interrupt = &python.stop();
+  options.solver.on_iteration = [&python](const SolveProgress&) { python.ask([] {}); };
+  options.on_step = [&](const std::string& what) {
+    python.ask([&] {
+      if (!on_step.is_none()) on_step(what);
+    });
+  };
+  DiagnosisObject result;
+  {
+    const nb::gil_scoped_release others_may_run;
+    result.found = diagnose(task.problem, *make_solver(solver_names().front()), IpoptSolver(), options);
+    result.headline = diagnosis_headline(result.found, task.problem);
+    result.summary = diagnosis_text(result.found, task.problem);
+    result.json = diagnosis_json(result.found, task.problem);
+  }
+  if (auto& error = python.error()) throw std::move(*error);
+  return result;
+}
+
+}  // namespace
+
+void bind_diagnosis(nb::module_& module) {
+  nb::class_<DiagnosisObject>(module, "Diagnosis", "Why a task has no plan, and what would change that (docs/diagnose.md).")
+      .def_prop_ro("solvable", [](const DiagnosisObject& d) { return d.found.solvable; }, "Whether the task as it is has a plan.")
+      .def_prop_ro("headline", [](const DiagnosisObject& d) { return d.headline; }, "All of it in one sentence.")
+      .def_prop_ro("reasons", [](const DiagnosisObject& d) { return d.found.reasons; }, "Proofs that there is no such motion.")
+      .def_prop_ro("hints", [](const DiagnosisObject& d) { return d.found.hints; }, "Doubts about postures of the initial guess.")
+      .def("summary", [](const DiagnosisObject& d) { return d.summary; }, "What `prowl diagnose` prints.")
+      .def("to_json", [](const DiagnosisObject& d) { return d.json; }, "What `prowl diagnose --json` has as result.")
+      .def("__repr__", [](const DiagnosisObject& d) { return "<prowl.Diagnosis " + d.headline + ">"; });
+  module.def("diagnose", &run_diagnosis, nb::arg("task"), nb::kw_only(), nb::arg("max_time") = DiagnosisOptions().max_seconds,
+             nb::arg("on_step") = nb::none(),
+             nb::sig("def diagnose(task: Task, *, max_time: float = 120.0, "
+                     "on_step: collections.abc.Callable[[str], object] | None = None) -> Diagnosis"),
+             "Finds out why a task has no plan: which limit, in which phase, at what time, on which foot or joint, by how much, and the\n"
+             "smallest changes of one number that make it solvable. max_time: of all of it [s]. on_step: called with a line on what is\n"
+             "being tried; what it raises, or Ctrl-C, ends the diagnosis and is raised here.");
+}
+
+}  // namespace prowl::python
