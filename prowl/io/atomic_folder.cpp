@@ -259,7 +259,7 @@ void check_replaceable(const fs::path& folder, const std::set<std::string>& own_
   if (fs::exists(path, error)) {
     if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", folder.string()));
     if (const std::string name = not_own(path, own_names); !name.empty()) {
-      throw FileError(fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another --out",
+      throw FileError(fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another folder",
                                   folder.string(), name));
     }
   }

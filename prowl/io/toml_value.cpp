@@ -120,7 +120,8 @@ int TomlValue::as_integer(int lower, int upper) const {
   const auto* integer = node_->as_integer();
   if (!integer || integer->get() < lower || integer->get() > upper) {
     fail_type(upper == std::numeric_limits<int>::max() ? fmt::format("an integer >= {}", lower)
-                                                       : fmt::format("an integer from {} to {}", lower, upper));
+                                                       : fmt::format("an integer from {} to {}", lower, upper),
+              node_->is_floating_point() ? ", without a point" : "");
   }
   return static_cast<int>(integer->get());
 }

@@ -57,7 +57,12 @@ def _folders(package_dirs: Sequence[str | os.PathLike[str]]) -> list[str]:
 
 
 def _toml(document: str | Mapping[str, Any]) -> str:
-    return document if isinstance(document, str) else tomli_w.dumps(document)
+    if isinstance(document, str):
+        return document
+    try:
+        return tomli_w.dumps(document)
+    except (TypeError, AttributeError) as error:  # of None, a NumPy array, keys that are no strings
+        raise _prowl.InputError(f"document: {error}; need a dict of what a TOML file can hold") from error
 
 
 def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os.PathLike[str]] = ()) -> _prowl.Robot:
@@ -72,7 +77,10 @@ def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os
 
 def parse_robot(document: str | Mapping[str, Any], *, folder: str | os.PathLike[str] = ".",
                 package_dirs: Sequence[str | os.PathLike[str]] = ()) -> _prowl.Robot:
-    """A robot from the text of a robot file, or from a dict of the same keys. Paths in it are relative to `folder`."""
+    """A robot from the text of a robot file, or from a dict of the same keys. Paths in it are relative to `folder`.
+
+    Messages call it FOLDER/robot.toml, with the lines of the text; of a dict, of the text that it makes: look at the key.
+    """
     return _prowl.parse_robot(_toml(document), Path(folder) / "robot.toml", _folders(package_dirs))
 
 
@@ -98,7 +106,8 @@ def parse_task(document: str | Mapping[str, Any], *, folder: str | os.PathLike[s
     """A task from the text of a task file, or from a dict of the same keys, as tomllib.loads(task.text) gives it.
 
     The robot file that it names is relative to `folder`: task.path.parent for a task that was changed. The other
-    arguments are those of read_task().
+    arguments are those of read_task(). Messages call it FOLDER/task.toml, with the lines of the text; of a dict, of the
+    text that it makes: look at the key.
     """
     return _prowl.parse_task(_toml(document), Path(folder) / "task.toml", package_dirs=_folders(package_dirs),
                              intervals=intervals, max_iterations=max_iterations, max_time=max_time, tolerance=tolerance)

@@ -1,6 +1,7 @@
 #include "prowl/diagnosis/diagnosis.hpp"
 
 #include <fmt/format.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -53,7 +54,8 @@ DiagnosisObject run_diagnosis(const Task& task, double max_time, const nb::objec
 
 void bind_diagnosis(nb::module_& module) {
   nb::class_<DiagnosisObject>(module, "Diagnosis", "Why a task has no plan, and what would change that (docs/diagnose.md).")
-      .def_prop_ro("solvable", [](const DiagnosisObject& d) { return d.found.solvable; }, "Whether the task as it is has a plan.")
+      .def_prop_ro("solvable", [](const DiagnosisObject& d) { return d.found.is_undecided() ? std::optional<bool>() : d.found.solvable; },
+                   "Whether the task as it is has a plan; None if that is not known, for time or iterations were up.")
       .def_prop_ro("headline", [](const DiagnosisObject& d) { return d.headline; }, "All of it in one sentence.")
       .def_prop_ro("reasons", [](const DiagnosisObject& d) { return d.found.reasons; }, "Proofs that there is no such motion.")
       .def_prop_ro("hints", [](const DiagnosisObject& d) { return d.found.hints; }, "Doubts about postures of the initial guess.")

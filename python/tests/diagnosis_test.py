@@ -23,7 +23,7 @@ def too_fast():
 def test_a_cause_is_named_and_what_would_change_it(too_fast):
     steps = []
     found = prowl.diagnose(too_fast, max_time=60.0, on_step=steps.append)
-    assert not found.solvable
+    assert found.solvable is False
     numbers = json.loads(found.to_json())
     assert numbers["headline"] == found.headline
     assert numbers["reasons"] == found.reasons and numbers["hints"] == found.hints
@@ -36,6 +36,12 @@ def test_of_a_task_with_a_plan_is_that_it_has_one(crouch):
     found = prowl.diagnose(crouch.task)
     assert found.solvable
     assert found.headline == "the task has a plan, and it passes its certificate"
+
+
+def test_without_time_nothing_is_known(too_fast):
+    found = prowl.diagnose(too_fast, max_time=1e-3)
+    assert found.solvable is None and json.loads(found.to_json())["solvable"] is None
+    assert found.headline.startswith("not known whether the task has a plan")
 
 
 def test_what_a_callback_raises_ends_it(too_fast):

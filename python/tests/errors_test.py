@@ -21,6 +21,9 @@ def test_the_hierarchy_is_that_of_the_library():
 def test_wrong_input_names_file_line_and_remedy(crouch, tmp_path):
     with pytest.raises(prowl.InputError, match=r"task\.toml:1:.*did you mean"):
         prowl.parse_task('robott = "x"', folder=tmp_path)
+    for document in ({"name": None}, {1: "x"}, {"goal": [object()]}):
+        with pytest.raises(prowl.InputError, match="^document: "):
+            prowl.parse_task(document, folder=tmp_path)
     with pytest.raises(prowl.InputError, match="no such file"):
         prowl.read_task(tmp_path / "none.toml")
     with pytest.raises(prowl.InputError, match="riccati, fatrop, ipopt"):

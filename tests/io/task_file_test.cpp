@@ -265,7 +265,7 @@ TEST_F(TaskFile, RefusesWrongType) {
   EXPECT_EQ(message("2.0\nintervals", "\"2 s\"\nintervals"),
             "task.toml:6:14: phase[0].duration_s: \"2 s\" is not allowed; need a number from 0.001 to 600 [s]");
   EXPECT_EQ(message("intervals = 5", "intervals = 5.0"),
-            "task.toml:7:13: phase[0].intervals: 5 is not allowed; need an integer from 1 to 10000");
+            "task.toml:7:13: phase[0].intervals: 5 is not allowed; need an integer from 1 to 10000, without a point");
   EXPECT_EQ(message("[[phase]]", "[phase]"),
             "task.toml:3:1: phase: a table is not allowed; need one [[phase]] for each");
 }
