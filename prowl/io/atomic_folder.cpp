@@ -182,7 +182,7 @@ void check_exchangeable(const fs::path& path) {
 }
 
 /// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them
-/// again: permissions tell nothing of /proc, of names too long, or of a disk that is full.
+/// again: permissions tell nothing of /proc, of names too long, or of a disk that is full. A kill may leave an empty folder.
 void try_to_make(const fs::path& path) {
   std::error_code error;
   std::vector<fs::path> missing;  // from the inside out
@@ -196,7 +196,6 @@ void try_to_make(const fs::path& path) {
   try {
     const SiblingFolder trial(path, FolderAbove::is_made);
     if (fs::exists(path, error)) {
-      check_exchangeable(path);
       trial.finish(path);
     } else if (::rename(trial.path().c_str(), path.c_str()) == 0) {
       ::rmdir(path.c_str());
@@ -240,6 +239,19 @@ std::string not_own(const fs::path& folder, const std::set<std::string>& own_nam
   }
 }
 
+/// Throws FileError unless `path` is missing, or a folder of these names that another may take the place of. `shown`: what the
+/// user calls it.
+void check_old(const fs::path& path, const fs::path& shown, const std::set<std::string>& own_names) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return;
+  if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", shown.string()));
+  if (const std::string name = not_own(path, own_names); !name.empty()) {
+    throw FileError(fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another folder",
+                                shown.string(), name));
+  }
+  check_exchangeable(path);
+}
+
 }  // namespace
 
 fs::path real_path(const fs::path& folder) {
@@ -255,14 +267,7 @@ fs::path real_path(const fs::path& folder) {
 
 void check_replaceable(const fs::path& folder, const std::set<std::string>& own_names) {
   const fs::path path = real_path(folder);
-  std::error_code error;
-  if (fs::exists(path, error)) {
-    if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", folder.string()));
-    if (const std::string name = not_own(path, own_names); !name.empty()) {
-      throw FileError(fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another folder",
-                                  folder.string(), name));
-    }
-  }
+  check_old(path, folder, own_names);
   try_to_make(path);
 }
 
@@ -272,7 +277,7 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
   const SiblingFolder fresh(path, FolderAbove::is_made);
   for (const auto& [name, text] : files) write_new(fresh.path() / name, text, path / name);
   try {
-    check_replaceable(folder, own_names);
+    check_old(path, folder, own_names);
     fresh.finish(path);
     exchange(fresh.path(), path);
   } catch (const FileError& failure) {  // all is written, after hours of work perhaps

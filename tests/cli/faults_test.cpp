@@ -126,6 +126,25 @@ TEST_F(Faults, AKillBetweenTwoRenamesLosesNothing) {
 }
 
 /// 20 kills; PROWL_KILLS=200 for more. Checkpoints are written all the time, so that many kills meet a write.
+TEST_F(Faults, AKillAtAnyOperationOnACheckpointLeavesNoneOrAWholeOne) {
+  const std::string command = plan_other() + "--checkpoint so_far --checkpoint-every 0";
+  int empty = 0, whole = 0;
+  for (int n = 1;; ++n) {
+    run("rm -rf out so_far .prowl-*; cp -r old out");
+    const Outcome result = run("FAULTY_FILES='" + std::to_string(n) + " KILL' " + kFaulty + command);
+    if (result.status == 0) break;
+    ASSERT_EQ(result.status, kKilled) << n << ": " << result.error;
+    if (fs::exists(path("so_far"))) {
+      const bool is_empty = fs::is_empty(path("so_far"));
+      ++(is_empty ? empty : whole);
+      if (!is_empty) EXPECT_NO_THROW(read_plan(path("so_far"), test::test_search())) << n;
+    }
+    EXPECT_EQ(run(command).status, 0) << n << ": what is left is in the way";
+  }
+  EXPECT_EQ(empty, 1) << "the trial before the solve, and none after";
+  EXPECT_GT(whole, 0);
+}
+
 TEST_F(Faults, WhatAKillLeavesIsNobodyElsesIfTheOldWasPrivate) {
   ASSERT_EQ(run("chmod 700 out; umask 022; FAULTY_PATH=plan.json FAULTY_FILES='2 KILL' " + kFaulty + plan_other()).status, kKilled);
   EXPECT_EQ(run("stat -c %a .prowl-*.new out").out, "700\n700\n");
@@ -150,7 +169,7 @@ TEST_F(Faults, AKillAtARandomMomentLeavesWholePlansAndCheckpoints) {
     ++killed;
     in_a_write += leftovers() > 0;
     ASSERT_THAT(held(), AnyOf("old", "other")) << "killed after " << moment << " s";
-    if (!fs::exists(path("so_far"))) continue;
+    if (!fs::exists(path("so_far")) || fs::is_empty(path("so_far"))) continue;  // it was tried whether it can be made
     ++checkpoints;
     const PlanRecord record = read_plan(path("so_far"), test::test_search());
     EXPECT_EQ(record.plan.result.status, SolveStatus::interrupted);

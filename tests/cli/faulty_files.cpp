@@ -85,6 +85,8 @@ ssize_t write(int descriptor, const void* data, size_t size) {
 
 int fsync(int descriptor) { return fails(path_of(descriptor)) ? -1 : next<int (*)(int)>("fsync")(descriptor); }
 
+int rmdir(const char* path) { return fails(path) ? -1 : next<int (*)(const char*)>("rmdir")(path); }
+
 int rename(const char* from, const char* to) {
   return fails(to) ? -1 : next<int (*)(const char*, const char*)>("rename")(from, to);
 }
