@@ -88,11 +88,11 @@ class HelpfulChanges {
 
   /// What was named first does not help; what gave way for it did, and is told if there is no time for more.
   void rename(const std::vector<FoundChange>& found) {
-    const std::vector<Breach> before = std::exchange(run_.result.breaches, {});
+    std::vector<Breach> before = std::exchange(run_.result.breaches, {});
     const SolveStatus status = run_.result.elastic_status;
     name(found);
     if (!run_.result.breaches.empty()) return;
-    run_.result.breaches = before;
+    run_.result.breaches = std::move(before);
     run_.result.elastic_status = status;
   }
 

@@ -125,7 +125,6 @@ TEST_F(Faults, AKillBetweenTwoRenamesLosesNothing) {
   EXPECT_TRUE(was_between) << "no kill came between the renames, so the test checks little";
 }
 
-/// 20 kills; PROWL_KILLS=200 for more. Checkpoints are written all the time, so that many kills meet a write.
 TEST_F(Faults, AKillAtAnyOperationOnACheckpointLeavesNoneOrAWholeOne) {
   const std::string command = plan_other() + "--checkpoint so_far --checkpoint-every 0";
   int empty = 0, whole = 0;
@@ -151,6 +150,7 @@ TEST_F(Faults, WhatAKillLeavesIsNobodyElsesIfTheOldWasPrivate) {
   EXPECT_EQ(held(), "old");
 }
 
+/// 20 kills; PROWL_KILLS=200 for more. Checkpoints are written all the time, so that many kills meet a write.
 TEST_F(Faults, AKillAtARandomMomentLeavesWholePlansAndCheckpoints) {
   const char* const asked = std::getenv("PROWL_KILLS");
   const int kills = asked ? std::atoi(asked) : 20;

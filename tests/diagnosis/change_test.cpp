@@ -28,6 +28,13 @@ const Knob& knob(const std::vector<Knob>& knobs, const std::string& kind, int ph
   return *found;
 }
 
+const Knob& shorter_phase(const std::vector<Knob>& knobs, int phase) {
+  const auto is_shorter = [phase](const Knob& one) { return one.kind == "duration" && one.phase == phase && one.value(1.0) < one.value(0.0); };
+  const auto found = std::ranges::find_if(knobs, is_shorter);
+  EXPECT_NE(found, knobs.end()) << phase;
+  return *found;
+}
+
 constexpr double kAmount = 0.4;
 const double kUp = std::exp(kAmount), kDown = std::exp(-kAmount);
 
@@ -228,29 +235,23 @@ TEST(Change, OfADurationIsOneThatATaskMayHave) {
   const double others = 40.0 * static_cast<double>(step.phases.size() - 1);
   const std::vector<Knob> knobs = knobs_of(step);
   const Knob& one = knob(knobs, "duration", 0);
-  const auto is_of_all = [](const Knob& each) { return each.kind == "duration" && each.phase < 0; };
-  const auto all = std::ranges::find_if(knobs, is_of_all);
-  ASSERT_NE(all, knobs.end());
+  const Knob& all = knob(knobs, "duration");
   EXPECT_NEAR(one.value(one.most), 600.0 - others, 1e-9);
-  EXPECT_NEAR(all->value(all->most), 600.0, 1e-9);
+  EXPECT_NEAR(all.value(all.most), 600.0, 1e-9);
 
   MotionProblem jump = shipped("hyq/jump");
   jump.phases[2].duration = {0.004, 0.004};
   const std::vector<Knob> of_jump = knobs_of(jump);
-  const auto is_shorter = [](const Knob& each) { return each.kind == "duration" && each.phase == 2 && each.value(1.0) < each.value(0.0); };
-  const auto shorter = std::ranges::find_if(of_jump, is_shorter);
-  ASSERT_NE(shorter, of_jump.end());
-  EXPECT_NEAR(shorter->value(shorter->most), 0.001, 1e-12);
+  const Knob& shorter = shorter_phase(of_jump, 2);
+  EXPECT_NEAR(shorter.value(shorter.most), 0.001, 1e-12);
 }
 
 TEST(Change, OfAFlightMayBeShorter) {
   const MotionProblem jump = shipped("hyq/jump");
   const std::vector<Knob> knobs = knobs_of(jump);
-  const auto is_shorter = [](const Knob& one) { return one.kind == "duration" && one.phase == 2 && one.value(1.0) < one.value(0.0); };
-  const auto shorter = std::ranges::find_if(knobs, is_shorter);
-  ASSERT_NE(shorter, knobs.end());
-  EXPECT_NEAR(shorter->problem(kAmount).phases[2].duration.min, 0.2 * kDown, 1e-12);
-  EXPECT_EQ(shorter->problem(kAmount).phases[2].duration.max, 0.45);
+  const Knob& shorter = shorter_phase(knobs, 2);
+  EXPECT_NEAR(shorter.problem(kAmount).phases[2].duration.min, 0.2 * kDown, 1e-12);
+  EXPECT_EQ(shorter.problem(kAmount).phases[2].duration.max, 0.45);
 }
 
 }  // namespace
