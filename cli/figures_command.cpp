@@ -84,7 +84,7 @@ int run_figures(const FiguresArguments& arguments) {
     print_message(fmt::format("no simulation in {}: planned motion only, without base_error and joint_error\n", arguments.directory));
     if (has_gains) print_message(fmt::format("for all figures first\n  prowl simulate {}\n", arguments.directory));
   }
-  draw(arguments, work.path(), problem.robot.joint_names()[static_cast<std::size_t>(joint)]);
+  draw(arguments, work.path(), problem.robot.joint_names()[joint]);
 
   std::map<std::string, std::string> files;
   std::vector<fs::path> written;

@@ -17,13 +17,13 @@ namespace {
 constexpr double kMostFriction = 0.8;  // rubber on dry concrete, and who plans with more falls
 
 Knob friction_knob(const MotionProblem& problem, int surface) {
-  const Surface& one = problem.surfaces[static_cast<std::size_t>(surface)];
+  const Surface& one = problem.surfaces[surface];
   return {.kind = "friction", .subject = one.name, .most = std::log(kMostFriction / one.friction),
           .unit = "",
           .value = [&one](double a) { return one.friction * std::exp(a); },
           .problem = [&problem, surface](double a) {
             MotionProblem changed = problem;
-            changed.surfaces[static_cast<std::size_t>(surface)].friction *= std::exp(a);
+            changed.surfaces[surface].friction *= std::exp(a);
             return changed;
           }};
 }
@@ -31,7 +31,7 @@ Knob friction_knob(const MotionProblem& problem, int surface) {
 double seconds_of(const MotionProblem& problem, int phase, double sign) {
   double time = 0.0;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const Duration& duration = problem.phases[static_cast<std::size_t>(p)].duration;
+    const Duration& duration = problem.phases[p].duration;
     if (phase < 0 || p == phase) time += sign > 0.0 ? duration.max : duration.min;
   }
   return time;
@@ -51,7 +51,7 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
   const auto scaled = [phase, sign](MotionProblem changed, double a) {
     for (int p = 0; p < static_cast<int>(changed.phases.size()); ++p) {
       if (phase >= 0 && p != phase) continue;
-      Duration& duration = changed.phases[static_cast<std::size_t>(p)].duration;
+      Duration& duration = changed.phases[p].duration;
       const bool fixed = duration.is_fixed();
       (sign > 0.0 ? duration.max : duration.min) *= std::exp(sign * a);
       // A flight that is too long may be too short, too: what lies between is left to the optimiser.
@@ -60,13 +60,13 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
     return changed;
   };
   return {.kind = "duration", .phase = phase,
-          .subject = phase < 0 ? "" : problem.phases[static_cast<std::size_t>(phase)].name,
+          .subject = phase < 0 ? "" : problem.phases[phase].name,
           .most = most_of_duration(problem, phase, sign),
           .is_asked = true, .weight = phase < 0 ? kWeightOfAllTimes : kWeightOfTime, .unit = "s",
           .value = [&problem, phase, sign](double a) { return seconds_of(problem, phase, sign) * std::exp(sign * a); },
           .problem = [&problem, scaled](double a) { return scaled(problem, a); },
           .words = sign > 0.0 ? std::function<std::string(double)>() : [&problem, scaled, phase](double a) {
-            const Duration duration = scaled(problem, a).phases[static_cast<std::size_t>(phase)].duration;
+            const Duration duration = scaled(problem, a).phases[phase].duration;
             return duration.is_fixed() ? fmt::format("{:.3g} s", duration.min) : fmt::format("[{:.3g}, {:.3g}] s", duration.min, duration.max);
           }};
 }
@@ -95,14 +95,14 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
     for (const PhaseContact& contact : phase.contacts) surfaces.insert(contact.surface);
   }
   for (const int surface : surfaces) {
-    if (problem.surfaces[static_cast<std::size_t>(surface)].friction < kMostFriction) knobs.push_back(friction_knob(problem, surface));
+    if (problem.surfaces[surface].friction < kMostFriction) knobs.push_back(friction_knob(problem, surface));
   }
   for (const Knob& knob : way_knobs(problem)) knobs.push_back(knob);
   for (const Knob& knob : joint_knobs(problem)) knobs.push_back(knob);
   const int phases = static_cast<int>(problem.phases.size());
   for (int p = 0; p < phases && phases <= kMostPhases; ++p) {
     knobs.push_back(duration_knob(problem, p, 1.0));
-    const bool may_be_shorter = problem.phases[static_cast<std::size_t>(p)].contacts.size() < kStands;
+    const bool may_be_shorter = problem.phases[p].contacts.size() < kStands;
     if (may_be_shorter) knobs.push_back(duration_knob(problem, p, -1.0));
   }
   if (phases > 1) knobs.push_back(duration_knob(problem, -1, 1.0));

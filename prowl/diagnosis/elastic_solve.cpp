@@ -24,7 +24,7 @@ constexpr double kOwnCost = 1e-3;
 /// Part of the motion's time that a node stands for; one moment counts in full.
 double share(const MotionLimit& limit, const Mesh& mesh) {
   if (limit.kind == LimitKind::goal || limit.kind == LimitKind::place) return 1.0;
-  const MeshNode& node = mesh.nodes[static_cast<std::size_t>(limit.node)];
+  const MeshNode& node = mesh.nodes[limit.node];
   return 0.5 * (node.h_in + node.h_out) / mesh.nodes.back().time;
 }
 
@@ -39,7 +39,7 @@ std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vect
     breach.total += soft[i].price * amount / limit.size;
     if (amount <= breach.amount) continue;
     const double total = breach.total;
-    breach = {limit.kind, limit.phase, motion.nodes[static_cast<std::size_t>(limit.node)].time, limit.subject, amount, limit.unit,
+    breach = {limit.kind, limit.phase, motion.nodes[limit.node].time, limit.subject, amount, limit.unit,
               amount / limit.size, total};
   }
   std::vector<Breach> result;

@@ -30,7 +30,7 @@ MotionProblem with_joints(const MotionProblem& problem, LimitKind kind, const st
   const RobotModel& robot = problem.robot;
   RobotDescription description = robot.description();
   for (const int j : joints) {
-    JointLimits& limits = description.limits[robot.joint_names()[static_cast<std::size_t>(j)]];
+    JointLimits& limits = description.limits[robot.joint_names()[j]];
     if (kind == LimitKind::torque) {
       if (std::isfinite(robot.torque_limit()(j))) limits.torque = factor * robot.torque_limit()(j);
       limits.torque_over_position = times(limits.torque_over_position, factor);
@@ -69,7 +69,7 @@ std::string narrower_ranges(const MotionProblem& problem, const std::vector<int>
   for (const int j : joints) {
     const double width = value_of_limit(problem.robot, LimitKind::joint_position, j);
     if (value_of_limit(wider, LimitKind::joint_position, j) >= factor * width * (1.0 - kRounding)) continue;
-    ranges.push_back(fmt::format("{} {}", problem.robot.joint_names()[static_cast<std::size_t>(j)], range_of(wider, j)));
+    ranges.push_back(fmt::format("{} {}", problem.robot.joint_names()[j], range_of(wider, j)));
   }
   return ranges.empty() ? "" : fmt::format("but as far as torque_over_position goes {}", fmt::join(ranges, ", "));
 }
@@ -98,7 +98,7 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
     return range_of(with_joints(problem, kind, joints, std::exp(a)).robot, first);
   };
   std::vector<std::string> names;
-  for (const int j : joints) names.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
+  for (const int j : joints) names.push_back(robot.joint_names()[j]);
   const bool several = joints.size() > 1;  // whose limits may differ: the factor is what they have in common
   const bool all = several && static_cast<int>(joints.size()) == robot.nu();
   return {.kind = to_string(kind), .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMostAmount,

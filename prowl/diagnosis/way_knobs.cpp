@@ -100,18 +100,18 @@ Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& 
 
 /// A place brought nearer to where its contact was at the start or before it opened.
 Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const Vector3d& from) {
-  const PhaseContact& contact = problem.phases[static_cast<std::size_t>(phase)].contacts[held];
-  const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+  const PhaseContact& contact = problem.phases[phase].contacts[held];
+  const Surface& surface = problem.surfaces[contact.surface];
   const Vector3d to = *contact.place;
   const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // on the surface, as the place is
   const auto place = [root, to](double a) -> Vector3d { return root + std::exp(-a) * (to - root); };
   return {.kind = "place", .phase = phase,
-          .subject = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name, .most = kMostOfWay,
+          .subject = problem.robot.contacts()[contact.contact].name, .most = kMostOfWay,
           .is_asked = true, .weight = kWeightOfWay, .unit = "m",
           .value = [root, to](double a) { return std::exp(-a) * (to - root).norm(); },
           .problem = [&problem, phase, held, place](double a) {
             MotionProblem changed = problem;
-            changed.phases[static_cast<std::size_t>(phase)].contacts[held].place = place(a);
+            changed.phases[phase].contacts[held].place = place(a);
             return changed;
           },
           .words = [place, root](double a) {
@@ -138,7 +138,7 @@ void add_places(const MotionProblem& problem, std::vector<Knob>& knobs) {
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(problem.start_configuration());
   for (int p = 1; p < static_cast<int>(problem.phases.size()); ++p) {
-    const auto& contacts = problem.phases[static_cast<std::size_t>(p)].contacts;
+    const auto& contacts = problem.phases[p].contacts;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (!contacts[i].place || !schedule.lands(p, static_cast<int>(i))) continue;
       std::optional<Vector3d> from = terms.contact_position(contacts[i].contact);

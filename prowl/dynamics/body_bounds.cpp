@@ -43,7 +43,7 @@ Chain chain_to(const RobotModel& robot, pinocchio::JointIndex joint) {
 
 ContactReach contact_reach(const RobotModel& robot, int contact) {
   const PinocchioModel& pin = robot.pinocchio();
-  const pinocchio::Frame& frame = pin.model.frames[pin.contact_frames[static_cast<std::size_t>(contact)]];
+  const pinocchio::Frame& frame = pin.model.frames[pin.contact_frames[contact]];
   const Eigen::Vector3d& tip = frame.placement.translation();
   if (frame.parentJoint == kBaseJoint) return {tip, 0.0, -1};
   const Chain chain = chain_to(robot, frame.parentJoint);

@@ -53,7 +53,7 @@ void InverseDynamicsHessian::propagate(const TreeMotion& tree, const Eigen::Vect
       own.m.noalias() = tree.S.leftCols<kBaseDofs>() * lambda.head<kBaseDofs>();
     } else {
       const Index dof = kBaseDofs - 1 + static_cast<Index>(i);
-      const SpatialVector& before = adjoints_[static_cast<std::size_t>(parents_[i])].m;
+      const SpatialVector& before = adjoints_[parents_[i]].m;
       own.m = before + tree.S.col(dof) * lambda(dof);
       N_.col(dof) = cross(before, tree.S.col(dof));
     }
@@ -68,7 +68,7 @@ void InverseDynamicsHessian::propagate(const TreeMotion& tree, const Eigen::Vect
   }
   for (std::size_t i = parents_.size() - 1; i > 0; --i) {
     const Adjoint& own = adjoints_[i];
-    Adjoint& before = adjoints_[static_cast<std::size_t>(parents_[i])];
+    Adjoint& before = adjoints_[parents_[i]];
     before.H += own.H;
     before.P += own.P;
     before.D_angular += own.D_angular;

@@ -36,7 +36,7 @@ void ProjectedResidual::compute_gram_inverse() {
   }
   const auto kept = static_cast<Eigen::Index>(kept_rows_.size());
   kept_.resize(kept, terms_.nv());
-  const auto row = [this](Eigen::Index i) { return kept_rows_[static_cast<std::size_t>(i)]; };
+  const auto row = [this](Eigen::Index i) { return kept_rows_[i]; };
   for (Eigen::Index i = 0; i < kept; ++i) kept_.row(i) = kinematics_.jacobian().row(row(i));
   projector_.compute(kept_);
   gram_inverse_.setZero(kinematics_.rows(), kinematics_.rows());
@@ -124,10 +124,10 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
 
   const auto chosen = static_cast<Eigen::Index>(chosen_rows_.size());
   dc_.w.resize(terms_.nv(), chosen);
-  for (Eigen::Index i = 0; i < chosen; ++i) dc_.w.col(i) = -J.row(chosen_rows_[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < chosen; ++i) dc_.w.col(i) = -J.row(chosen_rows_[i]);
   df_.w.noalias() = K_ * dc_.w;
   kinematics_.subtract_transposed(df_.w, dc_.w);
-  for (Eigen::Index i = 0; i < chosen; ++i) df_.w(chosen_rows_[static_cast<std::size_t>(i)], i) = 1.0;
+  for (Eigen::Index i = 0; i < chosen; ++i) df_.w(chosen_rows_[i], i) = 1.0;
 
   e_gains_.resize(J.rows(), 2);
   e_gains_.col(0).noalias() = J * point.v;

@@ -30,13 +30,13 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
   std::vector<std::string> missed;
-  const auto& held = problem.phases[static_cast<std::size_t>(p)].contacts;
+  const auto& held = problem.phases[p].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
-    const PhaseContact& phase_contact = held[static_cast<std::size_t>(i)];
-    const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(phase_contact.contact)];
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(phase_contact.surface)];
+    const PhaseContact& phase_contact = held[i];
+    const ContactPoint& contact = problem.robot.contacts()[phase_contact.contact];
+    const Surface& surface = problem.surfaces[phase_contact.surface];
     const Vector3d is = terms.contact_position(phase_contact.contact);
-    const Vector3d should = places[static_cast<std::size_t>(schedule.stance(p, i))].value_or(
+    const Vector3d should = places[schedule.stance(p, i)].value_or(
         surface.at(nearest_in_patch(surface, surface.coordinates(is)), contact.radius));
     const double gap = (is - should).norm();
     if (gap <= kAtItsPlace) continue;
@@ -47,7 +47,7 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
 
 /// "goal 1, end of phase 'stand'"; "" for nodes at which there is nothing to look at.
 std::string name_of_node(const MotionProblem& problem, NodeRef at) {
-  const Phase& phase = problem.phases[static_cast<std::size_t>(at.phase)];
+  const Phase& phase = problem.phases[at.phase];
   std::string goals;
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
     if (&condition != &problem.start() && condition.at == at) goals += condition.name + ", ";
@@ -73,8 +73,8 @@ std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase
     const double needed = load.torque_needed(j);
     const double limit = needed < 0.0 ? robot.torque_lower(j, q(7 + j), 0.0) : robot.torque_upper(j, q(7 + j), 0.0);
     if (std::abs(load.share * needed) < kFull * std::abs(limit)) continue;
-    joints.push_back(fmt::format("{} needs {:.3g} {} of {:.3g}", robot.joint_names()[static_cast<std::size_t>(j)],
-                                 std::abs(needed), robot.joint_is_prismatic()[static_cast<std::size_t>(j)] ? "N" : "N m",
+    joints.push_back(fmt::format("{} needs {:.3g} {} of {:.3g}", robot.joint_names()[j],
+                                 std::abs(needed), robot.joint_is_prismatic()[j] ? "N" : "N m",
                                  std::abs(limit)));
   }
   return fmt::format("cannot stand still in the guessed posture: {}", fmt::join(joints, ", "));
@@ -95,7 +95,7 @@ std::vector<std::string> doubts(const MotionProblem& problem, const Trajectory& 
   for (std::size_t k = 0; k < guess.nodes.size(); ++k) {
     node = guess.nodes[k].phase == p ? node + 1 : 0;
     p = guess.nodes[k].phase;
-    const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    const Phase& phase = problem.phases[p];
     const std::string when = name_of_node(problem, {p, node});
     if (when.empty()) continue;
     const std::vector<std::string> missed = missed_places(problem, schedule, p, guess.nodes[k].q, when);

@@ -19,8 +19,8 @@ std::vector<std::optional<Vector3d>> known_places(const MotionProblem& problem, 
     if (!stance.lands()) {
       place = terms.contact_position(stance.contact);
     } else if (stance.place) {
-      const Surface& surface = problem.surfaces[static_cast<std::size_t>(stance.surface)];
-      const double radius = problem.robot.contacts()[static_cast<std::size_t>(stance.contact)].radius;
+      const Surface& surface = problem.surfaces[stance.surface];
+      const double radius = problem.robot.contacts()[stance.contact].radius;
       place = surface.at(surface.coordinates(*stance.place), radius);
     }
   }
@@ -29,7 +29,7 @@ std::vector<std::optional<Vector3d>> known_places(const MotionProblem& problem, 
 
 bool is_during(const BoundaryCondition& condition, int phase, const MotionProblem& problem) {
   const NodeRef at = condition.at;
-  const int last = problem.phases[static_cast<std::size_t>(at.phase)].intervals;
+  const int last = problem.phases[at.phase].intervals;
   return at.phase == phase || (at.phase == phase - 1 && at.node == last) || (at.phase == phase + 1 && at.node == 0);
 }
 

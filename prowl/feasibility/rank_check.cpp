@@ -73,11 +73,11 @@ std::vector<std::string> postures_that_lose_rank(const MotionProblem& problem, c
   for (const TrajectoryPoint& point : guess.nodes) {
     if (point.phase == p) continue;
     p = point.phase;
-    const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    const Phase& phase = problem.phases[p];
     const auto lost = lost_rank(problem.robot, point.q, contact_indices(phase.contacts));
     if (!lost) continue;
     std::vector<std::string> names;
-    for (const int c : lost->contacts) names.push_back(problem.robot.contacts()[static_cast<std::size_t>(c)].name);
+    for (const int c : lost->contacts) names.push_back(problem.robot.contacts()[c].name);
     lines.push_back(fmt::format("start of phase '{}': singular posture: {} of the {} directions that contacts hold elsewhere (rank of the "
                                 "contact Jacobian); {} can push against each other without any torque, as with stretched legs: start "
                                 "with joints bent by a few degrees",

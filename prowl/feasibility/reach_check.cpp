@@ -26,14 +26,14 @@ struct Held {
 std::vector<Held> held_in(const MotionProblem& problem, const ContactSchedule& schedule,
                           const std::vector<std::optional<Vector3d>>& places, int p) {
   std::vector<Held> held;
-  const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+  const Phase& phase = problem.phases[p];
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
-    const PhaseContact& contact = phase.contacts[static_cast<std::size_t>(i)];
+    const PhaseContact& contact = phase.contacts[i];
     const ContactReach leg = contact_reach(problem.robot, contact.contact);
-    held.push_back({problem.robot.contacts()[static_cast<std::size_t>(contact.contact)],
-                    problem.surfaces[static_cast<std::size_t>(contact.surface)], leg,
-                    leg.first_joint < 0 ? "the base" : problem.robot.joint_names()[static_cast<std::size_t>(leg.first_joint)],
-                    places[static_cast<std::size_t>(schedule.stance(p, i))]});
+    held.push_back({problem.robot.contacts()[contact.contact],
+                    problem.surfaces[contact.surface], leg,
+                    leg.first_joint < 0 ? "the base" : problem.robot.joint_names()[leg.first_joint],
+                    places[schedule.stance(p, i)]});
   }
   return held;
 }
@@ -55,7 +55,7 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem) {
   const auto places = known_places(problem, schedule);
   std::vector<std::string> reasons;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const std::string& phase = problem.phases[static_cast<std::size_t>(p)].name;
+    const std::string& phase = problem.phases[p].name;
     const std::vector<Held> held = held_in(problem, schedule, places, p);
     for (const BoundaryCondition& condition : problem.boundary_conditions) {
       if (!is_during(condition, p, problem)) continue;

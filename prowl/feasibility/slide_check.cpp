@@ -26,12 +26,12 @@ struct TimeRange {
 TimeRange time_of(const MotionProblem& problem, NodeRef at) {
   TimeRange time;
   const auto add = [&](int phase, double part) {
-    const Duration& duration = problem.phases[static_cast<std::size_t>(phase)].duration;
+    const Duration& duration = problem.phases[phase].duration;
     time.first += part * duration.min;
     time.last += part * duration.max;
   };
   for (int p = 0; p < at.phase; ++p) add(p, 1.0);
-  add(at.phase, problem.phases[static_cast<std::size_t>(at.phase)].node_time(at.node, 1.0));
+  add(at.phase, problem.phases[at.phase].node_time(at.node, 1.0));
   return time;
 }
 
@@ -63,13 +63,13 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
                      point_bounds(condition, mass.centre).least_along(d) - mass.radius});
   }
   const auto places = known_places(problem, schedule);
-  const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+  const Phase& phase = problem.phases[p];
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
-    const auto& place = places[static_cast<std::size_t>(schedule.stance(p, i))];
+    const auto& place = places[schedule.stance(p, i)];
     if (!place) continue;
-    const int contact = phase.contacts[static_cast<std::size_t>(i)].contact;
+    const int contact = phase.contacts[i].contact;
     const ContactReach leg = contact_reach(robot, contact);
-    holds.push_back({"contact " + robot.contacts()[static_cast<std::size_t>(contact)].name,
+    holds.push_back({"contact " + robot.contacts()[contact].name,
                      time_of(problem, {p, phase.intervals}),
                      d.dot(*place) - (leg.length + (leg.root - mass.centre).norm() + mass.radius)});
   }
@@ -83,10 +83,10 @@ std::optional<std::string> why_it_slides(const MotionProblem& problem) {
   const ContactSchedule schedule(problem);
   std::set<int> touched;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    const Phase& phase = problem.phases[p];
     for (const PhaseContact& contact : phase.contacts) touched.insert(contact.surface);
     std::vector<Surface> surfaces;
-    for (const int surface : touched) surfaces.push_back(problem.surfaces[static_cast<std::size_t>(surface)]);
+    for (const int surface : touched) surfaces.push_back(problem.surfaces[surface]);
     const auto slide = slide_on(surfaces);
     if (!slide) return std::nullopt;  // nor with the surfaces of later phases
 

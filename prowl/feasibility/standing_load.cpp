@@ -80,7 +80,7 @@ StandingLoad standing_load(const MotionProblem& problem, const VectorXd& q, cons
   MatrixXd rows(robot.nv(), 1 + kEdges * static_cast<Index>(contacts.size()));
   rows.col(0) = gravity;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(contacts[c].surface)];
+    const Surface& surface = problem.surfaces[contacts[c].surface];
     rows.middleCols(1 + kEdges * static_cast<Index>(c), kEdges) =
         -kinematics.jacobian().middleRows<3>(static_cast<Index>(3 * c)).transpose() * edges_around_cone(surface);
   }

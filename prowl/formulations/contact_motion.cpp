@@ -12,7 +12,7 @@ ContactMotion contact_motion(const MotionProblem& problem, const Trajectory& mot
   for (const Phase& phase : problem.phases) held.emplace_back(contact_indices(phase.contacts));
   ContactMotion worst;
   for (const TrajectoryPoint& node : motion.nodes) {
-    ContactKinematics& contacts = held[static_cast<std::size_t>(node.phase)];
+    ContactKinematics& contacts = held[node.phase];
     terms.update_kinematics(node.q);
     contacts.set_configuration(terms);
     contacts.set_motion(node.v, node.a);

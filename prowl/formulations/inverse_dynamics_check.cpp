@@ -52,7 +52,7 @@ double task_cost(const MotionProblem& problem, const Trajectory& motion) {
     point.cost_weight = time_of_node(motion, k);
     point.terminal_weight = k + 1 == motion.nodes.size() ? 1.0 : 0.0;
     terms.update_kinematics(here.q);
-    total += cost.value(point, terms, held_forces(problem.phases[static_cast<std::size_t>(here.phase)], here.force));
+    total += cost.value(point, terms, held_forces(problem.phases[here.phase], here.force));
   }
   return total;
 }
@@ -82,7 +82,7 @@ InverseDynamicsCheck check_by_inverse_dynamics(const MotionProblem& problem, con
       const double share = torque_share(robot, j, point.q(7 + j), point.v(6 + j), point.tau(j));
       if (share <= check.worst_torque) continue;
       check.worst_torque = share;
-      check.worst_joint = robot.joint_names()[static_cast<std::size_t>(j)];
+      check.worst_joint = robot.joint_names()[j];
       check.worst_torque_time = point.time;
     }
     const double base_force = force.head<3>().norm() / robot.weight();

@@ -58,7 +58,7 @@ Trajectory straight_guess(const MotionProblem& problem, const Mesh& mesh) {
 
   Trajectory guess;
   for (const MeshNode& node : mesh.nodes) {
-    const StaticEquilibrium& hold = standing[static_cast<std::size_t>(node.phase)];
+    const StaticEquilibrium& hold = standing[node.phase];
     guess.nodes.push_back({.time = node.time,
                            .phase = node.phase,
                            .q = on_straight_line(through, node.time),

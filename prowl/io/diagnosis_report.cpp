@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostBreaches = 6;  // that are shown as text
 
 std::string phase_in_words(const MotionProblem& problem, int phase) {
-  const std::string& name = problem.phases[static_cast<std::size_t>(phase)].name;
+  const std::string& name = problem.phases[phase].name;
   const std::string number = fmt::format("phase {}", phase + 1);
   return name == number ? number : fmt::format("{} '{}'", number, name);
 }
@@ -114,7 +114,7 @@ std::string how_it_is_found(const Diagnosis& diagnosis) {
 
 Json to_json(const Breach& breach, const MotionProblem& problem) {
   return {{"kind", to_string(breach.kind)}, {"phase", breach.phase + 1},
-          {"phase_name", problem.phases[static_cast<std::size_t>(breach.phase)].name}, {"time_s", breach.time},
+          {"phase_name", problem.phases[breach.phase].name}, {"time_s", breach.time},
           {"subject", breach.subject}, {"amount", breach.amount}, {"unit", breach.unit}, {"relative", breach.relative},
           {"words", in_words(breach, problem)}};
 }

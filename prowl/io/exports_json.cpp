@@ -72,8 +72,8 @@ Json phases_json(const PlanRecord& plan) {
     if (!span) continue;
     Json contacts = Json::array();
     for (const PhaseContact& c : problem.phases[p].contacts) {
-      contacts.push_back({{"contact", problem.robot.contacts()[static_cast<std::size_t>(c.contact)].name},
-                          {"surface", problem.surfaces[static_cast<std::size_t>(c.surface)].name}});
+      contacts.push_back({{"contact", problem.robot.contacts()[c.contact].name},
+                          {"surface", problem.surfaces[c.surface].name}});
     }
     phases.push_back({{"name", problem.phases[p].name},
                       {"start_s", span->start},
@@ -101,7 +101,7 @@ Json links_json(const std::vector<RobotLink>& links) {
   Json json = Json::array();
   for (const RobotLink& link : links) {
     Json parent = nullptr;
-    if (link.parent >= 0) parent = links[static_cast<std::size_t>(link.parent)].name;
+    if (link.parent >= 0) parent = links[link.parent].name;
     json.push_back({{"name", link.name}, {"parent", parent}, {"fixed", link.fixed}});
   }
   return json;
@@ -134,10 +134,10 @@ Json samples_json(const RobotModel& robot, const MotionSamples& samples, const s
     for (std::size_t l = 0; l < links.size(); ++l) {
       const int parent = links[l].parent;
       in_world.push_back(to_json(world[l]));
-      relative.push_back(to_json(parent < 0 ? world[l] : world[static_cast<std::size_t>(parent)].inverse() * world[l]));
+      relative.push_back(to_json(parent < 0 ? world[l] : world[parent].inverse() * world[l]));
     }
     for (const BodyTree::Point& contact : tree.points) {
-      contacts.push_back(to_json(Eigen::VectorXd(bodies[static_cast<std::size_t>(contact.body)] * contact.position)));
+      contacts.push_back(to_json(Eigen::VectorXd(bodies[contact.body] * contact.position)));
     }
     json["link_placement"].push_back(std::move(in_world));
     json["contact_position_m"].push_back(std::move(contacts));

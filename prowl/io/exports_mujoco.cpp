@@ -22,7 +22,7 @@ std::string mujoco_keyframes_xml(const MotionProblem& problem, const MotionSampl
   xml.OpenElement("keyframe");
   for (std::size_t i = 0; i < samples.points.size(); ++i) {
     const TrajectoryPoint& point = samples.points[i];
-    const std::string& phase = problem.phases[static_cast<std::size_t>(point.phase)].name;
+    const std::string& phase = problem.phases[point.phase].name;
     xml.OpenElement("key");
     xml.PushAttribute("name", fmt::format("{}_{}", phase, i).c_str());
     xml.PushAttribute("time", fmt::format("{}", point.time).c_str());

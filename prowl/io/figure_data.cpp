@@ -38,7 +38,7 @@ class ContactAcceleration {
   }
 
   std::vector<double> operator()(const TrajectoryPoint& point) {
-    ContactKinematics& kinematics = kinematics_[static_cast<std::size_t>(point.phase)];
+    ContactKinematics& kinematics = kinematics_[point.phase];
     terms_.update_kinematics(point.q);
     kinematics.set_configuration(terms_);
     const Eigen::VectorXd from_a = kinematics.jacobian() * point.a;
@@ -132,7 +132,7 @@ std::string limit_curves_csv(const RobotModel& robot) {
     const double first = limit.curve.lower_end(), last = limit.curve.upper_end();
     for (int i = 0; i < kCurvePoints; ++i) {
       const double position = first + (last - first) * i / (kCurvePoints - 1);
-      fmt::format_to(std::back_inserter(text), "{},{},{}\n", robot.joint_names()[static_cast<std::size_t>(limit.joint)],
+      fmt::format_to(std::back_inserter(text), "{},{},{}\n", robot.joint_names()[limit.joint],
                      position, robot.torque_upper(limit.joint, position, 0.0));
     }
   }
@@ -147,9 +147,9 @@ std::string legs_csv(const RobotModel& robot) {
     const std::vector<int>& chain = terms.contact_chain(c);
     const auto first = std::find_if(chain.begin(), chain.end(), [](int dof) { return dof >= 6; });
     if (first == chain.end()) continue;  // on the base itself
-    int& leg = leg_of[static_cast<std::size_t>(*first - 6)];
+    int& leg = leg_of[*first - 6];
     if (leg < 0) leg = legs++;
-    for (auto dof = first; dof != chain.end(); ++dof) leg_of[static_cast<std::size_t>(*dof - 6)] = leg;
+    for (auto dof = first; dof != chain.end(); ++dof) leg_of[*dof - 6] = leg;
   }
   std::replace(leg_of.begin(), leg_of.end(), -1, legs);  // arms, head
   std::string text = "joint,leg\n";

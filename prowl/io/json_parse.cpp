@@ -20,8 +20,8 @@ class Limits {
 
   bool operator()(int depth, Json::parse_event_t event, const Json&) {
     if (depth > kDeepestJson) fail("lists and objects", kDeepestJson, "deep");
-    if (event == Json::parse_event_t::object_start) keys_[static_cast<std::size_t>(depth) + 1] = 0;
-    if (event == Json::parse_event_t::key && ++keys_[static_cast<std::size_t>(depth)] > kMostJsonKeys) fail("keys", kMostJsonKeys, "in an object");
+    if (event == Json::parse_event_t::object_start) keys_[depth + 1] = 0;
+    if (event == Json::parse_event_t::key && ++keys_[depth] > kMostJsonKeys) fail("keys", kMostJsonKeys, "in an object");
     if (event != Json::parse_event_t::key && ++values_ > kMostJsonValues) fail("values", kMostJsonValues, "in all");
     return true;
   }

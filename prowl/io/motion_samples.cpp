@@ -24,7 +24,7 @@ void check_rate(std::optional<double> rate, double duration) {
 /// K at a point of the plan; at the end of a phase that phase's, where Tracker::gains takes the next one's.
 Eigen::MatrixXd gains_at(const Tracker& tracker, const TrajectoryPoint& point) {
   const TrackingPlan& plan = tracker.plan();
-  const auto& segment = plan.segments[static_cast<std::size_t>(point.phase)];
+  const auto& segment = plan.segments[point.phase];
   Eigen::MatrixXd K(plan.nu(), 2 * plan.nv());
   if (point.time < segment.end) {
     tracker.gains(point.time, K);
@@ -55,8 +55,8 @@ MotionSamples sample_plan(const MotionProblem& problem, const Trajectory& trajec
   samples.points = rate ? sample_uniformly(trajectory, 1.0 / *rate).nodes : trajectory.nodes;
   for (const TrajectoryPoint& point : samples.points) {
     std::vector<bool> touches(problem.robot.contacts().size(), false);
-    for (const PhaseContact& contact : problem.phases[static_cast<std::size_t>(point.phase)].contacts) {
-      touches[static_cast<std::size_t>(contact.contact)] = true;
+    for (const PhaseContact& contact : problem.phases[point.phase].contacts) {
+      touches[contact.contact] = true;
     }
     samples.in_contact.push_back(std::move(touches));
     if (tracker) samples.gains.push_back(gains_at(*tracker, point));

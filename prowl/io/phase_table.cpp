@@ -24,18 +24,18 @@ std::string in_words(const Duration& duration) {
 /// "floor", "floor, lands, opens"
 std::string in_words(const MotionProblem& problem, const ContactSchedule& schedule, int phase, int i) {
   const PhaseContact& held =
-      problem.phases[static_cast<std::size_t>(phase)].contacts[static_cast<std::size_t>(i)];
-  return problem.surfaces[static_cast<std::size_t>(held.surface)].name + (schedule.lands(phase, i) ? ", lands" : "") +
+      problem.phases[phase].contacts[i];
+  return problem.surfaces[held.surface].name + (schedule.lands(phase, i) ? ", lands" : "") +
          (schedule.opens(phase, i) ? ", opens" : "");
 }
 
 Row row_of(const MotionProblem& problem, const ContactSchedule& schedule, int p) {
-  const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+  const Phase& phase = problem.phases[p];
   Row row = {fmt::format("{}", p + 1), phase.name, in_words(phase.duration), fmt::format("{}", phase.intervals)};
   const std::size_t first_contact = row.size();
   row.resize(first_contact + problem.robot.contacts().size(), "-");
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
-    const int contact = phase.contacts[static_cast<std::size_t>(i)].contact;
+    const int contact = phase.contacts[i].contact;
     row[first_contact + static_cast<std::size_t>(contact)] = in_words(problem, schedule, p, i);
   }
   return row;
@@ -78,12 +78,12 @@ std::string phases_json(const MotionProblem& problem) {
   const ContactSchedule schedule(problem);
   Json phases = Json::array();
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    const Phase& phase = problem.phases[p];
     Json contacts = Json::array();
     for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
-      const PhaseContact& held = phase.contacts[static_cast<std::size_t>(i)];
-      contacts.push_back({{"contact", problem.robot.contacts()[static_cast<std::size_t>(held.contact)].name},
-                          {"surface", problem.surfaces[static_cast<std::size_t>(held.surface)].name},
+      const PhaseContact& held = phase.contacts[i];
+      contacts.push_back({{"contact", problem.robot.contacts()[held.contact].name},
+                          {"surface", problem.surfaces[held.surface].name},
                           {"lands", schedule.lands(p, i)},
                           {"opens", schedule.opens(p, i)}});
       if (held.place) contacts.back()["place_m"] = std::vector<double>(held.place->begin(), held.place->end());

@@ -39,7 +39,7 @@ Json problem_to_json(const PlanRecord& record) {
     const Phase& phase = problem.phases[p];
     Json contacts = Json::array();
     for (const PhaseContact& c : phase.contacts) {
-      contacts.push_back(problem.robot.contacts()[static_cast<std::size_t>(c.contact)].name);
+      contacts.push_back(problem.robot.contacts()[c.contact].name);
     }
     phases.push_back({{"name", phase.name},
                       {"duration_s", phase_duration(record, p)},

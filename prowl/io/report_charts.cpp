@@ -129,8 +129,8 @@ class Charts {
  private:
   using Share = double (Charts::*)(const TrajectoryPoint&, int) const;
 
-  const std::string& joint(int j) const { return robot_.joint_names()[static_cast<std::size_t>(j)]; }
-  bool prismatic(int j) const { return robot_.joint_is_prismatic()[static_cast<std::size_t>(j)]; }
+  const std::string& joint(int j) const { return robot_.joint_names()[j]; }
+  bool prismatic(int j) const { return robot_.joint_is_prismatic()[j]; }
 
   double worst_joint(const TrajectoryPoint& p, Share share) const {
     double worst = 0.0;
@@ -151,9 +151,9 @@ class Charts {
 
   /// Tangential force over what friction can hold; nothing while the contact is open or bears next to nothing.
   double friction_share(const TrajectoryPoint& p, int c) const {
-    for (const PhaseContact& held : problem_.phases[static_cast<std::size_t>(p.phase)].contacts) {
+    for (const PhaseContact& held : problem_.phases[p.phase].contacts) {
       if (held.contact != c) continue;
-      const Surface& surface = problem_.surfaces[static_cast<std::size_t>(held.surface)];
+      const Surface& surface = problem_.surfaces[held.surface];
       const Eigen::Vector3d f = p.force.segment<3>(3 * c);
       const double normal = surface.normal.dot(f);
       if (normal < kLeastLoad * robot_.weight()) return kNothing;

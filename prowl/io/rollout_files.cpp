@@ -13,7 +13,7 @@ constexpr const char* kEngine = "rollout";
 
 const TrackingPlan::Segment& last_segment(const Tracker& tracker, const Rollout& rollout) {
   const int segment = rollout.samples.empty() ? 0 : rollout.samples.back().segment;
-  return tracker.plan().segments[static_cast<std::size_t>(segment)];
+  return tracker.plan().segments[segment];
 }
 
 TorqueUse torque_use(const RolloutMeasures& measures) {
@@ -52,7 +52,7 @@ SimulationSample as_simulation_sample(const RobotModel& robot, const Tracker& tr
   tracker.feedforward(from.time, sample.feedforward);
   if (record.options.closed_loop) tracker.feedback(from.time, from.q, from.v, sample.feedback);
   sample.tau = from.tau;
-  const TrackingPlan::Segment& segment = tracker.plan().segments[static_cast<std::size_t>(from.segment)];
+  const TrackingPlan::Segment& segment = tracker.plan().segments[from.segment];
   for (std::size_t c = 0; c < robot.contacts().size(); ++c) {
     ContactReading& reading = sample.contacts.emplace_back();
     reading.touches = segment.in_contact[c];

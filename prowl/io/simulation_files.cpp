@@ -135,7 +135,7 @@ std::string simulation_json(const PlanRecord& plan, const SimulationRecord& reco
   for (std::size_t c = 0; c < result.slip.size(); ++c) json["slip_m"][robot.contacts()[c].name] = result.slip[c];
   json["switches"] = Json::array();
   for (const ContactSwitch& change : result.switches) {
-    Json entry = {{"contact", robot.contacts()[static_cast<std::size_t>(change.contact)].name},
+    Json entry = {{"contact", robot.contacts()[change.contact].name},
                   {"lands", change.lands},
                   {"planned_s", change.planned},
                   {"measured_s", nullptr}};

@@ -67,7 +67,7 @@ void check_start(const RobotModel& robot, const Eigen::VectorXd& q, const std::o
   for (int j = 0; j < robot.nu(); ++j) {
     const double position = q(7 + j);
     if (position >= robot.position_lower()(j) && position <= robot.position_upper()(j)) continue;
-    const std::string& name = robot.joint_names()[static_cast<std::size_t>(j)];
+    const std::string& name = robot.joint_names()[j];
     const std::string message = fmt::format("the start posture has {:g} rad, outside the joint's limits [{:g}, {:g}]",
                                             position, robot.position_lower()(j), robot.position_upper()(j));
     if (joints) {
@@ -117,7 +117,7 @@ TaskStart read_start(const TomlTable& root, const RobotModel& robot, const Sourc
       if (position) on->fail("need either on or base_position_m, not both");
       std::vector<std::string> names;
       for (const Surface& surface : surfaces) names.push_back(surface.name);
-      put_on(surfaces[static_cast<std::size_t>(find_name(*on, "surface", names))], start);
+      put_on(surfaces[find_name(*on, "surface", names)], start);
     }
   }
   check_start(robot, start.q, joints, robot_file);

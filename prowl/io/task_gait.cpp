@@ -92,7 +92,7 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
   const Gait gait = read_values(*table, surfaces);
   check_intervals(*table, gait);
   return TaskGait{expand(gait, robot, feet),
-                  read_displacement(root, *table, gait, surfaces[static_cast<std::size_t>(gait.surface)], start)};
+                  read_displacement(root, *table, gait, surfaces[gait.surface], start)};
 }
 
 }  // namespace prowl

@@ -20,7 +20,7 @@ std::vector<NodeTime> node_times(const std::vector<Phase>& phases) {
   std::vector<NodeTime> nodes;
   double begin = 0.0;
   for (int p = 0; p < static_cast<int>(phases.size()); ++p) {
-    const Phase& phase = phases[static_cast<std::size_t>(p)];
+    const Phase& phase = phases[p];
     for (int i = 1; i <= phase.intervals; ++i) {
       nodes.push_back({{p, i}, begin + phase.duration.min * i / phase.intervals});
     }
@@ -74,7 +74,7 @@ NodeRef read_node(const TomlTable& goal, const std::vector<Phase>& phases) {
   const auto found = std::find(names.begin(), names.end(), phase->as_text());
   if (found == names.end()) phase->fail_unknown_name("phase", names);
   const auto index = static_cast<int>(found - names.begin());
-  const Phase& found_phase = phases[static_cast<std::size_t>(index)];
+  const Phase& found_phase = phases[index];
   return {index, fraction ? node_at_fraction(*fraction, found_phase) : found_phase.intervals};
 }
 
@@ -83,7 +83,7 @@ void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int fir
                   Eigen::VectorXd& upper) {
   const std::vector<TomlValue> entries = value.as_list(3);
   for (int i = 0; i < 3; ++i) {
-    const Bounds bounds = entries[static_cast<std::size_t>(i)].as_bounds();
+    const Bounds bounds = entries[i].as_bounds();
     lower(first + i) = bounds.lower - origin(i);
     upper(first + i) = bounds.upper - origin(i);
   }
@@ -134,7 +134,7 @@ void read_base_orientation(const TomlValue& value, const TaskStart& start, Bound
   const std::vector<TomlValue> entries = value.as_list(3);
   Eigen::Vector3d rpy = start.rpy;
   for (int i = 0; i < 3; ++i) {
-    const TomlValue& entry = entries[static_cast<std::size_t>(i)];
+    const TomlValue& entry = entries[i];
     if (entry.is_text() && entry.as_text() == "free") continue;
     if (!entry.node().is_number()) entry.fail("need a finite number [rad] or \"free\"");
     rpy(i) = entry.as_number(angle_range());

@@ -33,7 +33,7 @@ Row to_row(const MotionProblem& problem, const TrajectoryPoint& point) {
   append(row, point.a.tail(nu));
   append(row, point.tau);
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
-    row.push_back(touches(problem.phases[static_cast<std::size_t>(point.phase)], c) ? 1.0 : 0.0);
+    row.push_back(touches(problem.phases[point.phase], c) ? 1.0 : 0.0);
     append(row, point.force.segment<3>(3 * c));
   }
   return row;

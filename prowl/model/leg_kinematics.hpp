@@ -18,10 +18,10 @@ class LegKinematics {
   /// `joints`: nu positions [rad].
   void update(const Eigen::VectorXd& joints);
 
-  const Eigen::Vector3d& position(int contact) const { return positions_[static_cast<std::size_t>(contact)]; }  ///< [m]
+  const Eigen::Vector3d& position(int contact) const { return positions_[contact]; }  ///< [m]
   /// Of the point, and of the turning of the link that it is fixed to, in the joints; 3 x nu, base axes.
-  const Eigen::Matrix3Xd& linear(int contact) const { return linear_[static_cast<std::size_t>(contact)]; }
-  const Eigen::Matrix3Xd& angular(int contact) const { return angular_[static_cast<std::size_t>(contact)]; }
+  const Eigen::Matrix3Xd& linear(int contact) const { return linear_[contact]; }
+  const Eigen::Matrix3Xd& angular(int contact) const { return angular_[contact]; }
 
  private:
   struct Workspace;

@@ -24,7 +24,7 @@ std::vector<RobotLink> link_tree(const RobotModel& robot) {
       const auto found = index.find(above);
       if (found == index.end()) continue;
       link.parent = found->second;
-      link.fixed = links[static_cast<std::size_t>(link.parent)].body == link.body;
+      link.fixed = links[link.parent].body == link.body;
       break;
     }
     index[f] = static_cast<int>(links.size()) - 1;
@@ -35,7 +35,7 @@ std::vector<RobotLink> link_tree(const RobotModel& robot) {
 std::vector<Eigen::Isometry3d> link_placements(const std::vector<RobotLink>& links,
                                                const std::vector<Eigen::Isometry3d>& bodies) {
   std::vector<Eigen::Isometry3d> placements;
-  for (const RobotLink& link : links) placements.push_back(bodies[static_cast<std::size_t>(link.body)] * link.placement);
+  for (const RobotLink& link : links) placements.push_back(bodies[link.body] * link.placement);
   return placements;
 }
 

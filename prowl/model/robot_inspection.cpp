@@ -55,7 +55,7 @@ void warn_of_joints(const RobotModel& robot, Kind kind, const std::string& flaw,
                     const std::function<bool(Eigen::Index)>& has_flaw, Warnings& warnings) {
   std::vector<std::string> joints;
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
-    if (has_flaw(j)) joints.push_back(robot.joint_names()[static_cast<std::size_t>(j)]);
+    if (has_flaw(j)) joints.push_back(robot.joint_names()[j]);
   }
   if (!joints.empty()) warnings.push_back({kind, fmt::format("{}: {}", flaw, fmt::join(joints, ", "))});
 }
@@ -70,7 +70,7 @@ void check_limits(const RobotModel& robot, Warnings& warnings) {
   warn_of_joints(
       robot, Kind::limit, "position range beyond +-2 pi rad (or +-1000 m) is no limit",
       [&](Eigen::Index j) {
-        const bool prismatic = robot.joint_is_prismatic()[static_cast<std::size_t>(j)];
+        const bool prismatic = robot.joint_is_prismatic()[j];
         const double most = prismatic ? kNoRealLimit : 2.0 * std::numbers::pi;
         return robot.position_lower()(j) < -most || robot.position_upper()(j) > most;
       },
@@ -120,7 +120,7 @@ void check_joint_symmetry(const RobotModel& robot, Warnings& warnings) {
   const std::vector<std::string>& names = robot.joint_names();
   const pinocchio::Model& model = robot.pinocchio().model;
   for (Eigen::Index l = 0; l < robot.nu(); ++l) {
-    const std::string& left = names[static_cast<std::size_t>(l)];
+    const std::string& left = names[l];
     const auto right = right_counterpart(left, names);
     if (!right) continue;
     const Eigen::Index r = std::find(names.begin(), names.end(), *right) - names.begin();

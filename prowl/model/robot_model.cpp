@@ -134,7 +134,7 @@ Eigen::Index joint_index(const RobotDescription& description, const std::vector<
 
 void check_limits(const RobotModel& robot) {
   for (int j = 0; j < robot.nu(); ++j) {
-    const std::string& joint = robot.joint_names()[static_cast<std::size_t>(j)];
+    const std::string& joint = robot.joint_names()[j];
     const auto own = robot.description().limits.find(joint);
     const JointLimits limits = own == robot.description().limits.end() ? JointLimits() : own->second;
     const auto refuse = [&](bool is_own, const std::string& found, const std::string& expected) {

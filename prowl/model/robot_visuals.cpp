@@ -105,7 +105,7 @@ std::vector<RobotVisual> robot_collisions(const RobotModel& robot) {
 }
 
 std::optional<RobotVisual> inertia_box(const BodyTree& tree, int index) {
-  const Body& body = tree.bodies[static_cast<std::size_t>(index)];
+  const Body& body = tree.bodies[index];
   if (!(body.mass > 0.0)) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(body.inertia);
   const Eigen::Vector3d& moment = axes.eigenvalues();

@@ -24,7 +24,7 @@ void RobotModel::check_torque_curves() const {
     const double lower = limit.over_velocity ? -velocity_limit_(limit.joint) : position_lower_(limit.joint);
     const double upper = limit.over_velocity ? velocity_limit_(limit.joint) : position_upper_(limit.joint);
     if (limit.curve.lower_end() <= lower && limit.curve.upper_end() >= upper) continue;
-    const std::string& name = joint_names_[static_cast<std::size_t>(limit.joint)];
+    const std::string& name = joint_names_[limit.joint];
     throw DescriptionError("limits." + name,
                            fmt::format("limits.{}.torque_over_{}: a table from {:g} to {:g} is not allowed; it has to cover the "
                                        "joint's range, {:g} to {:g}", name, limit.over_velocity ? "velocity" : "position",

@@ -6,40 +6,40 @@ namespace prowl {
 
 ContactSchedule::ContactSchedule(const MotionProblem& problem)
     : num_phases_(static_cast<int>(problem.phases.size())), held_(problem.phases.size()) {
-  for (int p = 0; p < num_phases_; ++p) held_[static_cast<std::size_t>(p)].resize(problem.phases[static_cast<std::size_t>(p)].contacts.size());
+  for (int p = 0; p < num_phases_; ++p) held_[p].resize(problem.phases[p].contacts.size());
   for (int contact = 0; contact < static_cast<int>(problem.robot.contacts().size()); ++contact) {
     int open_stance = -1, open_swing = -1;  // that of the phase before, if any
     for (int p = 0; p < num_phases_; ++p) {
-      const auto& contacts = problem.phases[static_cast<std::size_t>(p)].contacts;
+      const auto& contacts = problem.phases[p].contacts;
       const auto held = std::ranges::find(contacts, contact, &PhaseContact::contact);
       if (held == contacts.end()) {
         if (open_swing < 0) {
           open_swing = static_cast<int>(swings_.size());
           swings_.push_back({.contact = contact, .first_phase = p, .before = open_stance});
         }
-        swings_[static_cast<std::size_t>(open_swing)].last_phase = p;
+        swings_[open_swing].last_phase = p;
         open_stance = -1;
         continue;
       }
       if (open_stance < 0) {
         open_stance = static_cast<int>(stances_.size());
         stances_.push_back({.contact = contact, .surface = held->surface, .first_phase = p, .place = held->place});
-        if (open_swing >= 0) swings_[static_cast<std::size_t>(open_swing)].after = open_stance;
+        if (open_swing >= 0) swings_[open_swing].after = open_stance;
       }
-      stances_[static_cast<std::size_t>(open_stance)].last_phase = p;
-      held_[static_cast<std::size_t>(p)][static_cast<std::size_t>(held - contacts.begin())] = open_stance;
+      stances_[open_stance].last_phase = p;
+      held_[p][held - contacts.begin()] = open_stance;
       open_swing = -1;
     }
   }
 }
 
 bool ContactSchedule::lands(int phase, int i) const {
-  const Stance& held = stances_[static_cast<std::size_t>(stance(phase, i))];
+  const Stance& held = stances_[stance(phase, i)];
   return held.lands() && held.first_phase == phase;
 }
 
 bool ContactSchedule::opens(int phase, int i) const {
-  return phase + 1 < num_phases_ && stances_[static_cast<std::size_t>(stance(phase, i))].last_phase == phase;
+  return phase + 1 < num_phases_ && stances_[stance(phase, i)].last_phase == phase;
 }
 
 }  // namespace prowl

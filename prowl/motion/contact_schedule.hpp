@@ -34,7 +34,7 @@ class ContactSchedule {
   const std::vector<Swing>& swings() const { return swings_; }  ///< every contact of the robot, also those never held
 
   /// Stance of the i-th contact of a phase; index into stances().
-  int stance(int phase, int i) const { return held_[static_cast<std::size_t>(phase)][static_cast<std::size_t>(i)]; }
+  int stance(int phase, int i) const { return held_[phase][i]; }
   /// The i-th contact of a phase lands at its first node.
   bool lands(int phase, int i) const;
   /// The i-th contact of a phase opens at its last node: it is not held in the phase after.

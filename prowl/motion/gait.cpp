@@ -29,7 +29,7 @@ class PhaseList {
     phase.intervals = std::max(
         kFewestIntervals, static_cast<int>(std::ceil(duration.max * gait_.intervals_per_second * (1.0 - kRounding))));
     for (int contact = 0; contact < static_cast<int>(robot_.contacts().size()); ++contact) {
-      const auto is_contact = [&](Foot foot) { return feet_[static_cast<std::size_t>(foot)] == contact; };
+      const auto is_contact = [&](Foot foot) { return feet_[foot] == contact; };
       if (std::ranges::none_of(swinging, is_contact)) phase.contacts.push_back({contact, gait_.surface});
     }
     phases_.push_back(std::move(phase));
@@ -42,7 +42,7 @@ class PhaseList {
   std::string sentence(const std::vector<Foot>& group, const std::string& verb) const {
     std::string names;
     for (const Foot foot : group) {
-      const auto contact = static_cast<std::size_t>(feet_[static_cast<std::size_t>(foot)]);
+      const auto contact = static_cast<std::size_t>(feet_[foot]);
       names += (names.empty() ? "" : " and ") + robot_.contacts()[contact].name;
     }
     return names + " " + verb + (group.size() == 1 ? "s" : "");
@@ -68,15 +68,15 @@ std::optional<Feet> find_feet(const RobotModel& robot) {
   std::array<Vector3d, 4> places;
   Vector3d middle = Vector3d::Zero();
   for (int contact = 0; contact < 4; ++contact) {
-    places[static_cast<std::size_t>(contact)] = to_base * terms.contact_position(contact);
-    middle += places[static_cast<std::size_t>(contact)] / 4.0;
+    places[contact] = to_base * terms.contact_position(contact);
+    middle += places[contact] / 4.0;
   }
   Feet feet = {-1, -1, -1, -1};
   for (int contact = 0; contact < 4; ++contact) {
-    const Vector3d from_middle = places[static_cast<std::size_t>(contact)] - middle;
+    const Vector3d from_middle = places[contact] - middle;
     const bool fore = from_middle.x() > 0.0, left = from_middle.y() > 0.0;
     const Foot foot = fore ? (left ? Foot::lf : Foot::rf) : (left ? Foot::lh : Foot::rh);
-    int& place = feet[static_cast<std::size_t>(foot)];
+    int& place = feet[foot];
     if (place >= 0) return std::nullopt;
     place = contact;
   }

@@ -68,7 +68,7 @@ void check_surface(const std::string& field, const Surface& surface) {
 }
 
 void check_place(const MotionProblem& problem, const std::string& field, const PhaseContact& contact) {
-  const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+  const Surface& surface = problem.surfaces[contact.surface];
   check_finite(field, *contact.place, 3);
   const double gap = surface.distance(*contact.place);
   if (std::abs(gap) > kOnSurface) {
@@ -108,7 +108,7 @@ void check_phase(const MotionProblem& problem, const std::string& field, const P
     check_index(contact + ".surface", phase.contacts[i].surface, problem.surfaces.size());
     if (!used.insert(phase.contacts[i].contact).second) {
       refuse("{}: '{}' is there twice; need each contact once", contact,
-             problem.robot.contacts()[static_cast<std::size_t>(phase.contacts[i].contact)].name);
+             problem.robot.contacts()[phase.contacts[i].contact].name);
     }
     if (phase.contacts[i].place) check_place(problem, contact + ".place", phase.contacts[i]);
   }
@@ -121,9 +121,9 @@ void check_surfaces_of_contacts(const MotionProblem& problem) {
       for (const PhaseContact& before : problem.phases[p - 1].contacts) {
         if (held.contact != before.contact || held.surface == before.surface) continue;
         refuse("phases[{}]: contact '{}' goes from surface '{}' to '{}' without opening; need a phase between in which it "
-               "is open", p, problem.robot.contacts()[static_cast<std::size_t>(held.contact)].name,
-               problem.surfaces[static_cast<std::size_t>(before.surface)].name,
-               problem.surfaces[static_cast<std::size_t>(held.surface)].name);
+               "is open", p, problem.robot.contacts()[held.contact].name,
+               problem.surfaces[before.surface].name,
+               problem.surfaces[held.surface].name);
       }
     }
   }
@@ -146,14 +146,14 @@ void check_within_robot(const std::string& field, const RobotModel& robot, const
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
     if (lower(j) <= robot_upper(j) + kRounding && upper(j) >= robot_lower(j) - kRounding) continue;
     refuse("{}: {} to {} for joint '{}' is out of its limits; need something in {} to {}", field, lower(j), upper(j),
-           robot.joint_names()[static_cast<std::size_t>(j)], robot_lower(j), robot_upper(j));
+           robot.joint_names()[j], robot_lower(j), robot_upper(j));
   }
 }
 
 void check_condition(const MotionProblem& problem, const std::string& field, const BoundaryCondition& condition) {
   const RobotModel& robot = problem.robot;
   check_index(field + ".at.phase", condition.at.phase, problem.phases.size());
-  const int intervals = problem.phases[static_cast<std::size_t>(condition.at.phase)].intervals;
+  const int intervals = problem.phases[condition.at.phase].intervals;
   check_index(field + ".at.node", condition.at.node, static_cast<std::size_t>(intervals) + 1);
   check_configuration(field + ".q_ref", condition.q_ref, robot.nq());
   check_bounds(field + ".configuration", condition.configuration_lower, condition.configuration_upper, robot.nv());
@@ -178,7 +178,7 @@ void check_places(const MotionProblem& problem) {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (!contacts[i].place || schedule.lands(static_cast<int>(p), static_cast<int>(i))) continue;
       refuse("phases[{}].contacts[{}].place: contact '{}' does not land in this phase, it {}; need no place, or the phase in which "
-             "it lands", p, i, problem.robot.contacts()[static_cast<std::size_t>(contacts[i].contact)].name,
+             "it lands", p, i, problem.robot.contacts()[contacts[i].contact].name,
              p == 0 ? "starts where the start posture has it" : "holds from the phase before");
     }
   }
@@ -187,7 +187,7 @@ void check_places(const MotionProblem& problem) {
 /// No contact point, held or not, starts inside a surface without an edge.
 void check_start_outside(const MotionProblem& problem, const RigidBodyTerms& terms) {
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
-    const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(c)];
+    const ContactPoint& contact = problem.robot.contacts()[c];
     for (const Surface& surface : problem.surfaces) {
       const double gap = surface.distance(terms.contact_position(c)) - contact.radius;
       if (!surface.patch.empty() || gap >= -kOnSurface) continue;
@@ -206,8 +206,8 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
 
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(3 * i);
-    const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(phase.contacts[i].contact)];
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(phase.contacts[i].surface)];
+    const ContactPoint& contact = problem.robot.contacts()[phase.contacts[i].contact];
+    const Surface& surface = problem.surfaces[phase.contacts[i].surface];
     const double gap = surface.distance(kinematics.positions().segment<3>(row)) - contact.radius;
     if (!(std::abs(gap) <= kOnSurface)) {
       refuse(
@@ -241,7 +241,7 @@ void check_rotations(const MotionProblem& problem) {
       continue;
     }
     int time = condition.at.node;
-    for (int p = 0; p < condition.at.phase; ++p) time += problem.phases[static_cast<std::size_t>(p)].intervals;
+    for (int p = 0; p < condition.at.phase; ++p) time += problem.phases[p].intervals;
     const auto [other, is_first] = binding.insert({time, i});
     if (is_first) continue;
     refuse("boundary_conditions[{}].configuration: it binds the base's rotation at the time at which "

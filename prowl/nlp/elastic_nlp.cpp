@@ -42,16 +42,16 @@ ElasticNlp::ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_fact
     z_upper(bound.index) = kInfinity;
   }
   for (int i = 0; i < static_cast<int>(soft_.size()); ++i) {
-    const int row = row_of_soft[static_cast<std::size_t>(i)];
-    if (lower[static_cast<std::size_t>(row)] > -kInfinity) slacks_.push_back({i, row, 1.0});
-    if (upper[static_cast<std::size_t>(row)] < kInfinity) slacks_.push_back({i, row, -1.0});
+    const int row = row_of_soft[i];
+    if (lower[row] > -kInfinity) slacks_.push_back({i, row, 1.0});
+    if (upper[row] < kInfinity) slacks_.push_back({i, row, -1.0});
   }
   const auto count = static_cast<Index>(slacks_.size());
   price_.resize(count);
   for (Index s = 0; s < count; ++s) {
-    const Slack& slack = slacks_[static_cast<std::size_t>(s)];
+    const Slack& slack = slacks_[s];
     emit(slack.row, variables + static_cast<int>(s));
-    price_(s) = soft_[static_cast<std::size_t>(slack.soft)].price;
+    price_(s) = soft_[slack.soft].price;
   }
   variable_lower_.resize(variables + count);
   variable_lower_ << z_lower, VectorXd::Zero(count);
@@ -66,10 +66,10 @@ VectorXd ElasticNlp::start(const VectorXd& z) {
   result << z, VectorXd::Zero(price_.size());
   constraints(result, g);
   for (Index s = 0; s < price_.size(); ++s) {
-    const Slack& slack = slacks_[static_cast<std::size_t>(s)];
+    const Slack& slack = slacks_[s];
     const double bound = slack.sign > 0.0 ? constraint_lower_(slack.row) : constraint_upper_(slack.row);
     const double missing = std::max(slack.sign * (bound - g(slack.row)), 0.0);
-    result(z.size() + s) = missing / soft_[static_cast<std::size_t>(slack.soft)].size + kRoom;
+    result(z.size() + s) = missing / soft_[slack.soft].size + kRoom;
   }
   return result;
 }
@@ -77,8 +77,8 @@ VectorXd ElasticNlp::start(const VectorXd& z) {
 VectorXd ElasticNlp::violations(const VectorXd& z) const {
   VectorXd result = VectorXd::Zero(static_cast<Index>(soft_.size()));
   for (Index s = 0; s < price_.size(); ++s) {
-    const Slack& slack = slacks_[static_cast<std::size_t>(s)];
-    result(slack.soft) += slack.sign * soft_[static_cast<std::size_t>(slack.soft)].size * z(inner_.num_variables() + s);
+    const Slack& slack = slacks_[s];
+    result(slack.soft) += slack.sign * soft_[slack.soft].size * z(inner_.num_variables() + s);
   }
   return result;
 }
@@ -99,8 +99,8 @@ void ElasticNlp::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
     g(inner_.num_constraints() + static_cast<Index>(i)) = z(variables_[i]);
   }
   for (Index s = 0; s < price_.size(); ++s) {
-    const Slack& slack = slacks_[static_cast<std::size_t>(s)];
-    g(slack.row) += slack.sign * soft_[static_cast<std::size_t>(slack.soft)].size * z(inner_.num_variables() + s);
+    const Slack& slack = slacks_[s];
+    g(slack.row) += slack.sign * soft_[slack.soft].size * z(inner_.num_variables() + s);
   }
 }
 
@@ -109,8 +109,8 @@ void ElasticNlp::jacobian(const VectorXd& z, Eigen::Ref<VectorXd> values) {
   inner_.jacobian(inner(z), values.head(own));
   values.segment(own, soft).setOnes();
   for (Index s = 0; s < price_.size(); ++s) {
-    const Slack& slack = slacks_[static_cast<std::size_t>(s)];
-    values(own + soft + s) = slack.sign * soft_[static_cast<std::size_t>(slack.soft)].size;
+    const Slack& slack = slacks_[s];
+    values(own + soft + s) = slack.sign * soft_[slack.soft].size;
   }
 }
 
@@ -122,13 +122,13 @@ void ElasticNlp::hessian(const VectorXd& z, double cost_factor, const VectorXd& 
 std::string ElasticNlp::describe_constraint(int row) const {
   const int own = inner_.num_constraints();
   return row < own ? inner_.describe_constraint(row)
-                   : inner_.describe_variable(variables_[static_cast<std::size_t>(row - own)]) + ", bounds that give way";
+                   : inner_.describe_variable(variables_[row - own]) + ", bounds that give way";
 }
 
 std::string ElasticNlp::describe_variable(int index) const {
   const int own = inner_.num_variables();
   if (index < own) return inner_.describe_variable(index);
-  const Slack& slack = slacks_[static_cast<std::size_t>(index - own)];
+  const Slack& slack = slacks_[index - own];
   return describe_constraint(slack.row) + (slack.sign > 0.0 ? ", given way below" : ", given way above");
 }
 

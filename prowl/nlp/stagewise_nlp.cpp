@@ -7,13 +7,13 @@ using Eigen::VectorXd;
 
 void DenseStagewiseNlp::linearise(int k, const VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) {
   linearise_to_first_order(k, ux);
-  models_[static_cast<std::size_t>(k)].hessian = hessian(k, ux, cost_factor, multipliers);
+  models_[k].hessian = hessian(k, ux, cost_factor, multipliers);
 }
 
 void DenseStagewiseNlp::linearise_to_first_order(int k, const VectorXd& ux) {
   models_.resize(static_cast<std::size_t>(num_stages()));
   values(k, ux);
-  models_[static_cast<std::size_t>(k)].slopes = derivatives(k, ux);
+  models_[k].slopes = derivatives(k, ux);
 }
 
 void DenseStagewiseNlp::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {

@@ -96,7 +96,7 @@ class DenseStagewiseNlp : public StagewiseNlp {
     StageDerivatives slopes;
     Eigen::MatrixXd hessian;
   };
-  const Model& model(int k) const { return models_[static_cast<std::size_t>(k)]; }
+  const Model& model(int k) const { return models_[k]; }
   std::vector<Model> models_;
 };
 

@@ -29,7 +29,7 @@ void ThreadTeam::share_out(int size, const std::function<void(int)>& function) {
       const auto first = [&](int of) { return static_cast<int>(static_cast<long>(size) * of / count_); };
       for (int i = first(slot); i < first(slot + 1); ++i) function(i);
     } catch (...) {
-      thrown[static_cast<std::size_t>(slot)] = std::current_exception();
+      thrown[slot] = std::current_exception();
     }
   };
   std::latch others_done(count_ - 1);

@@ -35,7 +35,7 @@ void Measures::add(const SimulationSample& sample, const std::vector<Eigen::Vect
 void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& tau, const Eigen::VectorXd& v, double dt) {
   if (actuators.largest_share() > result_.largest_torque_share) {
     result_.largest_torque_share = actuators.largest_share();
-    result_.largest_torque_joint = problem_.robot.joint_names()[static_cast<std::size_t>(actuators.most_used())];
+    result_.largest_torque_joint = problem_.robot.joint_names()[actuators.most_used()];
   }
   result_.positive_work += dt * tau.cwiseProduct(v.tail(tau.size())).cwiseMax(0.0).sum();
   time_ += dt;
@@ -44,7 +44,7 @@ void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& ta
 
 /// Between `from` and `to`: the first touch if the contact lands, else the last.
 double Measures::touch_near(int contact, double from, double to, bool lands) const {
-  const auto& touches = touches_[static_cast<std::size_t>(contact)];
+  const auto& touches = touches_[contact];
   double found = std::nan("");
   for (std::size_t i = 0; i < times_.size(); ++i) {
     if (times_[i] < from || times_[i] > to || !touches[i]) continue;

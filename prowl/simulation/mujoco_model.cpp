@@ -33,7 +33,7 @@ std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const Bo
       continue;
     }
     const double angle = body.prismatic ? 0.0 : robot.nominal_configuration()(6 + static_cast<Eigen::Index>(b));
-    rotations.push_back(rotations[static_cast<std::size_t>(body.parent)] * body.placement.linear() *
+    rotations.push_back(rotations[body.parent] * body.placement.linear() *
                         Eigen::AngleAxisd(angle, body.axis));
   }
   return rotations;
@@ -141,7 +141,7 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
   std::vector<mjsBody*> bodies;
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
     const Body& from = tree.bodies[b];
-    mjsBody* const body = mjs_addBody(b == 0 ? world : bodies[static_cast<std::size_t>(from.parent)], nullptr);
+    mjsBody* const body = mjs_addBody(b == 0 ? world : bodies[from.parent], nullptr);
     bodies.push_back(body);
     mjs_setName(body->element, from.name.c_str());
     copy(from.placement.translation(), body->pos);
@@ -190,7 +190,7 @@ MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface
   const mjModel* const model = result.model.get();
   result.base_body = mj_name2id(model, mjOBJ_BODY, "base");
   for (int j = 0; j < robot.nu(); ++j) {
-    const std::string& name = robot.joint_names()[static_cast<std::size_t>(j)];
+    const std::string& name = robot.joint_names()[j];
     const int joint = mj_name2id(model, mjOBJ_JOINT, name.c_str());
     if (joint < 0 || model->jnt_dofadr[joint] != 6 + j || mj_name2id(model, mjOBJ_ACTUATOR, name.c_str()) != j) {
       throw InputError(fmt::format("robot '{}' in MuJoCo: joint '{}' is not where it was", robot.name(), name));
@@ -200,11 +200,11 @@ MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface
   result.surface_of_geom = result.contact_of_geom;
   for (std::size_t c = 0; c < robot.contacts().size(); ++c) {
     const int geom = mj_name2id(model, mjOBJ_GEOM, ("contact " + robot.contacts()[c].name).c_str());
-    result.contact_of_geom[static_cast<std::size_t>(geom)] = static_cast<int>(c);
+    result.contact_of_geom[geom] = static_cast<int>(c);
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     const int geom = mj_name2id(model, mjOBJ_GEOM, ("surface " + surfaces[s].name).c_str());
-    result.surface_of_geom[static_cast<std::size_t>(geom)] = static_cast<int>(s);
+    result.surface_of_geom[geom] = static_cast<int>(s);
   }
   return result;
 }

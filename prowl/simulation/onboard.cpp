@@ -28,8 +28,8 @@ std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& trac
     stand.in_contact = tracker.plan().segments[s].in_contact;
     stand.normals.assign(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());
     for (const PhaseContact& contact : problem.phases[p].contacts) {
-      stand.normals[static_cast<std::size_t>(contact.contact)] =
-          problem.surfaces[static_cast<std::size_t>(contact.surface)].normal;
+      stand.normals[contact.contact] =
+          problem.surfaces[contact.surface].normal;
     }
   }
   return stands;
@@ -75,7 +75,7 @@ void Onboard::act(double t) {
 }
 
 const Stand& Onboard::stand(double t) const {
-  return stands_[static_cast<std::size_t>(&tracker_.segment(t) - tracker_.plan().segments.data())];
+  return stands_[&tracker_.segment(t) - tracker_.plan().segments.data()];
 }
 
 }  // namespace prowl

@@ -81,11 +81,11 @@ void Physics::read_contacts() {
     if (!(wrench[0] > 0.0)) continue;
     const Eigen::Map<const Eigen::Matrix3d> frame(touch.frame);  // columns: normal from geom 0 to geom 1, two tangents
     const double sign = robot_first ? -1.0 : 1.0;
-    ContactReading& reading = contacts_[static_cast<std::size_t>(contact)];
+    ContactReading& reading = contacts_[contact];
     reading.touches = true;
     reading.force += sign * frame * Eigen::Map<const Eigen::Vector3d>(wrench);
-    if (wrench[0] <= largest[static_cast<std::size_t>(contact)]) continue;
-    largest[static_cast<std::size_t>(contact)] = wrench[0];
+    if (wrench[0] <= largest[contact]) continue;
+    largest[contact] = wrench[0];
     reading.surface = engine_->mujoco.surface_of_geom[robot_first ? g1 : g0];
     mj_jac(model, data, jacobian.data(), nullptr, touch.pos, model->geom_bodyid[robot_first ? g0 : g1]);
     // The velocity after the step: it is the one that the contact forces of the step were chosen for.

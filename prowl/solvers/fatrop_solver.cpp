@@ -141,7 +141,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
     gradient_s = 0.0;
     need(try_stages("cost gradient", times_.derivatives, [&](int k) {
       const VectorXd& gradient = nlp_.derivatives(k, stage(info, x, k)).cost_gradient;
-      segment(gradient_x, info.offsets_primal_u[static_cast<std::size_t>(k)], gradient.size()) = scale * gradient;
+      segment(gradient_x, info.offsets_primal_u[k], gradient.size()) = scale * gradient;
       return gradient.allFinite();
     }));
     return 0;
@@ -178,7 +178,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
   Index get_bounds(const Info& info, VecRealView& lower, VecRealView& upper) override {
     for (int k = 0; k < dims_.K; ++k) {
-      const Index first = info.offsets_slack[static_cast<std::size_t>(k)];
+      const Index first = info.offsets_slack[k];
       segment(lower, first, nlp_.lower(k).size()) = nlp_.lower(k);
       segment(upper, first, nlp_.upper(k).size()) = nlp_.upper(k);
     }
@@ -187,8 +187,8 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
   Index get_initial_primal(const Info& info, VecRealView& x) override {
     for (int k = 0; k < dims_.K; ++k) {
-      const VectorXd& ux = start_[static_cast<std::size_t>(k)];
-      segment(x, info.offsets_primal_u[static_cast<std::size_t>(k)], ux.size()) = ux;
+      const VectorXd& ux = start_[k];
+      segment(x, info.offsets_primal_u[k], ux.size()) = ux;
     }
     return 0;
   }
@@ -250,7 +250,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
  private:
   VectorXd stage(const Info& info, const VecRealView& x, int k) const {
-    return segment(x, info.offsets_primal_u[static_cast<std::size_t>(k)], nlp_.size(k).variables());
+    return segment(x, info.offsets_primal_u[k], nlp_.size(k).variables());
   }
 
   void check_limits() const {

@@ -49,7 +49,7 @@ VectorXd stacked(const StagewiseNlp& nlp, Bound bound) {
   const std::vector<Index> rows = first_rows(nlp);
   VectorXd all(rows.back());
   for (int k = 0; k < nlp.num_stages(); ++k) {
-    all.segment(rows[static_cast<std::size_t>(k)], nlp.size(k).inequalities) = bound(k);
+    all.segment(rows[k], nlp.size(k).inequalities) = bound(k);
   }
   return all;
 }
@@ -151,7 +151,7 @@ void InteriorPoint::linearise_to_first_order() {
   const Stopwatch stopwatch(times_.derivatives);
   threads_.for_each(num_stages_, [this](int k) {
     at_stage(k, [&] {
-      nlp_.linearise_to_first_order(k, ux_[static_cast<std::size_t>(k)]);
+      nlp_.linearise_to_first_order(k, ux_[k]);
       need_finite_slopes(k);
     });
   });
@@ -257,7 +257,7 @@ void InteriorPoint::start_slacks() {
 std::vector<StageMultipliers> InteriorPoint::multipliers() const {
   std::vector<StageMultipliers> result = on_;
   for (int k = 0; k < num_stages_; ++k) {
-    StageMultipliers& on = result[static_cast<std::size_t>(k)];
+    StageMultipliers& on = result[k];
     on.next /= cost_scale_;
     on.equalities /= cost_scale_;
     on.inequalities = segment(lambda_, k) / cost_scale_;
@@ -307,7 +307,7 @@ void InteriorPoint::set_gradient(double cost_scale, const VectorXd& lambda) {
 
 void InteriorPoint::set_weights() {
   slacks_.weights(sigma_);
-  for (int k = 0; k < num_stages_; ++k) weights_[static_cast<std::size_t>(k)] = segment(sigma_, k);
+  for (int k = 0; k < num_stages_; ++k) weights_[k] = segment(sigma_, k);
 }
 
 /// Steps of all variables and new multipliers with the factors and weights at hand, for violations (right_links_,
@@ -318,7 +318,7 @@ void InteriorPoint::solve_direction(double cost_scale, const VectorXd& residual)
   step_lambda_ = beta_ + sigma_.cwiseProduct(residual);
   set_gradient(cost_scale, step_lambda_);
   kkt_.solve(gradient_, right_equalities_, right_links_, kStepAccuracy * options_.tolerance);
-  for (int k = 0; k < num_stages_; ++k) segment(ds_, k) = kkt_.along_inequalities()[static_cast<std::size_t>(k)];
+  for (int k = 0; k < num_stages_; ++k) segment(ds_, k) = kkt_.along_inequalities()[k];
   ds_ += residual;
   step_lambda_ = beta_ + sigma_.cwiseProduct(ds_);
 }
@@ -352,7 +352,7 @@ bool InteriorPoint::compute_direction(double least_regularisation, std::string& 
   slacks_.set_step(mu_, ds_);
   slope_ = beta_.dot(ds_);
   for (int k = 0; k < num_stages_; ++k) {
-    slope_ += cost_scale_ * nlp_.cost_gradient(k).dot(step_[static_cast<std::size_t>(k)]);
+    slope_ += cost_scale_ * nlp_.cost_gradient(k).dot(step_[k]);
   }
   if (std::isfinite(slope_)) return true;
   failure = "the search direction is not finite";

@@ -82,7 +82,7 @@ class InteriorPoint {
   void accept(double alpha_primal, double alpha_dual);
   std::optional<Ending> restore_feasibility(const Watch& watch);
 
-  Eigen::Index row(int k) const { return rows_[static_cast<std::size_t>(k)]; }
+  Eigen::Index row(int k) const { return rows_[k]; }
   auto segment(Eigen::VectorXd& all, int k) const { return all.segment(row(k), row(k + 1) - row(k)); }
   auto segment(const Eigen::VectorXd& all, int k) const { return all.segment(row(k), row(k + 1) - row(k)); }
 

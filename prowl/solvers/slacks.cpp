@@ -102,13 +102,13 @@ void Slacks::reset(const VectorXd& from, const VectorXd& values, double tau) {
   outside_.assign(static_cast<std::size_t>(size()), false);
   const auto check = [&](const Bound& b, double sign) {
     const double least = (1.0 - tau) * sign * (from(b.row) - b.at);
-    if (!(sign * (values(b.row) - b.at) > least)) outside_[static_cast<std::size_t>(b.row)] = true;
+    if (!(sign * (values(b.row) - b.at) > least)) outside_[b.row] = true;
   };
   for (const Bound& b : below_) check(b, 1.0);
   for (const Bound& b : above_) check(b, -1.0);
   for (Index i = 0; i < size(); ++i) {
     const double rounding = kRounding * std::max(1.0, std::abs(values(i)));
-    if (!outside_[static_cast<std::size_t>(i)] && std::abs(values(i) - s(i)) > rounding) s(i) = values(i);
+    if (!outside_[i] && std::abs(values(i) - s(i)) > rounding) s(i) = values(i);
   }
 }
 

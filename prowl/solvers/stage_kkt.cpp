@@ -75,7 +75,7 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
   if (!equalities.allFinite()) return Outcome::not_finite;
   determine_inputs(s, equalities);
   MatrixXd& condensed = work_.condensed.of_size(variables, variables);
-  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[static_cast<std::size_t>(k)], condensed);
+  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[k], condensed);
   if (hessian_ == Hessian::lagrangian) condensed += nlp_.lagrangian_hessian(k);
   condensed.diagonal().array() += delta_;
   if (!condensed.allFinite()) return Outcome::not_finite;
@@ -108,7 +108,7 @@ MatrixXd& StageKkt::gather_equalities(int k) {
   MatrixXd& equalities = work_.equalities.of_size(s.num_equalities(), s.size.variables());
   equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k);
   for (int i = 0; i < s.carried; ++i) {
-    VectorXd& on_next = on_next_[static_cast<std::size_t>(k)];
+    VectorXd& on_next = on_next_[k];
     on_next = stage(k + 1).E.row(i).transpose();
     s.gradient.setZero(s.size.variables());
     nlp_.add_pull_back(k, on_next, s.no_inequalities, s.gradient);
@@ -131,15 +131,15 @@ void StageKkt::determine_inputs(Stage& s, const MatrixXd& equalities) {
   if (s.num_equalities() == 0 || s.size.inputs == 0) return;
   s.lu.compute(equalities.leftCols(s.size.inputs));
   s.rank = count_independent(equalities, s.lu.matrixLU().diagonal());
-  for (int i = 0; i < s.size.inputs; ++i) s.order[static_cast<std::size_t>(i)] = s.lu.permutationQ().indices()(i);
+  for (int i = 0; i < s.size.inputs; ++i) s.order[i] = s.lu.permutationQ().indices()(i);
 }
 
 /// M with the inputs in their order; states have theirs. Its lower triangle, and all of it in the inputs.
 void StageKkt::put_in_order(const Stage& s, const MatrixXd& condensed, MatrixXd& M) {
   const int inputs = s.size.inputs, states = s.size.states;
   for (int j = 0; j < inputs; ++j) {
-    const auto from = condensed.col(s.order[static_cast<std::size_t>(j)]);
-    for (int i = 0; i < inputs; ++i) M(i, j) = from(s.order[static_cast<std::size_t>(i)]);
+    const auto from = condensed.col(s.order[j]);
+    for (int i = 0; i < inputs; ++i) M(i, j) = from(s.order[i]);
     M.col(j).tail(states) = from.tail(states);
   }
   M.bottomRightCorner(states, states) = condensed.bottomRightCorner(states, states);
@@ -246,7 +246,7 @@ double StageKkt::find_residual(const StageVectors& gradient, const StageVectors&
 }
 
 void StageKkt::solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
-  const auto link = [&](int k) { return k + 1 < num_stages_ ? &links[static_cast<std::size_t>(k)] : nullptr; };
+  const auto link = [&](int k) { return k + 1 < num_stages_ ? &links[k] : nullptr; };
   for (int k = num_stages_ - 1; k >= 0; --k) {
     const auto i = static_cast<std::size_t>(k);
     backward(k, gradient[i], equalities[i], link(k));
@@ -262,7 +262,7 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
   s.c.head(s.size.equalities) = equalities;
   if (link) {
     const Stage& next = stage(k + 1);
-    VectorXd& on_next = on_next_[static_cast<std::size_t>(k)];
+    VectorXd& on_next = on_next_[k];
     on_next = next.p;
     on_next.noalias() += next.P * *link;
     nlp_.add_pull_back(k, on_next, s.no_inequalities, s.gradient);
@@ -272,7 +272,7 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
     }
   }
   s.m.resize(s.gradient.size());
-  for (Index i = 0; i < s.m.size(); ++i) s.m(i) = s.gradient(s.order[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < s.m.size(); ++i) s.m(i) = s.gradient(s.order[i]);
 
   s.r = s.m.tail(s.rest());
   if (rank > 0) {
@@ -289,7 +289,7 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
     s.r.noalias() += s.T.transpose() * s.k;
   }
   s.e.resize(s.passed);
-  for (int i = 0; i < s.passed; ++i) s.e(i) = s.c(s.passed_rows[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < s.passed; ++i) s.e(i) = s.c(s.passed_rows[i]);
   s.p = s.r.tail(states);
   if (s.free() > 0) {
     auto free = s.r.head(s.free());
@@ -314,7 +314,7 @@ void StageKkt::forward(int k, const VectorXd* link) {
     s.step.head(s.rank) = s.k;
     s.step.head(s.rank).noalias() += s.K * s.step.tail(s.rest());
   }
-  for (Index i = 0; i < step.size(); ++i) step(s.order[static_cast<std::size_t>(i)]) = s.step(i);
+  for (Index i = 0; i < step.size(); ++i) step(s.order[i]) = s.step(i);
 
   find_multipliers(k);
   nlp_.push_forward(k, step, on_next_[at], along_inequalities_[at]);
@@ -333,7 +333,7 @@ void StageKkt::find_multipliers(int k) {
   Stage& s = stage(k);
   const int rank = s.rank;
   s.on_rows.setZero(s.num_equalities());
-  for (int i = 0; i < s.passed; ++i) s.on_rows(s.passed_rows[static_cast<std::size_t>(i)]) = s.on_carried(i);
+  for (int i = 0; i < s.passed; ++i) s.on_rows(s.passed_rows[i]) = s.on_carried(i);
   if (rank > 0) {
     const auto lu = s.lu.matrixLU().topLeftCorner(rank, rank);
     const Index left = s.on_rows.size() - rank;
@@ -347,7 +347,7 @@ void StageKkt::find_multipliers(int k) {
     s.permuted.noalias() = s.lu.permutationP().transpose() * s.on_rows;
     s.on_rows.swap(s.permuted);
   }
-  on_equalities_[static_cast<std::size_t>(k)] = s.on_rows.head(s.size.equalities);
+  on_equalities_[k] = s.on_rows.head(s.size.equalities);
   if (s.carried > 0) stage(k + 1).on_carried = s.on_rows.tail(s.carried);
 }
 

@@ -93,7 +93,7 @@ class StageKkt {
     Shared M_ddK;
   };
 
-  Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
+  Stage& stage(int k) { return stages_[k]; }
   Eigen::MatrixXd& gather_equalities(int k);
   void put_in_order(const Stage& stage, const Eigen::MatrixXd& condensed, Eigen::MatrixXd& M);
   void determine_inputs(Stage& stage, const Eigen::MatrixXd& equalities);

@@ -28,14 +28,14 @@ struct Limb {
 std::vector<Limb> find_limbs(const BodyTree& tree) {
   std::vector<bool> is_leaf(tree.bodies.size(), true);
   for (const Body& body : tree.bodies) {
-    if (body.parent >= 0) is_leaf[static_cast<std::size_t>(body.parent)] = false;
+    if (body.parent >= 0) is_leaf[body.parent] = false;
   }
   std::vector<Limb> limbs;
   for (std::size_t b = 1; b < tree.bodies.size(); ++b) {
     if (!is_leaf[b]) continue;
     Limb& limb = limbs.emplace_back();
     limb.end = static_cast<int>(b);
-    for (int body = limb.end; body > 0; body = tree.bodies[static_cast<std::size_t>(body)].parent) {
+    for (int body = limb.end; body > 0; body = tree.bodies[body].parent) {
       limb.joints.insert(limb.joints.begin(), body - 1);
     }
   }
@@ -116,7 +116,7 @@ LegSearch find_legs(const RobotModel& robot) {
   search.legs = to_legs(found);
   for (const Limb& limb : limbs) {
     const bool is_leg = std::any_of(found.begin(), found.end(), [&](const Limb& leg) { return leg.end == limb.end; });
-    if (!is_leg) search.other_ends.push_back(robot.joint_names()[static_cast<std::size_t>(limb.joints.back())]);
+    if (!is_leg) search.other_ends.push_back(robot.joint_names()[limb.joints.back()]);
   }
   return search;
 }

@@ -59,7 +59,7 @@ std::vector<LimitGuess> guess_limits(const RobotModel& robot, const UrdfOutline&
   std::vector<LimitGuess> guesses;
   const double all_legs = std::max(1e-2, standing_torque.cwiseAbs().maxCoeff());
   for (int j = 0; j < robot.nu(); ++j) {
-    const std::string& name = robot.joint_names()[static_cast<std::size_t>(j)];
+    const std::string& name = robot.joint_names()[j];
     const auto found = std::find_if(outline.joints.begin(), outline.joints.end(), [&](const auto& joint) { return joint.joint == name; });
     if (found == outline.joints.end()) continue;
     bool in_leg = false;

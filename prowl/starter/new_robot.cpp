@@ -33,7 +33,7 @@ std::vector<ContactPoint> find_feet(const RobotPose& pose, const std::vector<Leg
 
 void set_joints(const RobotModel& robot, const Eigen::VectorXd& joints, RobotDescription& description) {
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
-    description.nominal_joints[robot.joint_names()[static_cast<std::size_t>(j)]] = joints(j);
+    description.nominal_joints[robot.joint_names()[j]] = joints(j);
   }
 }
 
@@ -100,7 +100,7 @@ NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& searc
     const double share = std::abs(torque(j)) / complete.torque_limit()(j);
     if (share <= result.torque_share) continue;
     result.torque_share = share;
-    result.torque_joint = complete.joint_names()[static_cast<std::size_t>(j)];
+    result.torque_joint = complete.joint_names()[j];
   }
   return result;
 }

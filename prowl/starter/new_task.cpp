@@ -96,7 +96,7 @@ void check_that_it_stands(const RobotModel& robot) {
     if (std::abs(rest.tau(j)) <= kTorqueShare * robot.torque_limit()(j)) continue;
     throw InputError(fmt::format("robot '{}': standing in the nominal posture takes {:.3g} of {:.3g} N m at {}: need another posture, or limits.{}.torque_Nm if the "
                                  "limit is not the maker's", robot.name(), std::abs(rest.tau(j)), robot.torque_limit()(j),
-                                 robot.joint_names()[static_cast<std::size_t>(j)], robot.joint_names()[static_cast<std::size_t>(j)]));
+                                 robot.joint_names()[j], robot.joint_names()[j]));
   }
 }
 

@@ -24,7 +24,7 @@ class RobotPose {
   const RobotModel& robot() const { return robot_; }
   const BodyTree& tree() const { return tree_; }
   const std::vector<RobotLink>& links() const { return links_; }
-  const Eigen::Isometry3d& body(int index) const { return (*bodies_)[static_cast<std::size_t>(index)]; }
+  const Eigen::Isometry3d& body(int index) const { return (*bodies_)[index]; }
   Eigen::Vector3d point(int body_index, const Eigen::Vector3d& in_body) const { return body(body_index) * in_body; }
   Eigen::Vector3d contact(std::size_t index) const;       ///< of robot().contacts() [m]
   /// Of a joint: the origin of the body that it moves [m].

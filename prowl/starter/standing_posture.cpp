@@ -85,7 +85,7 @@ class PostureSearch {
     Knee knee;
     double most = -1.0;
     for (const int joint : legs_[leg].joints) {
-      if (robot_.joint_is_prismatic()[static_cast<std::size_t>(joint)]) continue;
+      if (robot_.joint_is_prismatic()[joint]) continue;
       const auto distances = sweep(leg, joint, legs_[leg].joints.front());
       const auto [least, largest] = std::minmax_element(distances.begin(), distances.end(), shorter);
       if (largest->second - least->second <= most) continue;
@@ -122,7 +122,7 @@ class PostureSearch {
 
   Eigen::Vector3d knee_axis(std::size_t leg) const {
     const int body = knees_[leg].joint + 1;
-    return pose_.body(body).rotation() * pose_.tree().bodies[static_cast<std::size_t>(body)].axis;
+    return pose_.body(body).rotation() * pose_.tree().bodies[body].axis;
   }
 
   /// Contacts about their middle, with the sole turned level; their heights are those of the centres of their balls.
@@ -138,7 +138,7 @@ class PostureSearch {
       std::vector<Eigen::Vector3d>& sole = soles_.emplace_back();
       for (const int c : contacts_[l]) {
         sole.push_back(turn * (pose_.contact(static_cast<std::size_t>(c)) - middle(l)));
-        sole.back().z() = robot_.contacts()[static_cast<std::size_t>(c)].radius;
+        sole.back().z() = robot_.contacts()[c].radius;
       }
     }
   }

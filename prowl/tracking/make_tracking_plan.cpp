@@ -34,7 +34,7 @@ TrackingPlan make_tracking_plan(const MotionProblem& problem, const FeedbackDesi
     segment.first_sample = samples;
     segment.samples = static_cast<int>(phase.samples.size());
     segment.in_contact.assign(robot.contacts().size(), false);
-    for (const int contact : phase.contacts) segment.in_contact[static_cast<std::size_t>(contact)] = true;
+    for (const int contact : phase.contacts) segment.in_contact[contact] = true;
     samples += segment.samples;
   }
   plan.q.resize(robot.nq(), samples);

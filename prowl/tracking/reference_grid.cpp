@@ -27,7 +27,7 @@ std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const T
   const Nodes& nodes = trajectory.nodes;
   for (auto begin = nodes.begin(); begin != nodes.end();) {
     const auto end = std::find_if(begin, nodes.end(), [&](const auto& node) { return node.phase != begin->phase; });
-    const Phase& phase = problem.phases[static_cast<std::size_t>(begin->phase)];
+    const Phase& phase = problem.phases[begin->phase];
     const double start = begin->time, duration = std::prev(end)->time - start;
     if (!(duration > 0.0)) throw InputError(fmt::format("phase \"{}\" has no duration: no gains for it", phase.name));
     constexpr double kRounding = 1e-9;  // a duration of ten steps has ten, not eleven

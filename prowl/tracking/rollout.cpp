@@ -33,10 +33,10 @@ class Motion {
  public:
   Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, int segment)
       : tracker_(tracker), options_(options), segment_(segment),
-        contacts_(contacts_of(tracker.plan().segments[static_cast<std::size_t>(segment)])),
+        contacts_(contacts_of(tracker.plan().segments[segment])),
         dynamics_(robot, contacts_, kContactRankThreshold),
         last_moment_(segment + 1 < static_cast<int>(tracker.plan().segments.size())
-                         ? std::nextafter(tracker.plan().segments[static_cast<std::size_t>(segment)].end, tracker.start())
+                         ? std::nextafter(tracker.plan().segments[segment].end, tracker.start())
                          : std::numeric_limits<double>::infinity()),
         held_(VectorXd::Zero(robot.nu())), force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
 

@@ -20,11 +20,11 @@ class ContactLoads {
     // What comes after the end stands as the last phase does.
     const std::size_t phase = std::min(static_cast<std::size_t>(sample.segment), problem_.phases.size() - 1);
     for (const PhaseContact& held : problem_.phases[phase].contacts) {
-      const Surface& surface = problem_.surfaces[static_cast<std::size_t>(held.surface)];
+      const Surface& surface = problem_.surfaces[held.surface];
       const Eigen::Vector3d force = sample.force.segment<3>(3 * held.contact);
       const double normal = surface.normal.dot(force);
       const double tangential = (force - normal * surface.normal).norm();
-      Worst& worst = worst_[static_cast<std::size_t>(held.contact)];
+      Worst& worst = worst_[held.contact];
       worst.stood = true;
       worst.pull.record(-normal, sample.time, "");
       worst.beyond.record(tangential - friction_.value_or(surface.friction) * std::max(normal, 0.0), sample.time, "");
@@ -69,7 +69,7 @@ RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tra
     double largest = 0.0;
     for (int j = 0; j < robot.nu(); ++j) {
       const double share = torque_share(robot, j, at.q(7 + j), at.v(6 + j), at.tau(j));
-      torque.record(share, at.time, robot.joint_names()[static_cast<std::size_t>(j)]);
+      torque.record(share, at.time, robot.joint_names()[j]);
       largest = std::max(largest, share);
     }
     if (largest >= kAtLimit) ++saturated;

@@ -33,7 +33,7 @@ void find_redundant_contacts(const MotionProblem& problem, const Trajectory& tra
     for (Eigen::Index i = 0; i < node.force.size(); ++i) {
       const Eigen::VectorXd internal = dynamics[p].internal_part(Eigen::VectorXd::Unit(node.force.size(), i));
       free += internal(i);
-      if (internal.norm() > 1e-6) is_redundant[static_cast<std::size_t>(i / 3)] = true;  // of 1; else 0 but for rounding
+      if (internal.norm() > 1e-6) is_redundant[i / 3] = true;  // of 1; else 0 but for rounding
     }
     const int rows = 3 * static_cast<int>(problem.phases[p].contacts.size());
     certificate.contact_ranks.push_back({problem.phases[p].name, rows, rows - static_cast<int>(std::lround(free))});

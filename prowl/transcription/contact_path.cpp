@@ -20,8 +20,8 @@ ContactPath::ContactPath(const MotionProblem& problem, const Mesh& mesh, const P
       places_.push_back(at_start);
       continue;
     }
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(stance.surface)];
-    const double radius = problem.robot.contacts()[static_cast<std::size_t>(stance.contact)].radius;
+    const Surface& surface = problem.surfaces[stance.surface];
+    const double radius = problem.robot.contacts()[stance.contact].radius;
     const Span held = span(stance.first_phase, stance.last_phase);
     const VectorXd q = posture(0.5 * (held.start + held.end));
     const Vector3d carried =
@@ -31,22 +31,22 @@ ContactPath::ContactPath(const MotionProblem& problem, const Mesh& mesh, const P
 }
 
 ContactPath::Span ContactPath::span(int first_phase, int last_phase) const {
-  const auto time = [&](NodeRef at) { return mesh_.nodes[static_cast<std::size_t>(mesh_.index(at))].time; };
+  const auto time = [&](NodeRef at) { return mesh_.nodes[mesh_.index(at)].time; };
   return {time({first_phase, 0}),
-          time({last_phase, problem_.phases[static_cast<std::size_t>(last_phase)].intervals})};
+          time({last_phase, problem_.phases[last_phase].intervals})};
 }
 
 std::vector<Vector3d> ContactPath::held_places(int phase) const {
   std::vector<Vector3d> places;
-  const std::size_t count = problem_.phases[static_cast<std::size_t>(phase)].contacts.size();
+  const std::size_t count = problem_.phases[phase].contacts.size();
   for (int i = 0; i < static_cast<int>(count); ++i) {
-    places.push_back(places_[static_cast<std::size_t>(schedule_.stance(phase, i))]);
+    places.push_back(places_[schedule_.stance(phase, i)]);
   }
   return places;
 }
 
 std::vector<ContactTarget> ContactPath::targets(int k) const {
-  const MeshNode& node = mesh_.nodes[static_cast<std::size_t>(k)];
+  const MeshNode& node = mesh_.nodes[k];
   const auto now = [&](const auto& time) { return time.first_phase <= node.phase && node.phase <= time.last_phase; };
   std::vector<ContactTarget> targets;
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
@@ -56,10 +56,10 @@ std::vector<ContactTarget> ContactPath::targets(int k) const {
     if (!now(swing) || swing.before < 0 || swing.after < 0) continue;
     const Span time = span(swing.first_phase, swing.last_phase);
     const double s = (node.time - time.start) / (time.end - time.start);
-    const Vector3d& from = places_[static_cast<std::size_t>(swing.before)];
-    const Vector3d& to = places_[static_cast<std::size_t>(swing.after)];
-    const int surface = schedule_.stances()[static_cast<std::size_t>(swing.after)].surface;
-    const Vector3d lift = problem_.swing_clearance * problem_.surfaces[static_cast<std::size_t>(surface)].normal;
+    const Vector3d& from = places_[swing.before];
+    const Vector3d& to = places_[swing.after];
+    const int surface = schedule_.stances()[swing.after].surface;
+    const Vector3d lift = problem_.swing_clearance * problem_.surfaces[surface].normal;
     // At rest at both ends; an arc of four thirds of the clearance, so as not to start on the bound.
     const double along = s * s * (3.0 - 2.0 * s), arc = 16.0 * s * s * (1.0 - s) * (1.0 - s);
     targets.push_back({swing.contact, from + along * (to - from) + arc * 4.0 / 3.0 * lift});

@@ -7,10 +7,10 @@ DecisionLayout::DecisionLayout(const MotionProblem& problem, const ContactSchedu
     : nv_(problem.robot.nv()) {
   nodes_.push_back(0);
   for (int k = 0; k < mesh.size(); ++k) {
-    const int chosen = num_chosen[static_cast<std::size_t>(mesh.nodes[static_cast<std::size_t>(k)].phase)];
+    const int chosen = num_chosen[mesh.nodes[k].phase];
     nodes_.push_back(nodes_.back() + 3 * nv_ + nu() + chosen);
     node_rows_.push_back(num_constraints_);
-    num_constraints_ += rows[static_cast<std::size_t>(k)];
+    num_constraints_ += rows[k];
   }
   first_link_row_ = num_constraints_;
   num_constraints_ += 2 * nv_ * num_links();

@@ -31,8 +31,8 @@ class DecisionLayout {
   int nv() const { return nv_; }
   int nu() const { return nv_ - 6; }
 
-  int node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }  ///< first variable of node k
-  int node_size(int k) const { return nodes_[static_cast<std::size_t>(k) + 1] - node(k); }
+  int node(int k) const { return nodes_[k]; }  ///< first variable of node k
+  int node_size(int k) const { return nodes_[k + 1] - node(k); }
   int q(int k) const { return node(k); }
   int v(int k) const { return node(k) + nv_; }
   int a(int k) const { return node(k) + 2 * nv_; }
@@ -41,10 +41,10 @@ class DecisionLayout {
   int num_w(int k) const { return node_size(k) - 3 * nv_ - nu(); }
 
   int first_shared() const { return nodes_.back(); }
-  int duration(int phase) const { return durations_[static_cast<std::size_t>(phase)]; }  ///< -1 if it is fixed
-  int place(int stance) const { return places_[static_cast<std::size_t>(stance)]; }      ///< -1 if it does not land
+  int duration(int phase) const { return durations_[phase]; }  ///< -1 if it is fixed
+  int place(int stance) const { return places_[stance]; }      ///< -1 if it does not land
 
-  int node_row(int k) const { return node_rows_[static_cast<std::size_t>(k)]; }  ///< first row of node k
+  int node_row(int k) const { return node_rows_[k]; }  ///< first row of node k
   /// Rows that link node k and node k + 1: the defects of an interval, or continuity at a phase switch.
   int link_row(int k) const { return first_link_row_ + 2 * nv_ * k; }
   int num_links() const { return num_nodes() - 1; }

@@ -6,8 +6,8 @@
 namespace prowl {
 
 std::string Transcription::describe_node(int k) const {
-  const MeshNode& node = mesh_.nodes[static_cast<std::size_t>(k)];
-  return fmt::format("phase {} '{}', node {}", node.phase + 1, problem_.phases[static_cast<std::size_t>(node.phase)].name,
+  const MeshNode& node = mesh_.nodes[k];
+  return fmt::format("phase {} '{}', node {}", node.phase + 1, problem_.phases[node.phase].name,
                      node.node);
 }
 
@@ -42,11 +42,11 @@ std::string Transcription::describe_variable(int index) const {
   if (i < 3 * nv) {
     what = fmt::format("{} {}", kKinds[i / nv], coordinate_name(problem_.robot, i % nv));
   } else if (i < 3 * nv + layout_.nu()) {
-    what = "torque " + problem_.robot.joint_names()[static_cast<std::size_t>(i - 3 * nv)];
+    what = "torque " + problem_.robot.joint_names()[i - 3 * nv];
   } else {
-    const int row = functions(k).chosen_rows()[static_cast<std::size_t>(index - layout_.w(k))];
-    const int contact = functions(k).contacts()[static_cast<std::size_t>(row / 3)];
-    what = fmt::format("force {} of {}", "xyz"[row % 3], problem_.robot.contacts()[static_cast<std::size_t>(contact)].name);
+    const int row = functions(k).chosen_rows()[index - layout_.w(k)];
+    const int contact = functions(k).contacts()[row / 3];
+    what = fmt::format("force {} of {}", "xyz"[row % 3], problem_.robot.contacts()[contact].name);
   }
   return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_node(k).time);
 }
@@ -61,10 +61,10 @@ std::string Transcription::describe_shared(int index) const {
   while (layout_.place(static_cast<int>(s)) != index && layout_.place(static_cast<int>(s)) + 1 != index) ++s;
   const Stance& stance = schedule_.stances()[s];
   return fmt::format("phase {} '{}', place {} of {} on {}", stance.first_phase + 1,
-                     problem_.phases[static_cast<std::size_t>(stance.first_phase)].name,
+                     problem_.phases[stance.first_phase].name,
                      index - layout_.place(static_cast<int>(s)) + 1,
-                     problem_.robot.contacts()[static_cast<std::size_t>(stance.contact)].name,
-                     problem_.surfaces[static_cast<std::size_t>(stance.surface)].name);
+                     problem_.robot.contacts()[stance.contact].name,
+                     problem_.surfaces[stance.surface].name);
 }
 
 }  // namespace prowl

@@ -40,7 +40,7 @@ std::vector<int> independent_rows(const MatrixXd& given, const MatrixXd& candida
 
 PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                              const Eigen::VectorXd& q) {
-  const auto& held = problem.phases[static_cast<std::size_t>(phase)].contacts;
+  const auto& held = problem.phases[phase].contacts;
   const int nv = problem.robot.nv(), num_contacts = static_cast<int>(held.size());
   std::vector<int> staying, landing;
   for (int i = 0; i < num_contacts; ++i) (schedule.lands(phase, i) ? landing : staying).push_back(i);
@@ -59,14 +59,14 @@ PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule
 
   std::vector<bool> is_kept(static_cast<std::size_t>(J.rows()), false);
   for (const int row : independent_rows(MatrixXd(0, nv), J_staying)) {
-    is_kept[static_cast<std::size_t>(staying_rows[static_cast<std::size_t>(row)])] = true;
+    is_kept[staying_rows[row]] = true;
   }
   for (const int row : independent_rows(J_staying, J_landing)) {
-    is_kept[static_cast<std::size_t>(landing_rows[static_cast<std::size_t>(row)])] = true;
+    is_kept[landing_rows[row]] = true;
   }
   PhaseContacts result;
   for (int row = 0; row < static_cast<int>(J.rows()); ++row) {
-    if (!is_kept[static_cast<std::size_t>(row)]) result.chosen_rows.push_back(row);
+    if (!is_kept[row]) result.chosen_rows.push_back(row);
   }
 
   // The same for what is asked of contacts that land, along the axes of their surfaces. Their places along the surface
@@ -75,22 +75,22 @@ PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule
   const int num_landing = static_cast<int>(landing.size());
   MatrixXd velocity(3 * num_landing, nv), place = MatrixXd::Zero(3 * num_landing, nv + 2 * num_landing);
   for (int l = 0; l < num_landing; ++l) {
-    const PhaseContact& contact = held[static_cast<std::size_t>(landing[static_cast<std::size_t>(l)])];
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+    const PhaseContact& contact = held[landing[l]];
+    const Surface& surface = problem.surfaces[contact.surface];
     Eigen::Matrix3d axes;
     axes << surface.axes(), surface.normal;
     velocity.middleRows<3>(3 * l) = axes.transpose() * J_landing.middleRows<3>(3 * l);
     place.middleRows<3>(3 * l).leftCols(nv) = velocity.middleRows<3>(3 * l);
     if (!contact.place) place.block<2, 2>(3 * l, nv + 2 * l) = -Eigen::Matrix2d::Identity();
-    result.landing[static_cast<std::size_t>(landing[static_cast<std::size_t>(l)])] = {{}, {}};
+    result.landing[landing[l]] = {{}, {}};
   }
   for (const int row : independent_rows(J_staying, velocity)) {
-    result.landing[static_cast<std::size_t>(landing[static_cast<std::size_t>(row / 3)])].velocity.push_back(row % 3);
+    result.landing[landing[row / 3]].velocity.push_back(row % 3);
   }
   MatrixXd staying_wide = MatrixXd::Zero(J_staying.rows(), place.cols());
   staying_wide.leftCols(nv) = J_staying;
   for (const int row : independent_rows(staying_wide, place)) {
-    result.landing[static_cast<std::size_t>(landing[static_cast<std::size_t>(row / 3)])].place.push_back(row % 3);
+    result.landing[landing[row / 3]].place.push_back(row % 3);
   }
   return result;
 }

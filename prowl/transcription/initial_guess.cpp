@@ -34,7 +34,7 @@ void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajecto
   VectorXd previous = problem.start_configuration();
   VectorXd previous_on_path = posture(0.0);
   for (int k = 0; k < mesh.size(); ++k) {
-    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+    const MeshNode& node = mesh.nodes[k];
     VectorXd on_path = posture(node.time);
     on_path.head<2>() += support(node.time);
     VectorXd q = on_path;
@@ -44,7 +44,7 @@ void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajecto
       if (time_of(condition, mesh) == node.time) q = meet(condition, q);  // on both sides of a phase switch
     }
     q.tail(nu) = clamp(q.tail(nu), problem.robot.position_lower(), problem.robot.position_upper());
-    guess.nodes[static_cast<std::size_t>(k)].q = q;
+    guess.nodes[k].q = q;
     previous = q;
     previous_on_path = on_path;
   }
@@ -53,11 +53,11 @@ void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajecto
 /// Contacts of the phases on both sides of node k: at a switch none of either moves.
 std::vector<int> contacts_around(const MotionProblem& problem, const Mesh& mesh, int k) {
   const auto contacts_of = [&](int node) {
-    const int phase = mesh.nodes[static_cast<std::size_t>(node)].phase;
-    return contact_indices(problem.phases[static_cast<std::size_t>(phase)].contacts);
+    const int phase = mesh.nodes[node].phase;
+    return contact_indices(problem.phases[phase].contacts);
   };
   std::vector<int> contacts = contacts_of(k);
-  const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+  const MeshNode& node = mesh.nodes[k];
   const int twin = node.h_in == 0.0 ? k - 1 : node.h_out == 0.0 ? k + 1 : k;
   if (twin < 0 || twin >= mesh.size()) return contacts;
   for (const int contact : contacts_of(twin)) {
@@ -93,7 +93,7 @@ class ContactConsistency {
 /// there of the parabola through all three, or the one-sided difference. `change(i)` is its value at i minus that at k.
 template <typename Change>
 VectorXd rate(const Mesh& mesh, int before, int k, int after, const Change& change) {
-  const auto time = [&](int i) { return mesh.nodes[static_cast<std::size_t>(i)].time; };
+  const auto time = [&](int i) { return mesh.nodes[i].time; };
   if (before == k && after == k) return VectorXd::Zero(change(k).size());
   if (before == k) return change(after) / (time(after) - time(k));
   if (after == k) return -change(before) / (time(k) - time(before));
@@ -103,8 +103,8 @@ VectorXd rate(const Mesh& mesh, int before, int k, int after, const Change& chan
 
 /// Velocities and accelerations by differences, consistent with the contacts, within limits and boundary conditions.
 void set_rates(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess) {
-  const auto at = [&](int i) -> TrajectoryPoint& { return guess.nodes[static_cast<std::size_t>(i)]; };
-  const auto time = [&](int i) { return mesh.nodes[static_cast<std::size_t>(i)].time; };
+  const auto at = [&](int i) -> TrajectoryPoint& { return guess.nodes[i]; };
+  const auto time = [&](int i) { return mesh.nodes[i].time; };
   const VectorXd& limit = problem.robot.velocity_limit();
   for (int k = 0; k < mesh.size(); ++k) {
     // Neighbours in time, across phase switches: the velocity is continuous there.
@@ -128,10 +128,10 @@ void set_rates(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess
   }
   for (int k = 0; k < mesh.size(); ++k) {
     // Neighbours of the same phase only: the acceleration jumps at a switch.
-    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+    const MeshNode& node = mesh.nodes[k];
     at(k).a = rate(mesh, node.h_in > 0.0 ? k - 1 : k, k, node.h_out > 0.0 ? k + 1 : k,
                    [&](int i) -> VectorXd { return at(i).v - at(k).v; });
-    const Phase& phase = problem.phases[static_cast<std::size_t>(node.phase)];
+    const Phase& phase = problem.phases[node.phase];
     ContactConsistency(problem.robot, at(k).q, contact_indices(phase.contacts)).correct_acceleration(at(k).v, at(k).a);
   }
 }
@@ -141,19 +141,19 @@ void set_torques(const MotionProblem& problem, const Mesh& mesh, Trajectory& gue
   const VectorXd& limit = problem.robot.torque_limit();
   const ContactSchedule schedule(problem);
   for (int k = 0; k < mesh.size(); ++k) {
-    TrajectoryPoint& point = guess.nodes[static_cast<std::size_t>(k)];
-    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
-    const auto& held = problem.phases[static_cast<std::size_t>(point.phase)].contacts;
+    TrajectoryPoint& point = guess.nodes[k];
+    const MeshNode& node = mesh.nodes[k];
+    const auto& held = problem.phases[point.phase].contacts;
     std::vector<int> loaded;
     for (int i = 0; i < static_cast<int>(held.size()); ++i) {
-      if (node.h_out > 0.0 || !schedule.opens(point.phase, i)) loaded.push_back(held[static_cast<std::size_t>(i)].contact);
+      if (node.h_out > 0.0 || !schedule.opens(point.phase, i)) loaded.push_back(held[i].contact);
     }
     const StaticEquilibrium moving = equilibrium_in_motion(problem.robot, point.q, point.v, point.a, loaded);
     point.tau = clamp(moving.tau, -limit, limit);
     point.force = moving.force;
   }
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    VectorXd& tau = guess.nodes[static_cast<std::size_t>(mesh.index(condition.at))].tau;
+    VectorXd& tau = guess.nodes[mesh.index(condition.at)].tau;
     tau = clamp(tau, condition.torque_lower, condition.torque_upper);
   }
 }

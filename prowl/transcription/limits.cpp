@@ -72,7 +72,7 @@ std::vector<MotionLimit> Transcription::limits() const {
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
     const Stance& stance = schedule_.stances()[s];
     if (!stance.lands() || !stance.place) continue;
-    const std::string& contact = robot.contacts()[static_cast<std::size_t>(stance.contact)].name;
+    const std::string& contact = robot.contacts()[stance.contact].name;
     for (int axis = 0; axis < 2; ++axis) {
       add({.kind = LimitKind::place, .subject = contact, .unit = "m", .size = robot.size()}, false,
           layout_.place(static_cast<int>(s)) + axis, mesh_.index({stance.first_phase, 0}));

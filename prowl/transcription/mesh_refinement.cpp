@@ -117,7 +117,7 @@ MotionProblem refined(const MotionProblem& problem, const std::vector<double>& p
     for (const BoundaryCondition& condition : problem.boundary_conditions) {
       if (condition.at.phase == p) goals.insert(condition.at.node);
     }
-    const Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    const Phase& phase = problem.phases[p];
     steps.push_back(PhaseIntervals(phase, of_phase, std::move(goals)).refined());
     of_phase += phase.intervals;
   }

@@ -15,16 +15,16 @@ double rate(const RobotModel& robot) { return std::sqrt(RobotModel::kGravity / r
 
 MotionLimit limit_of_goal(const RobotModel& robot, const std::string& goal, int i, bool is_velocity) {
   const bool is_joint = i >= 6;
-  const bool is_length = is_joint ? robot.joint_is_prismatic()[static_cast<std::size_t>(i - 6)] : i < 3;
+  const bool is_length = is_joint ? robot.joint_is_prismatic()[i - 6] : i < 3;
   return {.kind = LimitKind::goal, .subject = goal + ", " + (is_velocity ? "velocity of " : "") + coordinate_name(robot, i),
           .unit = std::string(is_length ? "m" : "rad") + (is_velocity ? "/s" : ""),
           .size = (is_length ? robot.size() : 1.0) * (is_velocity ? rate(robot) : 1.0)};
 }
 
 MotionLimit limit_of_joint(const RobotModel& robot, LimitKind kind, int joint) {
-  const bool is_prismatic = robot.joint_is_prismatic()[static_cast<std::size_t>(joint)];
+  const bool is_prismatic = robot.joint_is_prismatic()[joint];
   const double length = is_prismatic ? robot.size() : 1.0;
-  MotionLimit limit{.kind = kind, .subject = robot.joint_names()[static_cast<std::size_t>(joint)], .unit = ""};
+  MotionLimit limit{.kind = kind, .subject = robot.joint_names()[joint], .unit = ""};
   if (kind == LimitKind::torque) {
     limit.unit = is_prismatic ? "N" : "N m";
     limit.size = robot.weight() * (is_prismatic ? 1.0 : robot.size());

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
 
 const Phase& phase_of(const MotionProblem& problem, int phase) {
-  return problem.phases[static_cast<std::size_t>(phase)];
+  return problem.phases[phase];
 }
 
 /// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start of the
@@ -63,17 +63,17 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
       dynamics_(problem.robot, contact_indices(phase_of(problem, phase).contacts), contacts.chosen_rows) {
   const auto& held = phase_of(problem, phase).contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
-    const PhaseContact& contact = held[static_cast<std::size_t>(i)];
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+    const PhaseContact& contact = held[i];
+    const Surface& surface = problem.surfaces[contact.surface];
     friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
     coefficients_.push_back(surface.friction);
-    contact_names_.push_back(problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
+    contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
     opens_.push_back(schedule.opens(phase, i));
-    if (schedule.stances()[static_cast<std::size_t>(schedule.stance(phase, i))].lands()) landed_.push_back(i);
+    if (schedule.stances()[schedule.stance(phase, i)].lands()) landed_.push_back(i);
   }
   for (const int contact : landed_) {
-    const int surface = held[static_cast<std::size_t>(contact)].surface;
-    landed_axes_.push_back(problem.surfaces[static_cast<std::size_t>(surface)].axes());
+    const int surface = held[contact].surface;
+    landed_axes_.push_back(problem.surfaces[surface].axes());
   }
 
   placement_anchors_.resize(placement_.most_rows(), 3 * num_contacts());
@@ -85,14 +85,14 @@ NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule
   dynamics_scale_.segment<3>(3) /= size;
   for (int i = 0; i < 6; ++i) force_names_.push_back(std::string("base ") + kBaseForce[i]);
   for (int i = 0; i < nu_; ++i) {
-    if (!problem.robot.joint_is_prismatic()[static_cast<std::size_t>(i)]) dynamics_scale_(6 + i) /= size;
-    force_names_.push_back(problem.robot.joint_names()[static_cast<std::size_t>(i)]);
+    if (!problem.robot.joint_is_prismatic()[i]) dynamics_scale_(6 + i) /= size;
+    force_names_.push_back(problem.robot.joint_names()[i]);
   }
 }
 
 int NodeFunctions::contact_row(int k, int contact) const {
   int row = nv_;
-  for (int i = 0; i < contact; ++i) row += unloads(k, i) ? 3 : friction_[static_cast<std::size_t>(i)].count();
+  for (int i = 0; i < contact; ++i) row += unloads(k, i) ? 3 : friction_[i].count();
   return row;
 }
 
@@ -112,12 +112,12 @@ double NodeFunctions::upper(int k, int row) const {
 }
 
 std::string NodeFunctions::describe_row(int k, int row) const {
-  if (row < nv_) return force_names_[static_cast<std::size_t>(row)] + ", equations of motion";
+  if (row < nv_) return force_names_[row] + ", equations of motion";
   if (row >= placement_row(k)) return placement_.describe(k, row - placement_row(k));
   if (row >= torque_row(k)) return torques_.describe(row - torque_row(k));
   int contact = 0;
   while (row >= contact_row(k, contact + 1)) ++contact;
-  return contact_names_[static_cast<std::size_t>(contact)] +
+  return contact_names_[contact] +
          (unloads(k, contact) ? ", force before it opens" : ", friction cone");
 }
 
@@ -128,7 +128,7 @@ std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, 
     if (kind == PlacementRows::Kind::place || kind == PlacementRows::Kind::velocity) return std::nullopt;
     const int contact = placement_.contact(k, row - placement_row(k));
     return MotionLimit{.kind = kind == PlacementRows::Kind::inside ? LimitKind::place : LimitKind::clearance,
-                       .subject = robot.contacts()[static_cast<std::size_t>(contact)].name, .unit = "m", .si = robot.size(),
+                       .subject = robot.contacts()[contact].name, .unit = "m", .si = robot.size(),
                        .size = robot.size()};
   }
   if (row >= torque_row(k)) {
@@ -139,13 +139,13 @@ std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, 
   int contact = 0;
   while (row >= contact_row(k, contact + 1)) ++contact;
   if (unloads(k, contact)) return std::nullopt;
-  return MotionLimit{.kind = LimitKind::friction, .subject = contact_names_[static_cast<std::size_t>(contact)], .unit = "N",
-                     .si = 1.0 / force_scale_, .size = coefficients_[static_cast<std::size_t>(contact)] / force_scale_};
+  return MotionLimit{.kind = LimitKind::friction, .subject = contact_names_[contact], .unit = "N",
+                     .si = 1.0 / force_scale_, .size = coefficients_[contact] / force_scale_};
 }
 
 // h = T / n.
 Eigen::Vector2d NodeFunctions::gains(const NodePoint& point, int derivative) const {
-  const double n = per_gain_step_[static_cast<std::size_t>(point.node)], T = point.duration;
+  const double n = per_gain_step_[point.node], T = point.duration;
   const Eigen::Vector2d at(stabilisation_.rate * n / T, stabilisation_.stiffness * n * n / (T * T));
   if (derivative == 0) return at + Eigen::Vector2d(stabilisation_.damping, stabilisation_.spring);
   if (derivative == 1) return {-at(0) / T, -2.0 * at(1) / T};
@@ -174,7 +174,7 @@ void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
     if (unloads(k, i)) {
       values.rows.segment<3>(row) = force_scale_ * force;
     } else {
-      const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
+      const FrictionLimit& friction = friction_[i];
       values.rows.segment(row, friction.count()) = force_scale_ * friction.rows(force);
     }
   }
@@ -221,7 +221,7 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
     if (unloads(k, i)) {
       jacobian.middleRows<3>(row) = force_scale_ * force;
     } else {
-      const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
+      const FrictionLimit& friction = friction_[i];
       const FrictionLimit::Slopes slopes = force_scale_ * friction.slopes(values.forces.segment<3>(3 * i));
       jacobian.middleRows(row, friction.count()).noalias() = slopes.lazyProduct(force);
     }
@@ -305,7 +305,7 @@ void NodeFunctions::add_force_hessian(const NodePoint& point, double cost_factor
     if (unloads(point.node, i)) {
       force_pull_.segment<3>(3 * i) += force_scale_ * multipliers.segment<3>(row);
     } else {
-      const FrictionLimit& friction = friction_[static_cast<std::size_t>(i)];
+      const FrictionLimit& friction = friction_[i];
       const FrictionLimit::Rows on_rows = force_scale_ * multipliers.segment(row, friction.count());
       force_pull_.segment<3>(3 * i).noalias() += friction.slopes(force).transpose().lazyProduct(on_rows);
       curvature += friction.curvature(force, on_rows);

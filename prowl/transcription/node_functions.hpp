@@ -105,7 +105,7 @@ class NodeFunctions {
   int num_places() const { return 2 * static_cast<int>(landed_.size()); }
   int first_place() const { return num_variables() + (free_duration_ ? 1 : 0); }
   int num_contacts() const { return static_cast<int>(friction_.size()); }
-  bool unloads(int k, int contact) const { return k == intervals_ && opens_[static_cast<std::size_t>(contact)]; }
+  bool unloads(int k, int contact) const { return k == intervals_ && opens_[contact]; }
   int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of them all
   int torque_row(int k) const { return contact_row(k, num_contacts()); }
 

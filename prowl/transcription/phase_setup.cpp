@@ -9,7 +9,7 @@ std::vector<PhaseContacts> contacts_of_phases(const MotionProblem& problem, cons
                                               const Mesh& mesh, const Trajectory& guess) {
   std::vector<PhaseContacts> contacts;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const Eigen::VectorXd& q = guess.nodes[static_cast<std::size_t>(mesh.index({p, 0}))].q;
+    const Eigen::VectorXd& q = guess.nodes[mesh.index({p, 0})].q;
     contacts.push_back(phase_contacts(problem, schedule, p, q));
   }
   return contacts;
@@ -24,10 +24,10 @@ std::vector<Eigen::VectorXd> anchor_origins(const MotionProblem& problem, const 
     Eigen::VectorXd& anchors = origins.emplace_back(3 * static_cast<Eigen::Index>(contacts.size()));
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Stance& stance =
-          schedule.stances()[static_cast<std::size_t>(schedule.stance(static_cast<int>(p), static_cast<int>(i)))];
-      const double radius = problem.robot.contacts()[static_cast<std::size_t>(stance.contact)].radius;
+          schedule.stances()[schedule.stance(static_cast<int>(p), static_cast<int>(i))];
+      const double radius = problem.robot.contacts()[stance.contact].radius;
       anchors.segment<3>(static_cast<Eigen::Index>(3 * i)) =
-          stance.lands() ? problem.surfaces[static_cast<std::size_t>(stance.surface)].at({0.0, 0.0}, radius)
+          stance.lands() ? problem.surfaces[stance.surface].at({0.0, 0.0}, radius)
                          : terms.contact_position(stance.contact);
     }
   }

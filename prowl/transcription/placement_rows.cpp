@@ -13,7 +13,7 @@ namespace {
 double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
   double time = 0.0;
   for (int p = first_phase; p <= last_phase; ++p) {
-    const Duration& duration = problem.phases[static_cast<std::size_t>(p)].duration;
+    const Duration& duration = problem.phases[p].duration;
     time += 0.5 * (duration.min + duration.max);
   }
   return time;
@@ -33,7 +33,7 @@ PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule
                              const std::vector<LandingAxes>& landing, int intervals_at_rest)
     : length_(problem.robot.size()), speed_(std::sqrt(RobotModel::kGravity * length_)),
       kinematics_({}), at_rest_(Eigen::VectorXd::Zero(problem.robot.nv())), second_(problem.robot.nv()) {
-  rows_.resize(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(phase)].intervals) + 1);
+  rows_.resize(static_cast<std::size_t>(problem.phases[phase].intervals) + 1);
   add_landing(problem, schedule, phase, landing);
   for (const Swing& swing : schedule.swings()) {
     if (swing.first_phase <= phase && phase <= swing.last_phase) add_clearance(problem, schedule, phase, swing, intervals_at_rest);
@@ -50,15 +50,15 @@ int PlacementRows::point_of(int contact) {
 
 void PlacementRows::add_landing(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                                 const std::vector<LandingAxes>& landing) {
-  const auto& contacts = problem.phases[static_cast<std::size_t>(phase)].contacts;
+  const auto& contacts = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
     if (!schedule.lands(phase, i)) continue;
-    const PhaseContact& contact = contacts[static_cast<std::size_t>(i)];
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+    const PhaseContact& contact = contacts[i];
+    const Surface& surface = problem.surfaces[contact.surface];
     Eigen::Matrix3d axes;
     axes << surface.axes(), surface.normal;
-    const std::string& name = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name;
-    const LandingAxes& along = landing[static_cast<std::size_t>(i)];
+    const std::string& name = problem.robot.contacts()[contact.contact].name;
+    const LandingAxes& along = landing[i];
     for (const int axis : along.place) {
       rows_[0].push_back({Kind::place, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / length_,
                           name + ", landing place on " + surface.name});
@@ -85,17 +85,17 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
   const double total = time_of(problem, swing.first_phase, swing.last_phase);
   const double before = time_of(problem, swing.first_phase, phase - 1) / total;
   const double part = time_of(problem, phase, phase) / total;
-  const Phase& asked = problem.phases[static_cast<std::size_t>(phase)];
+  const Phase& asked = problem.phases[phase];
   const int intervals = asked.intervals;
-  const Phase& last = problem.phases[static_cast<std::size_t>(swing.last_phase)];
+  const Phase& last = problem.phases[swing.last_phase];
   const double last_step = last.step(last.intervals - 1, time_of(problem, swing.last_phase, swing.last_phase)) / total;
   const double at_rest = swing.after < 0 ? 0.0 : intervals_at_rest * last_step;
   const double moving = at_rest < 1.0 ? 1.0 - at_rest : 1.0;
   const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
   const auto surface_of = [&](int stance) {
-    return stance < 0 ? -1 : schedule.stances()[static_cast<std::size_t>(stance)].surface;
+    return stance < 0 ? -1 : schedule.stances()[stance].surface;
   };
-  const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(swing.contact)];
+  const ContactPoint& contact = problem.robot.contacts()[swing.contact];
   for (int k = 0; k <= intervals; ++k) {
     // The first node of a swing is where it left, the last where it lands; of a switch in between one node is enough.
     if (k == 0 && phase == swing.first_phase) continue;
@@ -103,13 +103,13 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
     const double progress = before + asked.node_time(k, part);
     const double risen = std::min(progress / moving, 1.0);
     for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
-      const Surface& surface = problem.surfaces[static_cast<std::size_t>(s)];
+      const Surface& surface = problem.surfaces[s];
       constexpr double kRounding = 1e-9;  // of a swing: a node in its middle is in both halves
       const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5 + kRounding) ||
                           (s == surface_of(swing.after) && progress >= 0.5 - kRounding);
       if (!passes) continue;
       const double height = problem.swing_clearance * clearance_profile(swing, risen);
-      rows_[static_cast<std::size_t>(k)].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,
+      rows_[k].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,
                                                     surface.normal.dot(surface.point) + contact.radius,
                                                     height / length_, 1.0 / length_,
                                                     contact.name + ", clearance above " + surface.name});

@@ -29,13 +29,13 @@ class PlacementRows {
                 const std::vector<LandingAxes>& landing, int intervals_at_rest = 0);
 
   int most_rows() const;  ///< over all nodes
-  int count(int k) const { return static_cast<int>(rows_[static_cast<std::size_t>(k)].size()); }
+  int count(int k) const { return static_cast<int>(rows_[k].size()); }
   double lower(int k, int row) const { return at(k, row).lower; }
   double upper(int k, int row) const;
   std::string describe(int k, int row) const;
   enum class Kind { place, velocity, inside, clearance };
   Kind kind(int k, int row) const { return at(k, row).kind; }
-  int contact(int k, int row) const { return points_[static_cast<std::size_t>(at(k, row).point)]; }  ///< of the robot
+  int contact(int k, int row) const { return points_[at(k, row).point]; }  ///< of the robot
 
   /// Values at the configuration of `terms` and velocity v; anchors of the phase's contacts, 3 rows each, world.
   void evaluate(int k, const RigidBodyTerms& terms, const Eigen::VectorXd& v, const Eigen::VectorXd& anchors,
@@ -57,7 +57,7 @@ class PlacementRows {
     double lower, scale;
     std::string what;
   };
-  const Row& at(int k, int row) const { return rows_[static_cast<std::size_t>(k)][static_cast<std::size_t>(row)]; }
+  const Row& at(int k, int row) const { return rows_[k][row]; }
   void add_landing(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                    const std::vector<LandingAxes>& landing);
   void add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const Swing& swing,

@@ -26,7 +26,7 @@ bool binds(const BoundaryCondition& condition, Eigen::Index i) {
 }  // namespace
 
 double time_of(const BoundaryCondition& condition, const Mesh& mesh) {
-  return mesh.nodes[static_cast<std::size_t>(mesh.index(condition.at))].time;
+  return mesh.nodes[mesh.index(condition.at)].time;
 }
 
 VectorXd meet(const BoundaryCondition& condition, const VectorXd& q) {

@@ -44,8 +44,8 @@ Trajectory resample(const Trajectory& motion, const MotionProblem& problem, cons
   Trajectory result;
   double phase_start = 0.0;
   for (const MeshNode& node : mesh.nodes) {
-    const Phase& phase = problem.phases[static_cast<std::size_t>(node.phase)];
-    const Trajectory& old = phases[static_cast<std::size_t>(node.phase)];
+    const Phase& phase = problem.phases[node.phase];
+    const Trajectory& old = phases[node.phase];
     const double fraction = phase.node_time(node.node, 1.0);
     const double old_start = old.nodes.front().time, old_duration = old.duration() - old_start;
     const double duration = std::clamp(old_duration, phase.duration.min, phase.duration.max);

@@ -61,7 +61,7 @@ VectorXd StagewiseTranscription::units(int k) const {
   VectorXd tau = VectorXd::Constant(nu, force * length);
   q.head<3>().setConstant(length);
   for (int i = 0; i < nu; ++i) {
-    if (!robot.joint_is_prismatic()[static_cast<std::size_t>(i)]) continue;
+    if (!robot.joint_is_prismatic()[i]) continue;
     q(6 + i) = length;
     tau(i) = force;
   }
@@ -77,7 +77,7 @@ void StagewiseTranscription::set_variables(int k) {
   const int states = 2 * flat_.layout_.nv(), own = flat_.layout_.node_size(k), all = flat_.functions(k).num_columns();
   const auto is_shared_with = [&](int other, int variable) {
     if (other < 0 || other >= num_stages()) return false;
-    const std::vector<int>& shared = flat_.shared_[static_cast<std::size_t>(flat_.phase_of(other))];
+    const std::vector<int>& shared = flat_.shared_[flat_.phase_of(other)];
     return std::ranges::find(shared, flat_.column(k, variable)) != shared.end();
   };
 
@@ -101,7 +101,7 @@ void StagewiseTranscription::set_variables(int k) {
   stage.size.states = static_cast<int>(stage.variables.size()) - stage.size.inputs;
   stage.unit = units(k)(stage.variables);
   for (int i = 0; i < stage.size.variables(); ++i) {
-    const int place = stage.variables[static_cast<std::size_t>(i)];
+    const int place = stage.variables[i];
     if (stage.runs.empty() || place != stage.runs.back().place + stage.runs.back().length) stage.runs.push_back({i, place, 0});
     ++stage.runs.back().length;
   }
@@ -156,7 +156,7 @@ void StagewiseTranscription::set_functions(int k) {
 }
 
 HalfTime StagewiseTranscription::half_time(int k, int i, const VectorXd& node) const {
-  const Phase& phase = flat_.problem_.phases[static_cast<std::size_t>(flat_.phase_of(k))];
+  const Phase& phase = flat_.problem_.phases[flat_.phase_of(k)];
   if (i < 0 || i == phase.intervals) return {};
   const double slope = 0.5 * phase.step(i, 1.0);
   if (!flat_.functions(k).has_free_duration()) return {slope * phase.duration.min, slope, -1};
@@ -170,7 +170,7 @@ void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, VectorXd& st
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
     state(stage.variables[i]) = ux(static_cast<Index>(i)) * stage.unit(static_cast<Index>(i));
   }
-  arrival.set(flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(),
+  arrival.set(flat_.charts_[k], flat_.layout_.nv(),
               half_time(k, flat_.mesh_node(k).node - 1, state), state);
 }
 
@@ -182,7 +182,7 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
   set_arrival(k, ux, work(stage).state, stage.arrival);
   const VectorXd& node = stage.node();
   if (stage.num_next() > 0) {
-    stage.departure.set(flat_.charts_[static_cast<std::size_t>(k)], flat_.charts_[static_cast<std::size_t>(k) + 1],
+    stage.departure.set(flat_.charts_[k], flat_.charts_[k + 1],
                         flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).node, node), node);
   }
   flat_.set_point(k, node, stage.point);
@@ -194,15 +194,15 @@ void StagewiseTranscription::fill_values(int k, const NodeValues& node) {
   const auto function = [&](int place) {
     if (place < stage.num_rows) return node.rows(place);
     const int i = place - stage.num_rows;
-    return stage.node()(stage.bounded[static_cast<std::size_t>(i)]) * stage.per_unit(i);
+    return stage.node()(stage.bounded[i]) * stage.per_unit(i);
   };
   stage.values.equalities.resize(stage.size.equalities);
   for (int i = 0; i < stage.size.equalities; ++i) {
-    stage.values.equalities(i) = function(stage.equalities[static_cast<std::size_t>(i)]) - stage.level(i);
+    stage.values.equalities(i) = function(stage.equalities[i]) - stage.level(i);
   }
   stage.values.inequalities.resize(stage.size.inequalities);
   for (int i = 0; i < stage.size.inequalities; ++i) {
-    stage.values.inequalities(i) = function(stage.inequalities[static_cast<std::size_t>(i)]);
+    stage.values.inequalities(i) = function(stage.inequalities[i]);
   }
   if (stage.num_next() > 0) {
     const Index states = 2 * flat_.layout_.nv();
@@ -235,22 +235,22 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
   stage.arrival.pull_back(work.on_node);
   stage.cost_gradient.resize(stage.size.variables());
   for (Index i = 0; i < stage.cost_gradient.size(); ++i) {
-    stage.cost_gradient(i) = stage.unit(i) * work.on_node(stage.variables[static_cast<std::size_t>(i)]);
+    stage.cost_gradient(i) = stage.unit(i) * work.on_node(stage.variables[i]);
   }
 
   work.slopes.setZero(stage.size.equalities, size);
   for (int i = 0; i < stage.size.equalities; ++i) {
-    const int place = stage.equalities[static_cast<std::size_t>(i)], bound = place - stage.num_rows;
+    const int place = stage.equalities[i], bound = place - stage.num_rows;
     if (bound < 0) {
       work.slopes.row(i) = jacobian.row(place);
     } else {
-      work.slopes(i, stage.bounded[static_cast<std::size_t>(bound)]) = stage.per_unit(bound);
+      work.slopes(i, stage.bounded[bound]) = stage.per_unit(bound);
     }
   }
   stage.arrival.pull_back(work.slopes);
   stage.equality_slopes.resize(stage.size.equalities, stage.size.variables());
   for (Index i = 0; i < stage.equality_slopes.cols(); ++i) {
-    stage.equality_slopes.col(i) = stage.unit(i) * work.slopes.col(stage.variables[static_cast<std::size_t>(i)]);
+    stage.equality_slopes.col(i) = stage.unit(i) * work.slopes.col(stage.variables[i]);
   }
 
   const auto is_row = [&](int place) { return place < stage.num_rows; };
@@ -260,7 +260,7 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
   rows.places.resize(size, count);
   rows.counts.setZero(count);
   for (Index i = 0; i < count; ++i) {  // they come before the bounds
-    rows.gradients.col(i) = jacobian.row(stage.inequalities[static_cast<std::size_t>(i)]).transpose();
+    rows.gradients.col(i) = jacobian.row(stage.inequalities[i]).transpose();
     for (Index j = 0; j < size; ++j) {
       if (rows.gradients(j, i) != 0.0) rows.places(rows.counts(i)++, i) = static_cast<int>(j);
     }
@@ -280,7 +280,7 @@ void StagewiseTranscription::gather(const Stage& stage, const MatrixXd& form, Ma
   const Index size = stage.size.variables();
   result.resize(size, size);
   for (Index j = 0; j < size; ++j) {
-    const auto column = form.col(stage.variables[static_cast<std::size_t>(j)]);
+    const auto column = form.col(stage.variables[j]);
     for (const auto& [first, place, length] : stage.runs) {
       result.col(j).segment(first, length) =
           stage.unit(j) * stage.unit.segment(first, length).cwiseProduct(column.segment(place, length));
@@ -301,7 +301,7 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
       if (bound < 0) {
         work.on_rows(places[i]) = on(static_cast<Index>(i));
       } else {
-        const int variable = stage.bounded[static_cast<std::size_t>(bound)];
+        const int variable = stage.bounded[bound];
         work.on_node(variable) += on(static_cast<Index>(i)) * stage.per_unit(bound);
       }
     }
@@ -353,7 +353,7 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
   if (stage.num_next() > 0) {
     const VectorXd& unit = stage.next_per_unit;
     const auto place = [&](Index i) {
-      return i < states ? i : Index{stage.carried[static_cast<std::size_t>(i - states)]};
+      return i < states ? i : Index{stage.carried[i - states]};
     };
     for (Index j = 0; j < unit.size(); ++j) {
       for (Index i = 0; i < unit.size(); ++i) work.form(place(i), place(j)) = unit(i) * unit(j) * next_hessian(i, j);
@@ -394,7 +394,7 @@ void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd&
   Work& work = this->work(stage);
   work.step.setZero(stage.node().size());
   for (Index i = 0; i < step.size(); ++i) {
-    work.step(stage.variables[static_cast<std::size_t>(i)]) = stage.unit(i) * step(i);
+    work.step(stage.variables[i]) = stage.unit(i) * step(i);
   }
   stage.linear_arrival.push_forward(work.step);
   const Index rows = stage.rows.gradients.cols();
@@ -431,7 +431,7 @@ void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const
   }
   stage.linear_arrival.pull_back(work.on_node);
   for (Index i = 0; i < gradient.size(); ++i) {
-    gradient(i) += stage.unit(i) * work.on_node(stage.variables[static_cast<std::size_t>(i)]);
+    gradient(i) += stage.unit(i) * work.on_node(stage.variables[i]);
   }
 }
 
@@ -475,7 +475,7 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
     VectorXd node(stage(k).fixed.size());
     for (Index i = 0; i < node.size(); ++i) node(i) = z(flat_.column(k, static_cast<int>(i)));
     const double s = half_time(k, flat_.mesh_node(k).node - 1, node).s;
-    const VectorXd state = Arrival::state(flat_.charts_[static_cast<std::size_t>(k)], flat_.layout_.nv(), s, node);
+    const VectorXd state = Arrival::state(flat_.charts_[k], flat_.layout_.nv(), s, node);
     result.push_back(state(stage(k).variables).cwiseQuotient(stage(k).unit));
   }
   return result;
@@ -485,7 +485,7 @@ VectorXd StagewiseTranscription::flat(const std::vector<VectorXd>& stages) const
   VectorXd z(flat_.num_variables()), state;
   for (int k = num_stages() - 1; k >= 0; --k) {  // what is shared: as it began
     Arrival arrival;
-    set_arrival(k, stages[static_cast<std::size_t>(k)], state, arrival);
+    set_arrival(k, stages[k], state, arrival);
     const VectorXd& node = arrival.node();
     for (Index i = 0; i < node.size(); ++i) z(flat_.column(k, static_cast<int>(i))) = node(i);
   }

@@ -105,14 +105,14 @@ class StagewiseTranscription : public StagewiseNlp {
     int num_next() const { return static_cast<int>(next_per_unit.size()); }
     /// Of an inequality that is a bound: its variable, and the bound's slope in that.
     std::pair<int, double> bound(Eigen::Index inequality) const {
-      const int i = inequalities[static_cast<std::size_t>(inequality)] - num_rows;
-      return {bounded[static_cast<std::size_t>(i)], per_unit(i)};
+      const int i = inequalities[inequality] - num_rows;
+      return {bounded[i], per_unit(i)};
     }
   };
-  const Stage& stage(int k) const { return stages_[static_cast<std::size_t>(k)]; }
+  const Stage& stage(int k) const { return stages_[k]; }
 
-  Stage& stage(int k) { return stages_[static_cast<std::size_t>(k)]; }
-  Work& work(const Stage& stage) { return works_[static_cast<std::size_t>(ThreadTeam::slot())][stage.shape]; }
+  Stage& stage(int k) { return stages_[k]; }
+  Work& work(const Stage& stage) { return works_[ThreadTeam::slot()][stage.shape]; }
 
   /// Units of all variables of node k.
   Eigen::VectorXd units(int k) const;

@@ -67,7 +67,7 @@ class ShiftProblem {
   Eigen::MatrixX2d solve(const Eigen::MatrixX2d& wanted) const {
     Eigen::MatrixX2d values = Eigen::MatrixX2d::Zero(rows_.rows(), 2);
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
-      const int i = instants_[static_cast<std::size_t>(row)];
+      const int i = instants_[row];
       if (i >= 0) values.row(row) = wanted.row(i);
     }
     return solver_.solve(rows_.transpose() * values);
@@ -122,7 +122,7 @@ SupportPath::SupportPath(const MotionProblem& problem, const Mesh& mesh, const P
     const VectorXd q = posture(i * step);
     com.row(i) = centre_of_mass(problem.robot, q, rest).position.head<2>().transpose();
     if (i == 0 || i == last) continue;
-    if (!polygons[static_cast<std::size_t>(phase_at.back())].empty()) shifts.add_zero_moment_point(i);
+    if (!polygons[phase_at.back()].empty()) shifts.add_zero_moment_point(i);
     shifts.add_effort(i);
   }
   shifts.rest(0, 1);
@@ -141,7 +141,7 @@ SupportPath::SupportPath(const MotionProblem& problem, const Mesh& mesh, const P
     const Eigen::MatrixX2d zmp = nominal + shifts.zero_moment_shift(shift);
     Eigen::MatrixX2d wanted = Eigen::MatrixX2d::Zero(last + 1, 2);
     for (int i = 1; i < last; ++i) {
-      const auto& polygon = polygons[static_cast<std::size_t>(phase_at[static_cast<std::size_t>(i)])];
+      const auto& polygon = polygons[phase_at[i]];
       if (!polygon.empty()) wanted.row(i) = nearest_in_hull(polygon, zmp.row(i).transpose()).transpose() - nominal.row(i);
     }
     shift = shifts.solve(wanted);

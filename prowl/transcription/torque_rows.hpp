@@ -19,7 +19,7 @@ class TorqueRows {
 
   int count() const { return 2 * static_cast<int>(curves_.size()); }
   std::string describe(int row) const;
-  int joint(int row) const { return curves_[static_cast<std::size_t>(row / 2)].joint; }
+  int joint(int row) const { return curves_[row / 2].joint; }
   double largest(int row) const { return 1.0 / scale_(row / 2); }  ///< torque of the curve's table, which rows are divided by [N m]
 
   /// joints, rates, tau: nu each.

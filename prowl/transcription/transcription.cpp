@@ -43,7 +43,7 @@ std::vector<int> sizes_of_w(const std::vector<NodeFunctions>& phases) {
 
 std::vector<int> rows_of_nodes(const std::vector<NodeFunctions>& phases, const Mesh& mesh) {
   std::vector<int> rows;
-  for (const MeshNode& node : mesh.nodes) rows.push_back(phases[static_cast<std::size_t>(node.phase)].num_rows(node.node));
+  for (const MeshNode& node : mesh.nodes) rows.push_back(phases[node.phase].num_rows(node.node));
   return rows;
 }
 
@@ -62,7 +62,7 @@ Transcription::Transcription(const MotionProblem& problem, const Mesh& mesh, con
   for (int p = 0; p < static_cast<int>(problem_.phases.size()); ++p) {
     std::vector<int>& shared = shared_.emplace_back();
     if (layout_.duration(p) >= 0) shared.push_back(layout_.duration(p));
-    for (const int i : phases_.front()[static_cast<std::size_t>(p)].landed()) {
+    for (const int i : phases_.front()[p].landed()) {
       const int place = layout_.place(schedule_.stance(p, i));
       shared.insert(shared.end(), {place, place + 1});
     }
@@ -121,16 +121,16 @@ void Transcription::use_hessian(HessianKind kind) {
 
 double Transcription::duration(const VectorXd& z, int phase) const {
   const int index = layout_.duration(phase);
-  return index >= 0 ? z(index) : problem_.phases[static_cast<std::size_t>(phase)].duration.min;
+  return index >= 0 ? z(index) : problem_.phases[phase].duration.min;
 }
 
 double Transcription::step(const VectorXd& z, int k) const {
   const int phase = phase_of(k);
-  return problem_.phases[static_cast<std::size_t>(phase)].step(mesh_node(k).node, duration(z, phase));
+  return problem_.phases[phase].step(mesh_node(k).node, duration(z, phase));
 }
 
 double Transcription::step_per_duration(int k) const {
-  return problem_.phases[static_cast<std::size_t>(phase_of(k))].step(mesh_node(k).node, 1.0);
+  return problem_.phases[phase_of(k)].step(mesh_node(k).node, 1.0);
 }
 
 NodePoint Transcription::node_point(const VectorXd& z, int k) const {
@@ -150,7 +150,7 @@ void Transcription::set_point(int k, const VectorXd& node, NodePoint& point) con
   point.theta = node.segment<3>(3);
   point.q.resize(nv + 1);
   point.q.head<3>() = node.head<3>();
-  set_base_rotation(point.q, charts_[static_cast<std::size_t>(k)] * so3::exp(point.theta));
+  set_base_rotation(point.q, charts_[k] * so3::exp(point.theta));
   point.q.tail(nu) = node.segment(6, nu);
   point.v = node.segment(nv, nv);
   point.a = node.segment(2 * nv, nv);
@@ -160,8 +160,8 @@ void Transcription::set_point(int k, const VectorXd& node, NodePoint& point) con
   point.duration = functions(k).has_free_duration() ? node(shared++) : asked.duration.min;
   point.anchors = anchor_origins_[phase];
   for (const int i : functions(k).landed()) {
-    const int surface = asked.contacts[static_cast<std::size_t>(i)].surface;
-    point.anchors.segment<3>(3 * i) += problem_.surfaces[static_cast<std::size_t>(surface)].axes() * node.segment<2>(shared);
+    const int surface = asked.contacts[i].surface;
+    point.anchors.segment<3>(3 * i) += problem_.surfaces[surface].axes() * node.segment<2>(shared);
     shared += 2;
   }
   const double step_in = mesh_node.h_in > 0.0 ? asked.step(point.node - 1, point.duration) : 0.0;
@@ -172,7 +172,7 @@ void Transcription::set_point(int k, const VectorXd& node, NodePoint& point) con
 
 IntervalEnd Transcription::interval_end(const VectorXd& z, int k) const {
   const int nv = layout_.nv();
-  return {charts_[static_cast<std::size_t>(k)], z.segment(layout_.q(k), nv), z.segment(layout_.v(k), nv),
+  return {charts_[k], z.segment(layout_.q(k), nv), z.segment(layout_.v(k), nv),
           z.segment(layout_.a(k), nv)};
 }
 
@@ -184,7 +184,7 @@ void Transcription::evaluate_nodes(const VectorXd& z, bool with_derivatives) {
   if (evaluated_at_.size() == z.size() && evaluated_at_ == z && (have_derivatives_ || !with_derivatives)) return;
   evaluated_at_.resize(0);  // in case that an evaluation throws half-way
   threads_.for_each(layout_.num_nodes(), [&](int k) {
-    NodeValues& values = values_[static_cast<std::size_t>(k)];
+    NodeValues& values = values_[k];
     at_node(k, [&] {
       const NodePoint point = node_point(z, k);
       with_derivatives ? functions(k).evaluate_with_derivatives(point, values) : functions(k).evaluate(point, values);
@@ -205,7 +205,7 @@ void Transcription::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradie
   evaluate_nodes(z, true);
   gradient.setZero();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const VectorXd& slope = values_[static_cast<std::size_t>(k)].cost_gradient;
+    const VectorXd& slope = values_[k].cost_gradient;
     for (int j = 0; j < functions(k).num_columns(); ++j) gradient(column(k, j)) += slope(j);
   }
 }
@@ -214,7 +214,7 @@ void Transcription::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   evaluate_nodes(z, false);
   const int nv = layout_.nv();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const VectorXd& rows = values_[static_cast<std::size_t>(k)].rows;
+    const VectorXd& rows = values_[k].rows;
     g.segment(layout_.node_row(k), rows.size()) = rows;
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
@@ -229,7 +229,7 @@ void Transcription::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
 int Transcription::column(int k, int j) const {
   const int own = layout_.node_size(k);
   return j < own ? layout_.node(k) + j
-                 : shared_[static_cast<std::size_t>(phase_of(k))][static_cast<std::size_t>(j - own)];
+                 : shared_[phase_of(k)][j - own];
 }
 
 /// Calls emit(row, col, value) for each non-zero of the Jacobian, always in the same order. Without derivatives (z empty)
@@ -239,7 +239,7 @@ void Transcription::visit_jacobian(const VectorXd& z, Emit emit) const {
   const int nv = layout_.nv(), nu = layout_.nu();
   const bool pattern_only = z.size() == 0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const MatrixXd& rows = values_[static_cast<std::size_t>(k)].rows_jacobian;
+    const MatrixXd& rows = values_[k].rows_jacobian;
     for (int i = 0; i < functions(k).num_rows(mesh_node(k).node); ++i) {
       for (int j = 0; j < functions(k).num_columns(); ++j) {
         emit(layout_.node_row(k) + i, column(k, j), pattern_only ? 0.0 : rows(i, j));
@@ -325,7 +325,7 @@ void Transcription::visit_hessian(const std::vector<MatrixXd>& nodes,
                                   const std::vector<Eigen::Matrix<double, 6, 6>>& links, const MatrixXd& shared,
                                   Emit emit) const {
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const MatrixXd& node = nodes[static_cast<std::size_t>(k)];
+    const MatrixXd& node = nodes[k];
     for (int j = 0; j < layout_.node_size(k); ++j) {
       for (int i = j; i < static_cast<int>(node.rows()); ++i) emit(column(k, i), column(k, j), node(i, j));
     }
@@ -334,7 +334,7 @@ void Transcription::visit_hessian(const std::vector<MatrixXd>& nodes,
     if (!is_interval(k)) continue;
     const auto turning = [&](int node, int i) { return i < 3 ? layout_.q(node) + 3 + i : layout_.v(node) + i; };
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j < 6; ++j) emit(turning(k + 1, i), turning(k, j), links[static_cast<std::size_t>(k)](i, j));
+      for (int j = 0; j < 6; ++j) emit(turning(k + 1, i), turning(k, j), links[k](i, j));
     }
   }
   for (const auto& [row, col] : shared_pairs_) {
@@ -354,18 +354,18 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
     at_node(k, [&] {
       functions(k).hessian(node_point(z, k), cost_factor,
                            multipliers.segment(layout_.node_row(k), functions(k).num_rows(mesh_node(k).node)),
-                           nodes[static_cast<std::size_t>(k)]);
+                           nodes[k]);
     });
   });
   const bool is_exact = phases_.front().front().hessian_kind() == HessianKind::exact;
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (!is_interval(k) || !is_exact) continue;
     const IntervalDefects::Hessian bent = interval(z, k).hessian(multipliers.segment(layout_.link_row(k), 2 * nv));
-    links[static_cast<std::size_t>(k)] = bent.link;
+    links[k] = bent.link;
     const int free_duration = layout_.duration(phase_of(k));
     const double per_duration = step_per_duration(k);
     for (const int end : {0, 1}) {
-      MatrixXd& node = nodes[static_cast<std::size_t>(k + end)];
+      MatrixXd& node = nodes[k + end];
       node.block<3, 3>(3, nv) += bent.theta_v[end];
       node.block<3, 3>(nv, 3) += bent.theta_v[end].transpose();
       const auto place = [&](int i) { return i < 3 ? 3 + i : nv + i; };
@@ -380,12 +380,12 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
     shared(d, d) += per_duration * per_duration * bent.step_step;
   }
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const std::vector<int>& variables = shared_[static_cast<std::size_t>(phase_of(k))];
+    const std::vector<int>& variables = shared_[phase_of(k)];
     const int own = layout_.node_size(k);
     for (std::size_t i = 0; i < variables.size(); ++i) {
       for (std::size_t j = 0; j < variables.size(); ++j) {
         const int row = variables[i] - layout_.first_shared(), col = variables[j] - layout_.first_shared();
-        shared(row, col) += nodes[static_cast<std::size_t>(k)](own + static_cast<int>(i), own + static_cast<int>(j));
+        shared(row, col) += nodes[k](own + static_cast<int>(i), own + static_cast<int>(j));
       }
     }
   }
@@ -396,33 +396,33 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
 VectorXd Transcription::pack(const Trajectory& trajectory) const {
   VectorXd z(num_variables());
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const TrajectoryPoint& point = trajectory.nodes[static_cast<std::size_t>(k)];
+    const TrajectoryPoint& point = trajectory.nodes[k];
     z.segment<3>(layout_.q(k)) = base_position(point.q);
     z.segment<3>(layout_.q(k) + 3) =
-        so3::log(charts_[static_cast<std::size_t>(k)].transpose() * base_rotation(point.q));
+        so3::log(charts_[k].transpose() * base_rotation(point.q));
     z.segment(layout_.q(k) + 6, layout_.nu()) = point.q.tail(layout_.nu());
     z.segment(layout_.v(k), layout_.nv()) = point.v;
     z.segment(layout_.a(k), layout_.nv()) = point.a;
     z.segment(layout_.tau(k), layout_.nu()) = point.tau;
     const std::vector<int>& chosen = functions(k).chosen_rows();
     for (std::size_t i = 0; i < chosen.size(); ++i) {
-      const int contact = functions(k).contacts()[static_cast<std::size_t>(chosen[i] / 3)];
+      const int contact = functions(k).contacts()[chosen[i] / 3];
       z(layout_.w(k) + static_cast<Index>(i)) = point.force(3 * contact + chosen[i] % 3);
     }
   }
   for (int p = 0; p < static_cast<int>(problem_.phases.size()); ++p) {
     if (layout_.duration(p) < 0) continue;
-    const int last = problem_.phases[static_cast<std::size_t>(p)].intervals;
-    z(layout_.duration(p)) = trajectory.nodes[static_cast<std::size_t>(mesh_.index({p, last}))].time -
-                             trajectory.nodes[static_cast<std::size_t>(mesh_.index({p, 0}))].time;
+    const int last = problem_.phases[p].intervals;
+    z(layout_.duration(p)) = trajectory.nodes[mesh_.index({p, last})].time -
+                             trajectory.nodes[mesh_.index({p, 0})].time;
   }
   RigidBodyTerms terms(problem_.robot);
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
     const Stance& stance = schedule_.stances()[s];
     if (!stance.lands()) continue;
-    terms.update_kinematics(trajectory.nodes[static_cast<std::size_t>(mesh_.index({stance.first_phase, 0}))].q);
+    terms.update_kinematics(trajectory.nodes[mesh_.index({stance.first_phase, 0})].q);
     z.segment<2>(layout_.place(static_cast<int>(s))) =
-        problem_.surfaces[static_cast<std::size_t>(stance.surface)].coordinates(terms.contact_position(stance.contact));
+        problem_.surfaces[stance.surface].coordinates(terms.contact_position(stance.contact));
   }
   return z;
 }
@@ -433,7 +433,7 @@ Trajectory Transcription::unpack(const VectorXd& z) {
   double phase_start = 0.0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const MeshNode& node = mesh_node(k);
-    const Phase& phase = problem_.phases[static_cast<std::size_t>(node.phase)];
+    const Phase& phase = problem_.phases[node.phase];
     NodePoint from = node_point(z, k);
     TrajectoryPoint point;
     point.time = phase_start + phase.node_time(node.node, from.duration);
@@ -449,7 +449,7 @@ Trajectory Transcription::unpack(const VectorXd& z) {
     const std::vector<int>& contacts = functions(k).contacts();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       point.force.segment<3>(3 * contacts[i]) =
-          values_[static_cast<std::size_t>(k)].forces.segment<3>(static_cast<Index>(3 * i));
+          values_[k].forces.segment<3>(static_cast<Index>(3 * i));
     }
     trajectory.nodes.push_back(std::move(point));
   }

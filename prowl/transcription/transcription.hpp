@@ -59,12 +59,12 @@ class Transcription : public MotionNlp {
 
  private:
   friend class StagewiseTranscription;  // another form of the same nodes
-  const MeshNode& mesh_node(int k) const { return mesh_.nodes[static_cast<std::size_t>(k)]; }
+  const MeshNode& mesh_node(int k) const { return mesh_.nodes[k]; }
   int phase_of(int k) const { return mesh_node(k).phase; }
-  const NodeFunctions& functions(int k) const { return phases_.front()[static_cast<std::size_t>(phase_of(k))]; }
+  const NodeFunctions& functions(int k) const { return phases_.front()[phase_of(k)]; }
   /// Those of the calling thread.
   NodeFunctions& functions(int k) {
-    return phases_[static_cast<std::size_t>(ThreadTeam::slot())][static_cast<std::size_t>(phase_of(k))];
+    return phases_[ThreadTeam::slot()][phase_of(k)];
   }
   /// Whether nodes k and k + 1 are the ends of an interval; else they are a phase switch.
   bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }

@@ -17,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// All nodes at the time of a node: itself and, at a phase switch, its twin.
 std::vector<int> nodes_at_time_of(const Mesh& mesh, int k) {
   std::vector<int> nodes{k};
-  const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+  const MeshNode& node = mesh.nodes[k];
   if (node.h_in == 0.0 && k > 0) nodes.push_back(k - 1);
   if (node.h_out == 0.0 && k + 1 < mesh.size()) nodes.push_back(k + 1);
   return nodes;
@@ -52,12 +52,12 @@ std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const
   std::vector<Eigen::Matrix3d> charts;
   for (int k = 0; k < mesh.size(); ++k) {
     const int first = nodes_at_time_of(mesh, k).back() < k ? k - 1 : k;
-    charts.push_back(base_rotation(guess.nodes[static_cast<std::size_t>(first)].q));
+    charts.push_back(base_rotation(guess.nodes[first].q));
   }
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
     if (!binds_rotation(condition)) continue;
     for (const int k : nodes_at_time_of(mesh, mesh.index(condition.at))) {
-      charts[static_cast<std::size_t>(k)] = base_rotation(condition.q_ref);
+      charts[k] = base_rotation(condition.q_ref);
     }
   }
   return charts;
@@ -79,7 +79,7 @@ VariableBounds variable_bounds(const MotionProblem& problem, const ContactSchedu
     bounds.upper.segment(layout.tau(k), nu) = robot.torque_limit();
   }
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const Duration& duration = problem.phases[static_cast<std::size_t>(p)].duration;
+    const Duration& duration = problem.phases[p].duration;
     if (layout.duration(p) < 0) continue;
     bounds.lower(layout.duration(p)) = duration.min;
     bounds.upper(layout.duration(p)) = duration.max;
@@ -87,7 +87,7 @@ VariableBounds variable_bounds(const MotionProblem& problem, const ContactSchedu
   for (std::size_t s = 0; s < schedule.stances().size(); ++s) {
     const Stance& stance = schedule.stances()[s];
     if (!stance.lands() || !stance.place) continue;
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(stance.surface)];
+    const Surface& surface = problem.surfaces[stance.surface];
     const int first = layout.place(static_cast<int>(s));
     bounds.lower.segment<2>(first) = bounds.upper.segment<2>(first) = surface.coordinates(*stance.place);
   }

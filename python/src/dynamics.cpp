@@ -47,7 +47,7 @@ class Dynamics {
 
   std::vector<std::string> contact_names() const {
     std::vector<std::string> names;
-    for (const int c : contacts_) names.push_back(robot_.contacts()[static_cast<std::size_t>(c)].name);
+    for (const int c : contacts_) names.push_back(robot_.contacts()[c].name);
     return names;
   }
 
@@ -62,7 +62,7 @@ class Dynamics {
       df.emplace(*this, q, std::vector{count(), std::size_t{3}});
     }
     for_each(q.rows(), [&](int i) {
-      ForwardDynamics& dynamics = forward_[static_cast<std::size_t>(ThreadTeam::slot())];
+      ForwardDynamics& dynamics = forward_[ThreadTeam::slot()];
       if (derivatives) {
         dynamics.evaluate_with_derivatives(q.row(i), v.row(i), tau.row(i));
         da->set(i, dynamics.acceleration_derivatives());
@@ -90,7 +90,7 @@ class Dynamics {
     }
     const Eigen::VectorXd no_anchors = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(count()));
     for_each(q.rows(), [&](int i) {
-      ProjectedResidual& dynamics = inverse_[static_cast<std::size_t>(ThreadTeam::slot())];
+      ProjectedResidual& dynamics = inverse_[ThreadTeam::slot()];
       const DynamicsPoint point{q.row(i), v.row(i), a.row(i), tau.row(i), no_anchors, {}, {}};
       if (derivatives) {
         dynamics.evaluate_with_derivatives(point);
@@ -191,7 +191,7 @@ class Dynamics {
   }
   std::size_t nv() const { return static_cast<std::size_t>(robot_.nv()); }
   std::size_t count() const { return contacts_.size(); }
-  RigidBodyTerms& terms() { return terms_[static_cast<std::size_t>(ThreadTeam::slot())]; }
+  RigidBodyTerms& terms() { return terms_[ThreadTeam::slot()]; }
   Batch configurations(const Argument& q_array) const {
     const Batch q(q_array, robot_.nq(), "q");
     check_configurations(q, "q");

@@ -12,7 +12,7 @@ Motion::Motion(const Trajectory& trajectory)
       tau(rows_of(trajectory.nodes, &TrajectoryPoint::tau)),
       f(rows_of(trajectory.nodes, &TrajectoryPoint::force)) {
   for (Eigen::Index k = 0; k < t.size(); ++k) {
-    const TrajectoryPoint& point = trajectory.nodes[static_cast<std::size_t>(k)];
+    const TrajectoryPoint& point = trajectory.nodes[k];
     t(k) = point.time;
     phase(k) = point.phase;
   }

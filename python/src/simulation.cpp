@@ -42,7 +42,7 @@ SimulationObject::SimulationObject(std::shared_ptr<const PlanObject> simulated, 
   t.resize(q.rows());
   f.setZero(q.rows(), 3 * static_cast<Eigen::Index>(plan->problem().robot.contacts().size()));
   for (Eigen::Index k = 0; k < t.size(); ++k) {
-    const SimulationSample& sample = samples[static_cast<std::size_t>(k)];
+    const SimulationSample& sample = samples[k];
     t(k) = sample.time;
     for (std::size_t c = 0; c < sample.contacts.size(); ++c) {
       f.row(k).segment<3>(3 * static_cast<Eigen::Index>(c)) = sample.contacts[c].force.transpose();

@@ -26,7 +26,7 @@ std::vector<PhaseView> phases(const Task& task) {
   for (const Phase& phase : task.problem.phases) {
     PhaseView& view = all.emplace_back(PhaseView{phase.name, {}, phase.duration.min, phase.duration.max, phase.intervals});
     for (const PhaseContact& contact : phase.contacts) {
-      view.contacts.push_back(task.problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
+      view.contacts.push_back(task.problem.robot.contacts()[contact.contact].name);
     }
   }
   return all;

@@ -75,7 +75,7 @@ TEST(BodyBounds, AreNearlyReachedByAStraightLeg) {
 
 TEST(BodyBounds, NameTheFirstJointOfALeg) {
   const RobotModel robot = test::hyq();
-  EXPECT_EQ(robot.joint_names()[static_cast<std::size_t>(contact_reach(robot, robot.contact_index("rf_foot")).first_joint)],
+  EXPECT_EQ(robot.joint_names()[contact_reach(robot, robot.contact_index("rf_foot")).first_joint],
             "rf_haa_joint");
 }
 

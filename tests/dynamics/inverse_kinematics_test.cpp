@@ -26,7 +26,7 @@ double sum_of_squares(const RobotModel& robot, const VectorXd& q, const std::vec
   const std::vector<ContactTarget> places = places_at(robot, q);
   double sum = 0.0;
   for (const ContactTarget& target : targets) {
-    sum += (places[static_cast<std::size_t>(target.contact)].position - target.position).squaredNorm();
+    sum += (places[target.contact].position - target.position).squaredNorm();
   }
   return sum;
 }

@@ -29,7 +29,7 @@ class Sway {
 
   static constexpr int kSteps = 2000;
   const RobotModel& robot() const { return robot_; }
-  const Eigen::VectorXd& q(int i) const { return q_[static_cast<std::size_t>(i)]; }
+  const Eigen::VectorXd& q(int i) const { return q_[i]; }
   Eigen::Vector3d velocity(int i) const {
     const double t = i * kStep, s = M_PI * std::sin(2.0 * M_PI * t);  // of 0.5 (1 - cos), that is of sway()
     return s * kWay;

@@ -96,7 +96,7 @@ TEST(ReachCheck, NeverForbidsAPostureThatExists) {
     const double height = robot.nominal_configuration()(2);
     std::vector<ContactTarget> targets;
     const auto places = known_places(standing, ContactSchedule(standing));
-    for (int c = 0; c < 4; ++c) targets.push_back({c, *places[static_cast<std::size_t>(c)]});
+    for (int c = 0; c < 4; ++c) targets.push_back({c, *places[c]});
     for (int i = 0; i < 100; ++i) {
       MotionProblem problem = test::with_base_goal(standing, test::random_vector(rng, 3, 0.5 * height));
       Eigen::VectorXd& q = problem.boundary_conditions[1].q_ref;

@@ -176,11 +176,11 @@ TEST(CentroidalNlp, UnpackUndoesPack) {
   CentroidalNlp nlp(problem, mesh, guess);
   const Trajectory motion = nlp.unpack(nlp.pack(guess));
   for (int k = 0; k < mesh.size(); ++k) {
-    const TrajectoryPoint &was = guess.nodes[static_cast<std::size_t>(k)], &is = motion.nodes[static_cast<std::size_t>(k)];
+    const TrajectoryPoint &was = guess.nodes[k], &is = motion.nodes[k];
     EXPECT_NEAR(is.time, was.time, 1e-12);
     EXPECT_LT((is.q - was.q).norm(), 1e-12);
     EXPECT_LT((is.v - was.v).norm(), 1e-12);
-    if (mesh.nodes[static_cast<std::size_t>(k)].node > 0) EXPECT_LT((is.force - was.force).norm(), 1e-9);
+    if (mesh.nodes[k].node > 0) EXPECT_LT((is.force - was.force).norm(), 1e-9);
   }
   VectorXd z = nlp.pack(guess);
   z(3) = std::numeric_limits<double>::quiet_NaN();
@@ -241,7 +241,7 @@ double drift(const MotionProblem& problem, const Trajectory& motion) {
     terms.update_kinematics(point.q);
     for (int c = 0; c < static_cast<int>(kContacts); ++c) {
       if (places.size() < kContacts) places.push_back(terms.contact_position(c));
-      worst = std::max(worst, (terms.contact_position(c) - places[static_cast<std::size_t>(c)]).norm());
+      worst = std::max(worst, (terms.contact_position(c) - places[c]).norm());
     }
   }
   return worst;
@@ -298,7 +298,7 @@ TEST(CentroidalNlp, Steps) {
   const Mesh mesh = make_mesh(problem);
   const int lf = problem.robot.contact_index("lf_foot");
   const auto at = [&](int phase, int node) -> const TrajectoryPoint& {
-    return run.motion.nodes[static_cast<std::size_t>(mesh.index({phase, node}))];
+    return run.motion.nodes[mesh.index({phase, node})];
   };
   const TrajectoryPoint &landing = at(2, 0), &before = at(0, problem.phases[0].intervals);
   const TrajectoryPoint& middle = at(1, problem.phases[1].intervals / 2);
@@ -306,7 +306,7 @@ TEST(CentroidalNlp, Steps) {
   ContactKinematics foot({lf});
   terms.update_kinematics(landing.q);
   foot.set_configuration(terms);
-  const double radius = problem.robot.contacts()[static_cast<std::size_t>(lf)].radius;
+  const double radius = problem.robot.contacts()[lf].radius;
   EXPECT_LT((foot.positions() - *problem.phases[2].contacts[0].place - radius * Vector3d::UnitZ()).norm(), 1e-5);
   EXPECT_LT((foot.jacobian() * landing.v).norm(), 1e-5);
   EXPECT_LT(before.force.segment<3>(3 * lf).norm(), 1e-3);

@@ -36,7 +36,7 @@ ContactMotion by_differences(const MotionProblem& problem, const TrajectoryPoint
   const Eigen::Matrix3Xd velocity = velocities_after(oracle, node, 0.0);
   const Eigen::Matrix3Xd rate = (velocities_after(oracle, node, kStep) - velocities_after(oracle, node, -kStep)) / (2.0 * kStep);
   ContactMotion worst;
-  for (const PhaseContact& held : problem.phases[static_cast<std::size_t>(node.phase)].contacts) {
+  for (const PhaseContact& held : problem.phases[node.phase].contacts) {
     worst.velocity = std::max(worst.velocity, velocity.col(held.contact).norm());
     worst.acceleration = std::max(worst.acceleration, rate.col(held.contact).norm());
   }

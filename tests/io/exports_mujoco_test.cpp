@@ -54,7 +54,7 @@ TEST_P(Keyframes, StandAndMoveAsThePlan) {
   BodyPlacements placements(robot), before(robot), after(robot);
   constexpr double kStep = 1e-5;  // [s]
   for (int k = 0; k < model->nkey; ++k) {
-    const TrajectoryPoint& point = samples.points[static_cast<std::size_t>(k)];
+    const TrajectoryPoint& point = samples.points[k];
     mj_resetDataKeyframe(model.get(), data.get(), k);
     mj_forward(model.get(), data.get());
     EXPECT_EQ(data->time, point.time);

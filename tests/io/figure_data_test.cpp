@@ -78,8 +78,8 @@ TEST(FigureData, ContactAccelerationsAreThoseOfTheLegs) {
     TrajectoryPoint point = sample(step().trajectory, time);
     if (point.phase != phase) continue;  // the earlier of two at a switch
     for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
-      const std::string& name = problem.robot.contacts()[static_cast<std::size_t>(c)].name;
-      const std::vector<PhaseContact>& held = problem.phases[static_cast<std::size_t>(phase)].contacts;
+      const std::string& name = problem.robot.contacts()[c].name;
+      const std::vector<PhaseContact>& held = problem.phases[phase].contacts;
       if (std::none_of(held.begin(), held.end(), [c](const PhaseContact& contact) { return contact.contact == c; })) {
         EXPECT_EQ(row.at("Ja_" + name + "_x_mps2"), "nan") << "a swinging foot has nothing to be held against";
         ++open;
@@ -135,11 +135,11 @@ TEST(FigureData, LimitsAreThoseOfThePosture) {
   const std::vector<Row> limits = rows(torque_limits_csv(robot, step().trajectory));
   ASSERT_EQ(limits.size(), step().trajectory.nodes.size());
   std::map<std::string, const LimitCurve*> knees;
-  for (const auto& limit : robot.torque_curves()) knees[robot.joint_names()[static_cast<std::size_t>(limit.joint)]] = &limit.curve;
+  for (const auto& limit : robot.torque_curves()) knees[robot.joint_names()[limit.joint]] = &limit.curve;
   ASSERT_EQ(knees.size(), 4u);
   for (std::size_t k = 0; k < limits.size(); ++k) {
     for (int j = 0; j < robot.nu(); ++j) {
-      const std::string& name = robot.joint_names()[static_cast<std::size_t>(j)];
+      const std::string& name = robot.joint_names()[j];
       double expected = robot.torque_limit()(j);
       if (knees.contains(name)) expected = std::min(expected, knees[name]->value(step().trajectory.nodes[k].q(7 + j)));
       EXPECT_NEAR(number(limits[k], "upper_" + name + "_Nm"), expected, 1e-12);
@@ -168,7 +168,7 @@ TEST(FigureData, LegsAreWhatMovesContacts) {
 
 TEST(FigureData, FindsJoints) {
   const RobotModel& knees = step().task.problem.robot;
-  EXPECT_EQ(knees.joint_names()[static_cast<std::size_t>(default_gains_joint(knees))], "lf_kfe_joint");
+  EXPECT_EQ(knees.joint_names()[default_gains_joint(knees)], "lf_kfe_joint");
   const RobotModel without_curves = test::hyq();
   EXPECT_EQ(default_gains_joint(without_curves), 2);
   EXPECT_EQ(joint_index(without_curves, "lh_kfe_joint"), 5);

@@ -23,7 +23,7 @@ PlanRecord make_record(const std::filesystem::path& folder) {
   Plan plan;
   double begin = 0.0;
   for (int p = 0; p < 2; ++p) {
-    const Phase& phase = task.problem.phases[static_cast<std::size_t>(p)];
+    const Phase& phase = task.problem.phases[p];
     for (int i = 0; i <= phase.intervals; ++i) {
       TrajectoryPoint point{.time = begin + phase.duration.min * i / phase.intervals,
                             .phase = p,
@@ -122,7 +122,7 @@ TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
   const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
   EXPECT_NEAR(json.at("problem").at("phases").at(1).at("duration_s"), 0.3, 1e-12) << "as planned";
 
-  for (int i = 6; i < 10; ++i) record.plan.trajectory.nodes[static_cast<std::size_t>(i)].time += 0.2 * (i - 6) / 3.0;
+  for (int i = 6; i < 10; ++i) record.plan.trajectory.nodes[i].time += 0.2 * (i - 6) / 3.0;
   write_plan(out_, record);
   EXPECT_THAT(message(), HasSubstr("trajectory.csv:11: phase 'flight' lasts 0.5"));
 }

@@ -52,7 +52,7 @@ TEST(ShippedHyq, KneesHaveTheTorqueOfACylinderOnALever) {
                                       PackageSearch{{PROWL_ROBOTS_DATA}, {}});
   ASSERT_EQ(robot.torque_curves().size(), 4u);
   for (const RobotModel::TorqueCurve& limit : robot.torque_curves()) {
-    EXPECT_TRUE(robot.joint_names()[static_cast<std::size_t>(limit.joint)].ends_with("_kfe_joint"));
+    EXPECT_TRUE(robot.joint_names()[limit.joint].ends_with("_kfe_joint"));
     const double lower = robot.position_lower()(limit.joint), upper = robot.position_upper()(limit.joint);
     double largest = 0.0;
     for (int i = 0; i <= 100; ++i) {

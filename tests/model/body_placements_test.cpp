@@ -22,7 +22,7 @@ std::vector<Eigen::Isometry3d> by_hand(const BodyTree& tree, const Eigen::Vector
     Eigen::Isometry3d joint = Eigen::Isometry3d::Identity();
     if (body.prismatic) joint.translate(s * body.axis);
     else joint.rotate(Eigen::AngleAxisd(s, body.axis));
-    placements.push_back(placements[static_cast<std::size_t>(body.parent)] * body.placement * joint);
+    placements.push_back(placements[body.parent] * body.placement * joint);
   }
   return placements;
 }

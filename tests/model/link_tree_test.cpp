@@ -26,7 +26,7 @@ TEST(LinkTree, IsThatOfTheUrdf) {
     for (std::size_t l = 1; l < links.size(); ++l) {
       const urdf::JointSharedPtr joint = urdf->getLink(links[l].name)->parent_joint;
       ASSERT_LT(links[l].parent, static_cast<int>(l)) << "parents first";
-      EXPECT_EQ(links[static_cast<std::size_t>(links[l].parent)].name, joint->parent_link_name) << links[l].name;
+      EXPECT_EQ(links[links[l].parent].name, joint->parent_link_name) << links[l].name;
       EXPECT_EQ(links[l].fixed, joint->type == urdf::Joint::FIXED) << links[l].name;
       ++(links[l].fixed ? fixed : moving);
     }

@@ -25,7 +25,7 @@ TEST(NearestInPatch, IsNearerThanAnyOtherPointOfThePatch) {
     for (int j = 0; j < 100; ++j) {
       const Eigen::Vector4d weights = test::random_vector(rng, 4, 1.0).cwiseAbs();
       Vector2d other = Vector2d::Zero();
-      for (int c = 0; c < 4; ++c) other += weights(c) / weights.sum() * kStone.patch[static_cast<std::size_t>(c)];
+      for (int c = 0; c < 4; ++c) other += weights(c) / weights.sum() * kStone.patch[c];
       EXPECT_LE((nearest - p).norm(), (other - p).norm() + 1e-12);
     }
   }

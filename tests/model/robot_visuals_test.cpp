@@ -17,7 +17,7 @@ TEST(RobotVisuals, HyqHasItsMeshesOnTheRightBodies) {
   for (const RobotVisual& visual : robot_visuals(robot)) {
     if (visual.kind != RobotVisual::Kind::mesh) continue;
     ++meshes[visual.mesh.substr(visual.mesh.rfind('/') + 1)];
-    const std::string& joint = tree.bodies[static_cast<std::size_t>(visual.body)].name;
+    const std::string& joint = tree.bodies[visual.body].name;
     const std::map<std::string, std::string> behind = {
         {"hipassembly", "haa_joint"}, {"upperleg", "hfe_joint"}, {"lowerleg", "kfe_joint"}, {"trunk", "base"}};
     const std::string part = visual.link == "trunk" ? "trunk" : visual.link.substr(3);
@@ -34,10 +34,10 @@ TEST(RobotVisuals, BallsOfTheFeetAreWhereTheContactsAre) {
   for (const RobotVisual& visual : robot_visuals(robot)) {
     if (visual.kind != RobotVisual::Kind::sphere) continue;
     const int contact = robot.contact_index(visual.link);
-    const BodyTree::Point& point = tree.points[static_cast<std::size_t>(contact)];
+    const BodyTree::Point& point = tree.points[contact];
     EXPECT_EQ(visual.body, point.body);
     EXPECT_LT((visual.placement.translation() - point.position).norm(), 1e-12);
-    EXPECT_EQ(visual.size.x(), robot.contacts()[static_cast<std::size_t>(contact)].radius);
+    EXPECT_EQ(visual.size.x(), robot.contacts()[contact].radius);
     ++feet;
   }
   EXPECT_EQ(feet, 4);

@@ -25,7 +25,7 @@ TEST(ContactSchedule, ATrotHasAStanceAndASwingAFootAndPhase) {
   EXPECT_EQ(schedule.swings().size(), 4u);
 
   // Foot 0 stands through phases 0 and 1, swings in 2, lands in 3.
-  const Stance& first = schedule.stances()[static_cast<std::size_t>(schedule.stance(0, 0))];
+  const Stance& first = schedule.stances()[schedule.stance(0, 0)];
   EXPECT_EQ(first.contact, 0);
   EXPECT_EQ(first.last_phase, 1);
   EXPECT_FALSE(first.lands());
@@ -42,8 +42,8 @@ TEST(ContactSchedule, ATrotHasAStanceAndASwingAFootAndPhase) {
   EXPECT_FALSE(schedule.lands(3, 1)) << "it is there already";
   for (const Swing& swing : schedule.swings()) {
     EXPECT_EQ(swing.first_phase, swing.last_phase);
-    EXPECT_EQ(schedule.stances()[static_cast<std::size_t>(swing.before)].contact, swing.contact);
-    EXPECT_EQ(schedule.stances()[static_cast<std::size_t>(swing.after)].first_phase, swing.last_phase + 1);
+    EXPECT_EQ(schedule.stances()[swing.before].contact, swing.contact);
+    EXPECT_EQ(schedule.stances()[swing.after].first_phase, swing.last_phase + 1);
   }
 }
 

@@ -32,7 +32,7 @@ std::vector<std::string> swings(const std::vector<Phase>& phases, const RobotMod
     std::string names;
     for (int c = 0; c < static_cast<int>(robot.contacts().size()); ++c) {
       if (std::ranges::find(phase.contacts, c, &PhaseContact::contact) != phase.contacts.end()) continue;
-      names += (names.empty() ? "" : " ") + robot.contacts()[static_cast<std::size_t>(c)].name;
+      names += (names.empty() ? "" : " ") + robot.contacts()[c].name;
     }
     if (!names.empty()) swings.push_back(names);
   }
@@ -58,7 +58,7 @@ TEST(Gait, FindsTheFeetOfRobotsByWhereTheyAre) {
     const auto feet = find_feet(robot);
     ASSERT_TRUE(feet) << robot.name();
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_EQ(robot.contacts()[static_cast<std::size_t>((*feet)[i])].name, names[i]) << robot.name();
+      EXPECT_EQ(robot.contacts()[(*feet)[i]].name, names[i]) << robot.name();
     }
   }
 }

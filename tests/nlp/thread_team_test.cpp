@@ -16,7 +16,7 @@ TEST(ThreadTeam, CallsEachIndexOnceWhateverTheCount) {
     ThreadTeam team(count);
     for (const int size : {0, 1, 2, 7, 100}) {
       std::vector<int> calls(static_cast<std::size_t>(size), 0);
-      team.for_each(size, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+      team.for_each(size, [&](int i) { ++calls[i]; });
       EXPECT_EQ(calls, std::vector<int>(static_cast<std::size_t>(size), 1)) << count << " threads, " << size;
     }
   }
@@ -28,8 +28,8 @@ TEST(ThreadTeam, ASlotIsOneThread) {
   std::vector<int> slots(kSize, -1);
   std::vector<std::thread::id> threads(kSize);
   team.for_each(kSize, [&](int i) {
-    slots[static_cast<std::size_t>(i)] = ThreadTeam::slot();
-    threads[static_cast<std::size_t>(i)] = std::this_thread::get_id();
+    slots[i] = ThreadTeam::slot();
+    threads[i] = std::this_thread::get_id();
   });
   EXPECT_EQ(std::set<int>(slots.begin(), slots.end()), (std::set<int>{0, 1, 2}));
   for (std::size_t i = 0; i < kSize; ++i) {
@@ -69,7 +69,7 @@ TEST(ThreadTeam, WhatTheSmallestIndexThrewGoesOn) {
       EXPECT_EQ(ThreadTeam::slot(), 0);
     }
     std::vector<int> calls(5, 0);
-    team.for_each(5, [&](int i) { ++calls[static_cast<std::size_t>(i)]; });
+    team.for_each(5, [&](int i) { ++calls[i]; });
     EXPECT_EQ(calls, std::vector<int>(5, 1)) << "of no use after a throw";
   }
 }

@@ -79,7 +79,7 @@ TEST(MujocoXml, ReadsBackAsTheModelThatIsSimulated) {
     EXPECT_EQ(a->opt.integrator, b->opt.integrator);
     EXPECT_EQ(a->opt.disableflags, b->opt.disableflags);
     for (int j = 0; j < robot.nu(); ++j) {
-      EXPECT_EQ(mj_id2name(b, mjOBJ_ACTUATOR, j), robot.joint_names()[static_cast<std::size_t>(j)]);
+      EXPECT_EQ(mj_id2name(b, mjOBJ_ACTUATOR, j), robot.joint_names()[j]);
     }
   }
 }

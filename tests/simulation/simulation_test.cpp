@@ -77,7 +77,7 @@ TEST_F(Standing, ForcesAreThoseOfTheProjectedDynamics) {
   dynamics.evaluate(last.q, last.v, last.tau);
   for (int c = 0; c < 4; ++c) {
     const Eigen::Vector3d expected = dynamics.forces().segment<3>(3 * c);
-    EXPECT_LT((last.contacts[static_cast<std::size_t>(c)].force - expected).norm(), 0.02 * expected.norm()) << c;
+    EXPECT_LT((last.contacts[c].force - expected).norm(), 0.02 * expected.norm()) << c;
   }
 }
 

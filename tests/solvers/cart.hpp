@@ -145,8 +145,8 @@ class Cart : public TestNlp, public DenseStagewiseNlp {
   Eigen::VectorXd flat(const std::vector<Eigen::VectorXd>& stages) const override {
     Eigen::VectorXd z(3 * kSteps);
     for (int k = 0; k <= kSteps; ++k) {
-      if (k < kSteps) z(3 * k) = stages[static_cast<std::size_t>(k)](0);
-      if (k > 0) z.segment<2>(state(k)) = stages[static_cast<std::size_t>(k)].tail<2>();
+      if (k < kSteps) z(3 * k) = stages[k](0);
+      if (k > 0) z.segment<2>(state(k)) = stages[k].tail<2>();
     }
     return z;
   }

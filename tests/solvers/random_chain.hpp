@@ -40,15 +40,15 @@ class RandomChain : public DenseStagewiseNlp {
   }
 
   int num_stages() const override { return static_cast<int>(parts.size()); }
-  const StageSize& size(int k) const override { return parts[static_cast<std::size_t>(k)].size; }
+  const StageSize& size(int k) const override { return parts[k].size; }
   const Eigen::VectorXd& lower(int) const override { return nothing_; }
   const Eigen::VectorXd& upper(int) const override { return nothing_; }
   const StageValues& values(int, const Eigen::VectorXd&) override { return no_values_; }
   const StageDerivatives& derivatives(int k, const Eigen::VectorXd&) override {
-    return parts[static_cast<std::size_t>(k)].slopes;
+    return parts[k].slopes;
   }
   const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd&, double, const StageMultipliers&) override {
-    return parts[static_cast<std::size_t>(k)].hessian;
+    return parts[k].hessian;
   }
   std::vector<Eigen::VectorXd> stages(const Eigen::VectorXd&) const override { return {}; }
   Eigen::VectorXd flat(const std::vector<Eigen::VectorXd>&) const override { return {}; }

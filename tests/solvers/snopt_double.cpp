@@ -77,20 +77,20 @@ void f_snopta(int start, const char*, int nf, int n, double objadd, int objrow, 
     *inform = status == -1 ? kUndefined : kStopped;
     return;
   }
-  for (int k = 0; k < neG; ++k) dense[static_cast<std::size_t>((iGfun[k] - 1) * n + jGvar[k] - 1)] += g[static_cast<std::size_t>(k)];
+  for (int k = 0; k < neG; ++k) dense[(iGfun[k] - 1) * n + jGvar[k] - 1] += g[k];
   std::vector<double> point(x, x + n), above(static_cast<std::size_t>(nf)), below(above);
   for (int j = 0; j < n; ++j) {
     constexpr double kStep = 1e-6;
-    point[static_cast<std::size_t>(j)] = x[j] + kStep;
+    point[j] = x[j] + kStep;
     evaluate(point.data(), above.data(), nullptr);
-    point[static_cast<std::size_t>(j)] = x[j] - kStep;
+    point[j] = x[j] - kStep;
     evaluate(point.data(), below.data(), nullptr);
-    point[static_cast<std::size_t>(j)] = x[j];
+    point[j] = x[j];
     for (int i = 0; i < nf; ++i) {
       const auto row = static_cast<std::size_t>(i);
       const double slope = (above[row] - below[row]) / (2.0 * kStep);
       *inform = kWrongDerivatives;
-      if (std::abs(slope - dense[static_cast<std::size_t>(i * n + j)]) > 1e-5 * std::max(1.0, std::abs(slope))) return;
+      if (std::abs(slope - dense[i * n + j]) > 1e-5 * std::max(1.0, std::abs(slope))) return;
     }
   }
   iw[kMajorIterations] = 7;

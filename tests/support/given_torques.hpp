@@ -54,7 +54,7 @@ struct GivenTorques : MotionNlp {
           continue;
         }
         for (int i = 0; i < tau.size(); ++i) {
-          if (!name.ends_with(problem.robot.joint_names()[static_cast<std::size_t>(i)])) continue;
+          if (!name.ends_with(problem.robot.joint_names()[i])) continue;
           variable_lower_(j) = variable_upper_(j) = tau(i);
         }
       }

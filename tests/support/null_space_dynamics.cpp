@@ -23,7 +23,7 @@ struct NullSpaceDynamics::Workspace {
 NullSpaceDynamics::NullSpaceDynamics(const RobotModel& robot, std::vector<int> contacts) {
   const PinocchioModel& pin = robot.pinocchio();
   std::vector<pinocchio::FrameIndex> frames;
-  for (const int contact : contacts) frames.push_back(pin.contact_frames[static_cast<std::size_t>(contact)]);
+  for (const int contact : contacts) frames.push_back(pin.contact_frames[contact]);
   workspace_.reset(new Workspace{pin.model, pinocchio::Data(pin.model), std::move(frames), {}});
 }
 

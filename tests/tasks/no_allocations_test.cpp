@@ -23,14 +23,14 @@ TEST(RiccatiSolver, AllocatesNothingAfterTheSecondIteration) {
   long ended = 0;
   SolverOptions options = task.solver;
   options.on_iteration = [&](const SolveProgress& progress) {
-    counts[static_cast<std::size_t>(progress.iteration)] = test::allocations - ended;
+    counts[progress.iteration] = test::allocations - ended;
     ended = test::allocations;
   };
   const SolveResult result = RiccatiSolver().solve(nlp, nlp.pack(guess), options);
   ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
   ASSERT_GE(result.iterations, 5) << "too few to tell";
   EXPECT_GT(counts[0], 0) << "allocations in Prowl's libraries go unseen";
-  for (int i = 3; i < result.iterations; ++i) EXPECT_EQ(counts[static_cast<std::size_t>(i)], 0) << "iteration " << i;
+  for (int i = 3; i < result.iterations; ++i) EXPECT_EQ(counts[i], 0) << "iteration " << i;
 }
 #endif
 

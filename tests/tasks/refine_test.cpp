@@ -65,10 +65,10 @@ TEST(Refine, GoalsKeepTheirTimes) {
     const NodeRef before = task.problem.boundary_conditions[i].at, after = refined.problem.boundary_conditions[i].at;
     ASSERT_EQ(after.phase, before.phase);
     const auto part = [&](const MotionProblem& problem, NodeRef at) {
-      return problem.phases[static_cast<std::size_t>(at.phase)].node_time(at.node, 1.0);
+      return problem.phases[at.phase].node_time(at.node, 1.0);
     };
     EXPECT_NEAR(part(refined.problem, after), part(task.problem, before), 1e-9);
-    inside += before.node != 0 && before.node != task.problem.phases[static_cast<std::size_t>(before.phase)].intervals;
+    inside += before.node != 0 && before.node != task.problem.phases[before.phase].intervals;
   }
   EXPECT_EQ(inside, 1);
 }

@@ -155,7 +155,7 @@ TEST(ShiftHorizon, KeepsStepsOfDifferentLength) {
     const ShiftedHorizon shifted = shift_horizon(problem, plan.trajectory, {});
     const Mesh before = make_mesh(problem), after = make_mesh(shifted.problem);
     ASSERT_EQ(after.size(), before.size());
-    const auto step = [](const Mesh& mesh, int k) { return mesh.nodes[static_cast<std::size_t>(k)].h_out; };
+    const auto step = [](const Mesh& mesh, int k) { return mesh.nodes[k].h_out; };
     for (int k = 0; k + 2 < before.size(); ++k) EXPECT_NEAR(step(after, k), step(before, k + 1), 1e-9) << name << ", node " << k;
     const bool is_single = problem.phases.size() == 1;
     EXPECT_NEAR(step(after, after.size() - 2), step(before, is_single ? 0 : before.size() - 2), 1e-9) << name;

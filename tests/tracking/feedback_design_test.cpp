@@ -177,7 +177,7 @@ TEST(MakeTrackingPlan, HasTheReferenceTheGainsAndTheSchedule) {
     EXPECT_EQ(segment.name, phase.name);
     for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) {
       const bool held = std::find(phase.contacts.begin(), phase.contacts.end(), c) != phase.contacts.end();
-      EXPECT_EQ(segment.in_contact[static_cast<std::size_t>(c)], held);
+      EXPECT_EQ(segment.in_contact[c], held);
     }
     for (std::size_t k = 0; k + 1 < phase.samples.size(); ++k) {
       const TrajectoryPoint& point = phase.samples[k];

@@ -154,7 +154,7 @@ TEST(Rollout, KeepsTheContactsOfItsSchedule) {
   for (int c = 0; c < 4; ++c) places.push_back(terms.contact_position(c));
   for (const RolloutSample& at : closed.samples) {
     terms.update_kinematics(at.q);
-    for (int c = 0; c < 4; ++c) EXPECT_LT((terms.contact_position(c) - places[static_cast<std::size_t>(c)]).norm(), 1e-6);
+    for (int c = 0; c < 4; ++c) EXPECT_LT((terms.contact_position(c) - places[c]).norm(), 1e-6);
   }
   // Standing on the last posture the forces carry the weight.
   double carried = 0.0;

@@ -168,7 +168,7 @@ TEST_F(FlatFeet, ForcesOfTheCornersAreTheWrenchesOfTheFeet) {
       J.middleRows<6>(6 * foot) = rows;
       for (int i = 0; i < 4; ++i) {
         const Eigen::Vector3d force = node.force.segment<3>(12 * foot + 3 * i);
-        const Eigen::Vector3d arm = data.oMf[sole].rotation() * kCorners[static_cast<std::size_t>(i)];
+        const Eigen::Vector3d arm = data.oMf[sole].rotation() * kCorners[i];
         of_corners.segment<3>(6 * foot) += force;
         of_corners.segment<3>(6 * foot + 3) += arm.cross(force);
       }

@@ -71,7 +71,7 @@ void expect_meets_conditions(const MotionProblem& problem, const Trajectory& gue
   };
   const Mesh mesh = make_mesh(problem);
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    const TrajectoryPoint& point = guess.nodes[static_cast<std::size_t>(mesh.index(condition.at))];
+    const TrajectoryPoint& point = guess.nodes[mesh.index(condition.at)];
     SCOPED_TRACE(condition.name);
     expect_between(difference(condition.q_ref, point.q), condition.configuration_lower, condition.configuration_upper);
     expect_between(point.v, condition.velocity_lower, condition.velocity_upper);
@@ -118,7 +118,7 @@ TEST_P(InitialGuessOf, GoesToTheGoalWithItsFeetInPlace) {
     for (const PhaseContact& c : problem.phases[0].contacts) {
       const Vector3d drift = place(problem.robot, point.q, c.contact) -
                              place(problem.robot, problem.start_configuration(), c.contact);
-      EXPECT_LT(drift.norm(), 1e-3) << problem.robot.contacts()[static_cast<std::size_t>(c.contact)].name;
+      EXPECT_LT(drift.norm(), 1e-3) << problem.robot.contacts()[c.contact].name;
     }
     EXPECT_LT(equations_of_motion(problem.robot, point).norm(), 1e-9 * problem.robot.weight());
   }

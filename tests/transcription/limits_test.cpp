@@ -71,12 +71,12 @@ TEST_F(Limits, AreInTheirUnits) {
   const Trajectory motion = nlp_->unpack(z_);
   int looked_at = 0, upper = 0, lower = 0;
   for (const MotionLimit& limit : nlp_->limits()) {
-    const TrajectoryPoint& point = motion.nodes[static_cast<std::size_t>(limit.node)];
+    const TrajectoryPoint& point = motion.nodes[limit.node];
     if (limit.kind == LimitKind::friction) {
       const int contact = problem_->robot.contact_index(limit.subject);
       const Eigen::Vector3d force = point.force.segment<3>(3 * contact);
       const double friction = problem_->surfaces[0].friction;
-      const std::size_t held = problem_->phases[static_cast<std::size_t>(limit.phase)].contacts.size();
+      const std::size_t held = problem_->phases[limit.phase].contacts.size();
       const FrictionCone cone{.mu = friction, .smoothing = cone_smoothing(*problem_, friction, held)};
       EXPECT_NEAR(g(limit.index) * limit.si, cone.value(force), 1e-6) << limit.subject;
       ++looked_at;

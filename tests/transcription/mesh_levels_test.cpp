@@ -53,7 +53,7 @@ TEST(MeshLevels, KeepEveryGoalAtItsTime) {
     const Mesh mesh = make_mesh(level);
     for (std::size_t i = 0; i < level.boundary_conditions.size(); ++i) {
       const double times[] = {0.0, 1.0 + 1.0 / 3.0, 1.5, 2.0};
-      EXPECT_NEAR(mesh.nodes[static_cast<std::size_t>(mesh.index(level.boundary_conditions[i].at))].time, times[i], 1e-12);
+      EXPECT_NEAR(mesh.nodes[mesh.index(level.boundary_conditions[i].at)].time, times[i], 1e-12);
     }
   }
 }

@@ -60,7 +60,7 @@ TEST(Mesh, PutsBothSidesOfAPhaseSwitchAtOneTime) {
 TEST(Mesh, FindsEveryNode) {
   const Mesh mesh = make_mesh(three_phases());
   for (int k = 0; k < mesh.size(); ++k) {
-    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+    const MeshNode& node = mesh.nodes[k];
     EXPECT_EQ(mesh.index({node.phase, node.node}), k);
   }
 }

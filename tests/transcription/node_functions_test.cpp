@@ -139,7 +139,7 @@ std::vector<Eigen::Vector2d> gains_on(const std::vector<double>& steps) {
                                                          test::phase_on("second", {0, 1}, 1.0, static_cast<int>(half))});
   std::vector<Eigen::Vector2d> gains;
   for (int p = 0; p < 2; ++p) {
-    Phase& phase = problem.phases[static_cast<std::size_t>(p)];
+    Phase& phase = problem.phases[p];
     phase.shares.assign(steps.begin() + p * half, steps.begin() + (p + 1) * half);
     const double duration = std::accumulate(phase.shares.begin(), phase.shares.end(), 0.0);
     for (double& share : phase.shares) share /= duration;
@@ -149,7 +149,7 @@ std::vector<Eigen::Vector2d> gains_on(const std::vector<double>& steps) {
   for (int p = 0; p < 2; ++p) {
     const NodeFunctions functions(problem, schedule, p, phase_contacts(problem, schedule, p, problem.robot.nominal_configuration()));
     for (int k = 0; k <= half; ++k) {
-      gains.push_back(functions.gains({.node = k, .duration = problem.phases[static_cast<std::size_t>(p)].duration.min}, 0));
+      gains.push_back(functions.gains({.node = k, .duration = problem.phases[p].duration.min}, 0));
     }
   }
   return gains;

@@ -99,7 +99,7 @@ TEST(StagewiseTranscription, DerivativesAreThoseOfDifferences) {
     Forms forms(problem);
     const std::vector<VectorXd> point = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
-      const VectorXd& ux = point[static_cast<std::size_t>(k)];
+      const VectorXd& ux = point[k];
       const StageSize& size = forms.stages.size(k);
       const MatrixXd exact = slopes(forms.stages, k, ux);
       const MatrixXd by_differences = differences(ux, [&](const VectorXd& x) { return functions(forms.stages, k, x); });
@@ -152,7 +152,7 @@ TEST(StagewiseTranscription, LinearisedStagesAreTheirDenseMatrices) {
     Forms forms(problem), dense(problem);
     const std::vector<VectorXd> point = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
-      const VectorXd& ux = point[static_cast<std::size_t>(k)];
+      const VectorXd& ux = point[k];
       const StageDerivatives& slopes = dense.stages.derivatives(k, ux);
       const StageMultipliers at = random_multipliers(rng, slopes), on = random_multipliers(rng, slopes);
       const std::string where = forms.stages.describe_stage(k);
@@ -221,7 +221,7 @@ TEST(StagewiseTranscription, TheHessianOfTheCostAloneKnowsNoMultipliers) {
     Forms forms(problem);
     const std::vector<VectorXd> here = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
-      const VectorXd& ux = here[static_cast<std::size_t>(k)];
+      const VectorXd& ux = here[k];
       const StageMultipliers at = random_multipliers(rng, StageDerivatives(forms.stages.derivatives(k, ux)));
       const StageMultipliers none = {0.0 * at.next, 0.0 * at.equalities, 0.0 * at.inequalities};
       forms.nlp.use_hessian(HessianKind::exact);
@@ -297,7 +297,7 @@ TEST(StagewiseTranscription, MotionsOfStagesHaveNoDefects) {
 
     double cost = 0.0, worst = 0.0;
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
-      const StageValues& values = forms.stages.values(k, motion[static_cast<std::size_t>(k)]);
+      const StageValues& values = forms.stages.values(k, motion[k]);
       cost += values.cost;
       if (values.equalities.size() > 0) worst = std::max(worst, values.equalities.cwiseAbs().maxCoeff());
     }
@@ -307,7 +307,7 @@ TEST(StagewiseTranscription, MotionsOfStagesHaveNoDefects) {
     int k = 0;
     for (int row = 0; row < rows.size(); ++row) {
       if (forms.nlp.describe_constraint(row).find(kFirstRow) == std::string::npos) continue;
-      const VectorXd& here = forms.stages.values(k, motion[static_cast<std::size_t>(k)]).equalities;
+      const VectorXd& here = forms.stages.values(k, motion[k]).equalities;
       for (int i = 0; i < problem.robot.nv(); ++i) EXPECT_NEAR(here(i), rows(row + i), 1e-9);
       ++k;
     }

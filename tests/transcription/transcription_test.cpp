@@ -316,8 +316,8 @@ TEST(Transcription, CostIsTheTrapezoidOfStepsOfDifferentLength) {
   const Mesh mesh = make_mesh(problem);
   Trajectory guess = initial_guess(problem, mesh);
   for (int k = 0; k < 4; ++k) {
-    guess.nodes[static_cast<std::size_t>(k)].tau.setZero();
-    guess.nodes[static_cast<std::size_t>(k)].tau(0) = k + 1.0;  // costs its square
+    guess.nodes[k].tau.setZero();
+    guess.nodes[k].tau(0) = k + 1.0;  // costs its square
   }
   Transcription nlp(problem, mesh, guess);
   const double expected = 0.5 * (0.2 * (1.0 + 4.0) + 0.08 * (4.0 + 9.0) + 0.12 * (9.0 + 16.0));

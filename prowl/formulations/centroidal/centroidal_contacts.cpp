@@ -24,10 +24,10 @@ Eigen::Matrix3d axes_of(const Surface& surface) {
 CentroidalContacts centroidal_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                                        const Eigen::VectorXd& q, const std::vector<LandingAxes>& landing) {
   constexpr int kNormal = 2;
-  const auto& held = problem.phases[static_cast<std::size_t>(phase)].contacts;
+  const auto& held = problem.phases[phase].contacts;
   const int num_contacts = static_cast<int>(held.size());
   const auto surface_of = [&](int i) -> const Surface& {
-    return problem.surfaces[static_cast<std::size_t>(held[static_cast<std::size_t>(i)].surface)];
+    return problem.surfaces[held[i].surface];
   };
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
@@ -42,12 +42,12 @@ CentroidalContacts centroidal_contacts(const MotionProblem& problem, const Conta
   CentroidalContacts result;
   terms.update_kinematics(problem.start_configuration());
   for (int i = 0; i < num_contacts; ++i) {
-    const PhaseContact& contact = held[static_cast<std::size_t>(i)];
+    const PhaseContact& contact = held[i];
     const Surface& surface = surface_of(i);
-    const ContactPoint& point = problem.robot.contacts()[static_cast<std::size_t>(contact.contact)];
+    const ContactPoint& point = problem.robot.contacts()[contact.contact];
     const Eigen::Matrix3d axes = axes_of(surface);
     const double on_surface = surface.normal.dot(surface.point) + point.radius;
-    const bool landed = schedule.stances()[static_cast<std::size_t>(schedule.stance(phase, i))].lands();
+    const bool landed = schedule.stances()[schedule.stance(phase, i)].lands();
     for (int axis = 0; axis < 3; ++axis) {
       if (std::ranges::find(independent, 3 * i + axis) == independent.end()) continue;
       if (axis == kNormal) {
@@ -59,7 +59,7 @@ CentroidalContacts centroidal_contacts(const MotionProblem& problem, const Conta
       }
     }
     if (!schedule.lands(phase, i)) continue;
-    for (const int axis : landing[static_cast<std::size_t>(i)].place) {
+    for (const int axis : landing[i].place) {
       if (axis != kNormal && !contact.place) continue;
       const double place = axis == kNormal ? on_surface : axes.col(axis).dot(*contact.place);
       result.landing.push_back({i, axes.col(axis), place,

@@ -38,7 +38,7 @@ std::vector<RowGroup> CentroidalNlp::constraint_groups(int k) const {
 
 std::string CentroidalNlp::describe_node(int k) const {
   const MeshNode& at = mesh_node(k);
-  const Phase& phase = problem_.phases[static_cast<std::size_t>(at.phase)];
+  const Phase& phase = problem_.phases[at.phase];
   return fmt::format("phase {} '{}', node {}", at.phase + 1, phase.name, at.node);
 }
 
@@ -55,7 +55,7 @@ std::string CentroidalNlp::describe_constraint(int row) const {
     const auto own = static_cast<std::ptrdiff_t>(node(k).row_groups(mesh_node(k).node).size());
     const auto [group, i] = group_of({all.begin() + own, all.end()}, row - layout_.link_row(k - 1));
     if (group.name == "contacts do not slide") {
-      what = node(k).contacts().sliding[static_cast<std::size_t>(i)].what;
+      what = node(k).contacts().sliding[i].what;
     } else {
       what = fmt::format("{}, {}", group.name, group.count == 3 ? std::string(1, "xyz"[i]) : coordinate_name(problem_.robot, i));
     }
@@ -74,7 +74,7 @@ std::string CentroidalNlp::describe_variable(int index) const {
   const auto [group, i] = group_of(groups, index - layout_.node(k));
   std::string which(1, "xyz"[i % 3]);
   if (group.name == "q" || group.name == "v") which = coordinate_name(problem_.robot, i);
-  if (group.name == "c" || group.name == "f") which += " of " + node(k).contact_names()[static_cast<std::size_t>(i / 3)];
+  if (group.name == "c" || group.name == "f") which += " of " + node(k).contact_names()[i / 3];
   return fmt::format("{}, {} {}, t = {:.3f} s", describe_node(k), group.name, which, mesh_node(k).time);
 }
 

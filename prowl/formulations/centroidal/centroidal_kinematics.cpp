@@ -77,7 +77,7 @@ void CentroidalKinematics::set_motion(const Eigen::VectorXd& q, const Eigen::Vec
       const Index dof = kBaseDofs - 1 + static_cast<Index>(b);
       const Vector3d axis = placement.linear() * body.axis, origin = placement.translation();
       S_.col(dof) = body.prismatic ? spatial(axis, Vector3d::Zero()) : spatial(origin.cross(axis), axis);
-      link.before = links_[static_cast<std::size_t>(body.parent)].velocity;
+      link.before = links_[body.parent].velocity;
       link.velocity = link.before + S_.col(dof) * v(dof);
       E_.col(dof) = cross(link.before, S_.col(dof));
     }
@@ -88,7 +88,7 @@ void CentroidalKinematics::set_motion(const Eigen::VectorXd& q, const Eigen::Vec
 // Inwards: sums over what is behind a joint.
 void CentroidalKinematics::add_up() {
   for (std::size_t b = links_.size() - 1; b > 0; --b) {
-    Link& before = links_[static_cast<std::size_t>(tree_.bodies[b].parent)];
+    Link& before = links_[tree_.bodies[b].parent];
     add(before.inertia, links_[b].inertia);
     before.momentum += links_[b].momentum;
   }
@@ -131,7 +131,7 @@ void CentroidalKinematics::add_hessian(const Vector3& on_com, const SpatialVecto
       if (l < i) qq(i, l) += value;
       qv(l, i) += cross(y, S_.col(l)).dot(I_S);
       if (l < i) qv(i, l) += S_.col(l).dot(N);
-      const int parent = l < kBaseDofs ? 0 : tree_.bodies[static_cast<std::size_t>(l - 5)].parent;
+      const int parent = l < kBaseDofs ? 0 : tree_.bodies[l - 5].parent;
       l = parent > 0 ? parent + 5 : l < kBaseDofs ? l - 1 : kBaseDofs - 1;
     }
     for (Index j = 0; j < kFirstRotation; ++j) qv(i, j) += S_.col(j).dot(N);

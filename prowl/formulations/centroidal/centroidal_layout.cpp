@@ -17,22 +17,22 @@ CentroidalLayout::CentroidalLayout(const MotionProblem& problem, const Mesh& mes
   const int nv = problem.robot.nv();
   int num_rows = 0;
   for (int k = 0; k < mesh.size(); ++k) {
-    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
-    const auto contacts = problem.phases[static_cast<std::size_t>(node.phase)].contacts.size();
+    const MeshNode& node = mesh.nodes[k];
+    const auto contacts = problem.phases[node.phase].contacts.size();
     columns_.emplace_back(nv, static_cast<int>(contacts), node.node > 0);
     nodes_.push_back(num_variables_);
     num_variables_ += columns_.back().size;
     node_rows_.push_back(num_rows);
-    num_rows += rows[static_cast<std::size_t>(k)];
+    num_rows += rows[k];
   }
   first_shared_ = num_variables_;
   for (const Phase& phase : problem.phases) durations_.push_back(phase.duration.is_fixed() ? -1 : num_variables_++);
 
   link_rows_.push_back(num_rows);
   for (int k = 0; k < num_links(); ++k) {
-    const MeshNode& node = mesh.nodes[static_cast<std::size_t>(k)];
+    const MeshNode& node = mesh.nodes[k];
     const bool is_interval = node.h_out > 0.0;
-    num_rows += is_interval ? nv + 9 + sliding_rows[static_cast<std::size_t>(node.phase)] : 2 * nv + 3;
+    num_rows += is_interval ? nv + 9 + sliding_rows[node.phase] : 2 * nv + 3;
     link_rows_.push_back(num_rows);
   }
 }

@@ -35,13 +35,13 @@ class CentroidalLayout {
   int num_nodes() const { return static_cast<int>(nodes_.size()); }
   int num_links() const { return num_nodes() - 1; }
 
-  int node(int k) const { return nodes_[static_cast<std::size_t>(k)]; }  ///< first variable of node k
-  const CentroidalColumns& columns(int k) const { return columns_[static_cast<std::size_t>(k)]; }
+  int node(int k) const { return nodes_[k]; }  ///< first variable of node k
+  const CentroidalColumns& columns(int k) const { return columns_[k]; }
   int first_shared() const { return first_shared_; }
-  int duration(int phase) const { return durations_[static_cast<std::size_t>(phase)]; }  ///< -1 if it is fixed
+  int duration(int phase) const { return durations_[phase]; }  ///< -1 if it is fixed
 
-  int node_row(int k) const { return node_rows_[static_cast<std::size_t>(k)]; }  ///< first row of node k
-  int link_row(int k) const { return link_rows_[static_cast<std::size_t>(k)]; }  ///< of nodes k and k + 1; or the end
+  int node_row(int k) const { return node_rows_[k]; }  ///< first row of node k
+  int link_row(int k) const { return link_rows_[k]; }  ///< of nodes k and k + 1; or the end
 
  private:
   int num_variables_ = 0, first_shared_ = 0;

@@ -40,11 +40,11 @@ std::deque<CentroidalNode> nodes_of_phases(const MotionProblem& problem, const M
   const ContactSchedule schedule(problem);
   std::deque<CentroidalNode> phases;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const VectorXd& q = guess.nodes[static_cast<std::size_t>(mesh.index({p, 0}))].q;
-    std::vector<bool> ties(static_cast<std::size_t>(problem.phases[static_cast<std::size_t>(p)].intervals) + 1, false);
+    const VectorXd& q = guess.nodes[mesh.index({p, 0})].q;
+    std::vector<bool> ties(static_cast<std::size_t>(problem.phases[p].intervals) + 1, false);
     for (const BoundaryCondition& condition : problem.boundary_conditions) {
       if (condition.at.phase != p || !binds_base_velocity(condition)) continue;
-      ties[static_cast<std::size_t>(condition.at.node)] = true;
+      ties[condition.at.node] = true;
     }
     const std::vector<LandingAxes> landing = phase_contacts(problem, schedule, p, q).landing;
     phases.emplace_back(problem, schedule, p, landing, centroidal_contacts(problem, schedule, p, q, landing), ties);
@@ -54,7 +54,7 @@ std::deque<CentroidalNode> nodes_of_phases(const MotionProblem& problem, const M
 
 std::vector<int> rows_of_nodes(const std::deque<CentroidalNode>& phases, const Mesh& mesh) {
   std::vector<int> rows;
-  for (const MeshNode& node : mesh.nodes) rows.push_back(phases[static_cast<std::size_t>(node.phase)].num_rows(node.node));
+  for (const MeshNode& node : mesh.nodes) rows.push_back(phases[node.phase].num_rows(node.node));
   return rows;
 }
 
@@ -121,14 +121,14 @@ VectorXd CentroidalNlp::pack(const Trajectory& trajectory) const {
   CentroidalKinematics kinematics(problem_.robot);
   RigidBodyTerms terms(problem_.robot);
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const TrajectoryPoint& from = trajectory.nodes[static_cast<std::size_t>(k)];
-    const Phase& phase = problem_.phases[static_cast<std::size_t>(phase_of(k))];
+    const TrajectoryPoint& from = trajectory.nodes[k];
+    const Phase& phase = problem_.phases[phase_of(k)];
     const CentroidalColumns& at = layout_.columns(k);
     kinematics.update(from.q, from.v);
     terms.update_kinematics(from.q);
     auto x = z.segment(layout_.node(k), at.size);
     x.head<3>() = base_position(from.q);
-    x.segment<3>(3) = so3::log(charts_[static_cast<std::size_t>(k)].transpose() * base_rotation(from.q));
+    x.segment<3>(3) = so3::log(charts_[k].transpose() * base_rotation(from.q));
     x.segment(6, nu) = from.q.tail(nu);
     x.segment(at.v, nv) = from.v;
     x.segment<3>(at.com) = kinematics.com();
@@ -149,7 +149,7 @@ VectorXd CentroidalNlp::pack(const Trajectory& trajectory) const {
     }
     if (layout_.duration(phase_of(k)) >= 0 && mesh_node(k).h_out == 0.0) {
       const int first = mesh_.index({phase_of(k), 0});
-      z(layout_.duration(phase_of(k))) = from.time - trajectory.nodes[static_cast<std::size_t>(first)].time;
+      z(layout_.duration(phase_of(k))) = from.time - trajectory.nodes[first].time;
     }
   }
   return z;
@@ -175,7 +175,7 @@ Trajectory CentroidalNlp::unpack(const VectorXd& z) {
     point.v = velocity(k);
     point.a = (velocity(end) - velocity(end - 1)) / step(z, k);
     point.force.setZero(3 * static_cast<Index>(problem_.robot.contacts().size()));
-    const std::vector<int> contacts = contact_indices(problem_.phases[static_cast<std::size_t>(point.phase)].contacts);
+    const std::vector<int> contacts = contact_indices(problem_.phases[point.phase].contacts);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       point.force.segment<3>(3 * contacts[i]) = z.segment<3>(layout_.node(end) + at.forces + 3 * static_cast<int>(i));
     }

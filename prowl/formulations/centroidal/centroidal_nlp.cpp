@@ -13,19 +13,19 @@ using Eigen::VectorXd;
 }  // namespace
 
 double CentroidalNlp::share(int k) const {
-  return 1.0 / problem_.phases[static_cast<std::size_t>(phase_of(k))].intervals;
+  return 1.0 / problem_.phases[phase_of(k)].intervals;
 }
 
 double CentroidalNlp::step(const VectorXd& z, int k) const {
   const int phase = phase_of(k), index = layout_.duration(phase);
-  return share(k) * (index >= 0 ? z(index) : problem_.phases[static_cast<std::size_t>(phase)].duration.min);
+  return share(k) * (index >= 0 ? z(index) : problem_.phases[phase].duration.min);
 }
 
 CentroidalPoint CentroidalNlp::point(const VectorXd& z, int k) const {
   const double dt = step(z, k);
   return {.node = mesh_node(k).node,
           .x = z.segment(layout_.node(k), layout_.columns(k).size),
-          .chart = charts_[static_cast<std::size_t>(k)],
+          .chart = charts_[k],
           .duration = dt / share(k),
           .cost_weight = layout_.columns(k).ends_interval() ? dt : 0.0,
           .terminal_weight = k + 1 == layout_.num_nodes() ? 1.0 : 0.0};
@@ -33,7 +33,7 @@ CentroidalPoint CentroidalNlp::point(const VectorXd& z, int k) const {
 
 CentroidalInterval CentroidalNlp::interval(const VectorXd& z, int k) const {
   const auto end = [&](int i) -> CentroidalInterval::End {
-    return {layout_.columns(i), charts_[static_cast<std::size_t>(i)], z.segment(layout_.node(i), layout_.columns(i).size)};
+    return {layout_.columns(i), charts_[i], z.segment(layout_.node(i), layout_.columns(i).size)};
   };
   return {scale_, node(k).contacts().sliding, acceleration_weight_, end(k), end(k + 1), step(z, k)};
 }
@@ -42,7 +42,7 @@ void CentroidalNlp::evaluate(const VectorXd& z, bool with_derivatives) {
   if (evaluated_at_.size() == z.size() && evaluated_at_ == z && (have_derivatives_ || !with_derivatives)) return;
   evaluated_at_.resize(0);  // in case that an evaluation throws half-way
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    CentroidalValues& values = values_[static_cast<std::size_t>(k)];
+    CentroidalValues& values = values_[k];
     const CentroidalPoint here = point(z, k);
     node(k).evaluate(here, values);
     if (with_derivatives) node(k).add_derivatives(here, values);
@@ -55,7 +55,7 @@ double CentroidalNlp::cost(const VectorXd& z) {
   evaluate(z, false);
   double total = 0.0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    total += values_[static_cast<std::size_t>(k)].cost;
+    total += values_[k].cost;
     if (k < layout_.num_links() && is_interval(k)) total += interval(z, k).cost();
   }
   return total;
@@ -66,7 +66,7 @@ void CentroidalNlp::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradie
   gradient.setZero();
   const auto own = [&](int k) { return gradient.segment(layout_.node(k), layout_.columns(k).size); };
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const VectorXd& slope = values_[static_cast<std::size_t>(k)].cost_gradient;
+    const VectorXd& slope = values_[k].cost_gradient;
     own(k) += slope.head(slope.size() - 1);
     double per_duration = slope(slope.size() - 1);
     if (k < layout_.num_links() && is_interval(k)) {
@@ -82,7 +82,7 @@ void CentroidalNlp::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   evaluate(z, false);
   const Index nv = problem_.robot.nv();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const VectorXd& rows = values_[static_cast<std::size_t>(k)].rows;
+    const VectorXd& rows = values_[k].rows;
     g.segment(layout_.node_row(k), rows.size()) = rows;
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
@@ -102,7 +102,7 @@ void CentroidalNlp::fill_jacobian(const VectorXd& z) {
   evaluate(z, true);
   jacobian_.entries.clear();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    for (const auto& [row, col, value] : values_[static_cast<std::size_t>(k)].jacobian.entries) {
+    for (const auto& [row, col, value] : values_[k].jacobian.entries) {
       jacobian_.entries.push_back({layout_.node_row(k) + row, layout_.node(k) + col, value});
     }
   }
@@ -130,13 +130,13 @@ template <class Emit>
 void CentroidalNlp::visit_hessian(const HessianBlocks& blocks, Emit emit) const {
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const int first = layout_.node(k), size = layout_.columns(k).size, duration = layout_.duration(phase_of(k));
-    for (const auto& [i, j] : node_places_[static_cast<std::size_t>(k)]) {
-      emit(i < size ? first + i : duration, first + j, blocks.nodes[static_cast<std::size_t>(k)](i, j));
+    for (const auto& [i, j] : node_places_[k]) {
+      emit(i < size ? first + i : duration, first + j, blocks.nodes[k](i, j));
     }
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (!is_interval(k)) continue;
-    const CentroidalInterval::Between& between = blocks.between[static_cast<std::size_t>(k)];
+    const CentroidalInterval::Between& between = blocks.between[k];
     const int here = layout_.node(k), next = layout_.node(k + 1);
     const int v0 = here + layout_.columns(k).v, v1 = next + layout_.columns(k + 1).v;
     for (int i = 0; i < 6; ++i) {
@@ -162,18 +162,18 @@ void CentroidalNlp::hessian(const VectorXd& z, double cost_factor, const VectorX
     node(k).evaluate(here, scratch);
     node(k).add_derivatives(here, scratch);
     node(k).hessian(here, cost_factor, on_rows.segment(layout_.node_row(k), node(k).num_rows(here.node)),
-                    blocks.nodes[static_cast<std::size_t>(k)]);
+                    blocks.nodes[k]);
   }
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (!is_interval(k)) continue;
     const int row = layout_.link_row(k);
-    blocks.between[static_cast<std::size_t>(k)] =
+    blocks.between[k] =
         interval(z, k).add_hessian(cost_factor, on_rows.segment(row, layout_.link_row(k + 1) - row), share(k),
-                                   blocks.nodes[static_cast<std::size_t>(k)],
-                                   blocks.nodes[static_cast<std::size_t>(k) + 1]);
+                                   blocks.nodes[k],
+                                   blocks.nodes[k + 1]);
   }
   for (int k = 0; k < layout_.num_nodes(); ++k) {
-    const MatrixXd& block = blocks.nodes[static_cast<std::size_t>(k)];
+    const MatrixXd& block = blocks.nodes[k];
     blocks.durations(phase_of(k)) += block(block.rows() - 1, block.cols() - 1);
   }
   Index next = 0;

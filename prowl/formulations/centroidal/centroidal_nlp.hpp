@@ -52,10 +52,10 @@ class CentroidalNlp : public MotionNlp {
   std::vector<RowGroup> constraint_groups(int k) const;
 
  private:
-  const MeshNode& mesh_node(int k) const { return mesh_.nodes[static_cast<std::size_t>(k)]; }
+  const MeshNode& mesh_node(int k) const { return mesh_.nodes[k]; }
   int phase_of(int k) const { return mesh_node(k).phase; }
-  const CentroidalNode& node(int k) const { return phases_[static_cast<std::size_t>(phase_of(k))]; }
-  CentroidalNode& node(int k) { return phases_[static_cast<std::size_t>(phase_of(k))]; }
+  const CentroidalNode& node(int k) const { return phases_[phase_of(k)]; }
+  CentroidalNode& node(int k) { return phases_[phase_of(k)]; }
   /// Whether nodes k and k + 1 are the ends of an interval; else they are a phase switch.
   bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
   double share(int k) const;  ///< of the duration of node k's phase that a step is

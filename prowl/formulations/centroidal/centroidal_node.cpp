@@ -35,12 +35,12 @@ CentroidalNode::CentroidalNode(const MotionProblem& problem, const ContactSchedu
                                std::vector<LandingAxes> landing, CentroidalContacts contacts, std::vector<bool> ties)
     : nv_(problem.robot.nv()),
       nu_(problem.robot.nu()),
-      intervals_(problem.phases[static_cast<std::size_t>(phase)].intervals),
+      intervals_(problem.phases[phase].intervals),
       scale_(problem.robot),
       mass_(problem.robot.mass()),
-      first_columns_(nv_, static_cast<int>(problem.phases[static_cast<std::size_t>(phase)].contacts.size()), false),
-      columns_(nv_, static_cast<int>(problem.phases[static_cast<std::size_t>(phase)].contacts.size()), true),
-      contact_indices_(contact_indices(problem.phases[static_cast<std::size_t>(phase)].contacts)),
+      first_columns_(nv_, static_cast<int>(problem.phases[phase].contacts.size()), false),
+      columns_(nv_, static_cast<int>(problem.phases[phase].contacts.size()), true),
+      contact_indices_(contact_indices(problem.phases[phase].contacts)),
       ties_(std::move(ties)),
       held_(std::move(contacts)),
       placement_(problem, schedule, phase, without_places(std::move(landing)), kIntervalsAtRest),
@@ -50,12 +50,12 @@ CentroidalNode::CentroidalNode(const MotionProblem& problem, const ContactSchedu
       points_(contact_indices_),
       tau_ref_(problem.running_cost.tau_ref),
       places_cost_(!problem.running_cost.contact_positions.empty() || !problem.terminal_cost.contact_positions.empty()) {
-  const auto& held = problem.phases[static_cast<std::size_t>(phase)].contacts;
+  const auto& held = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
-    const PhaseContact& contact = held[static_cast<std::size_t>(i)];
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(contact.surface)];
+    const PhaseContact& contact = held[i];
+    const Surface& surface = problem.surfaces[contact.surface];
     friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
-    contact_names_.push_back(problem.robot.contacts()[static_cast<std::size_t>(contact.contact)].name);
+    contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
     opens_.push_back(schedule.opens(phase, i));
   }
   for (int k = 0; k <= intervals_; ++k) {
@@ -74,13 +74,13 @@ int CentroidalNode::count_rows(int k, Kind kind) const {
     case com: return 3;
     case positions: return 3 * num_contacts();
     case distance: return static_cast<int>(directions(k).size());
-    case com_velocity: return ties_[static_cast<std::size_t>(k)] ? 3 : 0;
+    case com_velocity: return ties_[k] ? 3 : 0;
     case placement: return placement_.count(k);
     case friction:
     case unloaded:
       for (int i = 0; k > 0 && i < num_contacts(); ++i) {
         if (unloads(k, i) != (kind == unloaded)) continue;
-        count += kind == unloaded ? 3 : friction_[static_cast<std::size_t>(i)].count();
+        count += kind == unloaded ? 3 : friction_[i].count();
       }
       return count;
     default: return 0;
@@ -114,15 +114,15 @@ std::string CentroidalNode::describe_row(int k, int row) const {
   int kind = 0;
   while (row >= first_row(k, kind + 1)) ++kind;
   const int i = row - first_row(k, kind);
-  if (kind == distance) return directions(k)[static_cast<std::size_t>(i)].what;
-  if (kind == positions) return contact_names_[static_cast<std::size_t>(i / 3)] + ", position " + axis(i);
+  if (kind == distance) return directions(k)[i].what;
+  if (kind == positions) return contact_names_[i / 3] + ", position " + axis(i);
   if (kind == friction || kind == unloaded) {
     int end = 0;
     for (int contact = 0; contact < num_contacts(); ++contact) {
       if (unloads(k, contact) != (kind == unloaded)) continue;
-      end += kind == unloaded ? 3 : friction_[static_cast<std::size_t>(contact)].count();
+      end += kind == unloaded ? 3 : friction_[contact].count();
       if (i >= end) continue;
-      return contact_names_[static_cast<std::size_t>(contact)] +
+      return contact_names_[contact] +
              (kind == friction ? ", friction cone" : ", force before it opens, " + axis(i));
     }
   }
@@ -176,7 +176,7 @@ void CentroidalNode::evaluate(const CentroidalPoint& point, CentroidalValues& va
       const Vector3d f = forces_.segment<3>(3 * i);
       force -= f;
       turning -= (c.segment<3>(3 * i) - r).cross(f);
-      const FrictionLimit& limit = friction_[static_cast<std::size_t>(i)];
+      const FrictionLimit& limit = friction_[i];
       if (unloads(k, i)) {
         rows.segment<3>(no_force) = f / scale_.force;
         no_force += 3;
@@ -193,7 +193,7 @@ void CentroidalNode::evaluate(const CentroidalPoint& point, CentroidalValues& va
   rows.segment<3>(first_row(k, com)) = (r - kinematics_.com()) / scale_.length;
   rows.segment(first_row(k, positions), c.size()) = (c - points_.positions()) / scale_.length;
   for (int i = 0; i < count(k, distance); ++i) {
-    const HeldDirection& held = directions(k)[static_cast<std::size_t>(i)];
+    const HeldDirection& held = directions(k)[i];
     rows(first_row(k, distance) + i) = (held.axis.dot(c.segment<3>(3 * held.contact)) - held.offset) / scale_.length;
   }
   if (count(k, com_velocity) > 0) {

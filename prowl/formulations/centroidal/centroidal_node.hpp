@@ -84,9 +84,9 @@ class CentroidalNode {
 
  private:
   enum Kind { newton, moment, momentum, com, positions, distance, friction, unloaded, com_velocity, placement, kinds };
-  int first_row(int k, int kind) const { return first_rows_[static_cast<std::size_t>(k)][static_cast<std::size_t>(kind)]; }
+  int first_row(int k, int kind) const { return first_rows_[k][kind]; }
   int count(int k, int kind) const { return first_row(k, kind + 1) - first_row(k, kind); }
-  bool unloads(int k, int contact) const { return k == intervals_ && opens_[static_cast<std::size_t>(contact)]; }
+  bool unloads(int k, int contact) const { return k == intervals_ && opens_[contact]; }
   const std::vector<HeldDirection>& directions(int k) const { return k == 0 ? held_.landing : held_.distance; }
   int num_contacts() const { return static_cast<int>(contact_names_.size()); }
   int count_rows(int k, Kind kind) const;

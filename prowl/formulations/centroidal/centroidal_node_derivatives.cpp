@@ -60,7 +60,7 @@ void CentroidalNode::add_dynamics(const CentroidalPoint& point, SparseEntries& j
       jacobian.diagonal(no_force, column, 3, 1.0 / scale_.force);
       no_force += 3;
     } else {
-      const FrictionLimit& limit = friction_[static_cast<std::size_t>(i)];
+      const FrictionLimit& limit = friction_[i];
       jacobian.block(cone, column, (limit.slopes(f) / scale_.force).eval());
       cone += limit.count();
     }
@@ -90,7 +90,7 @@ void CentroidalNode::add_kinematics(const CentroidalPoint& point, const Matrix3d
     jacobian.diagonal(row, at.contacts + 3 * i, 3, 1.0 / scale_.length);
     jacobian.diagonal(row, 0, 3, per_length);
     add_q(row, dq, Jr, per_length, jacobian);
-    for (const int dof : terms_.contact_chain(contact_indices_[static_cast<std::size_t>(i)])) {
+    for (const int dof : terms_.contact_chain(contact_indices_[i])) {
       if (dof >= 6) jacobian.block(row, dof, per_length * dq.col(dof));
     }
   }
@@ -100,7 +100,7 @@ void CentroidalNode::add_limits(const CentroidalPoint& point, const Matrix3d& Jr
   const int k = point.node;
   const CentroidalColumns& at = columns(k);
   for (int i = 0; i < count(k, distance); ++i) {
-    const HeldDirection& held = directions(k)[static_cast<std::size_t>(i)];
+    const HeldDirection& held = directions(k)[i];
     jacobian.block(first_row(k, distance) + i, at.contacts + 3 * held.contact, held.axis.transpose() / scale_.length);
   }
   if (count(k, com_velocity) > 0) {
@@ -162,7 +162,7 @@ void CentroidalNode::hessian(const CentroidalPoint& point, double cost_factor, c
       result.block<3, 3>(at.contacts + 3 * i, column) = turned;
       result.block<3, 3>(column, column).diagonal() = cost_factor * cost_.force_curvature(cost_point_);
       if (unloads(k, i)) continue;
-      const FrictionLimit& limit = friction_[static_cast<std::size_t>(i)];
+      const FrictionLimit& limit = friction_[i];
       const VectorXd on_rows = multipliers.segment(cone, limit.count()) / scale_.force;
       result.block<3, 3>(column, column) += limit.curvature(forces_.segment<3>(3 * i), on_rows);
       cone += limit.count();

@@ -61,7 +61,7 @@ class ChartedNode {
               Eigen::Ref<Eigen::MatrixXd> rows) const;
   void add_contact_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
 
-  const Phase& phase() const { return problem_.phases[static_cast<std::size_t>(phase_)]; }
+  const Phase& phase() const { return problem_.phases[phase_]; }
   int first_place() const { return functions_.num_variables() + (functions_.has_free_duration() ? 1 : 0); }
 
   const MotionProblem& problem_;

@@ -105,23 +105,23 @@ std::vector<int> Collocation::columns(int first, int size) const {
 std::vector<int> Collocation::shared_columns(int k) const {
   const int phase = mesh_node(k).phase;
   std::vector<int> columns;
-  if (durations_[static_cast<std::size_t>(phase)] >= 0) columns.push_back(durations_[static_cast<std::size_t>(phase)]);
+  if (durations_[phase] >= 0) columns.push_back(durations_[phase]);
   for (const int contact : charted(k).functions().landed()) {
-    const int place = places_[static_cast<std::size_t>(schedule_.stance(phase, contact))];
+    const int place = places_[schedule_.stance(phase, contact)];
     columns.insert(columns.end(), {place, place + 1});
   }
   return columns;
 }
 
 StepSize Collocation::step(int k, int first_shared) const {
-  const Phase& phase = problem_.phases[static_cast<std::size_t>(mesh_node(k).phase)];
+  const Phase& phase = problem_.phases[mesh_node(k).phase];
   if (phase.duration.is_fixed()) return {.fixed = phase.duration.min / phase.intervals};
   return {.variable = first_shared, .share = 1.0 / phase.intervals};
 }
 
 double Collocation::duration(const VectorXd& z, int phase) const {
-  const int index = durations_[static_cast<std::size_t>(phase)];
-  return index >= 0 ? z(index) : problem_.phases[static_cast<std::size_t>(phase)].duration.min;
+  const int index = durations_[phase];
+  return index >= 0 ? z(index) : problem_.phases[phase].duration.min;
 }
 
 /// From local `first` on.
@@ -144,7 +144,7 @@ IntervalProgram::Point Collocation::variables(ProgramGraph& graph, int k, int fi
 
 void Collocation::make_node(int k) {
   const int nv = problem_.robot.nv(), own = point_size(k, true);
-  std::vector<int> columns = this->columns(node_first_[static_cast<std::size_t>(k)], own);
+  std::vector<int> columns = this->columns(node_first_[k], own);
   const std::vector<int> shared = shared_columns(k);
   columns.insert(columns.end(), shared.begin(), shared.end());
   auto node = std::make_unique<NodePiece>(NodePiece{ProgramPiece(columns, step(k, own))});
@@ -176,7 +176,7 @@ void Collocation::make_node(int k) {
   ProgramPiece::Rows held{piece.graph.slice(all, dynamics.acceleration_size(), static_cast<int>(count)),
                           VectorXd(count), VectorXd(count), {}};
   for (Index i = 0; i < count; ++i) {
-    const int row = dynamics.rows()[static_cast<std::size_t>(i)];
+    const int row = dynamics.rows()[i];
     held.lower(i) = charted.lower(at.node, row);
     held.upper(i) = charted.upper(at.node, row);
     held.names.push_back(charted.describe_row(at.node, row));
@@ -236,7 +236,7 @@ void Collocation::evaluate(const VectorXd& z, bool with_derivatives) {
   evaluated_at_.resize(0);  // in case that an evaluation throws half-way
   const auto locals = [&z](const ProgramPiece& piece) {
     VectorXd values(static_cast<Index>(piece.columns().size()));
-    for (Index j = 0; j < values.size(); ++j) values(j) = z(piece.columns()[static_cast<std::size_t>(j)]);
+    for (Index j = 0; j < values.size(); ++j) values(j) = z(piece.columns()[j]);
     return values;
   };
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
@@ -250,7 +250,7 @@ void Collocation::evaluate(const VectorXd& z, bool with_derivatives) {
     if (!intervals_[k]) continue;
     ProgramGraph& graph = intervals_[k]->piece.graph;
     for (const IntervalPiece::Link& link : intervals_[k]->links) {
-      const ProgramGraph& there = nodes_[static_cast<std::size_t>(link.node)]->piece.graph;
+      const ProgramGraph& there = nodes_[link.node]->piece.graph;
       graph.set_outside(link.here, there.value(link.there));
       if (!with_derivatives) continue;
       Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(there.size(link.there), graph.num_locals());
@@ -335,7 +335,7 @@ void Collocation::hessian(const VectorXd& z, double cost_factor, const VectorXd&
     interval->hessian.setZero(graph.num_locals(), graph.num_locals());
     graph.add_hessian(interval->hessian);
     for (const IntervalPiece::Link& link : interval->links) {
-      nodes_[static_cast<std::size_t>(link.node)]->piece.graph.weights(link.there) += graph.weights(link.here);
+      nodes_[link.node]->piece.graph.weights(link.there) += graph.weights(link.here);
     }
   }
   for (const auto& node : nodes_) {

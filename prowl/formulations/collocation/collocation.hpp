@@ -61,9 +61,9 @@ class Collocation : public MotionNlp {
     int row, col, place;
   };
 
-  const MeshNode& mesh_node(int k) const { return mesh_.nodes[static_cast<std::size_t>(k)]; }
+  const MeshNode& mesh_node(int k) const { return mesh_.nodes[k]; }
   bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
-  ChartedNode& charted(int k) const { return *charted_[static_cast<std::size_t>(mesh_node(k).phase)]; }
+  ChartedNode& charted(int k) const { return *charted_[mesh_node(k).phase]; }
   bool has_acceleration() const { return !form_.dynamics->eliminates_acceleration(); }
   /// Variables of a node (or of a middle, with or without its state).
   int point_size(int k, bool state) const;

@@ -93,7 +93,7 @@ void Collocation::set_patterns() {
     const ProgramGraph::Pattern pattern = piece.graph.hessian_pattern();
     for (int i = 0; i < pattern.rows(); ++i) {
       for (int j = 0; j < pattern.cols(); ++j) {
-        const int row = piece.columns()[static_cast<std::size_t>(i)], col = piece.columns()[static_cast<std::size_t>(j)];
+        const int row = piece.columns()[i], col = piece.columns()[j];
         if (pattern(i, j) == 0.0F || row < col) continue;
         const auto [found, is_new] = places.insert({{row, col}, hessian_pattern_.size()});
         if (is_new) {
@@ -116,7 +116,7 @@ void Collocation::set_patterns() {
     for (int i = 0; i < 2 * problem_.robot.nv(); ++i, ++row) {
       for (const int end : {0, 1}) {
         jacobian_pattern_.rows.push_back(row);
-        jacobian_pattern_.cols.push_back(node_first_[static_cast<std::size_t>(k + end)] + i);
+        jacobian_pattern_.cols.push_back(node_first_[k + end] + i);
       }
     }
   }
@@ -139,7 +139,7 @@ void Collocation::write_point(const TrajectoryPoint& point, int k, int first, bo
   z.segment(first, nu) = point.tau;
   first += nu;
   for (const int row : charted(k).functions().chosen_rows()) {
-    const int contact = charted(k).functions().contacts()[static_cast<std::size_t>(row / 3)];
+    const int contact = charted(k).functions().contacts()[row / 3];
     z(first++) = point.force(3 * contact + row % 3);
   }
 }
@@ -159,16 +159,16 @@ VectorXd Collocation::pack(const Trajectory& trajectory) const {
   for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
     if (durations_[p] < 0) continue;
     const int phase = static_cast<int>(p), last = problem_.phases[p].intervals;
-    z(durations_[p]) = trajectory.nodes[static_cast<std::size_t>(mesh_.index({phase, last}))].time -
-                       trajectory.nodes[static_cast<std::size_t>(mesh_.index({phase, 0}))].time;
+    z(durations_[p]) = trajectory.nodes[mesh_.index({phase, last})].time -
+                       trajectory.nodes[mesh_.index({phase, 0})].time;
   }
   RigidBodyTerms terms(problem_.robot);
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
     const Stance& stance = schedule_.stances()[s];
     if (!stance.lands()) continue;
-    terms.update_kinematics(trajectory.nodes[static_cast<std::size_t>(mesh_.index({stance.first_phase, 0}))].q);
+    terms.update_kinematics(trajectory.nodes[mesh_.index({stance.first_phase, 0})].q);
     z.segment<2>(places_[s]) =
-        problem_.surfaces[static_cast<std::size_t>(stance.surface)].coordinates(terms.contact_position(stance.contact));
+        problem_.surfaces[stance.surface].coordinates(terms.contact_position(stance.contact));
   }
   return z;
 }
@@ -182,7 +182,7 @@ Trajectory Collocation::unpack(const VectorXd& z) {
   for (int k = 0; k < mesh_.size(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     const MeshNode& node = mesh_node(k);
-    const int intervals = problem_.phases[static_cast<std::size_t>(node.phase)].intervals;
+    const int intervals = problem_.phases[node.phase].intervals;
     const PointFunction& dynamics = *nodes_[at]->dynamics;
     const VectorXd& columns = dynamics.columns();
     TrajectoryPoint point;
@@ -211,13 +211,13 @@ Trajectory Collocation::unpack(const VectorXd& z) {
 std::string Collocation::describe_place(int k) const {
   const MeshNode& node = mesh_node(k);
   return fmt::format("phase {} '{}', node {}, t = {:.3f} s", node.phase + 1,
-                     problem_.phases[static_cast<std::size_t>(node.phase)].name, node.node, node.time);
+                     problem_.phases[node.phase].name, node.node, node.time);
 }
 
 std::string Collocation::describe_constraint(int row) const {
   const auto name_in = [row](const ProgramPiece& piece) -> const std::string* {
     for (const ProgramPiece::Rows& rows : piece.rows()) {
-      if (row >= rows.first && row < rows.first + rows.lower.size()) return &rows.names[static_cast<std::size_t>(row - rows.first)];
+      if (row >= rows.first && row < rows.first + rows.lower.size()) return &rows.names[row - rows.first];
     }
     return nullptr;
   };
@@ -241,18 +241,18 @@ std::string Collocation::describe_variable(int index) const {
   for (std::size_t s = 0; s < places_.size(); ++s) {
     if (places_[s] < 0 || (index != places_[s] && index != places_[s] + 1)) continue;
     const int contact = schedule_.stances()[s].contact;
-    return fmt::format("place {} of {}", index - places_[s] + 1, problem_.robot.contacts()[static_cast<std::size_t>(contact)].name);
+    return fmt::format("place {} of {}", index - places_[s] + 1, problem_.robot.contacts()[contact].name);
   }
   int k = mesh_.size() - 1;
-  while (node_first_[static_cast<std::size_t>(k)] > index) --k;
-  const int middle = middle_first_[static_cast<std::size_t>(k)];
+  while (node_first_[k] > index) --k;
+  const int middle = middle_first_[k];
   const bool inside = middle >= 0 && index >= middle;
-  int i = index - (inside ? middle : node_first_[static_cast<std::size_t>(k)]);
+  int i = index - (inside ? middle : node_first_[k]);
   if (inside && !form_.rule->middle().state) i += 2 * nv;
   if (!has_acceleration() && i >= 2 * nv) i += nv;
   constexpr const char* kKinds[] = {"position", "velocity", "acceleration"};
   const std::string what = i < 3 * nv ? fmt::format("{} {}", kKinds[i / nv], charted(k).describe_coordinate(i % nv))
-                           : i < 3 * nv + nu ? "torque " + problem_.robot.joint_names()[static_cast<std::size_t>(i - 3 * nv)]
+                           : i < 3 * nv + nu ? "torque " + problem_.robot.joint_names()[i - 3 * nv]
                                              : fmt::format("force {}", i - 3 * nv - nu + 1);
   return fmt::format("{}{}, {}", describe_place(k), inside ? ", in the interval after it" : "", what);
 }

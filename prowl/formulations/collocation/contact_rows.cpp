@@ -13,12 +13,12 @@ ContactRows::ContactRows(const MotionProblem& problem, int phase, Kinds kinds)
       length_(problem.robot.size()),
       speed_(std::sqrt(RobotModel::kGravity * length_)),
       acceleration_(RobotModel::kGravity),
-      kinematics_(contact_indices(problem.phases[static_cast<std::size_t>(phase)].contacts)),
+      kinematics_(contact_indices(problem.phases[phase].contacts)),
       at_rest_(VectorXd::Zero(problem.robot.nv())),
       hessian_(problem.robot.nv()) {
-  for (const PhaseContact& held : problem.phases[static_cast<std::size_t>(phase)].contacts) {
-    const Surface& surface = problem.surfaces[static_cast<std::size_t>(held.surface)];
-    const ContactPoint& contact = problem.robot.contacts()[static_cast<std::size_t>(held.contact)];
+  for (const PhaseContact& held : problem.phases[phase].contacts) {
+    const Surface& surface = problem.surfaces[held.surface];
+    const ContactPoint& contact = problem.robot.contacts()[held.contact];
     names_.push_back(contact.name);
     normals_.push_back(surface.normal);
     offsets_.push_back(surface.normal.dot(surface.point) + contact.radius);
@@ -26,11 +26,11 @@ ContactRows::ContactRows(const MotionProblem& problem, int phase, Kinds kinds)
 }
 
 std::string ContactRows::describe(int row) const {
-  if (row < distances()) return names_[static_cast<std::size_t>(row)] + ", distance to its surface";
+  if (row < distances()) return names_[row] + ", distance to its surface";
   row -= distances();
   const bool velocity = row < velocities();
   if (!velocity) row -= velocities();
-  return names_[static_cast<std::size_t>(row / 3)] + (velocity ? ", velocity " : ", acceleration ") + "xyz"[row % 3];
+  return names_[row / 3] + (velocity ? ", velocity " : ", acceleration ") + "xyz"[row % 3];
 }
 
 void ContactRows::evaluate(const RigidBodyTerms& terms, const DynamicsPoint& at, Eigen::Ref<VectorXd> values) {
@@ -59,7 +59,7 @@ void ContactRows::derivatives(const DynamicsPoint& at, Derivatives& result) {
   if (rows == 0) return;
   const MatrixXd& J = kinematics_.jacobian();
   for (int i = 0; i < distances(); ++i) {
-    result.q.row(i) = normals_[static_cast<std::size_t>(i)].transpose() *
+    result.q.row(i) = normals_[i].transpose() *
                       kinematics_.positions_dq().middleRows<3>(3 * i) / length_;
   }
   MatrixXd slope;
@@ -93,7 +93,7 @@ const ContactRows::Hessian& ContactRows::hessian(const DynamicsPoint& at, const 
   if (distances() > 0) {
     VectorXd on_position(kinematics_.rows());
     for (int i = 0; i < distances(); ++i) {
-      on_position.segment<3>(3 * i) = multipliers(i) / length_ * normals_[static_cast<std::size_t>(i)];
+      on_position.segment<3>(3 * i) = multipliers(i) / length_ * normals_[i];
     }
     kinematics_.add_position_hessian(on_position, 1.0, h.qq);
   }

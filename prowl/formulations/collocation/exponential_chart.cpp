@@ -24,7 +24,7 @@ std::array<double, kTerms> coefficients() {
   double factor = 1.0;
   for (int n = 1; n <= kTerms; ++n) {
     factor /= 4.0 * std::numbers::pi * std::numbers::pi;
-    c[static_cast<std::size_t>(n - 1)] = 2.0 * std::riemann_zeta(2.0 * n) * factor;
+    c[n - 1] = 2.0 * std::riemann_zeta(2.0 * n) * factor;
   }
   return c;
 }

@@ -12,7 +12,7 @@ PointFunction::PointFunction(ChartedNode& node, const Instant& instant, std::vec
 void PointFunction::fill(VectorXd& y) const {
   const auto count = static_cast<Index>(rows_.size());
   y.resize(count + 1);
-  for (Index i = 0; i < count; ++i) y(i) = values_.rows(rows_[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < count; ++i) y(i) = values_.rows(rows_[i]);
   y(count) = values_.cost;
 }
 

@@ -74,8 +74,8 @@ class ProgramGraph {
     Eigen::VectorXd value = {}, weights = {}, inputs = {};
     Eigen::MatrixXd derivative = {}, slope = {};  ///< in the local variables; of the function
   };
-  Node& node(Vector v) { return nodes_[static_cast<std::size_t>(v.index)]; }
-  const Node& node(Vector v) const { return nodes_[static_cast<std::size_t>(v.index)]; }
+  Node& node(Vector v) { return nodes_[v.index]; }
+  const Node& node(Vector v) const { return nodes_[v.index]; }
   Vector add(Node node);
   double step_power(int power) const;        ///< h^power
   double step_power_slope(int power) const;  ///< its derivative in the duration

@@ -47,7 +47,7 @@ class ProgramPiece {
       for (int i = 0; i < pattern.rows(); ++i) {
         for (int j = 0; j < pattern.cols(); ++j) {
           if (pattern(i, j) == 0.0F) continue;
-          emit(rows.first + i, columns_[static_cast<std::size_t>(j)],
+          emit(rows.first + i, columns_[j],
                pattern_only ? 0.0 : graph.derivative(rows.vector)(i, j));
         }
       }
