@@ -4,3 +4,8 @@ add_test(NAME scripts/mutations COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR
 set_tests_properties(scripts/mutations PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 add_test(NAME scripts/load COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/load_test.py)
 set_tests_properties(scripts/load PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+if(EXISTS ${PROWL_VENV}/bin/clang-format AND EXISTS ${PROJECT_SOURCE_DIR}/report/node_modules/prettier)
+  add_test(NAME scripts/format COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/format_test.py)
+  set_tests_properties(scripts/format PROPERTIES ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+  add_test(NAME format COMMAND ${PROJECT_SOURCE_DIR}/scripts/format --check)
+endif()
