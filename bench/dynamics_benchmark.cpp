@@ -64,8 +64,16 @@ void run_node(benchmark::State& state, Evaluate evaluate) {
   prowl::NodeFunctions functions(problem, schedule, 0, {{}, std::vector<prowl::LandingAxes>(4)});
   std::vector<prowl::NodePoint> points;
   for (const prowl::DynamicsPoint& at : setup().points) {
-    points.push_back({.node = 1, .q = at.q, .v = at.v, .a = at.a, .tau = at.tau, .w = {}, .theta = {0.3, -0.2, 0.5},
-                      .duration = 0.3, .anchors = at.anchors, .cost_weight = 0.1});
+    points.push_back({.node = 1,
+                      .q = at.q,
+                      .v = at.v,
+                      .a = at.a,
+                      .tau = at.tau,
+                      .w = {},
+                      .theta = {0.3, -0.2, 0.5},
+                      .duration = 0.3,
+                      .anchors = at.anchors,
+                      .cost_weight = 0.1});
   }
   prowl::NodeValues values;
   const Eigen::VectorXd multipliers = Eigen::VectorXd::Ones(functions.num_rows(1));
@@ -78,9 +86,8 @@ void run_node(benchmark::State& state, Evaluate evaluate) {
 }
 
 void node_functions(benchmark::State& state) {
-  run_node(state, [](auto& functions, const auto& point, auto&, auto& values, auto&) {
-    functions.evaluate(point, values);
-  });
+  run_node(state,
+           [](auto& functions, const auto& point, auto&, auto& values, auto&) { functions.evaluate(point, values); });
 }
 
 void node_functions_with_derivatives(benchmark::State& state) {

@@ -1,4 +1,5 @@
 """What Prowl takes besides time to plan: size on disk, time to start, memory of each shipped task. Called by scripts/bench."""
+
 import os
 import pathlib
 import statistics
@@ -19,7 +20,11 @@ def size(folder: pathlib.Path) -> int:
 
 def print_sizes() -> None:
     with tempfile.TemporaryDirectory() as prefix:
-        subprocess.run(["cmake", "--install", str(ROOT / "build"), "--prefix", prefix, "--strip"], check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            ["cmake", "--install", str(ROOT / "build"), "--prefix", prefix, "--strip"],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
         print(f"installed (cmake --install --strip): {size(pathlib.Path(prefix)) / 1e6:.1f} MB")
     for site in ROOT.glob(".venv/lib/python3*/site-packages"):
         for wheel in WHEELS:
@@ -32,7 +37,9 @@ def print_start(prowl: pathlib.Path) -> None:
         begin = time.perf_counter()
         subprocess.run([prowl, "--version"], check=True, stdout=subprocess.DEVNULL)
         seconds.append(time.perf_counter() - begin)
-    print(f"prowl --version: median {1e3 * statistics.median(seconds):.1f} ms, least {1e3 * min(seconds):.1f} ms of {STARTS} starts")
+    print(
+        f"prowl --version: median {1e3 * statistics.median(seconds):.1f} ms, least {1e3 * min(seconds):.1f} ms of {STARTS} starts"
+    )
 
 
 def most_memory(command: list[str]) -> int:

@@ -1,5 +1,5 @@
-// Errors of the rules of integration over the step, as CSV: HyQ moved by given torques, state at the end against a fine mesh.
-// docs/formulations.md has the picture.
+// Errors of the rules of integration over the step, as CSV: HyQ moved by given torques, state at the end against a fine
+// mesh. docs/formulations.md has the picture.
 #include <fmt/format.h>
 
 #include "tests/support/given_torques.hpp"
@@ -8,8 +8,9 @@ int main() {
   using namespace prowl;
   const TrajectoryPoint truth = test::end_of_given_motion({.transcription = "hermite-simpson"}, 128);
   fmt::print("rule,step_s,q,v\n");
-  for (const Formulation& formulation : {Formulation{.transcription = "trapezoid"}, Formulation{.transcription = "hermite-simpson"},
-                                         Formulation{.dynamics = "forward", .transcription = "rk4"}}) {
+  for (const Formulation& formulation :
+       {Formulation{.transcription = "trapezoid"}, Formulation{.transcription = "hermite-simpson"},
+        Formulation{.dynamics = "forward", .transcription = "rk4"}}) {
     for (const int intervals : {4, 8, 16, 32}) {
       const auto [q, v] = test::state_error(test::end_of_given_motion(formulation, intervals), truth);
       fmt::print("{},{},{:.6e},{:.6e}\n", formulation.transcription, test::kGivenDuration / intervals, q, v);

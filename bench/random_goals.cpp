@@ -77,8 +77,8 @@ class GoalSource {
 prowl::MotionProblem with_goal(const prowl::MotionProblem& task, const Goal& goal) {
   prowl::MotionProblem problem = task;
   const int last_phase = static_cast<int>(task.phases.size()) - 1;
-  auto condition = prowl::BoundaryCondition::unbounded(problem.robot, "goal",
-                                                       {last_phase, task.phases.back().intervals}, goal.q);
+  auto condition =
+      prowl::BoundaryCondition::unbounded(problem.robot, "goal", {last_phase, task.phases.back().intervals}, goal.q);
   condition.configuration_lower.head<6>().setZero();
   condition.configuration_upper.head<6>().setZero();
   condition.velocity_lower.head<6>().setZero();
@@ -87,7 +87,8 @@ prowl::MotionProblem with_goal(const prowl::MotionProblem& task, const Goal& goa
   problem.boundary_conditions.push_back(std::move(condition));
   // Costs that pull to the goal of the file must not pull away from this one.
   for (prowl::QuadraticCost* cost : {&problem.running_cost, &problem.terminal_cost}) {
-    if (task.boundary_conditions.size() > 1 && cost->q_ref == task.boundary_conditions.back().q_ref) cost->q_ref = goal.q;
+    if (task.boundary_conditions.size() > 1 && cost->q_ref == task.boundary_conditions.back().q_ref)
+      cost->q_ref = goal.q;
   }
   return problem;
 }
@@ -147,11 +148,11 @@ struct Tally {
 };
 
 void print(int number, const Goal& goal, const Outcome& outcome) {
-  fmt::print("{:3}  [{:6.3f} {:6.3f} {:6.3f}] m  [{:6.3f} {:6.3f} {:6.3f}] rad  ", number, goal.shift.x(), goal.shift.y(),
-             goal.shift.z(), goal.rpy.x(), goal.rpy.y(), goal.rpy.z());
-  fmt::print("{} {}  {} intervals, {} iterations, {:.2f} s  {}\n",
-             prowl::to_string(outcome.plan.result.status), prowl::to_string(outcome.plan.certificate.grade),
-             outcome.intervals, outcome.iterations, outcome.seconds, first_failure(outcome.plan.certificate));
+  fmt::print("{:3}  [{:6.3f} {:6.3f} {:6.3f}] m  [{:6.3f} {:6.3f} {:6.3f}] rad  ", number, goal.shift.x(),
+             goal.shift.y(), goal.shift.z(), goal.rpy.x(), goal.rpy.y(), goal.rpy.z());
+  fmt::print("{} {}  {} intervals, {} iterations, {:.2f} s  {}\n", prowl::to_string(outcome.plan.result.status),
+             prowl::to_string(outcome.plan.certificate.grade), outcome.intervals, outcome.iterations, outcome.seconds,
+             first_failure(outcome.plan.certificate));
   std::fflush(stdout);
 }
 
@@ -190,7 +191,8 @@ Outcome reach(const std::string& task_file, const Goal& goal, int intervals) {
 
 int run(int argc, char** argv) {
   if (argc < 2 || argc > 5) {
-    fmt::print(stderr, "usage: random_goals TASK.toml [GOALS [INTERVALS [SEED]]]   (100 goals, 40 intervals, seed 1)\n");
+    fmt::print(stderr,
+               "usage: random_goals TASK.toml [GOALS [INTERVALS [SEED]]]   (100 goals, 40 intervals, seed 1)\n");
     return 2;
   }
   const int goals = argc > 2 ? positive(argv[2]) : 100;

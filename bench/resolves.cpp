@@ -1,6 +1,5 @@
-// In how many iterations a task is solved again from its own plan, once the goal or the start has moved a little, or the horizon
-// has, interval by interval.
-// docs/benchmarks.md says how to run it and what it prints.
+// In how many iterations a task is solved again from its own plan, once the goal or the start has moved a little, or
+// the horizon has, interval by interval. docs/benchmarks.md says how to run it and what it prints.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,8 +24,8 @@ namespace {
 using Eigen::Vector3d;
 using prowl::MotionProblem;
 
-constexpr double kGoalMoves = 0.02;                            // [m]
-constexpr double kStartTurns = std::numbers::pi / 180.0;       // [rad]
+constexpr double kGoalMoves = 0.02;                       // [m]
+constexpr double kStartTurns = std::numbers::pi / 180.0;  // [rad]
 constexpr int kDisturbances = 50;
 constexpr int kMostShifts = 20;
 
@@ -88,8 +87,8 @@ Tally resolve(const prowl::Task& task, const prowl::Plan& plan, auto disturbed) 
   std::mt19937 random(1);
   Tally tally;
   for (int i = 0; i < kDisturbances; ++i) {
-    prowl::PlanOptions options{.solver = task.solver, .start_from = plan.trajectory,
-                                .start_multipliers = plan.result.stage_multipliers};
+    prowl::PlanOptions options{
+        .solver = task.solver, .start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers};
     tally.add(prowl::make_plan(disturbed(random_direction(random)), prowl::RiccatiSolver(), options));
   }
   return tally;
@@ -104,7 +103,8 @@ Tally shift(const prowl::Task& task, const prowl::Plan& first) {
     prowl::ShiftedHorizon next = prowl::shift_horizon(problem, plan.trajectory, plan.result.stage_multipliers);
     problem = std::move(next.problem);
     plan = prowl::make_plan(problem, prowl::RiccatiSolver(),
-                            {.solver = task.solver, .start_from = std::move(next.start_from),
+                            {.solver = task.solver,
+                             .start_from = std::move(next.start_from),
                              .start_multipliers = std::move(next.start_multipliers)});
     tally.add(plan);
     if (plan.result.status != prowl::SolveStatus::converged) break;

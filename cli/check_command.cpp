@@ -26,11 +26,15 @@ int run_check(const CheckArguments& arguments) {
   record.plan.certificate = certify(record.task.problem, record.plan.trajectory);
   const Certificate& certificate = record.plan.certificate;
   if (certificate.grade != recorded) {
-    print_note(fmt::format("plan.json says grade {}, this check says {}", to_string(recorded), to_string(certificate.grade)));
+    print_note(
+        fmt::format("plan.json says grade {}, this check says {}", to_string(recorded), to_string(certificate.grade)));
   }
   const int status = exit_status(record.plan.result.status, certificate);
   if (arguments.json) {
-    print_json({.verb = "check", .exit_status = status, .plan = &record, .directory = arguments.directory,
+    print_json({.verb = "check",
+                .exit_status = status,
+                .plan = &record,
+                .directory = arguments.directory,
                 .result = plan_report_json(record, arguments.directory)});
   } else {
     print_result(plan_report(record, " (as planned)"));

@@ -15,12 +15,16 @@ namespace prowl::cli {
 namespace fs = std::filesystem;
 
 void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
-  CLI::Option* const folder =
-      add_folder(verb, "--checkpoint", arguments.folder, "Keep the best iterate in this folder while it solves, for --resume");
-  verb.add_option("--checkpoint-every", arguments.every,
-                  fmt::format("Seconds between two that are written; default {:g}, 0: each that is better", arguments.every))
-      ->check(nonnegative_number())->type_name("S")->needs(folder);
-  add_folder(verb, "--resume", arguments.resume, "Go on from this checkpoint, or from a plan that was not finished, of the same task");
+  CLI::Option* const folder = add_folder(verb, "--checkpoint", arguments.folder,
+                                         "Keep the best iterate in this folder while it solves, for --resume");
+  verb.add_option(
+          "--checkpoint-every", arguments.every,
+          fmt::format("Seconds between two that are written; default {:g}, 0: each that is better", arguments.every))
+      ->check(nonnegative_number())
+      ->type_name("S")
+      ->needs(folder);
+  add_folder(verb, "--resume", arguments.resume,
+             "Go on from this checkpoint, or from a plan that was not finished, of the same task");
 }
 
 namespace {
@@ -31,8 +35,8 @@ bool is_in(const fs::path& path, const fs::path& folder) {
 
 }  // namespace
 
-std::optional<PlanRecord> resume(const CheckpointArguments& arguments, const PackageSearch& search, bool is_refined, Task& task,
-                                 PlanOptions& options) {
+std::optional<PlanRecord> resume(const CheckpointArguments& arguments, const PackageSearch& search, bool is_refined,
+                                 Task& task, PlanOptions& options) {
   if (arguments.resume.empty()) return std::nullopt;
   PlanRecord record = read_plan(arguments.resume, search);
   std::vector<MotionProblem> meshes;
@@ -53,11 +57,14 @@ std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& argumen
   if (arguments.folder.empty()) return nullptr;
   const fs::path folder = real_path(arguments.folder), plan_folder = real_path(out);
   if (folder == plan_folder) {
-    throw InputError(fmt::format("--checkpoint {}: is where the plan goes, and may hold an earlier one; need another folder", arguments.folder));
+    throw InputError(fmt::format(
+        "--checkpoint {}: is where the plan goes, and may hold an earlier one; need another folder", arguments.folder));
   }
   if (is_in(folder, plan_folder) || is_in(plan_folder, folder)) {
-    throw InputError(fmt::format("--checkpoint {}: the plan goes to {}, and each takes its folder's place as a whole; need a folder "
-                                 "beside it", arguments.folder, out.string()));
+    throw InputError(
+        fmt::format("--checkpoint {}: the plan goes to {}, and each takes its folder's place as a whole; need a folder "
+                    "beside it",
+                    arguments.folder, out.string()));
   }
   if (holds_good_plan(folder)) {
     throw InputError(fmt::format("--checkpoint {}: holds a plan that passed; need another folder", arguments.folder));

@@ -30,7 +30,7 @@ struct WrittenReport {
 };
 
 /// Writes `out`, the report of a plan and of what else is in its folder (see prowl report), and says so on stderr.
-WrittenReport write_report(const PlanRecord& plan, const std::filesystem::path& directory, const std::filesystem::path& out,
-                           const PackageSearch& search);
+WrittenReport write_report(const PlanRecord& plan, const std::filesystem::path& directory,
+                           const std::filesystem::path& out, const PackageSearch& search);
 
 }  // namespace prowl::cli

@@ -12,7 +12,6 @@
 #include "json_result.hpp"
 #include "output.hpp"
 #include "progress_bar.hpp"
-#include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/compare_table.hpp"
@@ -20,6 +19,7 @@
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/transcription/mesh.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
+#include "python_script.hpp"
 #include "shared_options.hpp"
 
 namespace prowl::cli {
@@ -34,7 +34,7 @@ struct CompareArguments {
   Names dynamics, transcriptions, contacts, orientations, solvers;  ///< empty: the first of those that there are
   std::optional<std::string> snopt_library;
   std::string python = default_python(), guess = guess_names().front();
-  std::vector<int> intervals;                                       ///< empty: as in the task file
+  std::vector<int> intervals;  ///< empty: as in the task file
   TaskOverrides overrides;
   HessianKind hessian = HessianKind::exact;
   bool json = false;
@@ -87,22 +87,30 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
 }
 
 /// A combination that cannot be run is a line of the table, too, and takes nothing from the others.
-void run(const CompareArguments& arguments, const MotionProblem& problem, const SolverOptions& options, ComparedRun& line) {
+void run(const CompareArguments& arguments, const MotionProblem& problem, const SolverOptions& options,
+         ComparedRun& line) {
   try {
-    line.run = run_formulation(problem, line.formulation, *solver_of(arguments, line.solver), options, arguments.hessian, arguments.guess);
+    line.run = run_formulation(problem, line.formulation, *solver_of(arguments, line.solver), options,
+                               arguments.hessian, arguments.guess);
   } catch (const Error& error) {
     line.reason = error.what();
   }
 }
 
-bool was_interrupted(const ComparedRun& line) { return line.run && line.run->result.status == SolveStatus::interrupted; }
+bool was_interrupted(const ComparedRun& line) {
+  return line.run && line.run->result.status == SolveStatus::interrupted;
+}
 
 /// Runs them all, or those before Ctrl-C.
 CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>& interrupted) {
   const std::vector<Task> tasks = read_tasks(arguments);
   const Task& task = tasks.front();
-  CompareRecord record{.task = task.problem.name, .robot = task.problem.robot.name(), .options = task.solver,
-                       .hessian = arguments.hessian, .guess = arguments.guess, .versions = versions()};
+  CompareRecord record{.task = task.problem.name,
+                       .robot = task.problem.robot.name(),
+                       .options = task.solver,
+                       .hessian = arguments.hessian,
+                       .guess = arguments.guess,
+                       .versions = versions()};
   record.options.interrupt = &interrupted;
   std::vector<std::pair<const MotionProblem*, ComparedRun>> lines;
   for (const Task& on_mesh : tasks) {
@@ -133,7 +141,8 @@ void check_any_ran(const CompareRecord& record) {
 
 int run_compare(const CompareArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
-  const fs::path out = arguments.out.empty() ? "out" / fs::path(task_slug(arguments.task) + "_compare") : fs::path(arguments.out);
+  const fs::path out =
+      arguments.out.empty() ? "out" / fs::path(task_slug(arguments.task) + "_compare") : fs::path(arguments.out);
   const std::set<std::string> names = {"compare.md", "compare.csv", "compare.json"};
   check_replaceable(out, names);
   const CompareRecord record = compare(arguments, interrupted);
@@ -145,7 +154,8 @@ int run_compare(const CompareArguments& arguments) {
   }
   check_any_ran(record);
   const std::string table = compare_markdown(record), json = compare_json(record);
-  write_folder_atomically(out, {{"compare.md", table}, {"compare.csv", compare_csv(record)}, {"compare.json", json}}, names);
+  write_folder_atomically(out, {{"compare.md", table}, {"compare.csv", compare_csv(record)}, {"compare.json", json}},
+                          names);
   const int status = record.interrupted() ? kInterrupted : kPassed;
   if (arguments.json) {
     std::vector<fs::path> written;
@@ -161,7 +171,11 @@ void add_names(CLI::App& verb, const char* option, Names& asked, const Names& th
   Names allowed = there_is;
   allowed.push_back(kAll);
   verb.add_option(option, asked, fmt::format("{}, with commas between; default {}", meaning, there_is.front()))
-      ->check(CLI::IsMember(allowed))->type_name("LIST")->delimiter(',')->expected(1)->take_all();
+      ->check(CLI::IsMember(allowed))
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
 }
 
 }  // namespace
@@ -170,26 +184,37 @@ void add_compare_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* const verb = app.add_subcommand("compare", "Solve a task in several ways and put them in one table");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
-  add_names(*verb, "--formulation", arguments->dynamics, dynamics_names(), "Forms of the dynamics (docs/formulations.md)");
+  add_names(*verb, "--formulation", arguments->dynamics, dynamics_names(),
+            "Forms of the dynamics (docs/formulations.md)");
   add_names(*verb, "--transcription", arguments->transcriptions, transcription_names(), "Rules of integration");
   add_names(*verb, "--contact", arguments->contacts, contact_names(), "Forms of the contact constraint");
-  add_names(*verb, "--orientation", arguments->orientations, orientation_names(), "Coordinates of the base's orientation");
+  add_names(*verb, "--orientation", arguments->orientations, orientation_names(),
+            "Coordinates of the base's orientation");
   add_names(*verb, "--solver", arguments->solvers, all_solver_names(), "Who solves it");
   verb->add_option("--intervals", arguments->intervals,
                    "Meshes: intervals in all, shared out over the phases as in the task file; with commas between")
-      ->check(CLI::Range(1, kMostIntervals))->type_name("LIST")->delimiter(',')->expected(1)->take_all();
+      ->check(CLI::Range(1, kMostIntervals))
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
   add_solver_limits(*verb, arguments->overrides);
   add_hessian(*verb, arguments->hessian);
-  verb->add_option("--guess", arguments->guess, "What all start from: smooth (default), or straight lines from posture to posture")
-      ->check(CLI::IsMember(guess_names()))->type_name("NAME");
-  verb->add_option("--snopt-library", arguments->snopt_library, "Your own SNOPT; default libsnopt7.so if there is one, else Drake's")
+  verb->add_option("--guess", arguments->guess,
+                   "What all start from: smooth (default), or straight lines from posture to posture")
+      ->check(CLI::IsMember(guess_names()))
+      ->type_name("NAME");
+  verb->add_option("--snopt-library", arguments->snopt_library,
+                   "Your own SNOPT; default libsnopt7.so if there is one, else Drake's")
       ->type_name("FILE");
-  verb->add_option("--python", arguments->python, "Python with Drake, for its SNOPT; default " + arguments->python)->type_name("PATH");
+  verb->add_option("--python", arguments->python, "Python with Drake, for its SNOPT; default " + arguments->python)
+      ->type_name("PATH");
   add_folder(*verb, "--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb, {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",
-                     "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},
+  set_footer(*verb,
+             {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",
+              "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},
              "0 if all were run, whatever came of them: the table tells; 2 bad input, also if no\n"
              "combination can be run; 4 files; 130 interrupted (Ctrl-C keeps the runs that have finished).");
   verb->callback([arguments, &status] { status = run_compare(*arguments); });

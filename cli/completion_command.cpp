@@ -1,5 +1,6 @@
-// prowl completion: what a shell needs to complete the command line, from the tree of verbs and options that CLI11 has. A new
-// verb or option needs nothing here: what its values are is told by its type name (*.toml, DIR, FILE, PATH) and its choices.
+// prowl completion: what a shell needs to complete the command line, from the tree of verbs and options that CLI11 has.
+// A new verb or option needs nothing here: what its values are is told by its type name (*.toml, DIR, FILE, PATH) and
+// its choices.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -40,7 +41,10 @@ struct Verb {
 /// From "DIR", "TASK.toml", "NAME:{riccati,fatrop,...}".
 Value value_of(const std::string& type) {
   const auto has = [&type](const char* word) { return type.find(word) != std::string::npos; };
-  Value value{.is_toml = has(".toml"), .is_folder = has("DIR"), .is_file = has("FILE") || has("PATH") || has("URDF"), .choices = {}};
+  Value value{.is_toml = has(".toml"),
+              .is_folder = has("DIR"),
+              .is_file = has("FILE") || has("PATH") || has("URDF"),
+              .choices = {}};
   const std::size_t open = type.find('{'), close = type.find('}');
   if (open != std::string::npos && close != std::string::npos) {
     value.choices = CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
@@ -55,7 +59,8 @@ Option option_of(const CLI::Option& option) {
   read.meaning = option.get_description();
   const std::string type = option.get_type_name();
   read.type = type.substr(0, type.find(':'));
-  read.values = option.get_items_expected_min() > 0 ? option.get_type_size_max() * std::max(1, option.get_expected_min()) : 0;
+  read.values =
+      option.get_items_expected_min() > 0 ? option.get_type_size_max() * std::max(1, option.get_expected_min()) : 0;
   read.repeats = option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
   read.value = value_of(type);
   return read;
@@ -96,8 +101,10 @@ std::string all_names(const std::vector<Option>& options) {
 }
 
 std::string bash_value(const Value& value) {
-  if (!value.choices.empty()) return fmt::format("words={}", in_quotes(fmt::format("{}", fmt::join(value.choices, " "))));
-  return fmt::format("kinds='{}{}{}'", value.is_toml ? "toml " : "", value.is_folder ? "folder " : "", value.is_file ? "file " : "");
+  if (!value.choices.empty())
+    return fmt::format("words={}", in_quotes(fmt::format("{}", fmt::join(value.choices, " "))));
+  return fmt::format("kinds='{}{}{}'", value.is_toml ? "toml " : "", value.is_folder ? "folder " : "",
+                     value.is_file ? "file " : "");
 }
 
 struct BashCases {
@@ -109,7 +116,8 @@ struct BashCases {
 void add_bash_cases(const Verb& verb, BashCases& cases) {
   for (const Option& option : verb.options) {
     if (option.values == 0) continue;
-    for (const std::string& name : option.names) cases.values[bash_value(option.value)].push_back(in_quotes(verb.path + " " + name));
+    for (const std::string& name : option.names)
+      cases.values[bash_value(option.value)].push_back(in_quotes(verb.path + " " + name));
   }
   std::string argument = ":";
   if (!verb.verbs.empty()) {
@@ -117,7 +125,8 @@ void add_bash_cases(const Verb& verb, BashCases& cases) {
   } else if (!verb.positionals.empty()) {
     argument = bash_value(verb.positionals.front().value);
   }
-  cases.verbs += fmt::format("      {}) options={}; {} ;;\n", in_quotes(verb.path), in_quotes(all_names(verb.options)), argument);
+  cases.verbs +=
+      fmt::format("      {}) options={}; {} ;;\n", in_quotes(verb.path), in_quotes(all_names(verb.options)), argument);
   if (verb.path.find(' ') != std::string::npos) cases.paths.push_back(in_quotes(verb.path));
   for (const Verb& below : verb.verbs) add_bash_cases(below, cases);
 }
@@ -129,10 +138,12 @@ std::string bash(const Verb& command) {
   for (const auto& [value, patterns] : cases.values) {
     values += fmt::format("    {}) {}; is_value=1 ;;\n", fmt::join(patterns, "|"), value);
   }
-  const std::string second =
-      cases.paths.empty() ? ""
-                          : fmt::format("  if ((COMP_CWORD > 2)); then case \"$verb ${{COMP_WORDS[2]}}\" in {}) verb+=\" ${{COMP_WORDS[2]}}\" ;; esac; fi\n",
-                                        fmt::join(cases.paths, "|"));
+  const std::string second = cases.paths.empty()
+                                 ? ""
+                                 : fmt::format(
+                                       "  if ((COMP_CWORD > 2)); then case \"$verb ${{COMP_WORDS[2]}}\" in {}) "
+                                       "verb+=\" ${{COMP_WORDS[2]}}\" ;; esac; fi\n",
+                                       fmt::join(cases.paths, "|"));
   return fmt::format(R"(# Completion of prowl for bash: source <(prowl completion bash)
 _prowl() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} verb= words= kinds= options= is_value= kind
@@ -180,13 +191,15 @@ std::string zsh_specs(const Verb& verb) {
   for (const Option& option : verb.options) {
     for (const std::string& name : option.names) {
       std::string spec = (option.repeats ? "*" : "") + name + "[" + zsh_text(option.meaning) + "]";
-      for (int i = 0; i < option.values; ++i) spec += fmt::format(":{}:{}", zsh_text(option.type), zsh_action(option.value));
+      for (int i = 0; i < option.values; ++i)
+        spec += fmt::format(":{}:{}", zsh_text(option.type), zsh_action(option.value));
       specs += " \\\n        " + in_quotes(spec);
     }
   }
   for (std::size_t i = 0; i < verb.positionals.size(); ++i) {
     const Option& positional = verb.positionals[i];
-    specs += " \\\n        " + in_quotes(fmt::format("{}:{}:{}", i + 1, zsh_text(positional.type), zsh_action(positional.value)));
+    specs += " \\\n        " +
+             in_quotes(fmt::format("{}:{}:{}", i + 1, zsh_text(positional.type), zsh_action(positional.value)));
   }
   return specs;
 }
@@ -239,7 +252,8 @@ std::string fish_option(const Option& option) {
 }
 
 void add_fish_lines(const Verb& verb, std::string& text) {
-  const char* const where = verb.verbs.empty() ? "__prowl_in" : "__prowl_at";  // a verb may come only where its own begin
+  const char* const where =
+      verb.verbs.empty() ? "__prowl_in" : "__prowl_at";  // a verb may come only where its own begin
   const std::string here = fmt::format("complete -c prowl -n '{} {}'", where, verb.path);
   for (const Option& option : verb.options) text += here + fish_option(option) + "\n";
   for (const Option& positional : verb.positionals) text += here + fish_value(positional.value) + "\n";
@@ -271,10 +285,14 @@ void add_completion_command(CLI::App& app, int& status) {
   const auto shell = std::make_shared<std::string>();
   CLI::App* const verb = app.add_subcommand("completion", "Print what a shell needs to complete this command");
   verb->add_option("shell", *shell, "Whose script to print")
-      ->required()->check(CLI::IsMember({"bash", "zsh", "fish"}))->type_name("SHELL");
-  set_footer(*verb, {"prowl completion bash > ~/.local/share/bash-completion/completions/prowl", "prowl completion zsh > ~/.zfunc/_prowl",
-                     "prowl completion fish > ~/.config/fish/completions/prowl.fish"},
-             "0, 2 bad input. What else a shell needs: docs/command-line.md.");
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->type_name("SHELL");
+  set_footer(
+      *verb,
+      {"prowl completion bash > ~/.local/share/bash-completion/completions/prowl",
+       "prowl completion zsh > ~/.zfunc/_prowl", "prowl completion fish > ~/.config/fish/completions/prowl.fish"},
+      "0, 2 bad input. What else a shell needs: docs/command-line.md.");
   verb->callback([shell, &app, &status] {
     const Verb command = verb_of(app);
     print_bytes(*shell == "bash" ? bash(command) : *shell == "zsh" ? zsh(command) : fish(command));

@@ -59,10 +59,12 @@ void add_diagnose_command(CLI::App& app, int& status) {
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   verb->add_option("--max-time", arguments->max_seconds,
                    fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
-      ->check(positive_number())->type_name("S");
+      ->check(positive_number())
+      ->type_name("S");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb, {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
+  set_footer(*verb,
+             {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
              "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, whether or not a\n"
              "cause was found; 6 time or iterations were up before that was known; 7 there is a plan, but its\n"
              "certificate fails; 130 interrupted: what was found so far.");

@@ -11,10 +11,10 @@
 
 #include "environment.hpp"
 #include "process.hpp"
-#include "share_folder.hpp"
-#include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/solvers/fatrop_solver.hpp"
+#include "python_script.hpp"
+#include "share_folder.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -37,7 +37,9 @@ std::string kernel_value(const char* file, const std::string& name) {
   return "";
 }
 
-double memory(const std::string& name) { return 1e-6 * std::strtod(kernel_value("/proc/meminfo", name).c_str(), nullptr); }  // [GB]
+double memory(const std::string& name) {
+  return 1e-6 * std::strtod(kernel_value("/proc/meminfo", name).c_str(), nullptr);
+}  // [GB]
 
 /// Those that this process may use: a container or taskset leaves fewer than there are.
 int usable_cores() {
@@ -66,8 +68,11 @@ Finding check_script(const char* verb, const char* script_name, const char* libr
   }
   int status = -1;
   try {
-    status = run_program({python, "-c", fmt::format("import importlib.util as u, sys; sys.exit(any(u.find_spec(m) is None for m in '{}'.split()))", libraries)},
-                         [](const std::string&) {});
+    status = run_program(
+        {python, "-c",
+         fmt::format("import importlib.util as u, sys; sys.exit(any(u.find_spec(m) is None for m in '{}'.split()))",
+                     libraries)},
+        [](const std::string&) {});
   } catch (const InputError&) {  // it cannot be started
   }
   if (status != 0) {
@@ -82,7 +87,10 @@ Finding check_page() {
   const fs::path page = share_folder() / "report.html";
   std::error_code ignored;
   if (fs::exists(page, ignored)) return {.area = "files", .name = "report", .text = page.string(), .remedy = ""};
-  return {.area = "files", .name = "report", .state = State::missing, .text = page.string() + " is not there",
+  return {.area = "files",
+          .name = "report",
+          .state = State::missing,
+          .text = page.string() + " is not there",
           .remedy = "scripts/setup builds it; prowl report needs it"};
 }
 
@@ -105,14 +113,25 @@ Finding check_robots() {
 
 std::vector<Finding> check_build() {
   std::vector<Finding> findings;
-  const bool optimised = std::string(PROWL_BUILD_TYPE) == "Release" || std::string(PROWL_BUILD_TYPE) == "RelWithDebInfo";
-  findings.push_back({.area = "build", .name = "prowl", .state = optimised ? State::ok : State::slow,
-                      .text = fmt::format("{}, build type {}", PROWL_VERSION, *PROWL_BUILD_TYPE == '\0' ? "none" : PROWL_BUILD_TYPE),
-                      .remedy = optimised ? "" : "takes 10 times as long or more: cmake --preset release && cmake --build --preset release"});
-  const bool could_be_faster = std::string(PROWL_SIMD) == "baseline" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  findings.push_back({.area = "build", .name = "vector instructions", .state = State::ok,
-                      .text = std::string(PROWL_SIMD) + (could_be_faster ? "; avx2 would run here, 10 to 25 % faster, with other last digits" : ""),
-                      .remedy = could_be_faster ? "if wanted: cmake -DPROWL_SIMD=avx2" : ""});
+  const bool optimised =
+      std::string(PROWL_BUILD_TYPE) == "Release" || std::string(PROWL_BUILD_TYPE) == "RelWithDebInfo";
+  findings.push_back(
+      {.area = "build",
+       .name = "prowl",
+       .state = optimised ? State::ok : State::slow,
+       .text = fmt::format("{}, build type {}", PROWL_VERSION, *PROWL_BUILD_TYPE == '\0' ? "none" : PROWL_BUILD_TYPE),
+       .remedy = optimised
+                     ? ""
+                     : "takes 10 times as long or more: cmake --preset release && cmake --build --preset release"});
+  const bool could_be_faster =
+      std::string(PROWL_SIMD) == "baseline" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  findings.push_back(
+      {.area = "build",
+       .name = "vector instructions",
+       .state = State::ok,
+       .text = std::string(PROWL_SIMD) +
+               (could_be_faster ? "; avx2 would run here, 10 to 25 % faster, with other last digits" : ""),
+       .remedy = could_be_faster ? "if wanted: cmake -DPROWL_SIMD=avx2" : ""});
   for (const auto& [name, version] : versions()) {
     if (name == "prowl" || name == "vector instructions") continue;
     findings.push_back({.area = "build", .name = name, .text = version, .remedy = ""});
@@ -123,34 +142,55 @@ std::vector<Finding> check_build() {
     }
   }
   const std::string kernels = FatropSolver::linear_algebra();
-  findings.push_back({.area = "build", .name = "BLASFEO", .text = kernels.empty() ? "generic kernels: Fatrop's linear algebra takes about twice the time of AVX2 ones (docs/solvers.md)" : "kernels for " + kernels, .remedy = ""});
+  findings.push_back(
+      {.area = "build",
+       .name = "BLASFEO",
+       .text =
+           kernels.empty()
+               ? "generic kernels: Fatrop's linear algebra takes about twice the time of AVX2 ones (docs/solvers.md)"
+               : "kernels for " + kernels,
+       .remedy = ""});
   return findings;
 }
 
 std::vector<Finding> check_machine() {
   std::vector<Finding> findings;
   std::string features;
-  const auto add = [&features](bool has, const char* name) { features += fmt::format(", {} {}", has ? "has" : "no", name); };
+  const auto add = [&features](bool has, const char* name) {
+    features += fmt::format(", {} {}", has ? "has" : "no", name);
+  };
   add(__builtin_cpu_supports("avx2"), "AVX2");
   add(__builtin_cpu_supports("fma"), "FMA");
   add(__builtin_cpu_supports("avx512f"), "AVX-512");
   const std::string model = kernel_value("/proc/cpuinfo", "model name");
-  findings.push_back({.area = "machine", .name = "processor", .text = (model.empty() ? "unknown" : model) + features, .remedy = ""});
+  findings.push_back(
+      {.area = "machine", .name = "processor", .text = (model.empty() ? "unknown" : model) + features, .remedy = ""});
 
   const int cores = usable_cores();
   const bool busy = load() > kBusy * cores;
-  findings.push_back({.area = "machine", .name = "cores", .state = busy ? State::slow : State::ok,
+  findings.push_back({.area = "machine",
+                      .name = "cores",
+                      .state = busy ? State::slow : State::ok,
                       .text = fmt::format("{}; {:.1f} processes want to run", cores, load()),
                       .remedy = busy ? "others use this machine: times are longer than Prowl's own" : ""});
 
   const double all = memory("MemTotal"), free = memory("MemAvailable");
   const bool little = free < kLeastMemory;
-  findings.push_back({.area = "machine", .name = "memory", .state = little ? State::slow : State::ok,
-                      .text = fmt::format("{:.1f} GB, {:.1f} GB of it free", all, free),
-                      .remedy = little ? "enough to plan; a build takes 2.2 GB for a file, on disk if they are not there: close other programs" : ""});
+  findings.push_back(
+      {.area = "machine",
+       .name = "memory",
+       .state = little ? State::slow : State::ok,
+       .text = fmt::format("{:.1f} GB, {:.1f} GB of it free", all, free),
+       .remedy =
+           little
+               ? "enough to plan; a build takes 2.2 GB for a file, on disk if they are not there: close other programs"
+               : ""});
   return findings;
 }
 
-std::vector<Finding> check_files() { return {check_robots(), check_script("figures", "figures/draw.py", "numpy scipy matplotlib"), check_script("export", "exports/write_mcap.py", "numpy mcap mcap_ros2"), check_page()}; }
+std::vector<Finding> check_files() {
+  return {check_robots(), check_script("figures", "figures/draw.py", "numpy scipy matplotlib"),
+          check_script("export", "exports/write_mcap.py", "numpy mcap mcap_ros2"), check_page()};
+}
 
 }  // namespace prowl::cli

@@ -10,8 +10,8 @@ namespace prowl::cli {
 /// One thing that Prowl needs or can use, as it is on this machine.
 struct Finding {
   enum class State { ok, slow, missing };
-  std::string area;    ///< "build", "machine", "solvers", "files"
-  std::string name;    ///< "Riccati"
+  std::string area;  ///< "build", "machine", "solvers", "files"
+  std::string name;  ///< "Riccati"
   State state = State::ok;
   std::string text;    ///< what was found, or what is the matter
   std::string remedy;  ///< what to do about it; "" if nothing

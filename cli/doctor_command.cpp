@@ -42,7 +42,8 @@ std::string verdict(const std::vector<Finding>& findings) {
     std::string& list = finding.state == Finding::State::missing ? missing : slow;
     if (finding.state != Finding::State::ok) list += (list.empty() ? "" : ", ") + finding.name;
   }
-  return fmt::format("{}{}\n", missing.empty() ? "nothing is missing" : "missing: " + missing, slow.empty() ? "" : "; slow: " + slow);
+  return fmt::format("{}{}\n", missing.empty() ? "nothing is missing" : "missing: " + missing,
+                     slow.empty() ? "" : "; slow: " + slow);
 }
 
 std::string json(const std::vector<Finding>& findings, ExitStatus status) {
@@ -64,7 +65,8 @@ int run_doctor(bool as_json) {
     const std::vector<Finding> more = check();
     findings.insert(findings.end(), more.begin(), more.end());
   }
-  const auto bad = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) { return finding.status != kPassed; });
+  const auto bad =
+      std::find_if(findings.begin(), findings.end(), [](const Finding& finding) { return finding.status != kPassed; });
   const ExitStatus status = bad == findings.end() ? kPassed : bad->status;
   if (as_json) {
     print_json({.verb = "doctor", .exit_status = status, .result = json(findings, status)});
@@ -78,7 +80,8 @@ int run_doctor(bool as_json) {
 
 void add_doctor_command(CLI::App& app, int& status) {
   const auto as_json = std::make_shared<bool>(false);
-  CLI::App* const verb = app.add_subcommand("doctor", "Look at what Prowl needs here: what works, what is slow or missing, and the remedy");
+  CLI::App* const verb = app.add_subcommand(
+      "doctor", "Look at what Prowl needs here: what works, what is slow or missing, and the remedy");
   add_json(*verb, *as_json);
   set_footer(*verb, {"prowl doctor"},
              "0 planning works, even if something is slow or a verb like figures lacks its parts;\n"

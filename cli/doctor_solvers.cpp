@@ -45,13 +45,15 @@ torque = 1e-3
 )";
 
 std::string link(const std::string& name, double mass, double center, double moment) {
-  return fmt::format(fmt::runtime(kLink), fmt::arg("name", name), fmt::arg("mass", mass), fmt::arg("center", center), fmt::arg("moment", moment));
+  return fmt::format(fmt::runtime(kLink), fmt::arg("name", name), fmt::arg("mass", mass), fmt::arg("center", center),
+                     fmt::arg("moment", moment));
 }
 
-std::string joint(const std::string& name, const char* type, const std::string& parent, const std::string& child, double x, double y,
-                  double z, const char* axis) {
-  return fmt::format(fmt::runtime(kJoint), fmt::arg("name", name), fmt::arg("type", type), fmt::arg("parent", parent), fmt::arg("child", child),
-                     fmt::arg("x", x), fmt::arg("y", y), fmt::arg("z", z), fmt::arg("axis", axis));
+std::string joint(const std::string& name, const char* type, const std::string& parent, const std::string& child,
+                  double x, double y, double z, const char* axis) {
+  return fmt::format(fmt::runtime(kJoint), fmt::arg("name", name), fmt::arg("type", type), fmt::arg("parent", parent),
+                     fmt::arg("child", child), fmt::arg("x", x), fmt::arg("y", y), fmt::arg("z", z),
+                     fmt::arg("axis", axis));
 }
 
 /// A box on four legs of hip and knee.
@@ -62,16 +64,19 @@ Task tiny_task() {
     const std::string n = std::to_string(i);
     urdf += link("thigh" + n, 0.5, -0.1, 0.002) + link("shank" + n, 0.3, -0.1, 0.001);
     urdf += fmt::format("<link name=\"foot{}\"/>\n", n);
-    urdf += joint("roll" + n, "revolute", "base", "hip" + n, i < 2 ? 0.2 : -0.2, i % 2 == 0 ? 0.15 : -0.15, 0.0, "1 0 0") +
-            link("hip" + n, 0.3, 0.0, 0.001) + joint("pitch" + n, "revolute", "hip" + n, "thigh" + n, 0.0, 0.0, 0.0, "0 1 0") +
-            joint("knee" + n, "revolute", "thigh" + n, "shank" + n, 0.0, 0.0, -0.2, "0 1 0") +
-            joint("ankle" + n, "fixed", "shank" + n, "foot" + n, 0.0, 0.0, -0.2, "0 1 0");
+    urdf +=
+        joint("roll" + n, "revolute", "base", "hip" + n, i < 2 ? 0.2 : -0.2, i % 2 == 0 ? 0.15 : -0.15, 0.0, "1 0 0") +
+        link("hip" + n, 0.3, 0.0, 0.001) +
+        joint("pitch" + n, "revolute", "hip" + n, "thigh" + n, 0.0, 0.0, 0.0, "0 1 0") +
+        joint("knee" + n, "revolute", "thigh" + n, "shank" + n, 0.0, 0.0, -0.2, "0 1 0") +
+        joint("ankle" + n, "fixed", "shank" + n, "foot" + n, 0.0, 0.0, -0.2, "0 1 0");
     robot += fmt::format(fmt::runtime(kContact), n);
     nominal += fmt::format("pitch{0} = 0.6\nknee{0} = -1.2\n", n);
   }
   // No such folder: the texts are all there is.
   const std::filesystem::path folder = "/nonexistent/prowl-doctor";
-  return parse_task({folder / "task.toml", kTask}, {folder / "robot.toml", robot + nominal}, {}, {}, SourceText{folder / "tiny.urdf", urdf + "</robot>\n"});
+  return parse_task({folder / "task.toml", kTask}, {folder / "robot.toml", robot + nominal}, {}, {},
+                    SourceText{folder / "tiny.urdf", urdf + "</robot>\n"});
 }
 
 Finding check_solver(const NlpSolver& solver, const Task& task) {

@@ -7,8 +7,6 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "python_script.hpp"
-#include "socket_process.hpp"
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/nlp/dual_violation.hpp"
@@ -18,6 +16,8 @@
 #include "prowl/solvers/iterate.hpp"
 #include "prowl/solvers/judge.hpp"
 #include "prowl/solvers/snopt_solver.hpp"
+#include "python_script.hpp"
+#include "socket_process.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -35,10 +35,11 @@ class Conversation {
 
   bool send_program(const VectorXd& z_start) {
     const SparsityPattern& pattern = nlp_.jacobian_pattern();
-    const std::array<std::int64_t, 4> sizes = {nlp_.num_variables(), nlp_.num_constraints(), pattern.size(), options_.max_iterations};
-    return process_.send(sizes.data(), sizeof sizes) && send(options_.tolerance) && send(z_start) && send(nlp_.variable_lower()) &&
-           send(nlp_.variable_upper()) && send(nlp_.constraint_lower()) && send(nlp_.constraint_upper()) && send(pattern.rows) &&
-           send(pattern.cols);
+    const std::array<std::int64_t, 4> sizes = {nlp_.num_variables(), nlp_.num_constraints(), pattern.size(),
+                                               options_.max_iterations};
+    return process_.send(sizes.data(), sizeof sizes) && send(options_.tolerance) && send(z_start) &&
+           send(nlp_.variable_lower()) && send(nlp_.variable_upper()) && send(nlp_.constraint_lower()) &&
+           send(nlp_.constraint_upper()) && send(pattern.rows) && send(pattern.cols);
   }
 
   /// Answers until the end. The result has no figures of its own yet.
@@ -109,7 +110,8 @@ class Conversation {
     result.times.cpu = told.at("cpu_seconds");
     result.z.resize(nlp_.num_variables());
     if (told.at("has_multipliers").get<bool>()) result.multipliers.resize(nlp_.num_constraints());
-    if (!all(result.z.data(), bytes(result.z)) || !all(result.multipliers.data(), bytes(result.multipliers))) return ended();
+    if (!all(result.z.data(), bytes(result.z)) || !all(result.multipliers.data(), bytes(result.multipliers)))
+      return ended();
     if (result.status == SolveStatus::evaluation_failed) result.message = guarded_.failure();
     return result;
   }
@@ -168,8 +170,10 @@ SolveResult DrakeSnopt::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpt
   if (is_ready) conversation.send_program(z_start);
   SolveResult result = conversation.run();
   if (conversation.exit_status() == kNoLibrary) {
-    throw InputError(fmt::format("{}: SNOPT comes with Drake, which is not there: PROWL_WITH_SNOPT=1 scripts/setup, or "
-                                 "pip install drake==1.51.1 and --python PATH; or name your own libsnopt7: --snopt-library PATH", python_));
+    throw InputError(
+        fmt::format("{}: SNOPT comes with Drake, which is not there: PROWL_WITH_SNOPT=1 scripts/setup, or "
+                    "pip install drake==1.51.1 and --python PATH; or name your own libsnopt7: --snopt-library PATH",
+                    python_));
   }
   if (conversation.exit_status() && !is_ready) throw Error(result.message);
   if (result.z.size() == 0) result.z = z_start;
@@ -180,7 +184,8 @@ SolveResult DrakeSnopt::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpt
     judge(nlp, options.tolerance, name(), result);
   }
   const bool has_multipliers = result.multipliers.size() == nlp.num_constraints();
-  if (result.status == SolveStatus::converged && has_multipliers) result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
+  if (result.status == SolveStatus::converged && has_multipliers)
+    result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
   SolveTimes here = guarded.times();
   here.cpu = cpu_seconds() - cpu_start;
   result.times += here;

@@ -16,7 +16,8 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs);
 /// Instruction sets of this processor that Prowl and its libraries may ask for, with blanks between: "AVX AVX2 FMA".
 std::string processor_features();
 
-/// Throws InputError if this processor lacks the instructions that the build uses (PROWL_SIMD). Call before anything that computes.
+/// Throws InputError if this processor lacks the instructions that the build uses (PROWL_SIMD). Call before anything
+/// that computes.
 void check_processor();
 
 /// Throws InputError, with the remedy, if libraries are loaded that Prowl cannot work with.

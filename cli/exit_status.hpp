@@ -6,15 +6,15 @@ namespace prowl::cli {
 
 /// What the command ends with; scripts rely on these.
 enum ExitStatus : int {
-  kPassed = 0,              ///< the plan passes its certificate, draft or certified
-  kUnexpected = 1,          ///< a mistake in Prowl itself
+  kPassed = 0,      ///< the plan passes its certificate, draft or certified
+  kUnexpected = 1,  ///< a mistake in Prowl itself
   kBadInput = 2,
-  kNotSolved = 3,           ///< infeasible, or the solver failed
-  kFiles = 4,               ///< disk, permissions
+  kNotSolved = 3,  ///< infeasible, or the solver failed
+  kFiles = 4,      ///< disk, permissions
   kNumericalFailure = 5,
-  kLimit = 6,               ///< of time or iterations
-  kCertificateFailed = 7,   ///< converged, but the motion does not hold
-  kSimulationFailed = 8,    ///< not a success by the task's criteria
+  kLimit = 6,              ///< of time or iterations
+  kCertificateFailed = 7,  ///< converged, but the motion does not hold
+  kSimulationFailed = 8,   ///< not a success by the task's criteria
   kInterrupted = 130,
 };
 

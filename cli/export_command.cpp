@@ -13,8 +13,8 @@
 #include "output.hpp"
 #include "plan_tracker.hpp"
 #include "prowl/error.hpp"
-#include "prowl/io/csv_table.hpp"
 #include "prowl/io/atomic_folder.hpp"
+#include "prowl/io/csv_table.hpp"
 #include "prowl/io/export_files.hpp"
 #include "prowl/io/exports.hpp"
 #include "prowl/io/json_text.hpp"
@@ -61,7 +61,8 @@ MotionSamples take_samples(const ExportArguments& arguments, const PlanRecord& p
     if (!fs::exists(file, ignored)) {
       throw InputError(fmt::format("{}: no such file; first prowl simulate {}", file.string(), arguments.directory));
     }
-    return sample_simulation(problem, plan.plan.trajectory, read_csv_table(read_text_file(file, kLongestTable)), arguments.rate);
+    return sample_simulation(problem, plan.plan.trajectory, read_csv_table(read_text_file(file, kLongestTable)),
+                             arguments.rate);
   }
   std::optional<Tracker> tracker;
   if (fs::exists(directory / "tracker.bin", ignored)) tracker = read_tracker(directory, problem);
@@ -78,7 +79,8 @@ std::string written_by_script(const ExportArguments& arguments, const WorkFolder
 }
 
 /// The files of all formats that were asked for, by name.
-std::map<std::string, std::string> make_files(const ExportArguments& arguments, const PlanRecord& plan, const MotionSamples& samples) {
+std::map<std::string, std::string> make_files(const ExportArguments& arguments, const PlanRecord& plan,
+                                              const MotionSamples& samples) {
   const MotionProblem& problem = plan.task.problem;
   const std::string prefix = samples.simulated ? kSimulatedPrefix : "";
   std::map<std::string, std::string> files;
@@ -115,8 +117,8 @@ int run_export(const ExportArguments& arguments) {
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
   const MotionSamples samples = take_samples(arguments, plan);
   if (!is_good(plan.plan)) {
-    print_message(fmt::format("warning: this plan is not good: {}, certificate {}\n", to_string(plan.plan.result.status),
-                              plan.plan.certificate.passed ? "passed" : "failed"));
+    print_message(fmt::format("warning: this plan is not good: {}, certificate {}\n",
+                              to_string(plan.plan.result.status), plan.plan.certificate.passed ? "passed" : "failed"));
   }
   const std::map<std::string, std::string> files = make_files(arguments, plan, samples);
   make_folder(out);
@@ -132,10 +134,15 @@ int run_export(const ExportArguments& arguments) {
     text += fmt::format("{:>10.1f} kB  {}\n", 1e-3 * static_cast<double>(content.size()), (out / name).string());
     json["files"].push_back({{"name", name}, {"bytes", content.size()}});
   }
-  text += fmt::format("{} samples of the {}, {:g} s, {}\n", samples.points.size(), samples.simulated ? "simulation" : "plan",
-                      samples.points.back().time, samples.gains.empty() ? "without gains" : "with gains");
+  text += fmt::format("{} samples of the {}, {:g} s, {}\n", samples.points.size(),
+                      samples.simulated ? "simulation" : "plan", samples.points.back().time,
+                      samples.gains.empty() ? "without gains" : "with gains");
   if (arguments.json) {
-    print_json({.verb = "export", .plan = &plan, .directory = arguments.directory, .written = written, .result = json_text(json)});
+    print_json({.verb = "export",
+                .plan = &plan,
+                .directory = arguments.directory,
+                .written = written,
+                .result = json_text(json)});
   } else {
     print_result(text);
   }
@@ -148,17 +155,26 @@ void add_export_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App* const verb = app.add_subcommand("export", "Write a plan or its simulation for other programs");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option("--format", arguments->formats, "One or more, with commas: " + CLI::detail::join(format_names(), ", "))
-      ->required()->delimiter(',')->check(CLI::IsMember(format_names()))->type_name("FORMAT");
+  verb->add_option("--format", arguments->formats,
+                   "One or more, with commas: " + CLI::detail::join(format_names(), ", "))
+      ->required()
+      ->delimiter(',')
+      ->check(CLI::IsMember(format_names()))
+      ->type_name("FORMAT");
   add_folder(*verb, "--out", arguments->out, "Folder for the files; default: DIR/exports");
-  verb->add_option("--rate", arguments->rate, "Samples a second; default: the nodes of the plan, all rows of the simulation")
+  verb->add_option("--rate", arguments->rate,
+                   "Samples a second; default: the nodes of the plan, all rows of the simulation")
       ->type_name("HZ");
-  verb->add_flag("--simulation", arguments->simulation, "The simulated motion of simulate.csv in place of the planned one");
-  verb->add_option("--python", arguments->python, fmt::format("Python with {}, for npz and mcap; default {}", kLibraries, arguments->python))
+  verb->add_flag("--simulation", arguments->simulation,
+                 "The simulated motion of simulate.csv in place of the planned one");
+  verb->add_option("--python", arguments->python,
+                   fmt::format("Python with {}, for npz and mcap; default {}", kLibraries, arguments->python))
       ->type_name("PATH");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb, {"prowl export out/hyq_crouch --format csv,npz --rate 500", "prowl export out/hyq_crouch --format mcap --simulation"},
+  set_footer(*verb,
+             {"prowl export out/hyq_crouch --format csv,npz --rate 500",
+              "prowl export out/hyq_crouch --format mcap --simulation"},
              "0 if they are written, 2 bad input, 4 files. What they hold, and who reads them: docs/exports.md.");
   verb->callback([arguments, &status] { status = run_export(*arguments); });
 }

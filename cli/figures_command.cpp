@@ -12,13 +12,13 @@
 #include "output.hpp"
 #include "plan_tracker.hpp"
 #include "progress_bar.hpp"
-#include "python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
 #include "prowl/io/figure_data.hpp"
 #include "prowl/io/figure_files.hpp"
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/plan_directory.hpp"
+#include "python_script.hpp"
 #include "shared_options.hpp"
 #include "work_folder.hpp"
 
@@ -27,8 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kStep = 0.005;                       ///< of contact accelerations [s]
-constexpr std::size_t kLongestFigure = 1u << 30;      ///< [bytes]
+constexpr double kStep = 0.005;                   ///< of contact accelerations [s]
+constexpr std::size_t kLongestFigure = 1u << 30;  ///< [bytes]
 
 struct FiguresArguments {
   std::string directory, out, joint, python = default_python();
@@ -49,7 +49,8 @@ void draw(const FiguresArguments& arguments, const fs::path& work, const std::st
     if (!bar) bar.emplace("figures", total);
     bar->show(done);
   };
-  run_script({arguments.python, "numpy, scipy and matplotlib"}, "figures/draw.py", {arguments.directory, work.string(), joint}, on_line);
+  run_script({arguments.python, "numpy, scipy and matplotlib"}, "figures/draw.py",
+             {arguments.directory, work.string(), joint}, on_line);
 }
 
 /// "--joint" or a default, checked.
@@ -78,10 +79,12 @@ int run_figures(const FiguresArguments& arguments) {
   if (has_gains) {
     write_file_atomically(work.path() / "gains.csv", gains_csv(problem.robot, read_tracker(directory, problem), joint));
   } else {
-    print_message(fmt::format("no gains in {}: without figure gains; prowl plan writes them (tracker.bin)\n", arguments.directory));
+    print_message(fmt::format("no gains in {}: without figure gains; prowl plan writes them (tracker.bin)\n",
+                              arguments.directory));
   }
   if (!fs::exists(directory / "simulate.csv", ignored)) {
-    print_message(fmt::format("no simulation in {}: planned motion only, without base_error and joint_error\n", arguments.directory));
+    print_message(fmt::format("no simulation in {}: planned motion only, without base_error and joint_error\n",
+                              arguments.directory));
     if (has_gains) print_message(fmt::format("for all figures first\n  prowl simulate {}\n", arguments.directory));
   }
   draw(arguments, work.path(), problem.robot.joint_names()[joint]);
@@ -97,10 +100,14 @@ int run_figures(const FiguresArguments& arguments) {
   }
   write_folder_atomically(out, files, figure_file_names());
   if (arguments.json) {
-    print_json({.verb = "figures", .plan = &plan, .directory = directory, .written = written,
+    print_json({.verb = "figures",
+                .plan = &plan,
+                .directory = directory,
+                .written = written,
                 .result = json_text({{"figures", pictures}})});
   } else {
-    print_result(fmt::format("{}\nwritten to {}, each as .svg, .png and .csv\n", fmt::join(pictures, ", "), out.string()));
+    print_result(
+        fmt::format("{}\nwritten to {}, each as .svg, .png and .csv\n", fmt::join(pictures, ", "), out.string()));
   }
   return kPassed;
 }
@@ -112,12 +119,17 @@ void add_figures_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("figures", "Draw a plan, its gains and its simulation");
   add_plan_directory(*verb, arguments->directory);
   add_folder(*verb, "--out", arguments->out, "Folder for the figures; default: DIR/figures");
-  verb->add_option("--joint", arguments->joint, "Whose gains to draw; default: the first knee, or else the first leg's last joint")
+  verb->add_option("--joint", arguments->joint,
+                   "Whose gains to draw; default: the first knee, or else the first leg's last joint")
       ->type_name("NAME");
-  verb->add_option("--python", arguments->python, "Python with numpy, scipy and matplotlib; default " + arguments->python)->type_name("PATH");
+  verb->add_option("--python", arguments->python,
+                   "Python with numpy, scipy and matplotlib; default " + arguments->python)
+      ->type_name("PATH");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb, {"prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch", "prowl figures out/hyq_crouch --joint lf_hfe_joint --out figures"},
+  set_footer(*verb,
+             {"prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch",
+              "prowl figures out/hyq_crouch --joint lf_hfe_joint --out figures"},
              "0 if they are drawn, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_figures(*arguments); });
 }

@@ -28,8 +28,10 @@ Json error_to_json(int exit_status, const std::string& message) {
   Json error = {{"kind", kind_of(exit_status)}, {"message", message}};
   // "robots/hyq.toml:12:3: ...", as InputError has it.
   const std::string place = message.substr(0, std::min(message.find(": "), message.find('\n')));
-  const std::size_t before_column = place.rfind(':'), before_line = place.rfind(':', before_column == 0 ? 0 : before_column - 1);
-  if (before_column == std::string::npos || before_line == std::string::npos || before_line == before_column) return error;
+  const std::size_t before_column = place.rfind(':'),
+                    before_line = place.rfind(':', before_column == 0 ? 0 : before_column - 1);
+  if (before_column == std::string::npos || before_line == std::string::npos || before_line == before_column)
+    return error;
   const auto number = [&place](std::size_t begin, std::size_t end) {
     int value = -1;
     const auto [last, problem] = std::from_chars(place.data() + begin, place.data() + end, value);
@@ -60,7 +62,8 @@ void print_json(const JsonResult& result) {
 
 void print_json_error(const std::string& verb, int exit_status, const std::string& message) noexcept {
   try {
-    print_bytes(json_text({{"verb", verb}, {"exit_status", exit_status}, {"error", error_to_json(exit_status, message)}}));
+    print_bytes(
+        json_text({{"verb", verb}, {"exit_status", exit_status}, {"error", error_to_json(exit_status, message)}}));
   } catch (const std::exception&) {  // nobody listens
   }
 }

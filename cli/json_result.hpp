@@ -10,8 +10,8 @@ namespace prowl::cli {
 
 // What --json prints (docs/command-line.md): one object on stdout and nothing else, for errors too.
 
-/// {"verb", "exit_status", "written": [paths], and all that the object `result` holds}; of a plan "directory", "name" and
-/// "robot" as well.
+/// {"verb", "exit_status", "written": [paths], and all that the object `result` holds}; of a plan "directory", "name"
+/// and "robot" as well.
 struct JsonResult {
   std::string verb;
   int exit_status = 0;

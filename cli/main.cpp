@@ -37,7 +37,8 @@ std::string first_verb(const CLI::App& app, int argc, const char* const* argv) {
 /// "; did you mean '--json'?" for the first verb or option that there is not, else "".
 std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> verbs;
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    verbs.push_back(verb->get_name());
   if (argc < 2) return "";
   const std::string first = argv[1];
   const bool is_verb = std::find(verbs.begin(), verbs.end(), first) != verbs.end();
@@ -45,7 +46,8 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> options;
   const CLI::App* verb = is_verb ? app.get_subcommand(first) : &app;
   if (is_verb && argc > 2) {  // a verb may have verbs
-    for (const CLI::App* below : verb->get_subcommands([&](const CLI::App* any) { return any->get_name() == argv[2]; })) verb = below;
+    for (const CLI::App* below : verb->get_subcommands([&](const CLI::App* any) { return any->get_name() == argv[2]; }))
+      verb = below;
   }
   for (const CLI::Option* option : verb->get_options()) {
     for (const std::string& name : option->get_lnames()) options.push_back("--" + name);
@@ -53,7 +55,8 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument(argv[i], std::find(argv[i], argv[i] + std::string_view(argv[i]).size(), '='));
     if (!argument.starts_with("--")) continue;
-    if (std::find(options.begin(), options.end(), argument) == options.end()) return prowl::did_you_mean(argument, options);
+    if (std::find(options.begin(), options.end(), argument) == options.end())
+      return prowl::did_you_mean(argument, options);
   }
   return "";
 }
@@ -81,18 +84,21 @@ int run(int argc, char** argv) {
   CLI::App app("Prowl plans whole-body motions of legged robots and checks them.", "prowl");
   app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
-  app.footer("Examples:\n  prowl robot robots/hyq.toml          what Prowl understands of a robot\n"
-             "  prowl plan tasks/hyq/crouch.toml     plan a motion into out/hyq_crouch\n"
-             "  prowl check out/hyq_crouch           check it again\n"
-             "  prowl diagnose tasks/hyq/crouch.toml why there is no plan, and what would change that\n"
-             "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
-             "  prowl compare tasks/hyq/hold.toml --solver riccati,ipopt   the same problem solved in several ways, in one table\n"
-             "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
-             "  prowl report out/hyq_crouch          replay it in a browser\n"
-             "  prowl view tasks/hyq/walk.toml       look at the iterates in a browser while it is planned\n"
-             "  prowl export out/hyq_crouch --format npz,mcap   for NumPy, Foxglove, ROS 2, MuJoCo\n"
-             "  prowl new robot URDF                 a robot file to start from; prowl new task likewise\n"
-             "  prowl doctor                         what works here, and what is slow or missing\n\nMore with prowl VERB --help.");
+  app.footer(
+      "Examples:\n  prowl robot robots/hyq.toml          what Prowl understands of a robot\n"
+      "  prowl plan tasks/hyq/crouch.toml     plan a motion into out/hyq_crouch\n"
+      "  prowl check out/hyq_crouch           check it again\n"
+      "  prowl diagnose tasks/hyq/crouch.toml why there is no plan, and what would change that\n"
+      "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
+      "  prowl compare tasks/hyq/hold.toml --solver riccati,ipopt   the same problem solved in several ways, in one "
+      "table\n"
+      "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
+      "  prowl report out/hyq_crouch          replay it in a browser\n"
+      "  prowl view tasks/hyq/walk.toml       look at the iterates in a browser while it is planned\n"
+      "  prowl export out/hyq_crouch --format npz,mcap   for NumPy, Foxglove, ROS 2, MuJoCo\n"
+      "  prowl new robot URDF                 a robot file to start from; prowl new task likewise\n"
+      "  prowl doctor                         what works here, and what is slow or missing\n\nMore with prowl VERB "
+      "--help.");
   add_plan_command(app, status);
   add_check_command(app, status);
   add_diagnose_command(app, status);
@@ -116,7 +122,8 @@ int run(int argc, char** argv) {
       print_result(text.str());
       return kPassed;
     }
-    return report_error(argc, argv, error.what() + suggestion(app, argc, argv), kBadInput, "\nMore with prowl " + first_verb(app, argc, argv) + "--help.");
+    return report_error(argc, argv, error.what() + suggestion(app, argc, argv), kBadInput,
+                        "\nMore with prowl " + first_verb(app, argc, argv) + "--help.");
   }
   return status;
 }
@@ -124,7 +131,9 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const auto report = [&](const std::exception& error, int status) { return report_error(argc, argv, error.what(), status); };
+  const auto report = [&](const std::exception& error, int status) {
+    return report_error(argc, argv, error.what(), status);
+  };
   open_standard_streams();
   try {
     check_processor();

@@ -39,8 +39,10 @@ std::string file_stem(const std::string& name) {
   std::string stem;
   for (const char c : name) {
     const auto letter = static_cast<unsigned char>(c);
-    if (std::isalnum(letter) != 0) stem += static_cast<char>(std::tolower(letter));
-    else if (!stem.empty() && stem.back() != '_') stem += '_';
+    if (std::isalnum(letter) != 0)
+      stem += static_cast<char>(std::tolower(letter));
+    else if (!stem.empty() && stem.back() != '_')
+      stem += '_';
   }
   while (stem.ends_with('_')) stem.pop_back();
   return stem.empty() ? "robot" : stem;
@@ -71,24 +73,30 @@ int run_new_robot(const NewRobotArguments& arguments) {
     print_json({.verb = "new", .written = {out}, .result = robot_report_json(model, inspection)});
     return kPassed;
   }
-  std::string report = fmt::format("{}: {:.1f} kg, {} legs, {} contacts, {}\nwritten to {}\n", model.name(), model.mass(),
-                                   robot.search.legs.size(), model.contacts().size(),
-                                   robot.posture.found ? fmt::format("standing with the base {:.3f} m up", robot.posture.height)
-                                                       : "NO posture found that stands on them",
-                                   out.string());
+  std::string report =
+      fmt::format("{}: {:.1f} kg, {} legs, {} contacts, {}\nwritten to {}\n", model.name(), model.mass(),
+                  robot.search.legs.size(), model.contacts().size(),
+                  robot.posture.found ? fmt::format("standing with the base {:.3f} m up", robot.posture.height)
+                                      : "NO posture found that stands on them",
+                  out.string());
   for (const RobotWarning& warning : inspection.warnings) report += fmt::format("warning: {}\n", warning.text);
-  print_result(report + fmt::format("next: look at its guesses, then prowl robot {0} and prowl new task {0}\n", out.string()));
+  print_result(report +
+               fmt::format("next: look at its guesses, then prowl robot {0} and prowl new task {0}\n", out.string()));
   return kPassed;
 }
 
 void add_new_robot(CLI::App& verb, int& status) {
   const auto arguments = std::make_shared<NewRobotArguments>();
-  CLI::App* const robot = verb.add_subcommand("robot", "Write a robot file for a URDF: feet, posture and limits as far as it can tell");
-  robot->add_option("urdf", arguments->urdf, "URDF of a legged robot: a path, or package://NAME/PATH")->required()->type_name("URDF");
+  CLI::App* const robot =
+      verb.add_subcommand("robot", "Write a robot file for a URDF: feet, posture and limits as far as it can tell");
+  robot->add_option("urdf", arguments->urdf, "URDF of a legged robot: a path, or package://NAME/PATH")
+      ->required()
+      ->type_name("URDF");
   add_new_file(*robot, arguments->file, "robots/NAME.toml");
   add_json(*robot, arguments->json);
   add_package_dirs(*robot, arguments->package_dirs);
-  set_footer(*robot, {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml"},
+  set_footer(*robot,
+             {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml"},
              "0, 2 bad input and nothing is written, 4 files. What it guesses it says in comments.");
   robot->callback([arguments, &status] { status = run_new_robot(*arguments); });
 }
@@ -110,7 +118,8 @@ int run_new_task(const NewTaskArguments& arguments) {
   check_new_file(out, arguments.file.force);
   const PackageSearch search = package_search(arguments.package_dirs);
   const RobotModel robot = load_robot(read_text_file(robot_file), search);
-  const auto kind = std::find_if(kKinds.begin(), kKinds.end(), [&](NewTaskKind k) { return to_string(k) == arguments.kind; });
+  const auto kind =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](NewTaskKind k) { return to_string(k) == arguments.kind; });
   NewTask task;
   try {
     task = new_task(robot, *kind);
@@ -127,7 +136,8 @@ int run_new_task(const NewTaskArguments& arguments) {
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});
     return kPassed;
   }
-  print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}\n", robot.name(), arguments.kind, out.string(), out.string()));
+  print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}\n", robot.name(), arguments.kind, out.string(),
+                           out.string()));
   return kPassed;
 }
 
@@ -137,8 +147,11 @@ void add_new_task(CLI::App& verb, int& status) {
   task->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
   std::vector<std::string> names;
   for (const NewTaskKind kind : kKinds) names.push_back(to_string(kind));
-  task->add_option("--kind", arguments->kind, "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step forward")
-      ->check(CLI::IsMember(names))->type_name("NAME");
+  task->add_option(
+          "--kind", arguments->kind,
+          "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step forward")
+      ->check(CLI::IsMember(names))
+      ->type_name("NAME");
   add_new_file(*task, arguments->file, "tasks/ROBOT/KIND.toml");
   add_json(*task, arguments->json);
   add_package_dirs(*task, arguments->package_dirs);
@@ -152,8 +165,9 @@ void add_new_task(CLI::App& verb, int& status) {
 void add_new_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("new", "Write a robot or task file to start from");
   verb->require_subcommand(1);
-  set_footer(*verb, {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml",
-                     "prowl new task robots/go2.toml --kind step --out step.toml"},
+  set_footer(*verb,
+             {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml",
+              "prowl new task robots/go2.toml --kind step --out step.toml"},
              "0, 2 bad input and nothing is written, 4 files. More with prowl new robot --help.");
   add_new_robot(*verb, status);
   add_new_task(*verb, status);

@@ -16,9 +16,11 @@ void add_new_file(CLI::App& verb, NewFileOptions& options, const std::string& fa
 
 void check_new_file(const fs::path& file, bool force) {
   std::error_code error;
-  if (fs::is_directory(file, error)) throw InputError(fmt::format("{}: is a folder; need the name of a file", file.string()));
+  if (fs::is_directory(file, error))
+    throw InputError(fmt::format("{}: is a folder; need the name of a file", file.string()));
   if (fs::exists(file, error) && !force) {
-    throw InputError(fmt::format("{}: is there already; --force replaces it, --out FILE writes another", file.string()));
+    throw InputError(
+        fmt::format("{}: is there already; --force replaces it, --out FILE writes another", file.string()));
   }
 }
 

@@ -71,9 +71,10 @@ void add_feedback(PlanRecord& record) {
     for (const ReferencePhase& phase : grid) samples += phase.samples.size();
     ProgressBar bar("gains", static_cast<int>(samples), ProgressBar::Start::if_long);
     int done = 0;
-    record.feedback = design_feedback(problem, record.plan.trajectory, record.task.tracking, [&](const ReducedSample& sample) {
-      if (sample.phase < std::ssize(grid)) bar.show(++done);  // the phase of standing on is one more
-    });
+    record.feedback =
+        design_feedback(problem, record.plan.trajectory, record.task.tracking, [&](const ReducedSample& sample) {
+          if (sample.phase < std::ssize(grid)) bar.show(++done);  // the phase of standing on is one more
+        });
   } catch (const NumericalError& error) {
     print_note(error.what());
   }
@@ -151,26 +152,35 @@ int run_plan(const PlanArguments& arguments) {
   const int asked = count_intervals(task.problem);
   if (!arguments.refine) task.problem = mesh_of(task.problem, plan);
 
-  PlanRecord record{.task = std::move(task), .plan = std::move(plan), .versions = versions(),
-                    .feedback = {}, .iterations = progress.iterations(), .warm_start = start};
+  PlanRecord record{.task = std::move(task),
+                    .plan = std::move(plan),
+                    .versions = versions(),
+                    .feedback = {},
+                    .iterations = progress.iterations(),
+                    .warm_start = start};
   if (!arguments.no_gains) add_feedback(record);
-  if (holds_good_plan(out))
-    print_note("replaces an earlier plan that passed, in " + out.string());
+  if (holds_good_plan(out)) print_note("replaces an earlier plan that passed, in " + out.string());
   write_plan(out, record, arguments.step);
   if (arguments.report) write_report(record, out, out / kReportFile, package_search(arguments.package_dirs));
   if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   const bool may_go_on = !is_good(record.plan) && (status == kLimit || status == kInterrupted);
   if (const int reached = count_intervals(record.task.problem); may_go_on && reached < asked) {
-    print_note(fmt::format("stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one", reached, asked));
+    print_note(fmt::format("stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one",
+                           reached, asked));
   }
-  if (may_go_on) print_message(fmt::format("to go on from there: --resume {}{}, all else as before\n", out.string(),
-                                             arguments.warm_start.empty() ? "" : " in place of --warm-start"));
+  if (may_go_on)
+    print_message(fmt::format("to go on from there: --resume {}{}, all else as before\n", out.string(),
+                              arguments.warm_start.empty() ? "" : " in place of --warm-start"));
   if (status == kNotSolved || status == kLimit) {
     print_message(fmt::format("why, and what would change that: prowl diagnose {}\n", arguments.task));
   }
   if (arguments.json) {
-    print_json({.verb = "plan", .exit_status = status, .plan = &record, .directory = out, .written = files_of_plan(out),
+    print_json({.verb = "plan",
+                .exit_status = status,
+                .plan = &record,
+                .directory = out,
+                .written = files_of_plan(out),
                 .result = plan_report_json(record, out)});
   }
   return status;
@@ -185,22 +195,27 @@ void add_plan_command(CLI::App& app, int& status) {
   add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
   add_json(*verb, arguments->json);
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
-      ->check(positive_number())->type_name("S");
+      ->check(positive_number())
+      ->type_name("S");
   verb->add_option("--solver", arguments->solver, "Who solves it; default " + arguments->solver)
-      ->check(CLI::IsMember(solver_names()))->type_name("NAME");
+      ->check(CLI::IsMember(solver_names()))
+      ->type_name("NAME");
   verb->add_option("--threads", arguments->threads,
                    "Threads that evaluate the problem, not with fatrop; default 1. The result is the same")
-      ->check(CLI::Range(1, kMostThreads))->type_name("N");
+      ->check(CLI::Range(1, kMostThreads))
+      ->type_name("N");
   add_hessian(*verb, arguments->hessian);
   add_solver_limits(*verb, arguments->overrides);
   verb->add_option("--intervals", arguments->overrides.intervals,
                    "Mesh intervals in all, shared out over the phases as in the task file")
-      ->check(CLI::Range(1, kMostIntervals))->type_name("N");
+      ->check(CLI::Range(1, kMostIntervals))
+      ->type_name("N");
   add_refine(*verb, arguments->refine);
   verb->add_flag("--no-gains", arguments->no_gains, "Leave out the feedback gains, tracker.bin");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
-  add_folder(*verb, "--warm-start", arguments->warm_start, "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ");
+  add_folder(*verb, "--warm-start", arguments->warm_start,
+             "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ");
   add_checkpoint(*verb, arguments->checkpoint);
   verb->get_option("--resume")->excludes("--warm-start");
   add_package_dirs(*verb, arguments->package_dirs);
@@ -210,12 +225,13 @@ void add_plan_command(CLI::App& app, int& status) {
                              "--no-gains", "--report", "--checkpoint", "--resume"}) {
     phases->excludes(unused);
   }
-  set_footer(*verb, {"prowl plan tasks/hyq/crouch.toml", "prowl plan tasks/hyq/balance.toml --print-phases",
-                     "prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out out/stand",
-                     "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120",
-                     "prowl plan tasks/hyq/crouch.toml --checkpoint out/so_far --checkpoint-every 0",
-                     "prowl plan tasks/hyq/crouch.toml --resume out/so_far",
-                     "prowl plan tasks/hyq/step.toml --refine", "prowl plan tasks/hyq/crouch.toml --refine certified"},
+  set_footer(*verb,
+             {"prowl plan tasks/hyq/crouch.toml", "prowl plan tasks/hyq/balance.toml --print-phases",
+              "prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out out/stand",
+              "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120",
+              "prowl plan tasks/hyq/crouch.toml --checkpoint out/so_far --checkpoint-every 0",
+              "prowl plan tasks/hyq/crouch.toml --resume out/so_far", "prowl plan tasks/hyq/step.toml --refine",
+              "prowl plan tasks/hyq/crouch.toml --refine certified"},
              "0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
              "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"
              "130 interrupted (Ctrl-C keeps the best motion so far, marked as not finished).");

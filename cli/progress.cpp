@@ -30,11 +30,11 @@ void ProgressPrinter::begin_level(int intervals) {
 void ProgressPrinter::print(const SolveProgress& progress) {
   constexpr int kLinesAHeading = 20;
   if (line_ == 0 || (in_terminal_ && line_ % kLinesAHeading == 0)) {
-    print_progress(
-        fmt::format("{:>9}  {:>13}  {:>10}  {:>10}  {:>9}\n", "iteration", "objective", "constraint", "dual", "elapsed"));
+    print_progress(fmt::format("{:>9}  {:>13}  {:>10}  {:>10}  {:>9}\n", "iteration", "objective", "constraint", "dual",
+                               "elapsed"));
   }
   print_progress(fmt::format("{:>9}  {:>13.6e}  {:>10.2e}  {:>10.2e}  {:>7.2f} s\n", progress.iteration, progress.cost,
-                            progress.constraint_violation, progress.dual_violation, progress.elapsed_seconds));
+                             progress.constraint_violation, progress.dual_violation, progress.elapsed_seconds));
   ++line_;
 }
 

@@ -6,9 +6,9 @@
 
 namespace prowl::cli {
 
-/// How many of `total` equal pieces of work are done, on stderr. In a terminal the bar of Boost.Timer with the time that has
-/// passed and what is left at this pace; elsewhere, and where it is too narrow, a line for every tenth. No colours. Nothing
-/// with --quiet.
+/// How many of `total` equal pieces of work are done, on stderr. In a terminal the bar of Boost.Timer with the time
+/// that has passed and what is left at this pace; elsewhere, and where it is too narrow, a line for every tenth. No
+/// colours. Nothing with --quiet.
 class ProgressBar {
  public:
   enum class Start { at_once, if_long };  ///< if_long: once it looks as if all will take two seconds or more
@@ -40,7 +40,8 @@ class ProgressBar {
   bool is_open_ = false;
 };
 
-/// Progress of a simulation or a rollout, as simulate() and rollout() call it: a ProgressBar over the motion if it takes long.
+/// Progress of a simulation or a rollout, as simulate() and rollout() call it: a ProgressBar over the motion if it
+/// takes long.
 class MotionProgress {
  public:
   void operator()(double t, double end);  ///< [s], from 0

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "process.hpp"
-#include "share_folder.hpp"
 #include "prowl/error.hpp"
+#include "share_folder.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -26,7 +26,8 @@ std::string default_python() {
 std::vector<std::string> script_command(const std::string& python, const std::string& script) {
   std::error_code ignored;
   const fs::path path = share_folder() / script;
-  if (!fs::exists(path, ignored)) throw FileError(fmt::format("{}: missing; it belongs to this program", path.string()));
+  if (!fs::exists(path, ignored))
+    throw FileError(fmt::format("{}: missing; it belongs to this program", path.string()));
   return {python, "-B", path.string()};
 }
 
@@ -36,8 +37,8 @@ void run_script(const Python& python, const std::string& script, const std::vect
   command.insert(command.end(), arguments.begin(), arguments.end());
   const int status = run_program(command, on_line);
   if (status == kNoLibrary) {
-    throw InputError(fmt::format("{}: need a Python with {} (scripts/setup makes one in .venv): --python PATH", python.program,
-                                 python.libraries));
+    throw InputError(fmt::format("{}: need a Python with {} (scripts/setup makes one in .venv): --python PATH",
+                                 python.program, python.libraries));
   }
   if (status != 0) throw Error(fmt::format("{} failed with status {}", command[2], status));
 }

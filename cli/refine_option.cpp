@@ -29,16 +29,21 @@ void add_refine(CLI::App& verb, std::optional<MeshTolerance>& tolerance) {
       "");
   verb.add_option_function<std::string>(
           "--refine", [&tolerance](const std::string& text) { tolerance = tolerance_of(text); },
-          "Split and merge mesh intervals until the errors measured on them are those of draft (default), certified, or "
+          "Split and merge mesh intervals until the errors measured on them are those of draft (default), certified, "
+          "or "
           "this re-integration error")
-      ->expected(0, 1)->default_str(to_string(Grade::draft))->check(is_tolerance)->type_name("TOL");
+      ->expected(0, 1)
+      ->default_str(to_string(Grade::draft))
+      ->check(is_tolerance)
+      ->type_name("TOL");
 }
 
 std::string in_words(const RefineRound& round, const MeshTolerance& tolerance) {
-  return fmt::format("{} intervals, {} iterations: re-integration {:.1e} of {:.1e}, local error {:.1e} of {:.1e}, "
-                     "in a second {:.1e} of {:.1e}; {} too coarse\n",
-                     round.intervals, round.iterations, round.errors.reintegration, tolerance.reintegration, round.errors.local,
-                     tolerance.local, round.errors.second, tolerance.second, round.too_coarse);
+  return fmt::format(
+      "{} intervals, {} iterations: re-integration {:.1e} of {:.1e}, local error {:.1e} of {:.1e}, "
+      "in a second {:.1e} of {:.1e}; {} too coarse\n",
+      round.intervals, round.iterations, round.errors.reintegration, tolerance.reintegration, round.errors.local,
+      tolerance.local, round.errors.second, tolerance.second, round.too_coarse);
 }
 
 }  // namespace prowl::cli

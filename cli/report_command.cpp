@@ -27,7 +27,8 @@ struct ReportArguments {
 
 }  // namespace
 
-WrittenReport write_report(const PlanRecord& plan, const fs::path& directory, const fs::path& out, const PackageSearch& search) {
+WrittenReport write_report(const PlanRecord& plan, const fs::path& directory, const fs::path& out,
+                           const PackageSearch& search) {
   const ReportInputs inputs = report_inputs(plan, directory);
   const Report report = report_page(inputs, search);
   write_file_atomically(out, report.html);
@@ -43,8 +44,10 @@ void add_report_command(CLI::App& app, int& status) {
   verb->add_option("--out", arguments->out, "Where to write it; default: DIR/report.html")->type_name("FILE");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb, {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html"},
-             "0 if it is written, 2 bad input, 4 files. It is one file that needs no network and no other file.");
+  set_footer(
+      *verb,
+      {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html"},
+      "0 if it is written, 2 bad input, 4 files. It is one file that needs no network and no other file.");
   verb->callback([arguments, &status] {
     const fs::path directory = arguments->directory;
     const fs::path out = arguments->out.empty() ? directory / kReportFile : fs::path(arguments->out);
@@ -52,8 +55,10 @@ void add_report_command(CLI::App& app, int& status) {
     const PlanRecord plan = read_plan(directory, search);
     const WrittenReport report = write_report(plan, directory, out, search);
     if (arguments->json) {
-      const nlohmann::json result = {{"bytes", report.bytes}, {"simulation", report.has_simulation}, {"warnings", report.warnings}};
-      print_json({.verb = "report", .plan = &plan, .directory = directory, .written = {out}, .result = json_text(result)});
+      const nlohmann::json result = {
+          {"bytes", report.bytes}, {"simulation", report.has_simulation}, {"warnings", report.warnings}};
+      print_json(
+          {.verb = "report", .plan = &plan, .directory = directory, .written = {out}, .result = json_text(result)});
     }
     status = kPassed;
   });

@@ -4,22 +4,23 @@
 
 #include "output.hpp"
 #include "plan_tracker.hpp"
-#include "share_folder.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/csv_table.hpp"
+#include "share_folder.hpp"
 
 namespace prowl::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLongestPage = 16u << 20;       ///< [bytes]
+constexpr std::size_t kLongestPage = 16u << 20;  ///< [bytes]
 
 std::string page_without_data() {
   std::error_code ignored;
   const fs::path page = share_folder() / "report.html";
   if (!fs::exists(page, ignored)) {
-    throw FileError(fmt::format("{}: missing; scripts/setup builds it from report/, with the Node.js in .venv", page.string()));
+    throw FileError(
+        fmt::format("{}: missing; scripts/setup builds it from report/, with the Node.js in .venv", page.string()));
   }
   return read_text_file(page, kLongestPage).text;
 }
@@ -38,7 +39,8 @@ ReportInputs report_inputs(const PlanRecord& plan, const fs::path& directory) {
   inputs.simulation = read_if_there(directory / "simulate.csv");
   inputs.simulation_json = read_if_there(directory / "simulate.json");
   std::error_code ignored;
-  if (fs::exists(directory / "tracker.bin", ignored)) inputs.tracking = read_tracker(directory, plan.task.problem).plan();
+  if (fs::exists(directory / "tracker.bin", ignored))
+    inputs.tracking = read_tracker(directory, plan.task.problem).plan();
   return inputs;
 }
 

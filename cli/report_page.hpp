@@ -6,7 +6,8 @@
 
 namespace prowl::cli {
 
-/// Plan, page and whatever else of the plan's folder goes into its report: simulation, gains. "" for a plan without one.
+/// Plan, page and whatever else of the plan's folder goes into its report: simulation, gains. "" for a plan without
+/// one.
 ReportInputs report_inputs(const PlanRecord& plan, const std::filesystem::path& directory);
 
 /// The report; its warnings are told on stderr, too.

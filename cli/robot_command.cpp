@@ -41,7 +41,8 @@ void add_robot_command(CLI::App& app, int& status) {
   verb->add_flag("--frames", arguments->frames, "List also the frames that contacts may be fixed to");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb, {"prowl robot robots/hyq.toml", "prowl robot new.toml --frames     of a file that has no contacts yet"},
+  set_footer(*verb,
+             {"prowl robot robots/hyq.toml", "prowl robot new.toml --frames     of a file that has no contacts yet"},
              "0, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_robot(*arguments); });
 }

@@ -15,8 +15,8 @@ CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& fo
 void add_plan_directory(CLI::App& verb, std::string& directory);  ///< the folder that prowl plan wrote; required
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
 void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet
-void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);          ///< --max-time, --max-iterations, --tolerance
-void add_hessian(CLI::App& verb, HessianKind& hessian);                    ///< --hessian
+void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);  ///< --max-time, --max-iterations, --tolerance
+void add_hessian(CLI::App& verb, HessianKind& hessian);            ///< --hessian
 
 /// A finite number > 0, >= 0 or from one to another; CLI11's own checks let NaN through.
 CLI::Validator positive_number();

@@ -54,9 +54,10 @@ void check_engine(const CLI::App& verb, const std::string& engine) {
   const bool rollout = engine == "rollout";
   for (const CLI::Option* option : verb.get_options()) {
     if (option->count() == 0 || option->get_group() != (rollout ? kMujocoOptions : kRolloutOptions)) continue;
-    throw InputError(fmt::format("{}: not with --engine {}, {}", option->get_name(), engine,
-                                 rollout ? "which has no sensors, delay, friction, pushes or chance; it is for --engine mujoco"
-                                         : "which starts as planned; it is for --engine rollout"));
+    throw InputError(
+        fmt::format("{}: not with --engine {}, {}", option->get_name(), engine,
+                    rollout ? "which has no sensors, delay, friction, pushes or chance; it is for --engine mujoco"
+                            : "which starts as planned; it is for --engine rollout"));
   }
 }
 
@@ -75,7 +76,8 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
   options.delay = 1e-3 * arguments.delay_ms;
   options.physics.friction = arguments.friction ? arguments.friction : plan.task.simulated_friction;
   if (arguments.push.size() % 4 != 0) {
-    throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]", arguments.push.size()));
+    throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]",
+                                 arguments.push.size()));
   }
   for (std::size_t i = 0; i < arguments.push.size(); i += 4) {
     const double* const push = &arguments.push[i];
@@ -83,7 +85,8 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
   }
   if (arguments.sweep_case) options = perturbed(tracker, options, {}, *arguments.sweep_case);
   MotionProgress progress;
-  const SimulationRecord record{options, simulate(plan.task.problem, tracker, plan.task.success, options, std::ref(progress))};
+  const SimulationRecord record{options,
+                                simulate(plan.task.problem, tracker, plan.task.success, options, std::ref(progress))};
   write_simulation(arguments.directory, plan, record);
   return {record.result.success(), simulation_summary(plan, record), simulation_json(plan, record)};
 }
@@ -116,7 +119,8 @@ Outcome run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, 
   const StartState start = displaced_start(problem.robot, tracker, displacement);
   MotionProgress progress;
   record.rollout = rollout(problem.robot, tracker, start.q, start.v, record.options, std::ref(progress));
-  record.measures = measure_rollout(problem, tracker, record.rollout, tracker.end() + record.options.stand_on, record.friction);
+  record.measures =
+      measure_rollout(problem, tracker, record.rollout, tracker.end() + record.options.stand_on, record.friction);
   record.failures = rollout_failures(tracker, record.rollout, record.measures, plan.task.success);
   write_rollout(arguments.directory, plan, tracker, record);
   return {record.failures.empty(), rollout_summary(plan, record), rollout_json(plan, tracker, record)};
@@ -139,7 +143,11 @@ int run_simulate(const SimulateArguments& arguments) {
   }
   const int status = outcome.success ? kPassed : kSimulationFailed;
   if (arguments.json) {
-    print_json({.verb = "simulate", .exit_status = status, .plan = &plan, .directory = directory, .written = written,
+    print_json({.verb = "simulate",
+                .exit_status = status,
+                .plan = &plan,
+                .directory = directory,
+                .written = written,
                 .result = outcome.json});
   }
   return status;
@@ -148,33 +156,49 @@ int run_simulate(const SimulateArguments& arguments) {
 void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
   SimulationOptions& options = arguments.options;
   const std::vector<CLI::Option*> all = {
-      verb.add_flag("--perfect-state", options.perfect_state, "The controller sees the true state: no sensors, no estimator"),
-      verb.add_option("--noise", options.noise_scale, "Factor on the sensors' noise and bias; default 1")->type_name("X"),
-      verb.add_option("--delay", arguments.delay_ms, "From sensors to torque; default 2")->check(number_between(0.0, 1000.0))->type_name("MS"),
+      verb.add_flag("--perfect-state", options.perfect_state,
+                    "The controller sees the true state: no sensors, no estimator"),
+      verb.add_option("--noise", options.noise_scale, "Factor on the sensors' noise and bias; default 1")
+          ->type_name("X"),
+      verb.add_option("--delay", arguments.delay_ms, "From sensors to torque; default 2")
+          ->check(number_between(0.0, 1000.0))
+          ->type_name("MS"),
       verb.add_option("--bandwidth", options.bandwidth, "Of the actuators, first order; default 0: they follow at once")
           ->type_name("HZ"),
-      verb.add_option("--mass", options.physics.mass_scale, "Factor on all masses and inertias; default 1")->type_name("X"),
+      verb.add_option("--mass", options.physics.mass_scale, "Factor on all masses and inertias; default 1")
+          ->type_name("X"),
       verb.add_option("--friction", arguments.friction, "Of all surfaces; default: as in the task")->type_name("MU"),
-      verb.add_option("--push", arguments.push, "Push the base: time [s] and impulse [N s], world axes; may be given again")
-          ->type_name("T IX IY IZ")->expected(4)->take_all(),
+      verb.add_option("--push", arguments.push,
+                      "Push the base: time [s] and impulse [N s], world axes; may be given again")
+          ->type_name("T IX IY IZ")
+          ->expected(4)
+          ->take_all(),
       verb.add_option("--push-duration", arguments.push_duration, "Of every push; default 0.1")
-          ->type_name("S")->check(positive_number()),
+          ->type_name("S")
+          ->check(positive_number()),
       verb.add_option("--step", options.physics.step, "Of the physics; default 0.0005")->type_name("S"),
-      verb.add_option("--seed", options.seed, "Of all random numbers; default 1")->check(whole_number())->type_name("N"),
-      verb.add_option("--case", arguments.sweep_case, "Perturbed as the case of that seed in prowl sweep without options")
-          ->check(whole_number())->type_name("SEED")};
+      verb.add_option("--seed", options.seed, "Of all random numbers; default 1")
+          ->check(whole_number())
+          ->type_name("N"),
+      verb.add_option("--case", arguments.sweep_case,
+                      "Perturbed as the case of that seed in prowl sweep without options")
+          ->check(whole_number())
+          ->type_name("SEED")};
   for (CLI::Option* const option : all) option->group(kMujocoOptions);
-  for (const char* drawn : {"--mass", "--friction", "--push", "--push-duration", "--seed"}) all.back()->excludes(verb.get_option(drawn));
+  for (const char* drawn : {"--mass", "--friction", "--push", "--push-duration", "--seed"})
+    all.back()->excludes(verb.get_option(drawn));
 }
 
 void add_rollout_options(CLI::App& verb, SimulateArguments& arguments) {
   const std::vector<CLI::Option*> all = {
       verb.add_option("--base-offset-m", arguments.base_offset,
                       "Start with the base moved by so much, world axes [m], and the feet in place")
-          ->type_name("X Y Z")->expected(3),
+          ->type_name("X Y Z")
+          ->expected(3),
       verb.add_option("--base-offset-rad", arguments.base_offset_rpy,
                       "Start with the base turned by so much, its own axes [rad], and the feet in place")
-          ->type_name("ROLL PITCH YAW")->expected(3)};
+          ->type_name("ROLL PITCH YAW")
+          ->expected(3)};
   for (CLI::Option* const option : all) option->group(kRolloutOptions);
 }
 
@@ -182,21 +206,27 @@ void add_rollout_options(CLI::App& verb, SimulateArguments& arguments) {
 
 void add_simulate_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<SimulateArguments>();
-  CLI::App* const verb = app.add_subcommand("simulate", "Run a plan with its feedback in MuJoCo, or in its own dynamics");
+  CLI::App* const verb =
+      app.add_subcommand("simulate", "Run a plan with its feedback in MuJoCo, or in its own dynamics");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option("--engine", arguments->engine,
-                   "mujoco (default): as on a robot; rollout: the dynamics of the plan forward in time, contacts as scheduled")
-      ->check(CLI::IsMember({"mujoco", "rollout"}))->type_name("NAME");
+  verb->add_option(
+          "--engine", arguments->engine,
+          "mujoco (default): as on a robot; rollout: the dynamics of the plan forward in time, contacts as scheduled")
+      ->check(CLI::IsMember({"mujoco", "rollout"}))
+      ->type_name("NAME");
   verb->add_flag("--open-loop", arguments->open_loop, "Feedforward torques only");
-  verb->add_option("--control-rate", arguments->control_rate, "Default 1000; with --engine rollout 0: at every moment")->type_name("HZ");
-  verb->add_option("--record-rate", arguments->record_rate, "Rows a second in simulate.csv; default 200")->type_name("HZ");
+  verb->add_option("--control-rate", arguments->control_rate, "Default 1000; with --engine rollout 0: at every moment")
+      ->type_name("HZ");
+  verb->add_option("--record-rate", arguments->record_rate, "Rows a second in simulate.csv; default 200")
+      ->type_name("HZ");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   add_mujoco_options(*verb, *arguments);
   add_rollout_options(*verb, *arguments);
-  set_footer(*verb, {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
-                     "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
+  set_footer(*verb,
+             {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
+              "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
              "0 success, 8 failure by the task's criteria; others as prowl plan.");
   verb->callback([arguments, verb, &status] {
     check_engine(*verb, arguments->engine);

@@ -18,7 +18,8 @@ namespace prowl::cli {
 
 SocketProcess::SocketProcess(const std::vector<std::string>& arguments) {
   std::vector<char*> argv;
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));  // as POSIX wants it
+  for (const std::string& argument : arguments)
+    argv.push_back(const_cast<char*>(argument.c_str()));  // as POSIX wants it
   argv.push_back(nullptr);
 
   int ends[2];

@@ -12,8 +12,8 @@ namespace prowl::cli {
 /// A program that talks with us over its stdin and stdout, in bytes; what it says on stderr goes where our messages go.
 class SocketProcess {
  public:
-  /// Without a shell; the first argument is the program, looked for in PATH if it has no path. Throws InputError if it cannot be
-  /// started.
+  /// Without a shell; the first argument is the program, looked for in PATH if it has no path. Throws InputError if it
+  /// cannot be started.
   explicit SocketProcess(const std::vector<std::string>& arguments);
   /// Ends it, if it has not by itself.
   ~SocketProcess();

@@ -63,7 +63,8 @@ int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupt
 }
 
 /// Solves with every iterate sent to the server.
-void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, ViewServer& server, PlanRecord& record) {
+void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, ViewServer& server,
+           PlanRecord& record) {
   ProgressPrinter progress;
   PlanOptions options{.solver = record.task.solver};
   options.solver.interrupt = &interrupted;
@@ -81,7 +82,8 @@ void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted,
 
 int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
   const PackageSearch search = package_search(arguments.package_dirs);
-  PlanRecord record{.task = read_task_file(arguments.target, search, arguments.overrides), .plan = {}, .versions = versions()};
+  PlanRecord record{
+      .task = read_task_file(arguments.target, search, arguments.overrides), .plan = {}, .versions = versions()};
   const MotionProblem& problem = record.task.problem;
   validate(problem);
   if (!arguments.out.empty()) check_plan_directory(arguments.out);
@@ -112,13 +114,18 @@ int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupt
 void add_view_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* const verb = app.add_subcommand("view", "Show a plan in a browser, or a task while it is planned");
-  verb->add_option("target", arguments->target, "Task file, or folder that prowl plan wrote")->required()->type_name("TASK.toml|DIR");
+  verb->add_option("target", arguments->target, "Task file, or folder that prowl plan wrote")
+      ->required()
+      ->type_name("TASK.toml|DIR");
   verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any that is free")->type_name("N");
   add_folder(*verb, "--out", arguments->out, "Folder to write the plan of a task into; default: none");
   verb->add_option("--solver", arguments->solver, "Who solves it; default " + arguments->solver)
-      ->check(CLI::IsMember(solver_names()))->type_name("NAME");
-  verb->add_option("--intervals", arguments->overrides.intervals, "Mesh intervals in all, shared out over the phases as in the task file")
-      ->check(CLI::Range(1, 10000))->type_name("N");
+      ->check(CLI::IsMember(solver_names()))
+      ->type_name("NAME");
+  verb->add_option("--intervals", arguments->overrides.intervals,
+                   "Mesh intervals in all, shared out over the phases as in the task file")
+      ->check(CLI::Range(1, 10000))
+      ->type_name("N");
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
@@ -128,7 +135,8 @@ void add_view_command(CLI::App& app, int& status) {
   verb->callback([arguments, &status] {
     const std::atomic<bool>& interrupted = catch_interrupts();
     std::error_code ignored;
-    status = fs::is_directory(arguments->target, ignored) ? view_plan(*arguments, interrupted) : view_task(*arguments, interrupted);
+    status = fs::is_directory(arguments->target, ignored) ? view_plan(*arguments, interrupted)
+                                                          : view_task(*arguments, interrupted);
   });
 }
 

@@ -31,14 +31,16 @@ using Text = std::shared_ptr<const std::string>;
 /// All that happens on the server's thread; only what is posted to `context` touches it from outside.
 class ViewServer::Connections {
  public:
-  explicit Connections(std::uint16_t port) : acceptor_(context_), news_(context_, asio::steady_timer::time_point::max()) {
+  explicit Connections(std::uint16_t port)
+      : acceptor_(context_), news_(context_, asio::steady_timer::time_point::max()) {
     const tcp::endpoint loopback(asio::ip::address_v4::loopback(), port);
     boost::system::error_code error;
     acceptor_.open(loopback.protocol(), error);
     acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
     acceptor_.bind(loopback, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-    if (error) throw InputError(fmt::format("--port {}: {}; take another, or 0 for any that is free", port, error.message()));
+    if (error)
+      throw InputError(fmt::format("--port {}: {}; take another, or 0 for any that is free", port, error.message()));
     address_ = fmt::format("127.0.0.1:{}", acceptor_.local_endpoint().port());
     other_name_ = fmt::format("localhost:{}", acceptor_.local_endpoint().port());
     asio::co_spawn(context_, accept(), asio::detached);
@@ -104,8 +106,8 @@ class ViewServer::Connections {
     stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
   }
 
-  static asio::awaitable<void> answer(beast::tcp_stream& stream, const http::request<http::empty_body>& request, http::status status,
-                                      const char* type, const std::string& text) {
+  static asio::awaitable<void> answer(beast::tcp_stream& stream, const http::request<http::empty_body>& request,
+                                      http::status status, const char* type, const std::string& text) {
     http::response<http::string_body> response(status, request.version(), text);
     response.set(http::field::content_type, type);
     response.set(http::field::cache_control, "no-store");

@@ -6,8 +6,9 @@
 
 namespace prowl::cli {
 
-/// An HTTP server for one page and a stream of events, which only programs of this machine reach: it listens on 127.0.0.1 and
-/// answers requests for that address alone, so that no other site's name can be made to lead to it. Runs in a thread of its own.
+/// An HTTP server for one page and a stream of events, which only programs of this machine reach: it listens on
+/// 127.0.0.1 and answers requests for that address alone, so that no other site's name can be made to lead to it. Runs
+/// in a thread of its own.
 class ViewServer {
  public:
   /// Port 0 takes any that is free. Throws InputError if the port cannot be had.
@@ -17,8 +18,8 @@ class ViewServer {
   std::string url() const;
   /// What GET / answers from now on.
   void show(std::string html);
-  /// An event of GET /events (server-sent events) for all that listen, and for all that come later. `json` is one line. Of very many,
-  /// the oldest are forgotten.
+  /// An event of GET /events (server-sent events) for all that listen, and for all that come later. `json` is one line.
+  /// Of very many, the oldest are forgotten.
   void publish(const std::string& name, const std::string& json);
 
  private:

@@ -21,13 +21,15 @@ int main(int count, char** arguments) try {
     problem = std::move(next.problem);
     problem.boundary_conditions.back().q_ref(0) += 0.001;  // the goal moves on by 1 mm along x
     plan = prowl::make_plan(problem, solver,
-                            {.solver = task.solver, .start_from = std::move(next.start_from),
+                            {.solver = task.solver,
+                             .start_from = std::move(next.start_from),
                              .start_multipliers = std::move(next.start_multipliers)});
     if (plan.result.status != prowl::SolveStatus::converged) {
       std::cerr << "cycle " << cycle << ": " << prowl::to_string(plan.result.status) << '\n';
       return 1;
     }
-    std::cout << "cycle " << cycle << ": " << plan.result.iterations << " iterations, " << 1e3 * plan.result.seconds << " ms\n";
+    std::cout << "cycle " << cycle << ": " << plan.result.iterations << " iterations, " << 1e3 * plan.result.seconds
+              << " ms\n";
   }
   return 0;
 } catch (const std::exception& error) {

@@ -12,7 +12,7 @@ int main(int, char** arguments) try {
   for (double t = tracker.start(); t < tracker.end(); t += 0.001) {  // the controller's clock, 1 kHz
     tracker.reference(t, q, v);
     q(2) -= 0.01;
-    tracker.torque(t, q, v, tau);   // tau*(t) + K(t) (x* ⊖ x), within the limits; no allocation, 2 us
+    tracker.torque(t, q, v, tau);  // tau*(t) + K(t) (x* ⊖ x), within the limits; no allocation, 2 us
     if (!tau.allFinite()) return 1;
   }
   std::cout << "last segment: " << tracker.segment(tracker.end()).name << '\n' << tau.transpose() << '\n';

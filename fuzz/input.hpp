@@ -8,7 +8,9 @@
 
 namespace prowl::fuzz {
 
-inline std::string text_of(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
+inline std::string text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
 
 /// Every answer but these is a fault: a reader takes what it is given, or says with an Error what is wrong with it.
 template <class Read>

@@ -5,6 +5,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace prowl;
   const SourceText source{"plan.json", fuzz::text_of(data, size)};
-  fuzz::takes_or_refuses([&] { plan_to_json(plan_from_json(source, {})).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace); });
+  fuzz::takes_or_refuses([&] {
+    plan_to_json(plan_from_json(source, {})).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  });
   return 0;
 }

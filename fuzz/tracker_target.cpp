@@ -1,5 +1,5 @@
-// tracker.bin, as it is, and with the payload's length and checksum put right: by chance no mutation has those. What is taken is
-// used, too.
+// tracker.bin, as it is, and with the payload's length and checksum put right: by chance no mutation has those. What is
+// taken is used, too.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -27,7 +27,8 @@ void use(const Tracker& tracker) {
 void read(const std::string& bytes) {
   static const int file = ::memfd_create("tracker.bin", 0);
   static const std::string path = "/proc/self/fd/" + std::to_string(file);
-  if (::ftruncate(file, 0) != 0 || ::pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) std::abort();
+  if (::ftruncate(file, 0) != 0 || ::pwrite(file, bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
+    std::abort();
   try {
     use(Tracker::read(path));
   } catch (const TrackerError&) {

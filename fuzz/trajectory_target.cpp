@@ -7,7 +7,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace prowl;
-  static const Task task = parse_task({"task.toml", fuzz::kTask}, {"robot.toml", fuzz::kRobot}, {}, {}, SourceText{"small.urdf", fuzz::kUrdf});
+  static const Task task = parse_task({"task.toml", fuzz::kTask}, {"robot.toml", fuzz::kRobot}, {}, {},
+                                      SourceText{"small.urdf", fuzz::kUrdf});
   const SourceText source{"trajectory.csv", fuzz::text_of(data, size)};
   fuzz::takes_or_refuses([&] { trajectory_from_csv(task.problem, source); });
   fuzz::takes_or_refuses([&] { read_csv_table(source); });

@@ -5,8 +5,8 @@
 
 namespace prowl {
 
-/// Base of every exception that Prowl throws on purpose. The message is one sentence for the user: what is wrong, where,
-/// and what would be right.
+/// Base of every exception that Prowl throws on purpose. The message is one sentence for the user: what is wrong,
+/// where, and what would be right.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

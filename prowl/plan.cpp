@@ -35,9 +35,16 @@ SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
 /// The plan if its solve, `before` and the mesh with so many intervals, were interrupted at this iterate.
 Plan interrupted_plan(const Plan& plan, const SolveResult& before, int intervals, Transcription& nlp, const VectorXd& z,
                       const SolveProgress& progress) {
-  Plan iterate{.trajectory = nlp.unpack(z), .solver = plan.solver, .hessian = plan.hessian, .result = {}, .levels = plan.levels,
-               .certificate = {}, .num_variables = nlp.num_variables(), .num_constraints = nlp.num_constraints(),
-               .reasons = {}, .hints = {}};
+  Plan iterate{.trajectory = nlp.unpack(z),
+               .solver = plan.solver,
+               .hessian = plan.hessian,
+               .result = {},
+               .levels = plan.levels,
+               .certificate = {},
+               .num_variables = nlp.num_variables(),
+               .num_constraints = nlp.num_constraints(),
+               .reasons = {},
+               .hints = {}};
   iterate.result.status = SolveStatus::interrupted;
   iterate.result.message = "an iterate on the way";
   iterate.result.cost = progress.cost;
@@ -60,8 +67,8 @@ std::vector<MotionProblem> meshes_of(const MotionProblem& problem, const PlanOpt
   return levels.empty() ? std::vector{problem} : levels;
 }
 
-/// Solves the problem on its mesh from plan.trajectory, or from the task alone if that is empty, and adds what comes out to
-/// the plan. A problem with reasons against it is not solved.
+/// Solves the problem on its mesh from plan.trajectory, or from the task alone if that is empty, and adds what comes
+/// out to the plan. A problem with reasons against it is not solved.
 void solve_level(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options, Plan& plan) {
   const Mesh mesh = make_mesh(problem);
   const Trajectory guess =
@@ -136,10 +143,12 @@ Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const Plan
     if (&mesh != &meshes.front() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
     solve_level(mesh, solver, options, plan);
     solved = &mesh;
-    if (is_stopped(plan.result.status)) break;  // what a finer mesh makes of it in no time is further off, and worse to resume
+    if (is_stopped(plan.result.status))
+      break;  // what a finer mesh makes of it in no time is further off, and worse to resume
   }
   plan.certificate = certify(*solved, plan.trajectory);
-  const bool ended_by_itself = plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
+  const bool ended_by_itself =
+      plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
   if (plan.reasons.empty() && !plan.certificate.passed && ended_by_itself) {
     const Trajectory guess = initial_guess(problem, make_mesh(problem));
     plan.hints = plan.result.status == SolveStatus::converged

@@ -23,20 +23,20 @@ struct LevelResult {
 /// What comes out: a motion, how it was found, and whether it is any good.
 struct Plan {
   Trajectory trajectory;
-  std::string solver;  ///< its name
+  std::string solver;                        ///< its name
   HessianKind hessian = HessianKind::exact;  ///< second derivatives that it was given
-  /// Of the last level; iterations and seconds of all levels together. Where an interrupt or the time limit stopped a coarse
-  /// level, that is the last, and the motion is on its mesh (mesh_of).
+  /// Of the last level; iterations and seconds of all levels together. Where an interrupt or the time limit stopped a
+  /// coarse level, that is the last, and the motion is on its mesh (mesh_of).
   SolveResult result;
   std::vector<LevelResult> levels;
   Certificate certificate;
   int num_variables = 0;
   int num_constraints = 0;
-  /// Why there can be no such motion, proven before the solve (proofs_of_infeasibility). If there is a reason the status is
-  /// infeasible, the solver did not run, and the trajectory is the initial guess.
+  /// Why there can be no such motion, proven before the solve (proofs_of_infeasibility). If there is a reason the
+  /// status is infeasible, the solver did not run, and the trajectory is the initial guess.
   std::vector<std::string> reasons;
-  /// What may be the matter with a motion that fails its certificate: doubts, or, if the solve converged, singular postures
-  /// (postures_that_lose_rank). None if it was interrupted.
+  /// What may be the matter with a motion that fails its certificate: doubts, or, if the solve converged, singular
+  /// postures (postures_that_lose_rank). None if it was interrupted.
   std::vector<std::string> hints;
 };
 
@@ -44,8 +44,9 @@ struct PlanOptions {
   SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together
   /// Empty: start from the task alone, on a coarse mesh first. Else start from this motion (see resample()).
   Trajectory start_from = {};
-  /// start_from is an iterate of this problem, where a solve was stopped (Checkpoint): go on with its mesh, then with the finer
-  /// ones, and as from any guess. Else it is taken for a solution of a neighbouring problem, which the next is near to.
+  /// start_from is an iterate of this problem, where a solve was stopped (Checkpoint): go on with its mesh, then with
+  /// the finer ones, and as from any guess. Else it is taken for a solution of a neighbouring problem, which the next
+  /// is near to.
   bool resume = false;
   /// Of the plan whose motion that is (Plan::result.stage_multipliers), if at hand and the mesh is the same.
   /// Sizes that do not fit are left out.
@@ -53,10 +54,10 @@ struct PlanOptions {
   /// For the small programs behind the hints after a failure, which are no chains of stages; null: that of the plan.
   const NlpSolver* hint_solver = nullptr;
   HessianKind hessian = HessianKind::exact;
-  bool coarse_first = true;  ///< false: on the mesh of the problem at once
+  bool coarse_first = true;                          ///< false: on the mesh of the problem at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
-  /// Each iterate, on its mesh, as the plan that it would be if the solve were interrupted there, but without certificate and
-  /// times of evaluations. Costs an evaluation of all values; may be empty.
+  /// Each iterate, on its mesh, as the plan that it would be if the solve were interrupted there, but without
+  /// certificate and times of evaluations. Costs an evaluation of all values; may be empty.
   std::function<void(const MotionProblem& on_its_mesh, Plan iterate)> on_iterate = {};
 };
 
@@ -66,9 +67,9 @@ bool is_worth_going_on_from(SolveStatus status);
 /// The problem on the mesh that its plan ended on: its own, or where the plan was stopped before, a coarser one.
 MotionProblem mesh_of(const MotionProblem& problem, const Plan& plan);
 
-/// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from makes
-/// no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that is too hard is a status
-/// in the result.
+/// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from
+/// makes no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that is too hard is
+/// a status in the result.
 Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options);
 
 }  // namespace prowl

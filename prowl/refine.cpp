@@ -110,8 +110,8 @@ class Meshes {
   std::vector<LevelResult> levels_;
 };
 
-/// Whether rounds still lead somewhere: to the tolerance on fewer intervals than ever before, to fewer intervals that are too coarse,
-/// or to a worst one that is clearly less so.
+/// Whether rounds still lead somewhere: to the tolerance on fewer intervals than ever before, to fewer intervals that
+/// are too coarse, or to a worst one that is clearly less so.
 class Progress {
  public:
   bool is_over(const Candidate& now) {
@@ -132,9 +132,10 @@ class Progress {
 };
 
 std::string hint(const Candidate& best, const std::string& stopped) {
-  return fmt::format("mesh refinement stopped, {}: {} of {} intervals are off by more than the tolerance, the worst by "
-                     "{:.3g} times",
-                     stopped, best.too_coarse(), best.intervals(), best.worst());
+  return fmt::format(
+      "mesh refinement stopped, {}: {} of {} intervals are off by more than the tolerance, the worst by "
+      "{:.3g} times",
+      stopped, best.too_coarse(), best.intervals(), best.worst());
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct RefineRound {
 
 struct RefineOptions {
   MeshTolerance tolerance;
-  int max_rounds = 12;  ///< meshes solved, the first one too
+  int max_rounds = 12;                                    ///< meshes solved, the first one too
   std::function<void(const RefineRound&)> on_round = {};  ///< after each mesh that converged; may be empty
 };
 
@@ -29,13 +29,14 @@ struct RefinedPlan {
   bool interrupted = false;      ///< before the refinement was at its end; the plan may be a good one all the same
 };
 
-/// As make_plan(), on meshes that follow the errors measured on the one before (mesh_refinement.hpp): from the coarsest on which
-/// make_plan() would begin, until the motion meets the tolerance and a mesh without what it has to spare would have more than four
-/// fifths of its intervals. Each motion is the guess of the next. PlanOptions::max_seconds is for all together, certificates too: no mesh
-/// is begun after it.
+/// As make_plan(), on meshes that follow the errors measured on the one before (mesh_refinement.hpp): from the coarsest
+/// on which make_plan() would begin, until the motion meets the tolerance and a mesh without what it has to spare would
+/// have more than four fifths of its intervals. Each motion is the guess of the next. PlanOptions::max_seconds is for
+/// all together, certificates too: no mesh is begun after it.
 ///
-/// The result is of the mesh with the fewest intervals among those that meet the tolerance, the ones that pass their certificate first,
-/// else of the one that is nearest to the tolerance. A mesh that does not converge ends it, and so does an interrupt.
+/// The result is of the mesh with the fewest intervals among those that meet the tolerance, the ones that pass their
+/// certificate first, else of the one that is nearest to the tolerance. A mesh that does not converge ends it, and so
+/// does an interrupt.
 RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
                               const RefineOptions& refine);
 

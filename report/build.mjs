@@ -12,7 +12,11 @@ if (!out) throw new Error("usage: build.mjs OUT");
 
 /// The licences of what goes into the page, as its first comment.
 async function licences(packages) {
-  const texts = await Promise.all(packages.map(async (name) => `${name}\n\n${await readFile(path.join(folder, "node_modules", name, "LICENSE"), "utf8")}`));
+  const texts = await Promise.all(
+    packages.map(
+      async (name) => `${name}\n\n${await readFile(path.join(folder, "node_modules", name, "LICENSE"), "utf8")}`,
+    ),
+  );
   return `/*!\n${texts.join("\n").replaceAll("*/", "* /")}*/`;
 }
 
@@ -37,7 +41,10 @@ if (/<\/script/i.test(script) || /<\/style/i.test(style)) throw new Error("the b
 const hash = (text) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
 const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data: blob:`;
 const fill = { POLICY: policy, STYLE: style, SCRIPT: script };
-const page = (await readFile(path.join(folder, "src/page.html"), "utf8")).replace(/\{\{(\w+)\}\}/g, (_, name) => fill[name]);
+const page = (await readFile(path.join(folder, "src/page.html"), "utf8")).replace(
+  /\{\{(\w+)\}\}/g,
+  (_, name) => fill[name],
+);
 
 await mkdir(path.dirname(path.resolve(out)), { recursive: true });
 await writeFile(out, page);

@@ -15,9 +15,21 @@ def plan(task: str, solver: str, *options: str) -> tuple[dict, list[list[float]]
     """plan.json, and the state at each node: time [s], configuration [m, rad, quaternion], velocity [m/s, rad/s]."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "out"
-        run = subprocess.run([ROOT / "build/bin/prowl", "plan", ROOT / "tasks" / f"{task}.toml", "--solver", solver,
-                              "--no-gains", "--out", out, *options],
-                             capture_output=True, text=True)
+        run = subprocess.run(
+            [
+                ROOT / "build/bin/prowl",
+                "plan",
+                ROOT / "tasks" / f"{task}.toml",
+                "--solver",
+                solver,
+                "--no-gains",
+                "--out",
+                out,
+                *options,
+            ],
+            capture_output=True,
+            text=True,
+        )
         if not (out / "plan.json").exists():
             raise SystemExit(f"{task}: {run.stderr.strip()}")
         with (out / "trajectory.csv").open() as file:
@@ -31,5 +43,7 @@ def read_arguments(parser: argparse.ArgumentParser) -> argparse.Namespace:
     parser.add_argument("task", nargs="*", help="e.g. hyq/step talos/squat; without, all of tasks/")
     arguments = parser.parse_args()
     if not arguments.task:
-        arguments.task = sorted(str(path.relative_to(ROOT / "tasks").with_suffix("")) for path in ROOT.glob("tasks/*/*.toml"))
+        arguments.task = sorted(
+            str(path.relative_to(ROOT / "tasks").with_suffix("")) for path in ROOT.glob("tasks/*/*.toml")
+        )
     return arguments

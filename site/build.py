@@ -3,6 +3,7 @@ that is not there ends it. Run by scripts/docs and by tests/docs.
 
     build.py --prowl PATH_OF_THE_COMMAND [--out build/site]
 """
+
 import argparse
 import os
 import pathlib
@@ -12,8 +13,11 @@ import sys
 
 SITE = pathlib.Path(__file__).parent
 ROOT = SITE.parent
-FROM_NPM = {"katex/dist/katex.min.css": "katex/katex.min.css", "katex/dist/fonts": "katex/fonts",
-            "iframe-worker/shim/index.js": "iframe-worker.js"}
+FROM_NPM = {
+    "katex/dist/katex.min.css": "katex/katex.min.css",
+    "katex/dist/fonts": "katex/fonts",
+    "iframe-worker/shim/index.js": "iframe-worker.js",
+}
 
 
 def run(*command, **environment) -> None:
@@ -33,13 +37,18 @@ def copy_scripts(out: pathlib.Path) -> None:
 
 def document_headers(out: pathlib.Path, work: pathlib.Path) -> None:
     import doxygen_awesome_css
+
     style = pathlib.Path(doxygen_awesome_css.__file__).parent / "doxygen-awesome.css"
     doxygen = shutil.which("doxygen") or sys.exit("site: doxygen is missing; scripts/docs installs it")
     version = subprocess.run([doxygen, "--version"], capture_output=True, text=True, check=True).stdout.split()[0]
-    light = "HTML_COLORSTYLE = LIGHT\n" if tuple(map(int, version.split("."))) >= (1, 9, 5) else ""  # the style sheet knows dark
+    light = (
+        "HTML_COLORSTYLE = LIGHT\n" if tuple(map(int, version.split("."))) >= (1, 9, 5) else ""
+    )  # the style sheet knows dark
     settings = work / "Doxyfile"
-    settings.write_text(f'@INCLUDE = site/Doxyfile\nOUTPUT_DIRECTORY = "{out}"\n{light}'
-                        f'HTML_EXTRA_STYLESHEET = "{style}" site/theme/assets/headers.css\n')
+    settings.write_text(
+        f'@INCLUDE = site/Doxyfile\nOUTPUT_DIRECTORY = "{out}"\n{light}'
+        f'HTML_EXTRA_STYLESHEET = "{style}" site/theme/assets/headers.css\n'
+    )
     run(doxygen, settings)
 
 
@@ -57,8 +66,20 @@ def main() -> None:
 
     packages = [part for folder in arguments.package_dir for part in ("--package-dir", folder)]
     run(sys.executable, SITE / "pictures" / "draw.py", arguments.prowl.resolve(), pictures, *packages)
-    run(sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--config-file", SITE / "mkdocs.yml", "--site-dir", out,
-        PROWL_SITE_PICTURES=str(pictures), NO_MKDOCS_2_WARNING="1")
+    run(
+        sys.executable,
+        "-m",
+        "mkdocs",
+        "build",
+        "--strict",
+        "--quiet",
+        "--config-file",
+        SITE / "mkdocs.yml",
+        "--site-dir",
+        out,
+        PROWL_SITE_PICTURES=str(pictures),
+        NO_MKDOCS_2_WARNING="1",
+    )
     (out / "404.html").unlink()  # its links are for a server
     copy_scripts(out)
     document_headers(out, work)

@@ -1,5 +1,6 @@
 """Names of the code in the documentation: what a link to a file of the repository means, and where a name is defined.
 Used by the site and by tests/docs."""
+
 import pathlib
 import re
 
@@ -30,7 +31,12 @@ def defining_line(path: pathlib.Path, text: str) -> int | None:
         return None
     lines = path.read_text(encoding="utf-8").splitlines()
     last = re.escape(name.split("::")[-1])
-    patterns = [rf"\b{re.escape(name)}\s*\(.*[{{,(:]\s*$", rf"\b(class|struct|enum class|def)\s+{last}\b(?!;)", rf"\b{last}\s*[({{=]", rf"\b{last}\b"]
+    patterns = [
+        rf"\b{re.escape(name)}\s*\(.*[{{,(:]\s*$",
+        rf"\b(class|struct|enum class|def)\s+{last}\b(?!;)",
+        rf"\b{last}\s*[({{=]",
+        rf"\b{last}\b",
+    ]
     for pattern in patterns:
         for number, line in enumerate(lines, 1):
             if not line.lstrip().startswith(("//", "#include")) and re.search(pattern, line):

@@ -3,6 +3,7 @@ above the headers' pages; what looks like markup, as the elements of a URDF, is 
 
     doxygen_filter.py HEADER
 """
+
 import pathlib
 import re
 import sys
@@ -21,4 +22,4 @@ for line in path.read_text(encoding="utf-8").splitlines():
         continue
     code, mark, comment = line.partition("///")
     behind = "<" if comment.startswith("<") else ""  # ///< stands behind what it is about
-    print(code + mark + behind + PAGE.sub(link, comment[len(behind):].replace("<", r"\<")))
+    print(code + mark + behind + PAGE.sub(link, comment[len(behind) :].replace("<", r"\<")))

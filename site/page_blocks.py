@@ -1,11 +1,12 @@
 """Fenced blocks of the documentation's pages, with what is said about them beside the page's text.
 
-    <!-- not run: takes an hour -->       before commands: CI leaves them out, for this reason
-    <!-- fragment -->                     before TOML: a part of a file
-    <!-- part of tests/x/main.cpp -->     before C++: these lines are in that file, which is built and run
-    ```toml title="robots/mine.toml"      the commands that follow find this file
-    prowl plan ...   # exit status 7      a command that is to end with another status than 0
+<!-- not run: takes an hour -->       before commands: CI leaves them out, for this reason
+<!-- fragment -->                     before TOML: a part of a file
+<!-- part of tests/x/main.cpp -->     before C++: these lines are in that file, which is built and run
+```toml title="robots/mine.toml"      the commands that follow find this file
+prowl plan ...   # exit status 7      a command that is to end with another status than 0
 """
+
 import dataclasses
 import pathlib
 import re

@@ -5,7 +5,12 @@ import katex from "katex";
 const equations = JSON.parse(readFileSync(0, "utf8"));
 const set = equations.map(({ tex, display }) => {
   try {
-    return katex.renderToString(tex, { displayMode: display, throwOnError: true, strict: "error", output: "htmlAndMathml" });
+    return katex.renderToString(tex, {
+      displayMode: display,
+      throwOnError: true,
+      strict: "error",
+      output: "htmlAndMathml",
+    });
   } catch (error) {
     console.error(`an equation does not parse: ${error.message}\n${tex}`);
     process.exit(1);

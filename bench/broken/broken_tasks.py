@@ -42,7 +42,9 @@ def with_limits(robot: str, limits: dict, nominal: dict[str, float]) -> str:
 
 
 def with_mass(urdf: str, link: str, mass: float) -> str:
-    changed, count = re.subn(rf'(<link name="{link}">.*?<mass value=")[^"]*(")', rf"\g<1>{mass}\g<2>", urdf, count=1, flags=re.S)
+    changed, count = re.subn(
+        rf'(<link name="{link}">.*?<mass value=")[^"]*(")', rf"\g<1>{mass}\g<2>", urdf, count=1, flags=re.S
+    )
     if count != 1:
         raise ValueError(f"link {link} has no mass")
     return changed
@@ -54,7 +56,9 @@ def make(broken: dict, prowl: Path, folder: Path) -> Path:
     task = source.read_text()
     robot_file = (source.parent / tomllib.loads(task)["robot"]).resolve()
     robot = robot_file.read_text()
-    known = json.loads(subprocess.run([prowl, "robot", robot_file, "--json"], capture_output=True, text=True, check=True).stdout)
+    known = json.loads(
+        subprocess.run([prowl, "robot", robot_file, "--json"], capture_output=True, text=True, check=True).stdout
+    )
     task = re.sub(r'robot = ".*"', 'robot = "robot.toml"', task, count=1)
     for old, new in broken.get("edit", []):
         task = replaced(task, old, new)
@@ -72,7 +76,11 @@ def make(broken: dict, prowl: Path, folder: Path) -> Path:
 
 def names(cause: dict) -> list[str]:
     """Several joints are one subject; a goal's has a comma, too."""
-    return cause["subject"].split(", ") if cause["kind"] in ("torque", "joint_velocity", "joint_position") else [cause["subject"]]
+    return (
+        cause["subject"].split(", ")
+        if cause["kind"] in ("torque", "joint_velocity", "joint_position")
+        else [cause["subject"]]
+    )
 
 
 def is_named(broken: dict, diagnosis: dict) -> bool:
@@ -83,7 +91,10 @@ def is_named(broken: dict, diagnosis: dict) -> bool:
         if "message" in true:
             if re.search(true["message"], message):
                 return True
-        elif cause.get("kind") == true["kind"] and true.get("phase", cause["phase"]) == cause["phase"] \
-                and all(re.search(true.get("subject", ""), name) for name in names(cause)):
+        elif (
+            cause.get("kind") == true["kind"]
+            and true.get("phase", cause["phase"]) == cause["phase"]
+            and all(re.search(true.get("subject", ""), name) for name in names(cause))
+        ):
             return True
     return False

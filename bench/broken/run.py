@@ -29,7 +29,9 @@ def main() -> int:
     parser.add_argument("--max-time", default="120", help="of each diagnosis [s]; default 120")
     parser.add_argument("--least", type=int, default=0, help="fewer true causes than this end with status 1")
     parser.add_argument("--only-make", action="store_true", help="write the tasks, diagnose none")
-    parser.add_argument("--keep", type=Path, help="folder for the broken tasks and the diagnoses; default: a temporary one")
+    parser.add_argument(
+        "--keep", type=Path, help="folder for the broken tasks and the diagnoses; default: a temporary one"
+    )
     arguments = parser.parse_args()
     chosen = [broken for broken in read_list() if not arguments.name or broken["name"] in arguments.name]
     if len(chosen) < len(arguments.name):
@@ -45,15 +47,21 @@ def main() -> int:
             if arguments.only_make:
                 continue
             start = time.monotonic()
-            run = subprocess.run([arguments.prowl, "diagnose", task, "--json", "--quiet", "--max-time", arguments.max_time],
-                                 capture_output=True, text=True)
+            run = subprocess.run(
+                [arguments.prowl, "diagnose", task, "--json", "--quiet", "--max-time", arguments.max_time],
+                capture_output=True,
+                text=True,
+            )
             seconds = time.monotonic() - start
             (folder / "diagnosis.json").write_text(run.stdout)
             diagnosis = json.loads(run.stdout)
         named = is_named(broken, diagnosis)
         right += named
         words = words_of(diagnosis).replace("|", "/").replace("\n", " ").replace(str(folder) + "/", "")
-        print(f"| {broken['name']} | {broken['task']} | {seconds:.0f} | {'yes' if named else 'no'} | {words} |", flush=True)
+        print(
+            f"| {broken['name']} | {broken['task']} | {seconds:.0f} | {'yes' if named else 'no'} | {words} |",
+            flush=True,
+        )
     if arguments.only_make:
         print(f"{len(chosen)} made")
         return 0

@@ -6,6 +6,7 @@ next node, in position and in velocity, is the error. It takes from a plan only 
 time) and needs no interpolant, of which an Euler step with held torque and a trapezoid with linear torque have different ones:
 any choice would flatter one of them. Limits between nodes are judged along the same integrated motion, for both alike.
 """
+
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,13 +17,14 @@ from judge.contact_dynamics import ContactDynamics
 from judge.motion import Motion, difference
 from judge.motion_task import MotionTask
 
-SAMPLES = 10        # points an interval at which limits are judged, besides its first node
-TOLERANCE = 1e-9    # of the re-integration
+SAMPLES = 10  # points an interval at which limits are judged, besides its first node
+TOLERANCE = 1e-9  # of the re-integration
 
 
 @dataclass
 class Finding:
     """Worst value of one check; it is kept if value <= limit. Limits are those of Prowl's certificate (docs/verification.md)."""
+
     limit: float
     unit: str
     value: float = 0.0
@@ -36,10 +38,10 @@ class Finding:
 
 @dataclass
 class Verdict:
-    interval_errors: np.ndarray        # max over coordinates, one an interval [-]
-    error: float                       # the largest of them, phase switches included
-    error_per_second: float            # largest sum of them over any second of the motion, coordinate by coordinate
-    cost: float                        # of the task, along the integrated motion
+    interval_errors: np.ndarray  # max over coordinates, one an interval [-]
+    error: float  # the largest of them, phase switches included
+    error_per_second: float  # largest sum of them over any second of the motion, coordinate by coordinate
+    cost: float  # of the task, along the integrated motion
     findings: dict[str, Finding]
 
     @property
@@ -74,8 +76,16 @@ def reintegrate(dynamics: ContactDynamics, motion: Motion, k: int) -> tuple[np.n
     if not all(np.isfinite(row).all() for row in (motion.q[k], motion.v[k], motion.tau[k : k + 2])):
         return np.full((SAMPLES + 1, nq), np.nan), np.full((SAMPLES + 1, dynamics.model.nv), np.nan)
     times = np.linspace(0.0, step, SAMPLES + 1)
-    found = solve_ivp(rate, (0.0, step), np.concatenate([motion.q[k], motion.v[k]]), method="DOP853", t_eval=times,
-                      rtol=TOLERANCE, atol=TOLERANCE, first_step=step)
+    found = solve_ivp(
+        rate,
+        (0.0, step),
+        np.concatenate([motion.q[k], motion.v[k]]),
+        method="DOP853",
+        t_eval=times,
+        rtol=TOLERANCE,
+        atol=TOLERANCE,
+        first_step=step,
+    )
     states = np.full((SAMPLES + 1, nq + dynamics.model.nv), np.nan)
     states[: found.y.shape[1]] = found.y.T
     states[:, 3:7] /= np.linalg.norm(states[:, 3:7], axis=1, keepdims=True)
@@ -94,11 +104,19 @@ def largest_in_a_second(times: np.ndarray, errors: np.ndarray) -> float:
 def judge(task: MotionTask, motion: Motion) -> Verdict:
     robot, weight = task.robot, task.robot.weight
     findings = {
-        "torque": Finding(1e-3, "of limit too much"), "joint position": Finding(1e-3, "rad"), "joint velocity": Finding(1e-3, "of limit too much"),
-        "friction": Finding(0.01 * weight, "N"), "pulling": Finding(0.01 * weight, "N"),
-        "slip": Finding(1e-3, "m"), "contact speed": Finding(5e-3, "m/s"), "penetration": Finding(1e-3, "m"),
-        "landing": Finding(1e-3, "m"), "force before opening": Finding(0.01 * weight, "N"),
-        "goal position": Finding(1e-3, "m"), "goal angle": Finding(1e-3, "rad"), "goal velocity": Finding(5e-3, "m/s, rad/s"),
+        "torque": Finding(1e-3, "of limit too much"),
+        "joint position": Finding(1e-3, "rad"),
+        "joint velocity": Finding(1e-3, "of limit too much"),
+        "friction": Finding(0.01 * weight, "N"),
+        "pulling": Finding(0.01 * weight, "N"),
+        "slip": Finding(1e-3, "m"),
+        "contact speed": Finding(5e-3, "m/s"),
+        "penetration": Finding(1e-3, "m"),
+        "landing": Finding(1e-3, "m"),
+        "force before opening": Finding(0.01 * weight, "N"),
+        "goal position": Finding(1e-3, "m"),
+        "goal angle": Finding(1e-3, "rad"),
+        "goal velocity": Finding(5e-3, "m/s, rad/s"),
         "start": Finding(1e-6, "SI"),
     }
     scales = coordinate_scales(motion)
@@ -140,15 +158,21 @@ def judge(task: MotionTask, motion: Motion) -> Verdict:
 
 def running_cost(task: MotionTask, q, v, a, tau) -> float:
     cost = task.cost
-    return cost.time + 0.5 * (cost.configuration @ difference(task.start, q) ** 2 + cost.velocity @ v**2
-                              + cost.acceleration @ a**2 + cost.torque @ (tau - cost.torque_reference) ** 2)
+    return cost.time + 0.5 * (
+        cost.configuration @ difference(task.start, q) ** 2
+        + cost.velocity @ v**2
+        + cost.acceleration @ a**2
+        + cost.torque @ (tau - cost.torque_reference) ** 2
+    )
 
 
 def _see_joints(task, q, v, tau, time, findings) -> None:
     robot, model = task.robot, task.robot.model
-    excess = {"torque": np.abs(tau) / robot.torque_bound(q) - 1.0,
-              "joint position": np.maximum(model.lowerPositionLimit[7:] - q[7:], q[7:] - model.upperPositionLimit[7:]),
-              "joint velocity": np.abs(v[6:]) / model.velocityLimit[6:] - 1.0}
+    excess = {
+        "torque": np.abs(tau) / robot.torque_bound(q) - 1.0,
+        "joint position": np.maximum(model.lowerPositionLimit[7:] - q[7:], q[7:] - model.upperPositionLimit[7:]),
+        "joint velocity": np.abs(v[6:]) / model.velocityLimit[6:] - 1.0,
+    }
     for name, values in excess.items():
         joint = int(values.argmax())
         findings[name].see(values[joint], time, robot.joints[joint])
@@ -159,7 +183,9 @@ def _see_contacts(task, phase, places, forces, speeds, time, anchors, findings) 
     for contact, force, speed in zip(held, forces, speeds):
         name, place = contact.name, places[contact.name]
         push = task.normal @ force
-        findings["friction"].see(np.linalg.norm(force - push * task.normal) - task.friction * max(push, 0.0), time, name)
+        findings["friction"].see(
+            np.linalg.norm(force - push * task.normal) - task.friction * max(push, 0.0), time, name
+        )
         findings["pulling"].see(-push, time, name)
         findings["slip"].see(np.linalg.norm(place - anchors.setdefault(name, place)), time, name)
         findings["contact speed"].see(np.linalg.norm(speed), time, name)

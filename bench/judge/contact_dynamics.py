@@ -5,6 +5,7 @@
 
 by one dense factorisation. Neither the planner's projection nor Crocoddyl's solver: a third way to the same numbers.
 """
+
 import numpy as np
 import pinocchio as pin
 
@@ -24,8 +25,9 @@ class ContactDynamics:
         """J, 3 rows a contact, world axes; the model's kinematics have to be at q already."""
         if not self.contacts:
             return np.zeros((0, self.model.nv))
-        return np.vstack([pin.getFrameJacobian(self.model, self.data, contact.frame, WORLD)[:3]
-                          for contact in self.contacts])
+        return np.vstack(
+            [pin.getFrameJacobian(self.model, self.data, contact.frame, WORLD)[:3] for contact in self.contacts]
+        )
 
     def __call__(self, q: np.ndarray, v: np.ndarray, tau: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(a, forces, velocities of the contacts), the last two with one row a contact, in the world."""
@@ -39,8 +41,9 @@ class ContactDynamics:
         # After the bias: crba and nonLinearEffects leave accelerations of their own behind.
         pin.forwardKinematics(model, data, q, v, np.zeros(model.nv))
         jacobian = self.jacobian(q)
-        drift = np.array([pin.getFrameClassicalAcceleration(model, data, contact.frame, WORLD).linear
-                          for contact in self.contacts]).reshape(-1)
+        drift = np.array(
+            [pin.getFrameClassicalAcceleration(model, data, contact.frame, WORLD).linear for contact in self.contacts]
+        ).reshape(-1)
         rows = len(drift)
         kkt = np.block([[mass, -jacobian.T], [jacobian, np.zeros((rows, rows))]])
         right = np.concatenate([-bias, -drift])

@@ -1,4 +1,5 @@
 """A planned motion as its planner claims it: states at the nodes, and torques as a function of time."""
+
 import csv
 import pathlib
 from dataclasses import dataclass
@@ -13,12 +14,13 @@ class Motion:
 
     Torque between two nodes is either that of the first (`held`: Euler steps of the peers) or linear (Prowl's trapezoid).
     """
-    time: np.ndarray     # [s]
-    phase: np.ndarray    # counts from 0
-    q: np.ndarray        # one row a node, Pinocchio's free flyer first
+
+    time: np.ndarray  # [s]
+    phase: np.ndarray  # counts from 0
+    q: np.ndarray  # one row a node, Pinocchio's free flyer first
     v: np.ndarray
     tau: np.ndarray
-    torque: str          # "held" or "linear"
+    torque: str  # "held" or "linear"
 
     def __post_init__(self):
         if self.torque not in ("held", "linear"):
@@ -74,7 +76,11 @@ def read_plan_motion(plan: pathlib.Path) -> Motion:
     twist = [f"base_{c}" for c in ("vx_mps", "vy_mps", "vz_mps", "wx_radps", "wy_radps", "wz_radps")]
     at = [header.index(name) for name in base]
     moving = [header.index(name) for name in twist]
-    return Motion(time=table[:, 0], phase=table[:, 1].astype(int),
-                  q=np.hstack([table[:, at], columns("q_", "_rad")]),
-                  v=np.hstack([table[:, moving], columns("v_", "_radps")]),
-                  tau=columns("tau_", "_Nm"), torque="linear")
+    return Motion(
+        time=table[:, 0],
+        phase=table[:, 1].astype(int),
+        q=np.hstack([table[:, at], columns("q_", "_rad")]),
+        v=np.hstack([table[:, moving], columns("v_", "_radps")]),
+        tau=columns("tau_", "_Nm"),
+        torque="linear",
+    )

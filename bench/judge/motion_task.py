@@ -2,6 +2,7 @@
 
 What is not understood is an error, so that no part of a task is left out in silence.
 """
+
 import dataclasses
 import pathlib
 import tomllib
@@ -20,26 +21,28 @@ CLEARANCE = 0.05  # default swing clearance over the standing height of the base
 class Phase:
     name: str
     contacts: frozenset[str]
-    duration: float                            # [s]; of a free one the middle of its range, until with_durations()
-    duration_range: tuple[float, float]        # equal where it is fixed [s]
+    duration: float  # [s]; of a free one the middle of its range, until with_durations()
+    duration_range: tuple[float, float]  # equal where it is fixed [s]
     intervals: int
-    places: dict[str, np.ndarray]              # where contacts have to touch, by name, on the floor [m]
+    places: dict[str, np.ndarray]  # where contacts have to touch, by name, on the floor [m]
 
 
 @dataclass(frozen=True)
 class Goal:
     """At `fraction` of phase `phase`. NaN entries are free. Rotation: axis i of the base counts where `turn` says so."""
+
     phase: int
     fraction: float
-    position: np.ndarray            # of the base, world [m]
-    rotation: np.ndarray | None     # of the base
-    turn: np.ndarray                # bool, 3
-    velocity: np.ndarray            # of the base: linear, angular, base frame, 6
+    position: np.ndarray  # of the base, world [m]
+    rotation: np.ndarray | None  # of the base
+    turn: np.ndarray  # bool, 3
+    velocity: np.ndarray  # of the base: linear, angular, base frame, 6
 
 
 @dataclass(frozen=True)
 class Cost:
     """1/2 ∫ Σ weight x difference² dt, about the start at rest and the torques `torque_reference`."""
+
     configuration: np.ndarray
     velocity: np.ndarray
     acceleration: np.ndarray
@@ -55,9 +58,9 @@ class MotionTask:
     robot: Robot
     start: np.ndarray
     friction: float
-    floor: float          # height of the ground over the world's origin [m]
-    normal: np.ndarray    # of the ground, unit length
-    clearance: float      # [m]
+    floor: float  # height of the ground over the world's origin [m]
+    normal: np.ndarray  # of the ground, unit length
+    clearance: float  # [m]
     phases: tuple[Phase, ...]
     goals: tuple[Goal, ...]
     cost: Cost
@@ -85,13 +88,19 @@ class MotionTask:
         return any(phase.duration_range[0] < phase.duration_range[1] for phase in self.phases)
 
     def with_durations(self, durations: list[float]) -> "MotionTask":
-        phases = tuple(dataclasses.replace(phase, duration=duration)
-                       for phase, duration in zip(self.phases, durations, strict=True))
+        phases = tuple(
+            dataclasses.replace(phase, duration=duration)
+            for phase, duration in zip(self.phases, durations, strict=True)
+        )
         return dataclasses.replace(self, phases=phases)
 
     def opens(self, phase: int) -> frozenset[str]:
         """Contacts that hold in this phase and not in the next."""
-        return self.phases[phase].contacts - self.phases[phase + 1].contacts if phase + 1 < len(self.phases) else frozenset()
+        return (
+            self.phases[phase].contacts - self.phases[phase + 1].contacts
+            if phase + 1 < len(self.phases)
+            else frozenset()
+        )
 
     def lands(self, phase: int) -> frozenset[str]:
         """Contacts that hold in this phase and not in the one before."""
@@ -139,13 +148,31 @@ def _read_phase(table: dict, index: int, robot: Robot, where: str) -> Phase:
             places[entry["contact"]] = np.array(entry["place_m"], dtype=float)
     span = table["duration_s"]
     low, high = span if isinstance(span, list) else (span, span)
-    return Phase(table.get("name", f"phase {index + 1}"), frozenset(names), (low + high) / 2, (low, high),
-                 table["intervals"], places)
+    return Phase(
+        table.get("name", f"phase {index + 1}"),
+        frozenset(names),
+        (low + high) / 2,
+        (low, high),
+        table["intervals"],
+        places,
+    )
 
 
 def _read_goal(table: dict, phases: list[Phase], start: np.ndarray, where: str) -> Goal:
-    _known(table, {"time_s", "phase", "fraction", "base_position_m", "base_displacement_m", "base_rpy_rad",
-                   "base_linear_velocity_mps", "base_angular_velocity_radps"}, where)
+    _known(
+        table,
+        {
+            "time_s",
+            "phase",
+            "fraction",
+            "base_position_m",
+            "base_displacement_m",
+            "base_rpy_rad",
+            "base_linear_velocity_mps",
+            "base_angular_velocity_radps",
+        },
+        where,
+    )
     if "phase" in table:
         phase, fraction = [p.name for p in phases].index(table["phase"]), table.get("fraction", 1.0)
     else:
@@ -159,29 +186,35 @@ def _read_goal(table: dict, phases: list[Phase], start: np.ndarray, where: str) 
     angles = _numbers(table.get("base_rpy_rad", free), where)
     turn = ~np.isnan(angles)
     reference = np.where(turn, angles, pin.rpy.matrixToRpy(pin.Quaternion(start[3:7]).matrix()))
-    velocity = np.concatenate([_numbers(table.get(key, free), where)
-                               for key in ("base_linear_velocity_mps", "base_angular_velocity_radps")])
+    velocity = np.concatenate(
+        [_numbers(table.get(key, free), where) for key in ("base_linear_velocity_mps", "base_angular_velocity_radps")]
+    )
     return Goal(phase, fraction, position, pin.rpy.rpyToMatrix(*reference) if turn.any() else None, turn, velocity)
 
 
 def _read_cost(table: dict, robot: Robot, start: np.ndarray, first_contacts: frozenset[str], where: str) -> Cost:
-    scalars = {f"{body}_{what}" for body in ("base_linear", "base_angular", "joint") for what in ("velocity", "acceleration")}
+    scalars = {
+        f"{body}_{what}" for body in ("base_linear", "base_angular", "joint") for what in ("velocity", "acceleration")
+    }
     scalars |= {"base_position", "base_orientation", "joint_position", "torque"}
     _known(table, scalars | {"time", "torque_reference", "force"}, where)
     n = len(robot.joints)
 
     def weights(linear: str, angular: str, joint: str) -> np.ndarray:
-        return np.concatenate([np.full(3, table.get(linear, 0.0)), np.full(3, table.get(angular, 0.0)),
-                               np.full(n, table.get(joint, 0.0))])
+        return np.concatenate(
+            [np.full(3, table.get(linear, 0.0)), np.full(3, table.get(angular, 0.0)), np.full(n, table.get(joint, 0.0))]
+        )
 
     static = table.get("torque_reference", "static") == "static"
-    return Cost(configuration=weights("base_position", "base_orientation", "joint_position"),
-                velocity=weights("base_linear_velocity", "base_angular_velocity", "joint_velocity"),
-                acceleration=weights("base_linear_acceleration", "base_angular_acceleration", "joint_acceleration"),
-                torque=np.full(n, table.get("torque", 0.0)),
-                torque_reference=standing_torques(robot, start, first_contacts) if static else np.zeros(n),
-                force=np.broadcast_to(np.array(table.get("force", 0.0), dtype=float), 3),
-                time=table.get("time", 0.0))
+    return Cost(
+        configuration=weights("base_position", "base_orientation", "joint_position"),
+        velocity=weights("base_linear_velocity", "base_angular_velocity", "joint_velocity"),
+        acceleration=weights("base_linear_acceleration", "base_angular_acceleration", "joint_acceleration"),
+        torque=np.full(n, table.get("torque", 0.0)),
+        torque_reference=standing_torques(robot, start, first_contacts) if static else np.zeros(n),
+        force=np.broadcast_to(np.array(table.get("force", 0.0), dtype=float), 3),
+        time=table.get("time", 0.0),
+    )
 
 
 def _read_ground(table: dict, where: str) -> tuple[dict, np.ndarray, np.ndarray]:
@@ -203,7 +236,11 @@ def _put_on(normal: np.ndarray, point: np.ndarray, level: np.ndarray) -> np.ndar
 
 def parse_task(table: dict, folder: pathlib.Path, package_dirs: list[pathlib.Path], where: str) -> MotionTask:
     """`folder`: that paths are relative to. `where`: for messages."""
-    _known(table, {"name", "robot", "surface", "start", "phase", "goal", "cost", "swing_clearance_m", "tracking", "simulation"}, where)
+    _known(
+        table,
+        {"name", "robot", "surface", "start", "phase", "goal", "cost", "swing_clearance_m", "tracking", "simulation"},
+        where,
+    )
     robot = read_robot(folder / table["robot"], package_dirs)
     ground, normal, point = _read_ground(table, where)
     height = robot.nominal[2]
@@ -212,15 +249,26 @@ def parse_task(table: dict, folder: pathlib.Path, package_dirs: list[pathlib.Pat
     placed = table.get("start", {})
     _known(placed, {"on"}, f"{where}: start")
     if normal[2] < 1.0 and ("on" not in placed or any(phase.contacts != phases[0].contacts for phase in phases)):
-        raise SystemExit(f"bench: {where}: of tasks that do not begin with [start] on = their slope, or where contacts open, "
-                         "only those on a level floor are translated for the peers")
+        raise SystemExit(
+            f"bench: {where}: of tasks that do not begin with [start] on = their slope, or where contacts open, "
+            "only those on a level floor are translated for the peers"
+        )
     start = robot.nominal + np.append([0.0, 0.0, point[2]], np.zeros(robot.model.nq - 3))
     if placed:
         start = _put_on(normal, point, robot.nominal)
     goals = tuple(_read_goal(goal, phases, start, where) for goal in table.get("goal", []))
-    return MotionTask(table.get("name", where), robot, start, ground.get("friction", 0.5), float(normal @ point / normal[2]), normal,
-                      table.get("swing_clearance_m", CLEARANCE * height), tuple(phases), goals,
-                      _read_cost(table.get("cost", {}), robot, start, phases[0].contacts, where))
+    return MotionTask(
+        table.get("name", where),
+        robot,
+        start,
+        ground.get("friction", 0.5),
+        float(normal @ point / normal[2]),
+        normal,
+        table.get("swing_clearance_m", CLEARANCE * height),
+        tuple(phases),
+        goals,
+        _read_cost(table.get("cost", {}), robot, start, phases[0].contacts, where),
+    )
 
 
 def read_task(task_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> MotionTask:

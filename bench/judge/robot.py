@@ -1,4 +1,5 @@
 """A robot file (docs/robot-file.md) as a Pinocchio model with its contacts, limits and start posture."""
+
 import pathlib
 import tomllib
 from dataclasses import dataclass, field
@@ -21,8 +22,8 @@ class Contact:
 class Robot:
     model: pin.Model
     contacts: tuple[Contact, ...]
-    nominal: np.ndarray          # configuration at rest, mean of the contacts over the origin, lowest ball on z = 0
-    torque_limit: np.ndarray     # both ways, one a joint [N m]
+    nominal: np.ndarray  # configuration at rest, mean of the contacts over the origin, lowest ball on z = 0
+    torque_limit: np.ndarray  # both ways, one a joint [N m]
     torque_curves: dict[int, BSpline] = field(default_factory=dict)  # joint -> limit over its position
 
     @property
@@ -64,8 +65,15 @@ def contact_frame(model: pin.Model, contact: dict) -> int:
     if not offset.any():
         return frame
     parent = model.frames[frame]
-    return model.addFrame(pin.Frame(f"contact {contact['name']}", parent.parentJoint, frame,
-                                    parent.placement * pin.SE3(np.eye(3), offset), pin.FrameType.OP_FRAME))
+    return model.addFrame(
+        pin.Frame(
+            f"contact {contact['name']}",
+            parent.parentJoint,
+            frame,
+            parent.placement * pin.SE3(np.eye(3), offset),
+            pin.FrameType.OP_FRAME,
+        )
+    )
 
 
 def find_urdf(text: str, robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> pathlib.Path:
@@ -86,7 +94,9 @@ def read_robot(robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> Ro
     contacts = tuple(Contact(c["name"], contact_frame(model, c), c.get("radius_m", 0.0)) for c in table["contact"])
 
     torque_limit, curves = np.array(model.effortLimit[6:]), {}
-    lower, upper, speed = (np.array(limit) for limit in (model.lowerPositionLimit, model.upperPositionLimit, model.velocityLimit))
+    lower, upper, speed = (
+        np.array(limit) for limit in (model.lowerPositionLimit, model.upperPositionLimit, model.velocityLimit)
+    )
     for joint, limits in table.get("limits", {}).items():
         j = joints.index(joint)
         torque_limit[j] = limits.get("torque_Nm", torque_limit[j])

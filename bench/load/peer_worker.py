@@ -3,6 +3,7 @@
 Each line of stdin is a task with Prowl's motion of it, each line of stdout what the judge found of that and of the peers' motions,
 in JSON. Every solve is in a process of its own. A solver is `sqp`, on the mesh of the task, or `sqp:0.01`, with steps of 10 ms.
 """
+
 import json
 import os
 import pathlib
@@ -25,16 +26,22 @@ def motion_of(columns: dict) -> Motion:
 
 
 def task_of(job: dict) -> MotionTask:
-    return parse_task(job["document"], pathlib.Path(job["folder"]), [pathlib.Path(path) for path in job["packages"]],
-                      f"task {job['number']}")
+    return parse_task(
+        job["document"],
+        pathlib.Path(job["folder"]),
+        [pathlib.Path(path) for path in job["packages"]],
+        f"task {job['number']}",
+    )
 
 
 def ask_peer(task: MotionTask, solver: str, time_limit: float) -> dict:
     name, _, step = solver.partition(":")
     step = float(step) if step else task.duration / task.intervals
     try:
-        return in_own_process(lambda: peer_record("load", task, name, step, time_limit=time_limit, anchored=True),
-                              2 * time_limit + JUDGING)
+        return in_own_process(
+            lambda: peer_record("load", task, name, step, time_limit=time_limit, anchored=True),
+            2 * time_limit + JUDGING,
+        )
     except NoResult as why:
         return {"solver": name, "label": PEERS[name].label, "step_s": step, "failed": str(why)}
 

@@ -1,4 +1,5 @@
 """A distribution in four numbers."""
+
 import statistics
 
 

@@ -1,4 +1,5 @@
 """Random tasks: a shipped robot that stands on a slope and takes its base somewhere and back. Standard library only."""
+
 import math
 import pathlib
 import random
@@ -24,10 +25,18 @@ def draw(source: random.Random) -> tuple[str, dict]:
     document["surface"] = [{"name": "ground", "normal": normal, "friction": source.uniform(0.2, 1.0)}]
     document["start"] = {"on": "ground"}
     duration = source.uniform(0.8, 3.0)
-    document["phase"][0] |= {"duration_s": duration, "intervals": 2 * source.randint(20, 80)}  # even: a node for the goal in the middle
+    document["phase"][0] |= {
+        "duration_s": duration,
+        "intervals": 2 * source.randint(20, 80),
+    }  # even: a node for the goal in the middle
     there, back = document["goal"]
-    there |= {"time_s": 0.5 * duration,
-              "base_displacement_m": [*(source.uniform(-0.5 * reach, 0.5 * reach) for _ in range(2)), source.uniform(-reach, 0.2 * reach)],
-              "base_rpy_rad": [source.uniform(-0.2, 0.2) for _ in range(3)]}
+    there |= {
+        "time_s": 0.5 * duration,
+        "base_displacement_m": [
+            *(source.uniform(-0.5 * reach, 0.5 * reach) for _ in range(2)),
+            source.uniform(-reach, 0.2 * reach),
+        ],
+        "base_rpy_rad": [source.uniform(-0.2, 0.2) for _ in range(3)],
+    }
     back["time_s"] = duration
     return robot, document

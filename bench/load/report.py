@@ -1,4 +1,5 @@
 """What the judge found of everybody's motions of the same tasks, as a table in Markdown. Standard library only."""
+
 import collections
 
 from load.quantiles import quantiles
@@ -51,12 +52,17 @@ def table(records: list[dict]) -> str:
     add("keeps its task", lambda column: share([keeps(r) for r in column]))
     add("... of those that Prowl's certificate passes", lambda column: share([keeps(column[i]) for i in proven]))
     for error in ERRORS:
-        add(f"keeps it, error of an interval ≤ {error:g}",
-            lambda column, error=error: share([keeps(r) and r["error"] <= error for r in column]))
+        add(
+            f"keeps it, error of an interval ≤ {error:g}",
+            lambda column, error=error: share([keeps(r) and r["error"] <= error for r in column]),
+        )
     add("error of an interval, median", lambda column: median([r["error"] for r in column if "error" in r], "{:.1e}"))
     add("iterations, median", lambda column: median([r["iterations"] for r in column if "iterations" in r], "{:.0f}"))
     add("CPU time where it keeps its task [s]", lambda column: times([r["seconds"] for r in column if keeps(r)]))
-    add("CPU time where not [s]", lambda column: times([r["seconds"] for r in column if not keeps(r) and "seconds" in r]))
+    add(
+        "CPU time where not [s]",
+        lambda column: times([r["seconds"] for r in column if not keeps(r) and "seconds" in r]),
+    )
     add("breaks most", failures)
     return "\n".join("| " + " | ".join(row) + " |" for row in rows)
 
@@ -68,8 +74,10 @@ def pairs(records: list[dict]) -> str:
         both = [(record["solvers"]["prowl"], record["solvers"][name]) for record in records]
         kept = collections.Counter((keeps(ours), keeps(theirs)) for ours, theirs in both)
         ratios = [ours["seconds"] / theirs["seconds"] for ours, theirs in both if keeps(ours) and keeps(theirs)]
-        lines.append(f"Prowl and {label(name)}: both keep {kept[True, True]}, Prowl alone {kept[True, False]}, {label(name)} alone "
-                     f"{kept[False, True]}, none {kept[False, False]}; Prowl's CPU time over its where both do: {times(ratios)}")
+        lines.append(
+            f"Prowl and {label(name)}: both keep {kept[True, True]}, Prowl alone {kept[True, False]}, {label(name)} alone "
+            f"{kept[False, True]}, none {kept[False, False]}; Prowl's CPU time over its where both do: {times(ratios)}"
+        )
     return "\n".join(lines)
 
 

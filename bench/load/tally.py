@@ -20,7 +20,10 @@ def why(plan) -> str:
 
 
 def in_words(seconds: list[float]) -> str:
-    return ", ".join(f"{name} {value:.3f}" for name, value in zip(("median", "90 %", "99 %", "most"), quantiles(seconds))) or "-"
+    return (
+        ", ".join(f"{name} {value:.3f}" for name, value in zip(("median", "90 %", "99 %", "most"), quantiles(seconds)))
+        or "-"
+    )
 
 
 class Tally:
@@ -36,8 +39,15 @@ class Tally:
 
     def add(self, number: int, task, plan, seconds: float) -> str:
         reason = "" if plan.good else why(plan)
-        outcome = "good" if plan.good else "refused before the solve" if plan.reasons else \
-            "converged, certificate failed" if plan.status == "converged" else plan.status
+        outcome = (
+            "good"
+            if plan.good
+            else "refused before the solve"
+            if plan.reasons
+            else "converged, certificate failed"
+            if plan.status == "converged"
+            else plan.status
+        )
         if not plan.good and not reason:
             reason = self.diagnose(task)
             (self.diagnosed if reason else self.silent).append(number)
@@ -61,4 +71,6 @@ class Tally:
         for name, seconds in self.seconds.items():
             print(f"time of those {name:11} [s]  {in_words(seconds)}")
         if len(self.memory) > SETTLED:
-            print(f"memory after {SETTLED} tasks {self.memory[SETTLED - 1] / 1e6:.1f} MB, at the end {self.memory[-1] / 1e6:.1f} MB")
+            print(
+                f"memory after {SETTLED} tasks {self.memory[SETTLED - 1] / 1e6:.1f} MB, at the end {self.memory[-1] / 1e6:.1f} MB"
+            )

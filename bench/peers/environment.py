@@ -1,4 +1,5 @@
 """The peers' virtual environment; standard library only, for it runs before that is there."""
+
 import os
 import pathlib
 import subprocess
@@ -16,8 +17,23 @@ def install(environment: pathlib.Path) -> None:
     print(f"== making {environment} for the peers, 1.3 GB", file=sys.stderr, flush=True)
     stamp.unlink(missing_ok=True)
     venv.create(environment, with_pip=True)
-    result = subprocess.run([environment / "bin/python", "-m", "pip", "install", "--no-input", "--disable-pip-version-check",
-                             "--quiet", "--retries", "5", "--timeout", "60", "-r", wanted])
+    result = subprocess.run(
+        [
+            environment / "bin/python",
+            "-m",
+            "pip",
+            "install",
+            "--no-input",
+            "--disable-pip-version-check",
+            "--quiet",
+            "--retries",
+            "5",
+            "--timeout",
+            "60",
+            "-r",
+            wanted,
+        ]
+    )
     if result.returncode != 0:
         sys.exit(f"bench: the peers' wheels could not be installed into {environment}; see above")
     stamp.write_bytes(wanted.read_bytes())
@@ -31,5 +47,8 @@ def variables() -> dict[str, str]:
 
 def package_dirs(environment: pathlib.Path) -> list[pathlib.Path]:
     """Where to look for package://: first in Prowl's own environment, so that all have the same URDFs."""
-    return [path for folder in (ROOT / ".venv", environment)
-            for path in folder.glob("lib/python3*/site-packages/cmeel.prefix/share")]
+    return [
+        path
+        for folder in (ROOT / ".venv", environment)
+        for path in folder.glob("lib/python3*/site-packages/cmeel.prefix/share")
+    ]

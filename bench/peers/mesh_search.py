@@ -1,4 +1,5 @@
 """The coarsest mesh of Prowl whose error is no larger than a given one."""
+
 from collections.abc import Callable
 
 FINEST = 1280  # intervals

@@ -1,4 +1,5 @@
 """The options of scripts/bench; standard library only, for it runs before the peers' environment is there."""
+
 import argparse
 import pathlib
 
@@ -24,35 +25,96 @@ def _counts(text: str) -> list[int]:
 
 def make_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="scripts/bench", formatter_class=argparse.RawDescriptionHelpFormatter,
+        prog="scripts/bench",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
         description="Plans HyQ's tasks with Prowl and with its peers (Crocoddyl, mim_solvers) on one core, judges all motions\n"
-                    "with the same code, and writes tables, JSON lines and plots. What the columns mean: bench/README.md.")
-    parser.add_argument("out", nargs="?", type=pathlib.Path, default=ROOT / "build/bench-results",
-                        help="folder for the results; default build/bench-results")
-    parser.add_argument("--quick", action="store_true", help="a smoke test of less than 3 minutes: stand only, coarse, no repetitions")
-    parser.add_argument("--tasks", type=_list, default=TASKS, metavar="NAME,...", help=f"of tasks/hyq; default {','.join(TASKS)}")
-    parser.add_argument("--solvers", type=_list, metavar="NAME,...",
-                        help="of Prowl, names of `prowl plan --solver`; default: those that go by stages, riccati and fatrop")
-    parser.add_argument("--peers", type=_list, default=PEERS, metavar="NAME,...", help=f"default {','.join(PEERS)}; none: --peers=")
-    parser.add_argument("--steps", type=_numbers, default=[0.02, 0.04, 0.01], metavar="S,...",
-                        help="Euler steps of the peers [s]; the first is the one that Prowl is compared at; default 0.02,0.04,0.01")
-    parser.add_argument("--growth-tasks", type=_list, default=["stand", "crouch"], metavar="NAME,...",
-                        help="tasks that are measured over the number of intervals; default stand,crouch; none: --growth-tasks=")
-    parser.add_argument("--growth", type=_counts, default=[10, 20, 40, 80, 160, 320], metavar="N,...",
-                        help="these numbers of intervals; default 10,20,40,80,160,320")
-    parser.add_argument("--threads", type=_counts, default=[1, 2], metavar="N,...",
-                        help="Prowl on each task's own mesh with so many threads, by the wall clock; default 1,2; none: --threads 1")
-    parser.add_argument("--repetitions", type=int, default=5, metavar="N", help="of each solve, for the clock; default 5")
-    parser.add_argument("--patience", type=float, default=15.0, metavar="S",
-                        help="no more repetitions, and no other steps, once they took so long together; default 15 s")
+        "with the same code, and writes tables, JSON lines and plots. What the columns mean: bench/README.md.",
+    )
+    parser.add_argument(
+        "out",
+        nargs="?",
+        type=pathlib.Path,
+        default=ROOT / "build/bench-results",
+        help="folder for the results; default build/bench-results",
+    )
+    parser.add_argument(
+        "--quick", action="store_true", help="a smoke test of less than 3 minutes: stand only, coarse, no repetitions"
+    )
+    parser.add_argument(
+        "--tasks", type=_list, default=TASKS, metavar="NAME,...", help=f"of tasks/hyq; default {','.join(TASKS)}"
+    )
+    parser.add_argument(
+        "--solvers",
+        type=_list,
+        metavar="NAME,...",
+        help="of Prowl, names of `prowl plan --solver`; default: those that go by stages, riccati and fatrop",
+    )
+    parser.add_argument(
+        "--peers", type=_list, default=PEERS, metavar="NAME,...", help=f"default {','.join(PEERS)}; none: --peers="
+    )
+    parser.add_argument(
+        "--steps",
+        type=_numbers,
+        default=[0.02, 0.04, 0.01],
+        metavar="S,...",
+        help="Euler steps of the peers [s]; the first is the one that Prowl is compared at; default 0.02,0.04,0.01",
+    )
+    parser.add_argument(
+        "--growth-tasks",
+        type=_list,
+        default=["stand", "crouch"],
+        metavar="NAME,...",
+        help="tasks that are measured over the number of intervals; default stand,crouch; none: --growth-tasks=",
+    )
+    parser.add_argument(
+        "--growth",
+        type=_counts,
+        default=[10, 20, 40, 80, 160, 320],
+        metavar="N,...",
+        help="these numbers of intervals; default 10,20,40,80,160,320",
+    )
+    parser.add_argument(
+        "--threads",
+        type=_counts,
+        default=[1, 2],
+        metavar="N,...",
+        help="Prowl on each task's own mesh with so many threads, by the wall clock; default 1,2; none: --threads 1",
+    )
+    parser.add_argument(
+        "--repetitions", type=int, default=5, metavar="N", help="of each solve, for the clock; default 5"
+    )
+    parser.add_argument(
+        "--patience",
+        type=float,
+        default=15.0,
+        metavar="S",
+        help="no more repetitions, and no other steps, once they took so long together; default 15 s",
+    )
     parser.add_argument("--time-limit", type=float, default=90.0, metavar="S", help="of one solve; default 90 s")
     parser.add_argument("--core", type=int, metavar="N", help="that all is pinned to; default: the last one allowed")
-    parser.add_argument("--prowl", type=pathlib.Path, default=ROOT / "build/bin/prowl", metavar="FILE", help="default build/bin/prowl")
-    parser.add_argument("--package-dir", type=pathlib.Path, action="append", default=[], metavar="DIR",
-                        help="where to look for package://, as prowl's option; may be given again")
-    parser.add_argument("--environment", type=pathlib.Path, default=ROOT / ".venv-peers", metavar="DIR",
-                        help="virtual environment of the peers, made on first use; default .venv-peers")
-    parser.add_argument("--footprint", action="store_true", help="only print size on disk, time to start, and memory of each shipped task")
+    parser.add_argument(
+        "--prowl", type=pathlib.Path, default=ROOT / "build/bin/prowl", metavar="FILE", help="default build/bin/prowl"
+    )
+    parser.add_argument(
+        "--package-dir",
+        type=pathlib.Path,
+        action="append",
+        default=[],
+        metavar="DIR",
+        help="where to look for package://, as prowl's option; may be given again",
+    )
+    parser.add_argument(
+        "--environment",
+        type=pathlib.Path,
+        default=ROOT / ".venv-peers",
+        metavar="DIR",
+        help="virtual environment of the peers, made on first use; default .venv-peers",
+    )
+    parser.add_argument(
+        "--footprint",
+        action="store_true",
+        help="only print size on disk, time to start, and memory of each shipped task",
+    )
     parser.add_argument("--test", action="store_true", help="run the tests of the judge and of the task reader instead")
     return parser
 

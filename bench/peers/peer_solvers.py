@@ -1,4 +1,5 @@
 """The peers' solvers with the settings that they are measured with."""
+
 import math
 import time
 from dataclasses import dataclass
@@ -33,7 +34,7 @@ PEERS = {
 @dataclass(frozen=True)
 class PeerRun:
     motion: Motion
-    seconds: list[float]   # CPU time of each repetition
+    seconds: list[float]  # CPU time of each repetition
     iterations: int
     converged: bool
     nodes: int
@@ -56,6 +57,7 @@ class OutOfTime(Exception):
 
 def _watch(name: str, seconds: float):
     """A callback that ends the solve after the iteration in which its time is over; the solver keeps its last iterate."""
+
     class Watch(mim_solvers.CallbackAbstract if name in ("sqp", "csqp") else crocoddyl.CallbackAbstract):
         end = time.process_time() + seconds
 
@@ -66,8 +68,16 @@ def _watch(name: str, seconds: float):
     return Watch()
 
 
-def solve(name: str, task: MotionTask, step: float, joint_bounds: bool, repetitions: int = 1, patience: float = 0.0,
-          time_limit: float = math.inf, anchored: bool = False) -> PeerRun:
+def solve(
+    name: str,
+    task: MotionTask,
+    step: float,
+    joint_bounds: bool,
+    repetitions: int = 1,
+    patience: float = 0.0,
+    time_limit: float = math.inf,
+    anchored: bool = False,
+) -> PeerRun:
     """The motion of one peer; repeated for the clock until all took longer than `patience` [s] together. `time_limit`: of each
     solve, CPU time [s]."""
     peer = PEERS[name]

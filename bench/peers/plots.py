@@ -1,4 +1,5 @@
 """Two figures: error against time, one panel a task; time per node and iteration over the number of nodes."""
+
 import math
 import pathlib
 
@@ -9,17 +10,40 @@ import matplotlib.pyplot as plt  # noqa: E402  (after the choice of backend)
 from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator  # noqa: E402
 
 # Okabe and Ito's colours, which most colour-blind readers tell apart; Prowl's are filled, the peers' hollow.
-COLOURS = {"fatrop": "#0072B2", "riccati": "#000000", "ipopt": "#56B4E9", "fddp": "#E69F00", "boxfddp": "#D55E00",
-           "intro": "#009E73", "sqp": "#CC79A7", "csqp": "#8C6D1F"}
-MARKERS = {"fatrop": "o", "riccati": "D", "ipopt": "v", "fddp": "s", "boxfddp": "^", "intro": "P", "sqp": "X", "csqp": "*"}
+COLOURS = {
+    "fatrop": "#0072B2",
+    "riccati": "#000000",
+    "ipopt": "#56B4E9",
+    "fddp": "#E69F00",
+    "boxfddp": "#D55E00",
+    "intro": "#009E73",
+    "sqp": "#CC79A7",
+    "csqp": "#8C6D1F",
+}
+MARKERS = {
+    "fatrop": "o",
+    "riccati": "D",
+    "ipopt": "v",
+    "fddp": "s",
+    "boxfddp": "^",
+    "intro": "P",
+    "sqp": "X",
+    "csqp": "*",
+}
 GREY = "0.5"
 
 
 def style(record: dict) -> dict:
     solver, ours = record["solver"], record["label"].startswith("Prowl")
     colour = COLOURS.get(solver, GREY)
-    return {"color": colour, "marker": MARKERS.get(solver, "o"), "markerfacecolor": colour if ours else "white", "markersize": 6,
-            "linewidth": 1.6 if ours else 1.0, "label": record["label"]}
+    return {
+        "color": colour,
+        "marker": MARKERS.get(solver, "o"),
+        "markerfacecolor": colour if ours else "white",
+        "markersize": 6,
+        "linewidth": 1.6 if ours else 1.0,
+        "label": record["label"],
+    }
 
 
 def good(records: list[dict], kinds: tuple[str, ...], task: str) -> list[dict]:
@@ -48,7 +72,10 @@ def widen(axes) -> None:
     for low_high, set_limits in ((axes.get_xlim(), axes.set_xlim), (axes.get_ylim(), axes.set_ylim)):
         low, high = low_high
         if math.floor(math.log10(high)) - math.ceil(math.log10(low)) < 1:
-            low, high = min(low, 10.0 ** math.floor(math.log10(low)) * 0.9), max(high, 10.0 ** math.ceil(math.log10(high)) * 1.1)
+            low, high = (
+                min(low, 10.0 ** math.floor(math.log10(low)) * 0.9),
+                max(high, 10.0 ** math.ceil(math.log10(high)) * 1.1),
+            )
         set_limits(low, high)
 
 
@@ -80,11 +107,21 @@ def plot_error_against_time(records: list[dict], path: pathlib.Path) -> None:
         draw_lines(axes, good(records, ("task", "match", "search"), task), "seconds", "error_per_second")
         logarithmic(axes.xaxis)
         logarithmic(axes.yaxis)
-        duration = next((r["seconds"] / r["ratio_to_motion"] for r in records if r.get("task") == task and "failed" not in r), None)
+        duration = next(
+            (r["seconds"] / r["ratio_to_motion"] for r in records if r.get("task") == task and "failed" not in r), None
+        )
         if duration:
             axes.axvline(duration, color=GREY, lw=0.8, ls="--")
-            axes.annotate("as long as the motion ", (duration, 1.0), xycoords=("data", "axes fraction"), rotation=90, fontsize=7,
-                          color=GREY, ha="right", va="top")
+            axes.annotate(
+                "as long as the motion ",
+                (duration, 1.0),
+                xycoords=("data", "axes fraction"),
+                rotation=90,
+                fontsize=7,
+                color=GREY,
+                ha="right",
+                va="top",
+            )
         widen(axes)
         axes.set_title(task, fontsize=10)
         axes.set_xlabel("CPU time [s]")
@@ -110,8 +147,12 @@ def plot_growth(records: list[dict], path: pathlib.Path) -> None:
             axes.set_ylim(bottom=0)
             logarithmic(axes.xaxis)
             axes.xaxis.set_minor_locator(NullLocator())
-            axes.set_xticks(sorted({r["nodes"] for r in good(records, ("growth",), task) if not r["label"].startswith("Prowl")}
-                                   or {r["nodes"] for r in good(records, ("growth",), task)}))
+            axes.set_xticks(
+                sorted(
+                    {r["nodes"] for r in good(records, ("growth",), task) if not r["label"].startswith("Prowl")}
+                    or {r["nodes"] for r in good(records, ("growth",), task)}
+                )
+            )
     finish(figure, list(grid.flat), path)
 
 

@@ -1,4 +1,5 @@
 """Plans of the `prowl` command, with the time that its solver says it took."""
+
 import json
 import os
 import pathlib
@@ -17,16 +18,16 @@ THREADS = "--threads"
 @dataclass(frozen=True)
 class ProwlRun:
     motion: Motion
-    durations: list[float]      # of the phases [s]
-    seconds: list[float]        # of the solver, on all meshes together, one a repetition
-    last_seconds: list[float]   # of its last mesh alone
-    wall_seconds: list[float]   # of the solver by the wall clock, one a repetition
-    clock: str                  # what `seconds` are: "cpu", or "wall" where the plan tells no CPU time
-    split: dict[str, float]     # shares of `seconds` by what was computed, as far as the plan tells
+    durations: list[float]  # of the phases [s]
+    seconds: list[float]  # of the solver, on all meshes together, one a repetition
+    last_seconds: list[float]  # of its last mesh alone
+    wall_seconds: list[float]  # of the solver by the wall clock, one a repetition
+    clock: str  # what `seconds` are: "cpu", or "wall" where the plan tells no CPU time
+    split: dict[str, float]  # shares of `seconds` by what was computed, as far as the plan tells
     levels: list[dict]
     converged: bool
     grade: str
-    reintegration: float        # the certificate's own figure, to compare with the judge's
+    reintegration: float  # the certificate's own figure, to compare with the judge's
 
     @property
     def iterations(self) -> int:
@@ -52,8 +53,17 @@ class ProwlCommand:
         found = re.search(r"--solver NAME:\{([^}]*)\}", self.help)
         return found.group(1).split(",") if found else []
 
-    def plan(self, task_file: pathlib.Path, solver: str, intervals: int | None = None, one_mesh: bool = False,
-             repetitions: int = 1, patience: float = 0.0, threads: int = 1, cores: frozenset[int] = frozenset()) -> ProwlRun:
+    def plan(
+        self,
+        task_file: pathlib.Path,
+        solver: str,
+        intervals: int | None = None,
+        one_mesh: bool = False,
+        repetitions: int = 1,
+        patience: float = 0.0,
+        threads: int = 1,
+        cores: frozenset[int] = frozenset(),
+    ) -> ProwlRun:
         """`cores`: that it may run on; empty: those of this process."""
         seconds: list[float] = []
         last_seconds: list[float] = []
@@ -73,21 +83,45 @@ class ProwlCommand:
             last = found["levels"][-1]
             last_seconds.append(last.get("cpu_seconds", last["seconds"] * seconds[-1] / found["seconds"]))
         checks = {check["name"]: check["worst"] for check in record["certificate"]["checks"]}
-        return ProwlRun(motion, [phase["duration_s"] for phase in record["problem"]["phases"]], seconds,
-                        last_seconds, wall_seconds, "cpu" if "cpu_seconds" in found else "wall",
-                        found.get("evaluation", {}), found["levels"],
-                        record["status"] == "converged", record["certificate"]["grade"], checks.get("re-integration", float("nan")))
+        return ProwlRun(
+            motion,
+            [phase["duration_s"] for phase in record["problem"]["phases"]],
+            seconds,
+            last_seconds,
+            wall_seconds,
+            "cpu" if "cpu_seconds" in found else "wall",
+            found.get("evaluation", {}),
+            found["levels"],
+            record["status"] == "converged",
+            record["certificate"]["grade"],
+            checks.get("re-integration", float("nan")),
+        )
 
     def _run(self, task_file, solver, intervals, one_mesh, threads, cores, out) -> float:
         """CPU seconds of the whole process."""
-        command = [str(self.binary), "plan", str(task_file), "--solver", solver, "--out", str(out), "--max-time",
-                   str(self.time_limit), *self.packages, *self.without_gains]
+        command = [
+            str(self.binary),
+            "plan",
+            str(task_file),
+            "--solver",
+            solver,
+            "--out",
+            str(out),
+            "--max-time",
+            str(self.time_limit),
+            *self.packages,
+            *self.without_gains,
+        ]
         command += ["--intervals", str(intervals)] if intervals else []
         command += [ONE_MESH] if one_mesh else []
         command += [THREADS, str(threads)] if threads > 1 else []
         with tempfile.TemporaryFile("w+") as messages:
-            process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=messages,
-                                       preexec_fn=(lambda: os.sched_setaffinity(0, cores)) if cores else None)
+            process = subprocess.Popen(
+                command,
+                stdout=subprocess.DEVNULL,
+                stderr=messages,
+                preexec_fn=(lambda: os.sched_setaffinity(0, cores)) if cores else None,
+            )
             _, status, usage = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
             messages.seek(0)

@@ -1,4 +1,5 @@
 """The whole benchmark, in the peers' environment: called by scripts/bench with its arguments."""
+
 import datetime
 import importlib.metadata
 import json
@@ -37,7 +38,11 @@ class Benchmark:
         self.packages = [*options.package_dir, *package_dirs(options.environment)]
         self.prowl = ProwlCommand(options.prowl, self.packages, options.time_limit)
         known = self.prowl.solvers()
-        self.solvers = options.solvers if options.solvers is not None else [name for name in known if name in ("riccati", "fatrop")]
+        self.solvers = (
+            options.solvers
+            if options.solvers is not None
+            else [name for name in known if name in ("riccati", "fatrop")]
+        )
         if unknown := set(self.solvers) - set(known):
             raise SystemExit(f"bench: --solvers {','.join(sorted(unknown))}: {options.prowl} has {','.join(known)}")
         self.lines = open(options.out / "results.jsonl", "w")
@@ -64,18 +69,32 @@ class Benchmark:
         if not task.free_durations() or not self.solvers:
             return task
         durations = self.prowl.plan(self.task_file(task.name), self.solvers[0]).durations
-        print(f"{task.name}: durations {', '.join(f'{d:.4f}' for d in durations)} s, as Prowl {self.solvers[0]} chose them")
+        print(
+            f"{task.name}: durations {', '.join(f'{d:.4f}' for d in durations)} s, as Prowl {self.solvers[0]} chose them"
+        )
         return task.with_durations(durations)
 
     def run_task(self, name: str) -> None:
         task = self.with_durations(read_task(self.task_file(name), self.packages))
         for peer in self.options.peers:
             for step in self.options.steps:
-                found = self.keep(measure_peer("task", task, peer, step, time_limit=self.options.time_limit, **self.clock))
+                found = self.keep(
+                    measure_peer("task", task, peer, step, time_limit=self.options.time_limit, **self.clock)
+                )
                 if "failed" in found or found["seconds"] > self.options.patience:
                     break
-        yardstick = next((r for r in self.records if r["kind"] == "task" and r["task"] == task.name and "failed" not in r
-                          and r["solver"] == YARDSTICK and r["step_s"] == self.options.steps[0]), None)
+        yardstick = next(
+            (
+                r
+                for r in self.records
+                if r["kind"] == "task"
+                and r["task"] == task.name
+                and "failed" not in r
+                and r["solver"] == YARDSTICK
+                and r["step_s"] == self.options.steps[0]
+            ),
+            None,
+        )
         for solver in self.solvers:
             intervals = QUICK_INTERVALS if self.options.quick else None
             self.keep(self.run_prowl("task", task, solver, intervals=intervals, **self.clock))
@@ -92,8 +111,12 @@ class Benchmark:
                 if "failed" not in tried[intervals]:
                     break
             found = self.keep(tried[intervals])
-            return ("failed" not in found and found["converged"] and found["error"] <= yardstick["error"]
-                    and found["error_per_second"] <= yardstick["error_per_second"])
+            return (
+                "failed" not in found
+                and found["converged"]
+                and found["error"] <= yardstick["error"]
+                and found["error_per_second"] <= yardstick["error_per_second"]
+            )
 
         first = 4 * len(task.phases)
         intervals = coarsest_mesh(good, first)
@@ -108,8 +131,16 @@ class Benchmark:
         repetitions = {"repetitions": min(3, self.options.repetitions), "patience": self.options.patience}
         for intervals in self.options.growth:
             if YARDSTICK in self.options.peers:
-                self.keep(measure_peer("growth", task, YARDSTICK, task.duration / intervals,
-                                       time_limit=self.options.time_limit, **repetitions))
+                self.keep(
+                    measure_peer(
+                        "growth",
+                        task,
+                        YARDSTICK,
+                        task.duration / intervals,
+                        time_limit=self.options.time_limit,
+                        **repetitions,
+                    )
+                )
             for solver in self.solvers:
                 self.keep(self.run_prowl("growth", task, solver, intervals=intervals, one_mesh=True, **repetitions))
 
@@ -120,12 +151,24 @@ class Benchmark:
                 self.keep(self.run_prowl("threads", task, solver, threads=threads, cores=self.cores, **self.clock))
 
     def about(self) -> dict:
-        processor = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), "")
+        processor = next(
+            (line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")), ""
+        )
         versions = {name: importlib.metadata.version(name) for name in ("crocoddyl", "mim-solvers", "pin")}
-        return {"kind": "about", "date": datetime.datetime.now().isoformat(timespec="seconds"), "processor": processor,
-                "cores": os.cpu_count(), "core": min(os.sched_getaffinity(0)), "load": os.getloadavg()[0],
-                "system": platform.platform(), "versions": versions, "prowl": str(self.options.prowl),
-                "one_mesh": self.prowl.has_one_mesh, "steps": self.options.steps, "repetitions": self.options.repetitions}
+        return {
+            "kind": "about",
+            "date": datetime.datetime.now().isoformat(timespec="seconds"),
+            "processor": processor,
+            "cores": os.cpu_count(),
+            "core": min(os.sched_getaffinity(0)),
+            "load": os.getloadavg()[0],
+            "system": platform.platform(),
+            "versions": versions,
+            "prowl": str(self.options.prowl),
+            "one_mesh": self.prowl.has_one_mesh,
+            "steps": self.options.steps,
+            "repetitions": self.options.repetitions,
+        }
 
     def run(self) -> None:
         self.keep(self.about())

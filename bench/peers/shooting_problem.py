@@ -2,6 +2,7 @@
 
 What a peer cannot have, or has otherwise than Prowl, is listed in bench/README.md.
 """
+
 from dataclasses import dataclass
 
 import crocoddyl
@@ -13,24 +14,25 @@ from judge.motion_task import Goal, MotionTask
 from judge.robot import Contact
 
 WORLD = pin.LOCAL_WORLD_ALIGNED
-PLACE, TURN, VELOCITY = 1e5, 1e5, 1e4   # penalties on what has to hold at one node: [1/m²], [1/rad²], [s²/m²]
-CLEARANCE = 1e5                         # ... of a foot in the air below its least height [1/m²]
-CONE = 1e1                              # ... of a force outside its cone, as in crocoddyl.utils.quadruped [1/N²]
-JOINTS = 1e4                            # ... of a joint beyond its limits of position [1/rad²]; of velocity the same number
-NO_FORCE = 1e1                          # ... of a force that has to vanish before its contact opens [1/N²]
-FREE = 1e3                              # stands for infinity in bounds
-DAMPING = 50.0                          # Baumgarte gain of the contacts [1/s], as in crocoddyl.utils.quadruped
-FORCE_WEIGHT = 1e-7                     # keeps inverse dynamics' forces determined [1/N²]
+PLACE, TURN, VELOCITY = 1e5, 1e5, 1e4  # penalties on what has to hold at one node: [1/m²], [1/rad²], [s²/m²]
+CLEARANCE = 1e5  # ... of a foot in the air below its least height [1/m²]
+CONE = 1e1  # ... of a force outside its cone, as in crocoddyl.utils.quadruped [1/N²]
+JOINTS = 1e4  # ... of a joint beyond its limits of position [1/rad²]; of velocity the same number
+NO_FORCE = 1e1  # ... of a force that has to vanish before its contact opens [1/N²]
+FREE = 1e3  # stands for infinity in bounds
+DAMPING = 50.0  # Baumgarte gain of the contacts [1/s], as in crocoddyl.utils.quadruped
+FORCE_WEIGHT = 1e-7  # keeps inverse dynamics' forces determined [1/N²]
 
 
 @dataclass(frozen=True)
 class Node:
     """Where node k of the shooting problem is: at a share of a phase, with the step that follows it."""
+
     phase: int
     share: float
-    step: float    # [s]; 0 at the end of the motion
-    first: bool    # of its phase
-    last: bool     # of its phase: one step before the switch
+    step: float  # [s]; 0 at the end of the motion
+    first: bool  # of its phase
+    last: bool  # of its phase: one step before the switch
 
 
 def make_nodes(task: MotionTask, step: float) -> list[Node]:
@@ -50,8 +52,16 @@ class ShootingProblem:
     `joint_bounds`: joints are kept within their limits of position and velocity. `anchored`: contacts that have held since the start
     are pulled back to their places, with critical damping; else only their velocities are corrected."""
 
-    def __init__(self, task: MotionTask, step: float, inverse: bool, hard: bool, joint_bounds: bool, anchored: bool = False):
-        self.task, self.inverse, self.hard, self.joint_bounds, self.anchored = task, inverse, hard, joint_bounds, anchored
+    def __init__(
+        self, task: MotionTask, step: float, inverse: bool, hard: bool, joint_bounds: bool, anchored: bool = False
+    ):
+        self.task, self.inverse, self.hard, self.joint_bounds, self.anchored = (
+            task,
+            inverse,
+            hard,
+            joint_bounds,
+            anchored,
+        )
         self.robot, self.model = task.robot, task.robot.model
         self.state = crocoddyl.StateMultibody(self.model)
         self.actuation = crocoddyl.ActuationModelFloatingBase(self.state)
@@ -102,16 +112,22 @@ class ShootingProblem:
 
         if self.inverse:
             dynamics = crocoddyl.DifferentialActionModelContactInvDynamics(
-                self.state, self.actuation, contacts, costs, constraints)
+                self.state, self.actuation, contacts, costs, constraints
+            )
         elif self.hard:
             dynamics = crocoddyl.DifferentialActionModelContactFwdDynamics(
-                self.state, self.actuation, contacts, costs, constraints, 0.0, True)
+                self.state, self.actuation, contacts, costs, constraints, 0.0, True
+            )
         else:
             dynamics = crocoddyl.DifferentialActionModelContactFwdDynamics(
-                self.state, self.actuation, contacts, costs, 0.0, True)
+                self.state, self.actuation, contacts, costs, 0.0, True
+            )
         action = crocoddyl.IntegratedActionModelEuler(dynamics, node.step)
         if node.step and not self.inverse:
-            action.u_lb, action.u_ub = -self.robot.torque_limit, self.robot.torque_limit  # BoxFDDP keeps them, FDDP does not
+            action.u_lb, action.u_ub = (
+                -self.robot.torque_limit,
+                self.robot.torque_limit,
+            )  # BoxFDDP keeps them, FDDP does not
         return action
 
     def _contact(self, contact: Contact, node: Node, nu: int):
@@ -127,25 +143,47 @@ class ShootingProblem:
 
     def _add_running_cost(self, costs, nu: int, held) -> None:
         cost = self.task.cost
-        self._add(costs, "state", crocoddyl.ResidualModelState(self.state, self.start, nu),
-                  np.concatenate([cost.configuration, cost.velocity]))
+        self._add(
+            costs,
+            "state",
+            crocoddyl.ResidualModelState(self.state, self.start, nu),
+            np.concatenate([cost.configuration, cost.velocity]),
+        )
         if self.inverse:
-            self._add(costs, "acceleration", crocoddyl.ResidualModelControl(self.state, nu),
-                      np.concatenate([cost.acceleration, np.full(3 * len(held), FORCE_WEIGHT)]))
-            self._add(costs, "torque", crocoddyl.ResidualModelJointEffort(
-                self.state, self.actuation, cost.torque_reference, nu), cost.torque)
+            self._add(
+                costs,
+                "acceleration",
+                crocoddyl.ResidualModelControl(self.state, nu),
+                np.concatenate([cost.acceleration, np.full(3 * len(held), FORCE_WEIGHT)]),
+            )
+            self._add(
+                costs,
+                "torque",
+                crocoddyl.ResidualModelJointEffort(self.state, self.actuation, cost.torque_reference, nu),
+                cost.torque,
+            )
         else:
-            self._add(costs, "acceleration", crocoddyl.ResidualModelJointAcceleration(self.state, nu), cost.acceleration)
+            self._add(
+                costs, "acceleration", crocoddyl.ResidualModelJointAcceleration(self.state, nu), cost.acceleration
+            )
             self._add(costs, "torque", crocoddyl.ResidualModelControl(self.state, cost.torque_reference), cost.torque)
 
         for contact in held if cost.force.any() else ():
-            self._add(costs, f"force {contact.name}", crocoddyl.ResidualModelContactForce(
-                self.state, contact.frame, pin.Force.Zero(), 3, nu, not self.inverse), cost.force)
+            self._add(
+                costs,
+                f"force {contact.name}",
+                crocoddyl.ResidualModelContactForce(
+                    self.state, contact.frame, pin.Force.Zero(), 3, nu, not self.inverse
+                ),
+                cost.force,
+            )
 
     def _bound(self, costs, constraints, name: str, residual, low, high, weight: float, at_states: bool) -> None:
         """low <= residual <= high, as a constraint or as a penalty."""
         if self.hard:
-            constraints.addConstraint(name, crocoddyl.ConstraintModelResidual(self.state, residual, low, high, at_states))
+            constraints.addConstraint(
+                name, crocoddyl.ConstraintModelResidual(self.state, residual, low, high, at_states)
+            )
         else:
             activation = crocoddyl.ActivationModelQuadraticBarrier(crocoddyl.ActivationBounds(low, high))
             costs.addCost(name, crocoddyl.CostModelResidual(self.state, activation, residual), weight)
@@ -159,23 +197,54 @@ class ShootingProblem:
 
     def _add_limits(self, node: Node, held, costs, constraints, nu: int) -> None:
         for contact in held:
-            cone = crocoddyl.FrictionCone(self.task.ground_axes, self.task.friction, 4, True)  # four planes inside the cone
-            self._bound(costs, constraints, f"cone {contact.name}", crocoddyl.ResidualModelContactFrictionCone(
-                self.state, contact.frame, cone, nu, not self.inverse), cone.lb, cone.ub, CONE, False)
+            cone = crocoddyl.FrictionCone(
+                self.task.ground_axes, self.task.friction, 4, True
+            )  # four planes inside the cone
+            self._bound(
+                costs,
+                constraints,
+                f"cone {contact.name}",
+                crocoddyl.ResidualModelContactFrictionCone(self.state, contact.frame, cone, nu, not self.inverse),
+                cone.lb,
+                cone.ub,
+                CONE,
+                False,
+            )
         for contact in self.robot.contacts:
             if contact in held:
                 continue
             height = self.task.floor + contact.radius + self.task.swing_height(contact.name, node.phase, node.share)
-            self._bound(costs, constraints, f"clearance {contact.name}", crocoddyl.ResidualModelFrameTranslation(
-                self.state, contact.frame, np.zeros(3), nu), np.array([-FREE, -FREE, height]), np.full(3, FREE), CLEARANCE, True)
+            self._bound(
+                costs,
+                constraints,
+                f"clearance {contact.name}",
+                crocoddyl.ResidualModelFrameTranslation(self.state, contact.frame, np.zeros(3), nu),
+                np.array([-FREE, -FREE, height]),
+                np.full(3, FREE),
+                CLEARANCE,
+                True,
+            )
         if self.joint_bounds and node.phase + node.share > 0:  # the start is given
             low, high = self._joint_bounds()
             zero = np.concatenate([pin.neutral(self.model), np.zeros(self.model.nv)])
-            self._bound(costs, constraints, "joints", crocoddyl.ResidualModelState(self.state, zero, nu), low, high, JOINTS, True)
+            self._bound(
+                costs,
+                constraints,
+                "joints",
+                crocoddyl.ResidualModelState(self.state, zero, nu),
+                low,
+                high,
+                JOINTS,
+                True,
+            )
         if self.hard:
             limit = self.robot.torque_limit
-            constraints.addConstraint("torque", crocoddyl.ConstraintModelResidual(
-                self.state, crocoddyl.ResidualModelControl(self.state, nu), -limit, limit, False))
+            constraints.addConstraint(
+                "torque",
+                crocoddyl.ConstraintModelResidual(
+                    self.state, crocoddyl.ResidualModelControl(self.state, nu), -limit, limit, False
+                ),
+            )
 
     def _add_events(self, node: Node, costs, nu: int) -> None:
         """What has to hold at this node alone: landings, goals, no force before a contact opens."""
@@ -185,8 +254,14 @@ class ShootingProblem:
                 self._add_landing(node, name, costs, nu, scale)
         if node.last:
             for name in self.task.opens(node.phase):
-                self._add(costs, f"no force {name}", crocoddyl.ResidualModelContactForce(
-                    self.state, self.robot.contact(name).frame, pin.Force.Zero(), 3, nu, not self.inverse), [NO_FORCE] * 3)
+                self._add(
+                    costs,
+                    f"no force {name}",
+                    crocoddyl.ResidualModelContactForce(
+                        self.state, self.robot.contact(name).frame, pin.Force.Zero(), 3, nu, not self.inverse
+                    ),
+                    [NO_FORCE] * 3,
+                )
         for number, goal in enumerate(self.task.goals):
             if self._is_at(goal, node):
                 self._add_goal(f"goal {number}", goal, costs, nu, scale)
@@ -200,20 +275,39 @@ class ShootingProblem:
         contact = self.robot.contact(name)
         place = self.task.phases[node.phase].places.get(name)
         touch = np.array([0, 0, self.task.floor]) if place is None else place
-        self._add(costs, f"landing {name}", crocoddyl.ResidualModelFrameTranslation(
-            self.state, contact.frame, touch + [0, 0, contact.radius], nu),
-            PLACE * np.array([place is not None, place is not None, True]), scale)
-        self._add(costs, f"landing speed {name}", crocoddyl.ResidualModelFrameVelocity(
-            self.state, contact.frame, pin.Motion.Zero(), WORLD, nu), VELOCITY * np.array([1, 1, 1, 0, 0, 0]), scale)
+        self._add(
+            costs,
+            f"landing {name}",
+            crocoddyl.ResidualModelFrameTranslation(self.state, contact.frame, touch + [0, 0, contact.radius], nu),
+            PLACE * np.array([place is not None, place is not None, True]),
+            scale,
+        )
+        self._add(
+            costs,
+            f"landing speed {name}",
+            crocoddyl.ResidualModelFrameVelocity(self.state, contact.frame, pin.Motion.Zero(), WORLD, nu),
+            VELOCITY * np.array([1, 1, 1, 0, 0, 0]),
+            scale,
+        )
 
     def _add_goal(self, name: str, goal: Goal, costs, nu: int, scale: float) -> None:
         place, speed = ~np.isnan(goal.position), ~np.isnan(goal.velocity)
         if place.any():
-            self._add(costs, f"{name} position", crocoddyl.ResidualModelFrameTranslation(
-                self.state, self.base, np.nan_to_num(goal.position), nu), PLACE * place, scale)
+            self._add(
+                costs,
+                f"{name} position",
+                crocoddyl.ResidualModelFrameTranslation(self.state, self.base, np.nan_to_num(goal.position), nu),
+                PLACE * place,
+                scale,
+            )
         if goal.rotation is not None:
-            self._add(costs, f"{name} rotation", crocoddyl.ResidualModelFrameRotation(
-                self.state, self.base, goal.rotation, nu), TURN * goal.turn, scale)
+            self._add(
+                costs,
+                f"{name} rotation",
+                crocoddyl.ResidualModelFrameRotation(self.state, self.base, goal.rotation, nu),
+                TURN * goal.turn,
+                scale,
+            )
         if speed.any():
             target = self.start.copy()
             target[self.model.nq : self.model.nq + 6] = np.nan_to_num(goal.velocity)

@@ -1,4 +1,5 @@
 """The judge on motions that are known: an exact one has no error, a wrong one has the error that was put in."""
+
 import dataclasses
 
 import numpy as np
@@ -17,8 +18,14 @@ DURATION = 0.2
 def standing_still(task, intervals: int, torque: str, factor: float = 1.0) -> Motion:
     nodes = intervals + 1
     tau = factor * standing_torques(task.robot, task.start, task.phases[0].contacts)
-    return Motion(np.linspace(0, task.duration, nodes), np.zeros(nodes, dtype=int), np.tile(task.start, (nodes, 1)),
-                  np.zeros((nodes, task.robot.model.nv)), np.tile(tau, (nodes, 1)), torque)
+    return Motion(
+        np.linspace(0, task.duration, nodes),
+        np.zeros(nodes, dtype=int),
+        np.tile(task.start, (nodes, 1)),
+        np.zeros((nodes, task.robot.model.nv)),
+        np.tile(tau, (nodes, 1)),
+        torque,
+    )
 
 
 def constant_torque_motion(task, q, v, tau) -> Motion:
@@ -53,9 +60,11 @@ def test_contact_dynamics_balance_and_hold_the_contacts():
     jacobian = dynamics.jacobian(q)
     left = pin.rnea(model, data, q, v, a) - jacobian.T @ forces.ravel()
     assert np.abs(left - np.append(np.zeros(6), tau)).max() < 1e-8
+
     # Velocity of the contacts a moment later, along q ⊕ (v dt + a dt²/2), v + a dt: it does not change.
     def contact_velocity(dt):
         return dynamics(pin.integrate(model, q, v * dt + a * dt**2 / 2), v + a * dt, tau)[2].ravel()
+
     dt = 1e-5
     assert np.abs(contact_velocity(dt) - contact_velocity(-dt)).max() / (2 * dt) < 1e-4
     assert np.abs(speeds).max() > 0.1, "the contacts stand still, so that there was nothing to hold"
@@ -63,11 +72,14 @@ def test_contact_dynamics_balance_and_hold_the_contacts():
 
 def test_error_of_exact_nodes_is_that_of_the_torque_between_them():
     task = standing_task(DURATION)
-    errors = {torque: [judge(task, rocking_motion(task, n, torque)).error for n in (5, 10, 20)] for torque in ("held", "linear")}
+    errors = {
+        torque: [judge(task, rocking_motion(task, n, torque)).error for n in (5, 10, 20)]
+        for torque in ("held", "linear")
+    }
     for coarse, fine in zip(errors["held"], errors["held"][1:]):
-        assert 3.3 < coarse / fine < 4.7      # τ off by h, for a time h
+        assert 3.3 < coarse / fine < 4.7  # τ off by h, for a time h
     for coarse, fine in zip(errors["linear"], errors["linear"][1:]):
-        assert 6.5 < coarse / fine < 9.5      # τ off by h², for a time h
+        assert 6.5 < coarse / fine < 9.5  # τ off by h², for a time h
     assert errors["linear"][-1] < errors["held"][-1] / 20
 
 
@@ -81,7 +93,9 @@ def test_linear_torque_is_followed_exactly():
 
     q, v = integrate_exactly(task, task.start, np.zeros(18), torque, times)
     tau = np.array([torque(t) for t in times])
-    linear, held = (judge(task, Motion(times, np.zeros(3, dtype=int), q, v, tau, kind)).error for kind in ("linear", "held"))
+    linear, held = (
+        judge(task, Motion(times, np.zeros(3, dtype=int), q, v, tau, kind)).error for kind in ("linear", "held")
+    )
     assert linear < 1e-8
     assert held > 1e-3
 
@@ -96,8 +110,14 @@ def test_euler_steps_err_by_the_square_of_the_step():
         for k in range(n):
             v.append(v[-1] + h * dynamics(q[-1], v[-1], tau[k])[0])
             q.append(pin.integrate(task.robot.model, q[-1], h * v[-1]))
-        verdicts.append(judge(task, Motion(np.arange(n + 1) * h, np.zeros(n + 1, dtype=int), np.array(q), np.array(v),
-                                           np.array(tau), "held")))
+        verdicts.append(
+            judge(
+                task,
+                Motion(
+                    np.arange(n + 1) * h, np.zeros(n + 1, dtype=int), np.array(q), np.array(v), np.array(tau), "held"
+                ),
+            )
+        )
     for coarse, fine in zip(verdicts, verdicts[1:]):
         assert 3.3 < coarse.error / fine.error < 4.7
         assert 1.7 < coarse.error_per_second / fine.error_per_second < 2.3
@@ -163,7 +183,7 @@ def test_penetration_between_nodes_is_found():
     assert verdict.findings["penetration"].value < 1e-6
     deep = judge(task, swinging_foot(task, descent=1.3, push=65.0)).findings["penetration"]
     assert deep.where == "lf_foot"
-    assert 1e-3 < deep.value < 5e-3           # 10 mm - 1.3² / (2 x 65) = -3 mm
+    assert 1e-3 < deep.value < 5e-3  # 10 mm - 1.3² / (2 x 65) = -3 mm
     assert 0.2 * duration < deep.time < 0.8 * duration
 
 
@@ -174,7 +194,9 @@ def test_torque_beyond_the_knee_curve_and_the_limit():
     tau[:, 2] = 1.1 * task.robot.torque_bound(task.start)[2]
     finding = judge(task, dataclasses.replace(motion, tau=tau)).findings["torque"]
     assert finding.where == "lf_kfe_joint" and finding.value >= 0.0999
-    assert task.robot.torque_bound(task.start)[2] == pytest.approx(144.3, abs=0.5) and task.robot.torque_limit[2] == 150.0
+    assert (
+        task.robot.torque_bound(task.start)[2] == pytest.approx(144.3, abs=0.5) and task.robot.torque_limit[2] == 150.0
+    )
 
 
 def test_friction_and_slip():
@@ -184,15 +206,27 @@ def test_friction_and_slip():
     tangential = np.hypot(forces[:, 0], forces[:, 1]).max()
     assert judge(task, motion).findings["friction"].value == pytest.approx(tangential, abs=1e-2)
     slid = motion.q.copy()
-    slid[1, 0] += 3e-3   # the whole robot, feet too
-    slid = dataclasses.replace(motion, time=np.array([0, 0.1, 0.2]), phase=np.zeros(3, dtype=int), q=np.vstack([slid, slid[1]]),
-                               v=np.zeros((3, 18)), tau=np.vstack([motion.tau, motion.tau[:1]]))
+    slid[1, 0] += 3e-3  # the whole robot, feet too
+    slid = dataclasses.replace(
+        motion,
+        time=np.array([0, 0.1, 0.2]),
+        phase=np.zeros(3, dtype=int),
+        q=np.vstack([slid, slid[1]]),
+        v=np.zeros((3, 18)),
+        tau=np.vstack([motion.tau, motion.tau[:1]]),
+    )
     assert judge(task, slid).findings["slip"].value == pytest.approx(3e-3, abs=1e-5)
 
 
 def test_goals_are_measured_in_their_own_units():
-    goal = Goal(phase=0, fraction=1.0, position=np.array([0.02, np.nan, np.nan]), rotation=pin.rpy.rpyToMatrix(0.0, 0.03, 0.0),
-                turn=np.array([True, True, True]), velocity=np.array([np.nan, 0.04, 0, 0, 0, 0]))
+    goal = Goal(
+        phase=0,
+        fraction=1.0,
+        position=np.array([0.02, np.nan, np.nan]),
+        rotation=pin.rpy.rpyToMatrix(0.0, 0.03, 0.0),
+        turn=np.array([True, True, True]),
+        velocity=np.array([np.nan, 0.04, 0, 0, 0, 0]),
+    )
     task = dataclasses.replace(standing_task(DURATION), goals=(goal,))
     findings = judge(task, standing_still(task, 2, "linear")).findings
     assert findings["goal position"].value == pytest.approx(0.02)
@@ -205,8 +239,10 @@ def test_a_foot_has_to_open_without_force_and_to_land_on_its_place():
     every, three = task.phases[0].contacts, task.phases[0].contacts - {"lf_foot"}
     foot = task.robot.places(task.start)["lf_foot"]
     aside = {"lf_foot": np.array([foot[0] + 4e-3, foot[1], -3e-3])}
-    phases = [dataclasses.replace(task.phases[0], contacts=contacts, duration=0.1, places=places)
-              for contacts, places in ((every, {}), (three, {}), (every, aside))]
+    phases = [
+        dataclasses.replace(task.phases[0], contacts=contacts, duration=0.1, places=places)
+        for contacts, places in ((every, {}), (three, {}), (every, aside))
+    ]
     task = dataclasses.replace(task, phases=tuple(phases))
     still = standing_still(task, 5, "held")
     motion = dataclasses.replace(still, time=np.array([0, 0.1, 0.1, 0.2, 0.2, 0.3]), phase=np.array([0, 0, 1, 1, 2, 2]))

@@ -1,4 +1,5 @@
 """HyQ's shipped tasks, and motions of it that are known from elsewhere."""
+
 import dataclasses
 import pathlib
 import sys
@@ -32,7 +33,9 @@ def rocking_torque(task: MotionTask, t: float) -> np.ndarray:
     return standing_torques(task.robot, task.start, task.phases[0].contacts) + 20.0 * shares * np.sin(15.0 * t)
 
 
-def integrate_exactly(task: MotionTask, q: np.ndarray, v: np.ndarray, torque, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def integrate_exactly(
+    task: MotionTask, q: np.ndarray, v: np.ndarray, torque, times: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Solution of the contact dynamics, in other coordinates and by another integrator than the judge's."""
     dynamics, model = ContactDynamics(task.robot, task.phases[0].contacts), task.robot.model
     nv = model.nv
@@ -40,11 +43,18 @@ def integrate_exactly(task: MotionTask, q: np.ndarray, v: np.ndarray, torque, ti
     def rate(t: float, x: np.ndarray) -> np.ndarray:
         here = pin.integrate(model, q, x[:nv])
         a, _, _ = dynamics(here, x[nv:], torque(t))
-        jacobian = pin.dIntegrate(model, q, x[:nv], pin.ARG1)   # velocity at q ⊕ x of a rate of x
+        jacobian = pin.dIntegrate(model, q, x[:nv], pin.ARG1)  # velocity at q ⊕ x of a rate of x
         return np.concatenate([np.linalg.solve(jacobian, x[nv:]), a])
 
-    found = solve_ivp(rate, (times[0], times[-1]), np.concatenate([np.zeros(nv), v]), method="RK45", t_eval=times,
-                      rtol=1e-11, atol=1e-12)
+    found = solve_ivp(
+        rate,
+        (times[0], times[-1]),
+        np.concatenate([np.zeros(nv), v]),
+        method="RK45",
+        t_eval=times,
+        rtol=1e-11,
+        atol=1e-12,
+    )
     return np.array([pin.integrate(model, q, x[:nv]) for x in found.y.T]), found.y.T[:, nv:]
 
 

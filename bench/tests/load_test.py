@@ -1,4 +1,5 @@
 """Random tasks are the same for the peers as for Prowl, on any slope; and one judge takes the motions of all."""
+
 import dataclasses
 import json
 import os
@@ -23,7 +24,10 @@ from peers.shooting_problem import ShootingProblem, make_nodes
 def drawn(count: int, seed: int = 3) -> list[tuple[str, dict, MotionTask]]:
     source = random.Random(seed)
     found = [draw(source) for _ in range(count)]
-    return [(robot, document, parse_task(document, folder(robot), PACKAGES, f"task {i}")) for i, (robot, document) in enumerate(found)]
+    return [
+        (robot, document, parse_task(document, folder(robot), PACKAGES, f"task {i}"))
+        for i, (robot, document) in enumerate(found)
+    ]
 
 
 def of_each_robot() -> list[tuple[str, dict, MotionTask]]:
@@ -38,8 +42,14 @@ def of_each_robot() -> list[tuple[str, dict, MotionTask]]:
 
 def standing_still(task: MotionTask) -> Motion:
     tau = standing_torques(task.robot, task.start, task.phases[0].contacts)
-    return Motion(np.array([0.0, 0.1]), np.zeros(2, dtype=int), np.tile(task.start, (2, 1)), np.zeros((2, task.robot.model.nv)),
-                  np.tile(tau, (2, 1)), "held")
+    return Motion(
+        np.array([0.0, 0.1]),
+        np.zeros(2, dtype=int),
+        np.tile(task.start, (2, 1)),
+        np.zeros((2, task.robot.model.nv)),
+        np.tile(tau, (2, 1)),
+        "held",
+    )
 
 
 def test_peers_have_goal_slope_friction_time_and_mesh_of_the_document():
@@ -47,7 +57,9 @@ def test_peers_have_goal_slope_friction_time_and_mesh_of_the_document():
         surface, phase, (there, back) = document["surface"][0], document["phase"][0], document["goal"]
         assert task.friction == surface["friction"] and np.allclose(task.normal, surface["normal"], atol=1e-12)
         nodes = make_nodes(task, task.duration / task.intervals)
-        assert len(nodes) == phase["intervals"] + 1 and sum(node.step for node in nodes) == pytest.approx(phase["duration_s"])
+        assert len(nodes) == phase["intervals"] + 1 and sum(node.step for node in nodes) == pytest.approx(
+            phase["duration_s"]
+        )
         for goal, wanted, fraction in zip(task.goals, (there, back), (0.5, 1.0), strict=True):
             assert goal.fraction == pytest.approx(fraction) and any(abs(node.share - fraction) < 1e-9 for node in nodes)
             assert np.allclose(goal.position - task.start[:3], wanted["base_displacement_m"])
@@ -60,30 +72,36 @@ def test_robots_stand_on_their_slopes_as_on_the_level():
         on_slope, on_level = (t.robot.places(t.start) for t in (task, level))
         for contact in task.robot.contacts:
             assert task.height(on_slope[contact.name]) == pytest.approx(level.height(on_level[contact.name]), abs=1e-12)
-        assert min(task.height(on_slope[c.name]) - c.radius for c in task.robot.contacts) == pytest.approx(0.0, abs=1e-12)
+        assert min(task.height(on_slope[c.name]) - c.radius for c in task.robot.contacts) == pytest.approx(
+            0.0, abs=1e-12
+        )
         assert np.allclose(task.ground_axes.T @ task.ground_axes, np.eye(3)) and np.linalg.det(task.ground_axes) > 0
         base = pin.Quaternion(task.start[3:7]).matrix()
         assert np.allclose(base[:, 2], task.normal)
         mean = np.mean([on_slope[contact.name] for contact in task.robot.contacts], axis=0)
-        assert np.allclose(mean, mean @ task.normal * task.normal)   # over the surface's point
+        assert np.allclose(mean, mean @ task.normal * task.normal)  # over the surface's point
 
 
 @pytest.mark.parametrize("friction", [0.1, 1.0])
 def test_the_judge_and_the_peers_see_friction_along_the_slope(friction: float):
     """Forces that stand straight up are inside the cone of a level floor; on a slope of 8 to 12 degrees 0.1 does not hold them."""
     for _, _, task in of_each_robot():
-        task = dataclasses.replace(task, friction=friction, goals=(), phases=(dataclasses.replace(task.phases[0], duration=0.1),))
+        task = dataclasses.replace(
+            task, friction=friction, goals=(), phases=(dataclasses.replace(task.phases[0], duration=0.1),)
+        )
         shooting = ShootingProblem(task, 0.1, inverse=False, hard=False, joint_bounds=False)
         data = shooting.problem.runningDatas[0]
         tau = standing_torques(task.robot, task.start, task.phases[0].contacts)
         shooting.problem.runningModels[0].calc(data, shooting.start, tau)
-        _, forces, _ = ContactDynamics(task.robot, task.phases[0].contacts)(task.start, np.zeros(task.robot.model.nv), tau)
+        _, forces, _ = ContactDynamics(task.robot, task.phases[0].contacts)(
+            task.start, np.zeros(task.robot.model.nv), tau
+        )
         costs = data.differential.costs.costs
         missing = 0.0
         for contact, force in zip(task.robot.contacts, forces, strict=True):
             along = task.ground_axes.T @ force
             missing = max(missing, np.linalg.norm(along[:2]) - friction * along[2])
-            inside = np.abs(along[:2]).max() <= friction / np.sqrt(2) * along[2]   # at the least what four planes leave
+            inside = np.abs(along[:2]).max() <= friction / np.sqrt(2) * along[2]  # at the least what four planes leave
             outside = np.linalg.norm(along[:2]) > friction * along[2]
             assert inside != outside, "the force is between the planes and the cone, so that nothing is known"
             assert (costs.todict()[f"cone {contact.name}"].cost > 0) == outside
@@ -92,7 +110,7 @@ def test_the_judge_and_the_peers_see_friction_along_the_slope(friction: float):
 
 
 def test_feet_are_pulled_back_to_where_they_stood():
-    step = 0.01   # fine enough for all of the damping, 50 1/s
+    step = 0.01  # fine enough for all of the damping, 50 1/s
     for _, _, task in of_each_robot():
         lifted = np.concatenate([task.start, np.zeros(task.robot.model.nv)])
         lifted[2] += 1e-3
@@ -113,7 +131,9 @@ def test_penetration_is_along_the_normal():
         assert judge(task, motion).findings["penetration"].value < 1e-9
         sunk = motion.q.copy()
         sunk[:, :3] -= 3e-3 * task.normal
-        assert judge(task, dataclasses.replace(motion, q=sunk)).findings["penetration"].value == pytest.approx(3e-3, abs=1e-6)
+        assert judge(task, dataclasses.replace(motion, q=sunk)).findings["penetration"].value == pytest.approx(
+            3e-3, abs=1e-6
+        )
 
 
 def test_ball_of_a_contact_may_be_beside_its_frame():
@@ -140,9 +160,25 @@ PYTHON, MODULE = ROOT / ".venv/bin/python", ROOT / "build/python"
 @pytest.mark.skipif(not (PYTHON.exists() and MODULE.is_dir()), reason="needs a built Prowl")
 def test_plans_that_prowl_certifies_pass_the_judge(tmp_path: pathlib.Path):
     records = tmp_path / "records.jsonl"
-    subprocess.run([PYTHON, ROOT / "scripts/load", "--tasks", "6", "--peers", "6", "--solvers", "sqp", "--records", records,
-                    "--environment", sys.prefix], check=True, stdout=subprocess.DEVNULL,
-                   env={name: value for name, value in os.environ.items() if name != "PYTHONPATH"})
+    subprocess.run(
+        [
+            PYTHON,
+            ROOT / "scripts/load",
+            "--tasks",
+            "6",
+            "--peers",
+            "6",
+            "--solvers",
+            "sqp",
+            "--records",
+            records,
+            "--environment",
+            sys.prefix,
+        ],
+        check=True,
+        stdout=subprocess.DEVNULL,
+        env={name: value for name, value in os.environ.items() if name != "PYTHONPATH"},
+    )
     found = [json.loads(line)["solvers"] for line in records.read_text().splitlines()]
     good = [solvers["prowl"] for solvers in found if solvers["prowl"]["good"]]
     assert len(found) == 6 and len(good) >= 2

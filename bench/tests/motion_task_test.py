@@ -1,4 +1,5 @@
 """Task files become what they say, and what is not understood is an error."""
+
 import pathlib
 
 import numpy as np
@@ -54,12 +55,15 @@ def test_weights_on_forces_are_of_each_axis(tmp_path: pathlib.Path):
     assert not read_task(ROOT / "tasks/hyq/crouch.toml", PACKAGES).cost.force.any()
 
 
-@pytest.mark.parametrize(("old", "new", "word"), [
-    ("duration_s = 2.0", 'duration_s = 2.0\nsteps = "free"', "steps"),
-    ("friction = 0.5", "friction = 0.5\nnormal = [0, 1, 1]", "level floor"),
-    ("torque = 1e-5", "effort = 1e-5", "effort"),
-    ("base_rpy_rad = [0, 0, 0]", "joints = { lf_haa_joint = 0 }", "joints"),
-])
+@pytest.mark.parametrize(
+    ("old", "new", "word"),
+    [
+        ("duration_s = 2.0", 'duration_s = 2.0\nsteps = "free"', "steps"),
+        ("friction = 0.5", "friction = 0.5\nnormal = [0, 1, 1]", "level floor"),
+        ("torque = 1e-5", "effort = 1e-5", "effort"),
+        ("base_rpy_rad = [0, 0, 0]", "joints = { lf_haa_joint = 0 }", "joints"),
+    ],
+)
 def test_what_is_not_translated_is_an_error(tmp_path: pathlib.Path, old: str, new: str, word: str):
     text = (ROOT / "tasks/hyq/crouch.toml").read_text()
     assert old in text
@@ -71,7 +75,14 @@ def test_what_is_not_translated_is_an_error(tmp_path: pathlib.Path, old: str, ne
 
 def test_motion_refuses_times_that_go_back():
     with pytest.raises(ValueError, match="time"):
-        Motion(np.array([0.0, 0.2, 0.1]), np.zeros(3, dtype=int), np.zeros((3, 19)), np.zeros((3, 18)), np.zeros((3, 12)), "held")
+        Motion(
+            np.array([0.0, 0.2, 0.1]),
+            np.zeros(3, dtype=int),
+            np.zeros((3, 19)),
+            np.zeros((3, 18)),
+            np.zeros((3, 12)),
+            "held",
+        )
 
 
 @pytest.mark.parametrize("needed", [1, 4, 7, 19, 100])

@@ -15,7 +15,7 @@ _PARTS = {
     "geometry_msgs/Wrench": "geometry_msgs/Vector3 force\ngeometry_msgs/Vector3 torque\n",
     "geometry_msgs/WrenchStamped": "std_msgs/Header header\ngeometry_msgs/Wrench wrench\n",
     "nav_msgs/Odometry": "std_msgs/Header header\nstring child_frame_id\ngeometry_msgs/PoseWithCovariance pose\n"
-                         "geometry_msgs/TwistWithCovariance twist\n",
+    "geometry_msgs/TwistWithCovariance twist\n",
     "sensor_msgs/JointState": "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n",
     "std_msgs/String": "string data\n",
     "tf2_msgs/TFMessage": "geometry_msgs/TransformStamped[] transforms\n",

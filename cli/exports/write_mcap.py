@@ -2,6 +2,7 @@
 
 The topics are in docs/exports.md. Exit status 3: a library is missing.
 """
+
 import json
 import sys
 
@@ -44,14 +45,21 @@ class Topics:
             self._schemas[name] = self._writer.register_schema(name, SchemaEncoding.ROS2, definition.encode())
             self._encoders[name] = serialize_dynamic(name, definition)[name]
         metadata = {"offered_qos_profiles": LATCHED if latched else ""}
-        channel = self._writer.register_channel(topic=topic, message_encoding="cdr", schema_id=self._schemas[name], metadata=metadata)
+        channel = self._writer.register_channel(
+            topic=topic, message_encoding="cdr", schema_id=self._schemas[name], metadata=metadata
+        )
         self._channels[topic] = (channel, self._encoders[name])
         self._counts[topic] = 0
 
     def write(self, topic: str, nanoseconds: int, message: dict) -> None:
         channel, encode = self._channels[topic]
-        self._writer.add_message(channel_id=channel, log_time=nanoseconds, publish_time=nanoseconds,
-                                 sequence=self._counts[topic], data=encode(message))
+        self._writer.add_message(
+            channel_id=channel,
+            log_time=nanoseconds,
+            publish_time=nanoseconds,
+            sequence=self._counts[topic],
+            data=encode(message),
+        )
         self._counts[topic] += 1
 
     def finish(self, name: str, metadata: dict[str, str]) -> None:
@@ -72,8 +80,11 @@ def quaternion(values) -> dict:
 
 
 def transform(nanoseconds: int, parent: str, child: str, position, rotation=(0.0, 0.0, 0.0, 1.0)) -> dict:
-    return {"header": header(nanoseconds, parent), "child_frame_id": child,
-            "transform": {"translation": vector(position), "rotation": quaternion(rotation)}}
+    return {
+        "header": header(nanoseconds, parent),
+        "child_frame_id": child,
+        "transform": {"translation": vector(position), "rotation": quaternion(rotation)},
+    }
 
 
 def contact_frame(contact: str, links: list[str]) -> str:
@@ -102,8 +113,11 @@ def world_frame(links: list[str]) -> str:
 
 def write_start(topics: Topics, motion: dict, first: int) -> None:
     topics.write("/robot_description", 0, {"data": motion["urdf"]})
-    held = [transform(0, link["parent"], link["name"], placement[:3], placement[3:])
-            for link, placement in zip(motion["links"], motion["link_in_parent"][first]) if link["fixed"]]
+    held = [
+        transform(0, link["parent"], link["name"], placement[:3], placement[3:])
+        for link, placement in zip(motion["links"], motion["link_in_parent"][first])
+        if link["fixed"]
+    ]
     topics.write("/tf_static", 0, {"transforms": held})
 
 
@@ -113,17 +127,37 @@ def write_sample(topics: Topics, motion: dict, world: str, contacts: dict[str, t
     q, v = samples["q"][i], samples["v"][i]
     now = round(1e9 * samples["time_s"][i])
     root = motion["links"][0]["name"]
-    moving = [transform(now, link["parent"] or world, link["name"], placement[:3], placement[3:])
-              for link, placement in zip(motion["links"], motion["link_in_parent"][i]) if not link["fixed"]]
-    moving += [transform(now, world, frame, position)
-               for (frame, _), position in zip(contacts.values(), samples["contact_position_m"][i])]
+    moving = [
+        transform(now, link["parent"] or world, link["name"], placement[:3], placement[3:])
+        for link, placement in zip(motion["links"], motion["link_in_parent"][i])
+        if not link["fixed"]
+    ]
+    moving += [
+        transform(now, world, frame, position)
+        for (frame, _), position in zip(contacts.values(), samples["contact_position_m"][i])
+    ]
     topics.write("/tf", now, {"transforms": moving})
-    topics.write("/joint_states", now, {"header": header(now, ""), "name": motion["joints"], "position": q[7:], "velocity": v[6:],
-                                        "effort": samples["tau"][i]})
-    topics.write("/odom", now, {
-        "header": header(now, world), "child_frame_id": root,
-        "pose": {"pose": {"position": vector(q[:3]), "orientation": quaternion(q[3:7])}, "covariance": [0.0] * 36},
-        "twist": {"twist": {"linear": vector(v[:3]), "angular": vector(v[3:6])}, "covariance": [0.0] * 36}})
+    topics.write(
+        "/joint_states",
+        now,
+        {
+            "header": header(now, ""),
+            "name": motion["joints"],
+            "position": q[7:],
+            "velocity": v[6:],
+            "effort": samples["tau"][i],
+        },
+    )
+    topics.write(
+        "/odom",
+        now,
+        {
+            "header": header(now, world),
+            "child_frame_id": root,
+            "pose": {"pose": {"position": vector(q[:3]), "orientation": quaternion(q[3:7])}, "covariance": [0.0] * 36},
+            "twist": {"twist": {"linear": vector(v[:3]), "angular": vector(v[3:6])}, "covariance": [0.0] * 36},
+        },
+    )
     for (frame, topic), force in zip(contacts.values(), samples["force_N"][i]):
         wrench = {"force": vector(force), "torque": vector((0.0, 0.0, 0.0))}
         topics.write(topic, now, {"header": header(now, frame), "wrench": wrench})
@@ -131,7 +165,9 @@ def write_sample(topics: Topics, motion: dict, world: str, contacts: dict[str, t
 
 def write(motion: dict, path: str) -> None:
     links = [link["name"] for link in motion["links"]]
-    contacts = {contact: (contact_frame(contact, links), topic) for contact, topic in contact_topics(motion["contacts"]).items()}
+    contacts = {
+        contact: (contact_frame(contact, links), topic) for contact, topic in contact_topics(motion["contacts"]).items()
+    }
     topics = Topics(path)
     topics.add("/robot_description", "std_msgs/String", latched=True)
     topics.add("/tf_static", "tf2_msgs/TFMessage", latched=True)

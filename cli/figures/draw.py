@@ -3,6 +3,7 @@
 TABLES_FOLDER holds what the robot's model has to say, as CSV; the figures and their own tables go there, too.
 Prints how many figures are drawn. Exit status 3: a library is missing.
 """
+
 import concurrent.futures
 import multiprocessing
 import pathlib
@@ -31,8 +32,13 @@ def by_leg(plan: series.Plan, row_height: float):
     rows = [leg[i : i + MOST_COLUMNS] for leg in plan.legs for i in range(0, len(leg), MOST_COLUMNS)]
     columns = max(len(row) for row in rows)
     alike = all(len(row) == columns for row in rows)
-    figure, grid = style.grid(len(rows), columns, max(7.0, min(3.4, 13 / columns) * columns), 1.1 + row_height * len(rows),
-                              sharey="col" if alike else False)
+    figure, grid = style.grid(
+        len(rows),
+        columns,
+        max(7.0, min(3.4, 13 / columns) * columns),
+        1.1 + row_height * len(rows),
+        sharey="col" if alike else False,
+    )
     panels = []
     for row, leg in zip(grid, rows):
         for axes, joint in zip(row, leg):
@@ -75,11 +81,15 @@ def draw_torques(plan: series.Plan, folder: pathlib.Path) -> None:
     style.mark_phases(grid, plan.phases(), end_of(plan))
     handles = [Line2D([], [], color="0.72", lw=4, label="planned")]
     if simulated:
-        handles += [Line2D([], [], color=style.BLUE, label="simulated, at the joint"),
-                    Line2D([], [], color=style.VERMILLION, ls=style.DASHES[1], label="feedforward"),
-                    Line2D([], [], color=style.GREEN, label="feedback")]
+        handles += [
+            Line2D([], [], color=style.BLUE, label="simulated, at the joint"),
+            Line2D([], [], color=style.VERMILLION, ls=style.DASHES[1], label="feedforward"),
+            Line2D([], [], color=style.GREEN, label="feedback"),
+        ]
     if limit_seen:
-        handles.append(Line2D([], [], color="black", lw=0.9, ls=style.DASHES[2], label="limit, where torques come near"))
+        handles.append(
+            Line2D([], [], color="black", lw=0.9, ls=style.DASHES[2], label="limit, where torques come near")
+        )
     style.finish(figure, f"{plan.title}: joint torques", plan.settings(), handles, folder, "torques")
 
 
@@ -98,10 +108,18 @@ def draw_contact_acceleration(plan: series.Plan, folder: pathlib.Path) -> None:
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     style.mark_phases(grid, plan.phases(), float(plan.nodes["time_s"][-1]))
-    handles = [Line2D([], [], color=style.SKY, lw=3.5, label=JA),
-               Line2D([], [], color="black", lw=0.9, ls=style.DASHES[1], label=JDOTV)]
-    style.finish(figure, f"{plan.title}: acceleration of the contacts, {JA} against {JDOTV}",
-                 "as planned, world axes, while the contact holds: there " + r"$J\,a + \dot{J}\,v = 0$", handles, folder, "contact_acceleration")
+    handles = [
+        Line2D([], [], color=style.SKY, lw=3.5, label=JA),
+        Line2D([], [], color="black", lw=0.9, ls=style.DASHES[1], label=JDOTV),
+    ]
+    style.finish(
+        figure,
+        f"{plan.title}: acceleration of the contacts, {JA} against {JDOTV}",
+        "as planned, world axes, while the contact holds: there " + r"$J\,a + \dot{J}\,v = 0$",
+        handles,
+        folder,
+        "contact_acceleration",
+    )
 
 
 def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
@@ -110,7 +128,10 @@ def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
     figure, grid = style.grid(2, 2, 9.5, 5.6)
     rows = (("error", "simulated − planned"), ("estimate_error", "estimated − simulated"))
     for row, (name, what) in zip(grid, rows):
-        for axes, kind, unit, scale, quantity in ((row[0], "p", "m", 1e3, "position [mm]"), (row[1], "r", "rad", 1 / DEGREE, "orientation [deg]")):
+        for axes, kind, unit, scale, quantity in (
+            (row[0], "p", "m", 1e3, "position [mm]"),
+            (row[1], "r", "rad", 1 / DEGREE, "orientation [deg]"),
+        ):
             values = np.array([table[f"{name}_{kind}{axis}_{unit}"] for axis in series.AXES])
             for value, colour in zip(values, style.AXIS_COLOURS):
                 axes.plot(table["time_s"], scale * value, color=colour, lw=1.1 if name == "error" else 0.7)
@@ -122,8 +143,14 @@ def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
         axes.set_xlabel("time [s]")
     style.mark_phases(grid, plan.phases(), end_of(plan))
     handles = [Line2D([], [], color=c, label=a) for a, c in zip(series.AXES, style.AXIS_COLOURS)]
-    style.finish(figure, f"{plan.title}: errors of the base",
-                 plan.settings() + "\npositions in the world, orientation as a rotation vector", handles, folder, "base_error")
+    style.finish(
+        figure,
+        f"{plan.title}: errors of the base",
+        plan.settings() + "\npositions in the world, orientation as a rotation vector",
+        handles,
+        folder,
+        "base_error",
+    )
 
 
 def draw_joint_error(plan: series.Plan, folder: pathlib.Path) -> None:
@@ -138,17 +165,24 @@ def draw_joint_error(plan: series.Plan, folder: pathlib.Path) -> None:
     for row in grid:
         row[0].set_ylabel("angle [deg]")
     style.mark_phases(grid, plan.phases(), end_of(plan))
-    handles = [Line2D([], [], color=style.BLUE, label="simulated − planned"),
-               Line2D([], [], color=style.ORANGE, lw=0.8, label="estimated − simulated")]
+    handles = [
+        Line2D([], [], color=style.BLUE, label="simulated − planned"),
+        Line2D([], [], color=style.ORANGE, lw=0.8, label="estimated − simulated"),
+    ]
     style.finish(figure, f"{plan.title}: errors of the joints", plan.settings(), handles, folder, "joint_error")
 
 
 def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
     names = [name for name in plan.gains if name not in ("time_s", "segment")]
     half = len(names) // 2
-    groups = [("base position [N m/m]", names[0:3]), ("base orientation [N m/rad]", names[3:6]),
-              ("joint positions [N m/rad]", names[6:half]), ("base velocity [N m s/m]", names[half : half + 3]),
-              ("base angular velocity [N m s/rad]", names[half + 3 : half + 6]), ("joint rates [N m s/rad]", names[half + 6 :])]
+    groups = [
+        ("base position [N m/m]", names[0:3]),
+        ("base orientation [N m/rad]", names[3:6]),
+        ("joint positions [N m/rad]", names[6:half]),
+        ("base velocity [N m s/m]", names[half : half + 3]),
+        ("base angular velocity [N m s/rad]", names[half + 3 : half + 6]),
+        ("joint rates [N m s/rad]", names[half + 6 :]),
+    ]
     legend_rows = -(-len(plan.joints) // 6)
     figure, grid = style.grid(2, 3, 11.5, 6.0 + 0.18 * legend_rows)
     for axes, (title, columns) in zip(grid.flat, groups):
@@ -156,7 +190,9 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
             if len(columns) == 3 and column.startswith("base"):
                 colour, dash = style.AXIS_COLOURS[i], style.DASHES[i]
             else:
-                leg, place = next((k, leg.index(plan.joints[i])) for k, leg in enumerate(plan.legs) if plan.joints[i] in leg)
+                leg, place = next(
+                    (k, leg.index(plan.joints[i])) for k, leg in enumerate(plan.legs) if plan.joints[i] in leg
+                )
                 colour, dash = style.LEG_COLOURS[leg % len(style.LEG_COLOURS)], style.DASHES[place % len(style.DASHES)]
             axes.plot(plan.gains["time_s"], plan.gains[column], color=colour, ls=dash)
         axes.set_title("on " + title, loc="left")
@@ -165,13 +201,33 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
     for row in grid:
         row[0].set_ylabel("gain")
     style.mark_phases(grid, plan.phases(), float(plan.nodes["time_s"][-1]))
-    axes_handles = [Line2D([], [], color=c, ls=d, label=f"base {a}") for a, c, d in zip(series.AXES, style.AXIS_COLOURS, style.DASHES)]
-    handles = [Line2D([], [], color=style.LEG_COLOURS[k % len(style.LEG_COLOURS)], ls=style.DASHES[i % len(style.DASHES)], label=name)
-               for k, leg in enumerate(plan.legs) for i, name in enumerate(leg)]
-    figure.legend(handles, [h.get_label() for h in handles], loc="lower center", ncols=min(6, len(handles)), handlelength=2.8)
-    style.finish(figure, f"{plan.title}: the {len(names)} gains of the torque of {joint}",
-                 "torque = planned + gains · (planned − measured state); lines of the joints by leg (colour) and place in it (dashes)",
-                 axes_handles, folder, "gains", bottom=0.1 + 0.18 * legend_rows)
+    axes_handles = [
+        Line2D([], [], color=c, ls=d, label=f"base {a}")
+        for a, c, d in zip(series.AXES, style.AXIS_COLOURS, style.DASHES)
+    ]
+    handles = [
+        Line2D(
+            [],
+            [],
+            color=style.LEG_COLOURS[k % len(style.LEG_COLOURS)],
+            ls=style.DASHES[i % len(style.DASHES)],
+            label=name,
+        )
+        for k, leg in enumerate(plan.legs)
+        for i, name in enumerate(leg)
+    ]
+    figure.legend(
+        handles, [h.get_label() for h in handles], loc="lower center", ncols=min(6, len(handles)), handlelength=2.8
+    )
+    style.finish(
+        figure,
+        f"{plan.title}: the {len(names)} gains of the torque of {joint}",
+        "torque = planned + gains · (planned − measured state); lines of the joints by leg (colour) and place in it (dashes)",
+        axes_handles,
+        folder,
+        "gains",
+        bottom=0.1 + 0.18 * legend_rows,
+    )
 
 
 def draw_torque_over_position(plan: series.Plan, folder: pathlib.Path) -> None:
@@ -188,18 +244,33 @@ def draw_torque_over_position(plan: series.Plan, folder: pathlib.Path) -> None:
             if name in by_series:
                 axes.plot(by_series[name][1], by_series[name][2], color=colour, lw=width)
         axes.plot(*by_series["plan"][1:, 0], "o", color=style.VERMILLION, mec="white", ms=6)
-        shares = {name: style.largest(rows[2] / np.interp(rows[1], position, limit)) for name, rows in by_series.items()}
-        axes.set_title(f"{joint}: " + ", ".join(f"{name} {share:.0%}" for name, share in shares.items()) + " of the limit", loc="left")
+        shares = {
+            name: style.largest(rows[2] / np.interp(rows[1], position, limit)) for name, rows in by_series.items()
+        }
+        axes.set_title(
+            f"{joint}: " + ", ".join(f"{name} {share:.0%}" for name, share in shares.items()) + " of the limit",
+            loc="left",
+        )
         axes.set_xlabel("position [rad]")
     for axes in grid.flat[len(table) :]:
         axes.set_visible(False)
     for axes in grid[:, 0]:
         axes.set_ylabel("torque [N m]")
-    handles = [Line2D([], [], color="black", lw=1.2, label="limit"), Line2D([], [], color=style.VERMILLION, label="planned"),
-               Line2D([], [], color=style.VERMILLION, marker="o", mec="white", ms=6, lw=0, label="start")]
+    handles = [
+        Line2D([], [], color="black", lw=1.2, label="limit"),
+        Line2D([], [], color=style.VERMILLION, label="planned"),
+        Line2D([], [], color=style.VERMILLION, marker="o", mec="white", ms=6, lw=0, label="start"),
+    ]
     if plan.simulated is not None:
         handles.append(Line2D([], [], color=style.SKY, lw=3, label="simulated"))
-    style.finish(figure, f"{plan.title}: torque against position, with its limit", plan.settings(), handles, folder, "torque_over_position")
+    style.finish(
+        figure,
+        f"{plan.title}: torque against position, with its limit",
+        plan.settings(),
+        handles,
+        folder,
+        "torque_over_position",
+    )
 
 
 def main() -> None:

@@ -1,4 +1,5 @@
 """What the figures show, from the files of a plan: read, put side by side, written as tables."""
+
 import csv
 import json
 import pathlib
@@ -70,11 +71,23 @@ class Plan:
         if self.simulation["engine"] == "rollout":
             rate = options["control_rate_Hz"]
             offset = any(options["base_offset_m"] + options["base_offset_rad"])
-            return ", ".join(["rollout of the projected dynamics", loop, f"control at {rate:g} Hz" if rate else "continuous control",
-                              *(["base off at the start"] if offset else []), result])
-        parts = [f"MuJoCo, {loop}",
-                 "true state" if options["perfect_state"] else f"estimated state, sensor noise × {options['noise']['scale']:g}",
-                 f"delay {1e3 * options['delay_s']:g} ms", f"seed {options['seed']}"]
+            return ", ".join(
+                [
+                    "rollout of the projected dynamics",
+                    loop,
+                    f"control at {rate:g} Hz" if rate else "continuous control",
+                    *(["base off at the start"] if offset else []),
+                    result,
+                ]
+            )
+        parts = [
+            f"MuJoCo, {loop}",
+            "true state"
+            if options["perfect_state"]
+            else f"estimated state, sensor noise × {options['noise']['scale']:g}",
+            f"delay {1e3 * options['delay_s']:g} ms",
+            f"seed {options['seed']}",
+        ]
         if options["mass_scale"] != 1:
             parts.append(f"masses × {options['mass_scale']:g}")
         if options["friction"] is not None:
@@ -92,8 +105,10 @@ def torques(plan: Plan) -> Table:
     if sim is None:
         table = {"time_s": nodes["time_s"]}
         for joint in plan.joints:
-            table |= {f"plan_{joint}_Nm": nodes[f"tau_{joint}_Nm"],
-                      **{f"{side}_{joint}_Nm": plan.limits[f"{side}_{joint}_Nm"] for side in ("lower", "upper")}}
+            table |= {
+                f"plan_{joint}_Nm": nodes[f"tau_{joint}_Nm"],
+                **{f"{side}_{joint}_Nm": plan.limits[f"{side}_{joint}_Nm"] for side in ("lower", "upper")},
+            }
         return table
     time = sim["time_s"]
     delay = plan.simulation["options"].get("delay_s", 0.0)  # a rollout has none
@@ -101,11 +116,15 @@ def torques(plan: Plan) -> Table:
     acting = lambda column: np.interp(time, time + delay, column)  # noqa: E731
     table = {"time_s": time}
     for joint in plan.joints:
-        table |= {f"plan_{joint}_Nm": planned(nodes["time_s"], nodes[f"tau_{joint}_Nm"]),
-                  **{f"{side}_{joint}_Nm": planned(plan.limits["time_s"], plan.limits[f"{side}_{joint}_Nm"])
-                     for side in ("lower", "upper")},
-                  **{f"{kind}_{joint}_Nm": acting(sim[f"{kind}_{joint}_Nm"]) for kind in ("feedforward", "feedback")},
-                  f"tau_{joint}_Nm": sim[f"tau_{joint}_Nm"]}
+        table |= {
+            f"plan_{joint}_Nm": planned(nodes["time_s"], nodes[f"tau_{joint}_Nm"]),
+            **{
+                f"{side}_{joint}_Nm": planned(plan.limits["time_s"], plan.limits[f"{side}_{joint}_Nm"])
+                for side in ("lower", "upper")
+            },
+            **{f"{kind}_{joint}_Nm": acting(sim[f"{kind}_{joint}_Nm"]) for kind in ("feedforward", "feedback")},
+            f"tau_{joint}_Nm": sim[f"tau_{joint}_Nm"],
+        }
     return table
 
 
@@ -117,8 +136,10 @@ def base_error(plan: Plan) -> Table:
     for name, before, after in (("error", "ref", "true"), ("estimate_error", "true", "seen")):
         for axis in AXES:
             table[f"{name}_p{axis}_m"] = sim[f"{after}_base_p{axis}_m"] - sim[f"{before}_base_p{axis}_m"]
-        orientation = {kind: Rotation.from_quat(np.column_stack([sim[f"{kind}_base_q{c}"] for c in "xyzw"]))
-                       for kind in (before, after)}
+        orientation = {
+            kind: Rotation.from_quat(np.column_stack([sim[f"{kind}_base_q{c}"] for c in "xyzw"]))
+            for kind in (before, after)
+        }
         turn = (orientation[before].inv() * orientation[after]).as_rotvec()
         table |= {f"{name}_r{axis}_rad": turn[:, i] for i, axis in enumerate(AXES)}
     return table
@@ -139,8 +160,10 @@ def torque_over_position(plan: Plan) -> dict[str, dict[str, np.ndarray]]:
     table = {}
     for joint in plan.limit_curves:
         columns = {"plan": (plan.nodes, "")} | ({"simulation": (plan.simulated, "true_")} if plan.simulated else {})
-        table[joint] = {series: np.array([source["time_s"], source[f"{prefix}q_{joint}_rad"], source[f"tau_{joint}_Nm"]])
-                        for series, (source, prefix) in columns.items()}
+        table[joint] = {
+            series: np.array([source["time_s"], source[f"{prefix}q_{joint}_rad"], source[f"tau_{joint}_Nm"]])
+            for series, (source, prefix) in columns.items()
+        }
     return table
 
 

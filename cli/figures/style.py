@@ -1,4 +1,5 @@
 """How the figures look: one palette that the colour-blind can tell apart, light grids, phases behind the lines."""
+
 import pathlib
 
 import matplotlib
@@ -9,17 +10,40 @@ import numpy as np
 BLUE, VERMILLION, GREEN, SKY, ORANGE, PURPLE = "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7"
 AXIS_COLOURS = (VERMILLION, GREEN, BLUE)
 LEG_COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, "0.2", "0.6")
-DASHES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (5, 1.5, 1.2, 1.5)), (0, (8, 2)), (0, (3, 1, 1, 1, 1, 1)), (0, (1, 3)))
+DASHES = (
+    "-",
+    (0, (5, 1.5)),
+    (0, (1.2, 1.2)),
+    (0, (5, 1.5, 1.2, 1.5)),
+    (0, (8, 2)),
+    (0, (3, 1, 1, 1, 1, 1)),
+    (0, (1, 3)),
+)
 
 
 def use() -> None:
     matplotlib.use("Agg")
-    plt.rcParams.update({
-        "font.size": 8.5, "axes.titlesize": 8.5, "axes.labelsize": 8.5, "legend.fontsize": 8.5,
-        "axes.grid": True, "grid.color": "0.88", "grid.linewidth": 0.5, "axes.axisbelow": True, "axes.edgecolor": "0.4",
-        "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.1, "legend.frameon": False,
-        "axes.formatter.useoffset": False, "figure.dpi": 100, "savefig.dpi": 160, "svg.hashsalt": "prowl",  # same input, same file
-    })
+    plt.rcParams.update(
+        {
+            "font.size": 8.5,
+            "axes.titlesize": 8.5,
+            "axes.labelsize": 8.5,
+            "legend.fontsize": 8.5,
+            "axes.grid": True,
+            "grid.color": "0.88",
+            "grid.linewidth": 0.5,
+            "axes.axisbelow": True,
+            "axes.edgecolor": "0.4",
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "lines.linewidth": 1.1,
+            "legend.frameon": False,
+            "axes.formatter.useoffset": False,
+            "figure.dpi": 100,
+            "savefig.dpi": 160,
+            "svg.hashsalt": "prowl",  # same input, same file
+        }
+    )
 
 
 def grid(rows: int, columns: int, width: float, height: float, **sharing):
@@ -50,8 +74,16 @@ def mark_phases(grid, phases, end: float) -> None:
         letters = axes.get_position().width * axes.figure.get_figwidth() * 72 / 3.7
         for name, first, last in named:
             if len(name) <= letters * (last - first) / (end - start):
-                axes.text((first + last) / 2, 1.02, name, transform=axes.get_xaxis_transform(), ha="center", va="bottom",
-                          fontsize=6.5, color="0.35")
+                axes.text(
+                    (first + last) / 2,
+                    1.02,
+                    name,
+                    transform=axes.get_xaxis_transform(),
+                    ha="center",
+                    va="bottom",
+                    fontsize=6.5,
+                    color="0.35",
+                )
 
 
 def finish(figure, title: str, subtitle: str, handles, folder: pathlib.Path, name: str, bottom: float = 0.0) -> None:
@@ -64,8 +96,16 @@ def finish(figure, title: str, subtitle: str, handles, folder: pathlib.Path, nam
     top = 0.58 + lines
     if handles:
         labels = [handle.get_label() for handle in handles]
-        figure.legend(handles, labels, loc="upper left", bbox_to_anchor=(0.006, 1 - (0.5 + lines) / height), ncols=len(labels),
-                      borderaxespad=0.2, columnspacing=1.6, handlelength=2.6)
+        figure.legend(
+            handles,
+            labels,
+            loc="upper left",
+            bbox_to_anchor=(0.006, 1 - (0.5 + lines) / height),
+            ncols=len(labels),
+            borderaxespad=0.2,
+            columnspacing=1.6,
+            handlelength=2.6,
+        )
         top = 0.84 + lines
     figure.tight_layout(rect=(0, bottom / height, 1, 1 - top / height))
     figure.savefig(folder / f"{name}.svg", metadata={"Date": None, "Title": title.replace("$", "")})

@@ -12,6 +12,7 @@ Over stdin and stdout, in the machine's own binary numbers; n variables, m const
 
 Exit status 3: a library is missing.
 """
+
 import json
 import os
 import signal
@@ -73,8 +74,13 @@ def main() -> None:
     program, tolerance, max_iterations = read_program(line)
     begin = time.process_time()
     found = snopt.minimise(program, tolerance=tolerance, max_iterations=max_iterations, max_seconds=float("inf"))
-    told = {"status": found.status, "message": found.message, "iterations": found.iterations,
-            "cpu_seconds": time.process_time() - begin, "has_multipliers": found.multipliers is not None}
+    told = {
+        "status": found.status,
+        "message": found.message,
+        "iterations": found.iterations,
+        "cpu_seconds": time.process_time() - begin,
+        "has_multipliers": found.multipliers is not None,
+    }
     multipliers = b"" if found.multipliers is None else np.ascontiguousarray(found.multipliers).tobytes()
     line.send(b"r", json.dumps(told).encode(), b"\n", np.ascontiguousarray(found.z).tobytes(), multipliers)
 

@@ -18,14 +18,17 @@ constexpr double kMostFriction = 0.8;  // rubber on dry concrete, and who plans 
 
 Knob friction_knob(const MotionProblem& problem, int surface) {
   const Surface& one = problem.surfaces[surface];
-  return {.kind = "friction", .subject = one.name, .most = std::log(kMostFriction / one.friction),
+  return {.kind = "friction",
+          .subject = one.name,
+          .most = std::log(kMostFriction / one.friction),
           .unit = "",
           .value = [&one](double a) { return one.friction * std::exp(a); },
-          .problem = [&problem, surface](double a) {
-            MotionProblem changed = problem;
-            changed.surfaces[surface].friction *= std::exp(a);
-            return changed;
-          }};
+          .problem =
+              [&problem, surface](double a) {
+                MotionProblem changed = problem;
+                changed.surfaces[surface].friction *= std::exp(a);
+                return changed;
+              }};
 }
 
 double seconds_of(const MotionProblem& problem, int phase, double sign) {

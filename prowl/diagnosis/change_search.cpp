@@ -19,12 +19,12 @@ namespace prowl {
 
 namespace {
 
-constexpr double kFirst = 0.4;      // amount: half as much again
-constexpr double kFurther = 2.5;    // from one amount to the next
+constexpr double kFirst = 0.4;       // amount: half as much again
+constexpr double kFurther = 2.5;     // from one amount to the next
 constexpr double kPrecision = 0.05;  // where a bisection ends: 5 % of the number, and 10 % of a large amount
-constexpr double kNoMatch = 2.0;   // a change is told of besides a smaller one up to so many times its amount
-/// Of the shipped tasks on about 20 intervals 21 drift by 0.6 mm or less, a jump by 4 mm, and those that only a finer mesh
-/// solves (three trots, a walk) by 25 mm and more.
+constexpr double kNoMatch = 2.0;     // a change is told of besides a smaller one up to so many times its amount
+/// Of the shipped tasks on about 20 intervals 21 drift by 0.6 mm or less, a jump by 4 mm, and those that only a finer
+/// mesh solves (three trots, a walk) by 25 mm and more.
 constexpr double kMostDrift = 5.0 * CertificateLimits::contact_drift;
 constexpr int kMostIterations = 200;  // on a coarse mesh; what has a solution takes 10 to 80, jumps up to 160
 
@@ -42,8 +42,8 @@ class StallWatch {
  private:
   void look(const SolveProgress& progress) {
     if (other_) other_(progress);
-    constexpr int kPatience = 30;      // iterations in which the violation has to halve
-    constexpr double kNearly = 1e-4;   // a violation below this is about to vanish
+    constexpr int kPatience = 30;     // iterations in which the violation has to halve
+    constexpr double kNearly = 1e-4;  // a violation below this is about to vanish
     if (progress.constraint_violation < 0.5 * best_) {
       best_ = progress.constraint_violation;
       since_ = progress.iteration;
@@ -115,7 +115,8 @@ double ChangeSearch::bisected(const Knob& knob, double too_little, double enough
   return enough;
 }
 
-ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const std::function<void(const std::string&)>& on_step) const {
+ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs,
+                                    const std::function<void(const std::string&)>& on_step) const {
   ChangesFound result;
   std::vector<FoundChange>& found = result.found;
   std::vector<bool> done(knobs.size(), false);
@@ -125,7 +126,8 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const std::f
     bool any_left = false;
     for (std::size_t i = 0; i < knobs.size(); ++i) {
       const Knob& knob = knobs[i];
-      const double too_little = before / knob.weight, amount = printable_amount(knob, std::min(turned / knob.weight, knob.most));
+      const double too_little = before / knob.weight,
+                   amount = printable_amount(knob, std::min(turned / knob.weight, knob.most));
       if (done[i] || too_little >= knob.most) continue;
       if (!may_go_on()) break;
       any_left = true;

@@ -41,8 +41,8 @@ class ChangeSearch {
   bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
   bool may_go_on() const { return seconds_left() > 0.0 && !interrupted(); }
 
-  /// What the solver converges to on the problem's mesh from its guess. None if it does not, if there is a proof against
-  /// it, or the time is up.
+  /// What the solver converges to on the problem's mesh from its guess. None if it does not, if there is a proof
+  /// against it, or the time is up.
   std::optional<Trajectory> motion(const MotionProblem& problem) const;
   /// Whether there is one in which contacts stay where they are: on a coarse mesh they may drift by centimetres in
   /// between the nodes, and what needs that has no plan.

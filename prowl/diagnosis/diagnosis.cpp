@@ -18,7 +18,8 @@ bool holds_but_for_its_mesh(const Certificate& certificate) {
 
 Diagnosis diagnose(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
                    const DiagnosisOptions& options) {
-  constexpr double kOwnPart = 0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
+  constexpr double kOwnPart =
+      0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
   validate(problem);
   DiagnosisRun run(problem, solver, elastic_solver, options);
   TaskAsItIs as_it_is(run);

@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-DiagnosisRun::DiagnosisRun(const MotionProblem& problem_to_solve, const NlpSolver& solver_to_use, const NlpSolver& elastic_solver,
-                           const DiagnosisOptions& diagnosis_options)
+DiagnosisRun::DiagnosisRun(const MotionProblem& problem_to_solve, const NlpSolver& solver_to_use,
+                           const NlpSolver& elastic_solver, const DiagnosisOptions& diagnosis_options)
     : problem(problem_to_solve),
       solver(solver_to_use),
       elastic(elastic_solver),

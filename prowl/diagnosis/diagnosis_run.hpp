@@ -10,7 +10,8 @@ namespace prowl {
 
 /// What the parts of a diagnosis share. The references must outlive it.
 struct DiagnosisRun {
-  DiagnosisRun(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic, const DiagnosisOptions& options);
+  DiagnosisRun(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic,
+               const DiagnosisOptions& options);
 
   /// Tells who asked what is being done.
   void step(const std::string& what) const;

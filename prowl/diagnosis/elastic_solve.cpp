@@ -39,8 +39,8 @@ std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vect
     breach.total += soft[i].price * amount / limit.size;
     if (amount <= breach.amount) continue;
     const double total = breach.total;
-    breach = {limit.kind, limit.phase, motion.nodes[limit.node].time, limit.subject, amount, limit.unit,
-              amount / limit.size, total};
+    breach = {limit.kind, limit.phase, motion.nodes[limit.node].time, limit.subject,
+              amount,     limit.unit,  amount / limit.size,           total};
   }
   std::vector<Breach> result;
   for (auto& [key, breach] : breaches) result.push_back(std::move(breach));

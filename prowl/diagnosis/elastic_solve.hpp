@@ -24,7 +24,8 @@ struct Breach {
 
 struct ElasticResult {
   SolveStatus status = SolveStatus::solver_failed;
-  std::vector<Breach> breaches;  ///< one for each limit and phase, those that cost most first; none below 0.1 % of their size
+  std::vector<Breach>
+      breaches;  ///< one for each limit and phase, those that cost most first; none below 0.1 % of their size
 };
 
 /// Solves the problem once more with limits that give way (ElasticNlp): dynamics, start, contacts and landings stay

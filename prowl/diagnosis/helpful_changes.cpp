@@ -36,9 +36,17 @@ Change as_change(const FoundChange& found) {
   const Knob& knob = found.knob;
   const auto words = [&](double amount) { return knob.words ? knob.words(amount) : std::string(); };
   const double from = knob.value(0.0), to = knob.value(found.amount), ratio = std::abs(std::log(to / from));
-  return {.kind = knob.kind, .phase = knob.phase, .subject = knob.subject, .is_factor = knob.is_factor, .from = from, .to = to,
-          .unit = knob.unit, .from_words = words(0.0), .to_words = words(found.amount),
-          .besides = knob.besides ? knob.besides(found.amount) : "", .amount = std::isfinite(ratio) ? ratio : found.amount};
+  return {.kind = knob.kind,
+          .phase = knob.phase,
+          .subject = knob.subject,
+          .is_factor = knob.is_factor,
+          .from = from,
+          .to = to,
+          .unit = knob.unit,
+          .from_words = words(0.0),
+          .to_words = words(found.amount),
+          .besides = knob.besides ? knob.besides(found.amount) : "",
+          .amount = std::isfinite(ratio) ? ratio : found.amount};
 }
 
 /// What became of a change on the mesh of the task.
@@ -57,7 +65,10 @@ class HelpfulChanges {
       run_.step("postures of the initial guess");
       run_.result.hints = doubts(run_.problem, initial_guess(run_.problem, make_mesh(run_.problem)), run_.elastic);
     }
-    ChangesFound changes = run_.search.within(kSearchPart).smallest(knobs_of(run_.searched), [&](const std::string& what) { run_.step("trying " + what); });
+    ChangesFound changes =
+        run_.search.within(kSearchPart).smallest(knobs_of(run_.searched), [&](const std::string& what) {
+          run_.step("trying " + what);
+        });
     std::vector<FoundChange>& found = changes.found;
     run_.result.tried = changes.tried;
     name(found);
@@ -131,7 +142,8 @@ class HelpfulChanges {
       if (std::ranges::find(turnable, joint) == turnable.end()) return;  // these alone cannot do
       joints.insert(joint);
       const double sides = breach.kind == LimitKind::joint_position ? 2.0 : 1.0;  // on which the limit yields
-      needed = std::max(needed, std::log1p(sides * breach.amount / value_of_limit(run_.searched.robot, breach.kind, joint)));
+      needed =
+          std::max(needed, std::log1p(sides * breach.amount / value_of_limit(run_.searched.robot, breach.kind, joint)));
     }
     if (joints.empty() || static_cast<int>(joints.size()) == run_.searched.robot.nu()) return;
     const Knob some = joint_knob(run_.searched, kind, {joints.begin(), joints.end()});
@@ -164,13 +176,15 @@ class HelpfulChanges {
       run_.result.changes[i] = std::move(proved);
       const auto place = static_cast<std::ptrdiff_t>(i);
       std::rotate(found.begin(), found.begin() + place, found.begin() + place + 1);
-      std::rotate(run_.result.changes.begin(), run_.result.changes.begin() + place, run_.result.changes.begin() + place + 1);
+      std::rotate(run_.result.changes.begin(), run_.result.changes.begin() + place,
+                  run_.result.changes.begin() + place + 1);
       if (i > 0) rename(found);
       return;
     }
   }
 
-  /// The same change, as it is told, on the mesh of the task, the whole way to the certificate; a little more of it if need be.
+  /// The same change, as it is told, on the mesh of the task, the whole way to the certificate; a little more of it if
+  /// need be.
   Proof proof_of(FoundChange& found) const {
     double last = -1.0;
     bool was_tried = true;
@@ -179,7 +193,8 @@ class HelpfulChanges {
       if (amount == last) break;
       if (!run_.search.may_go_on()) return {};
       last = amount;
-      run_.step(fmt::format("on the mesh of the task, {} {} {:.3g} {}", found.knob.kind, found.knob.subject, found.knob.value(amount), found.knob.unit));
+      run_.step(fmt::format("on the mesh of the task, {} {} {:.3g} {}", found.knob.kind, found.knob.subject,
+                            found.knob.value(amount), found.knob.unit));
       try {
         Plan plan = run_.planned(with_steps_of(found.knob.problem(amount), run_.problem), 1.0);
         was_tried = was_tried && run_.what_stopped(plan.result).empty();

@@ -85,7 +85,8 @@ double value_of_limit(const RobotModel& robot, LimitKind kind, int joint) {
 std::vector<int> turnable_joints(const RobotModel& robot, LimitKind kind) {
   std::vector<int> joints;
   for (int j = 0; j < robot.nu(); ++j) {
-    const bool has_curve = std::ranges::any_of(robot.torque_curves(), [j](const auto& curve) { return curve.joint == j && curve.over_velocity; });
+    const bool has_curve = std::ranges::any_of(
+        robot.torque_curves(), [j](const auto& curve) { return curve.joint == j && curve.over_velocity; });
     if (kind != LimitKind::joint_velocity || !has_curve) joints.push_back(j);
   }
   return joints;
@@ -101,17 +102,24 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
   for (const int j : joints) names.push_back(robot.joint_names()[j]);
   const bool several = joints.size() > 1;  // whose limits may differ: the factor is what they have in common
   const bool all = several && static_cast<int>(joints.size()) == robot.nu();
-  return {.kind = to_string(kind), .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")), .most = kMostAmount,
-          .is_factor = several, .unit = several ? "" : limit_of_joint(robot, kind, first).unit,
-          .value = [&problem, kind, joints, several, first](double a) {
-            return several ? std::exp(a) : value_of_limit(with_joints(problem, kind, joints, std::exp(a)).robot, kind, first);
-          },
+  return {.kind = to_string(kind),
+          .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")),
+          .most = kMostAmount,
+          .is_factor = several,
+          .unit = several ? "" : limit_of_joint(robot, kind, first).unit,
+          .value =
+              [&problem, kind, joints, several, first](double a) {
+                return several ? std::exp(a)
+                               : value_of_limit(with_joints(problem, kind, joints, std::exp(a)).robot, kind, first);
+              },
           .problem = [&problem, kind, joints](double a) { return with_joints(problem, kind, joints, std::exp(a)); },
           .words = several || kind != LimitKind::joint_position ? std::function<std::string(double)>() : range,
-          .besides = [&problem, kind, joints, several](double a) {
-            if (kind == LimitKind::torque) return tables_with_torque(problem.robot, joints, std::exp(a));
-            return several && kind == LimitKind::joint_position ? narrower_ranges(problem, joints, std::exp(a)) : "";
-          }};
+          .besides =
+              [&problem, kind, joints, several](double a) {
+                if (kind == LimitKind::torque) return tables_with_torque(problem.robot, joints, std::exp(a));
+                return several && kind == LimitKind::joint_position ? narrower_ranges(problem, joints, std::exp(a))
+                                                                    : "";
+              }};
 }
 
 std::vector<Knob> joint_knobs(const MotionProblem& problem) {

@@ -11,9 +11,9 @@ class TaskAsItIs {
  public:
   explicit TaskAsItIs(DiagnosisRun& run) : run_(run) {}
 
-  /// The motion on the task's own mesh, if there is one on the search mesh, on all finer ones of the task and on that. Else
-  /// `searched` is on the coarsest without: there it costs least to look for changes. Feet may drift on coarse ones: a finer
-  /// one will tell.
+  /// The motion on the task's own mesh, if there is one on the search mesh, on all finer ones of the task and on that.
+  /// Else `searched` is on the coarsest without: there it costs least to look for changes. Feet may drift on coarse
+  /// ones: a finer one will tell.
   std::optional<Trajectory> solve_all_meshes();
   /// As prowl plan does, in a part of the time that is left.
   void plan(double part);

@@ -44,7 +44,7 @@ struct Away {
   MotionLimit entry;
   double off = 0.0;
   std::optional<double> at = {};  ///< the coordinate that it asks for, if it has one
-  int entries = 0;  ///< that are away from the start
+  int entries = 0;                ///< that are away from the start
 };
 
 /// The entry that is farthest away, each measured by its size. None: off is 0.
@@ -56,15 +56,16 @@ Away farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
     const double off = lower > 0.0 ? lower : upper < 0.0 ? upper : 0.0;
     if (off == 0.0 || !std::isfinite(off)) return;
     const int entries = most.entries + 1;
-    if (std::abs(off) / entry.size > std::abs(most.off) / most.entry.size + 1e-9) most = {entry, off, from ? std::optional(*from + off) : from};
+    if (std::abs(off) / entry.size > std::abs(most.off) / most.entry.size + 1e-9)
+      most = {entry, off, from ? std::optional(*from + off) : from};
     most.entries = entries;
   };
   for (int i = 0; i < robot.nv(); ++i) {
     if (i >= 3 && i < 6) continue;
     const Index at = i < 3 ? i : i + 1;  // a configuration has a quaternion where its tangent has a rotation
     const double shift = goal.q_ref(at) - start(at);
-    look(limit_of_goal(robot, goal.name, i, false), shift + goal.configuration_lower(i), shift + goal.configuration_upper(i),
-         start(at));
+    look(limit_of_goal(robot, goal.name, i, false), shift + goal.configuration_lower(i),
+         shift + goal.configuration_upper(i), start(at));
   }
   if (goal.configuration_lower.segment<3>(3).allFinite()) {
     MotionLimit rotation = limit_of_goal(robot, goal.name, 3, false);
@@ -79,23 +80,35 @@ Away farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
 }
 
 Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& away) {
-  return {.kind = "goal", .phase = problem.boundary_conditions[condition].at.phase, .subject = away.entry.subject, .most = kMostOfWay,
-          .is_asked = true, .weight = kWeightOfWay, .unit = away.entry.unit,
+  return {.kind = "goal",
+          .phase = problem.boundary_conditions[condition].at.phase,
+          .subject = away.entry.subject,
+          .most = kMostOfWay,
+          .is_asked = true,
+          .weight = kWeightOfWay,
+          .unit = away.entry.unit,
           .value = [off = away.off](double a) { return off * std::exp(-a); },
-          .problem = [&problem, condition](double a) {
-            MotionProblem changed = problem;
-            changed.boundary_conditions[condition] = nearer(problem, problem.boundary_conditions[condition], std::exp(-a));
-            return changed;
-          },
-          .words = [away](double a) {
-            const double off = away.off * std::exp(-a);
-            if (!away.at) return fmt::format("{:.3g} {}", off, away.entry.unit);
-            const double at = *away.at - away.off + off;
-            return fmt::format("{:.6g} {unit} ({:.3g} {unit} from the start)", at, off, fmt::arg("unit", away.entry.unit));
-          },
-          .besides = [away](double a) {
-            return away.entries > 1 ? fmt::format("all that it asks for {:.3g} times as far from the start", std::exp(-a)) : "";
-          }};
+          .problem =
+              [&problem, condition](double a) {
+                MotionProblem changed = problem;
+                changed.boundary_conditions[condition] =
+                    nearer(problem, problem.boundary_conditions[condition], std::exp(-a));
+                return changed;
+              },
+          .words =
+              [away](double a) {
+                const double off = away.off * std::exp(-a);
+                if (!away.at) return fmt::format("{:.3g} {}", off, away.entry.unit);
+                const double at = *away.at - away.off + off;
+                return fmt::format("{:.6g} {unit} ({:.3g} {unit} from the start)", at, off,
+                                   fmt::arg("unit", away.entry.unit));
+              },
+          .besides =
+              [away](double a) {
+                return away.entries > 1
+                           ? fmt::format("all that it asks for {:.3g} times as far from the start", std::exp(-a))
+                           : "";
+              }};
 }
 
 /// A place brought nearer to where its contact was at the start or before it opened.
@@ -105,32 +118,45 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
   const Vector3d to = *contact.place;
   const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // on the surface, as the place is
   const auto place = [root, to](double a) -> Vector3d { return root + std::exp(-a) * (to - root); };
-  return {.kind = "place", .phase = phase,
-          .subject = problem.robot.contacts()[contact.contact].name, .most = kMostOfWay,
-          .is_asked = true, .weight = kWeightOfWay, .unit = "m",
+  return {.kind = "place",
+          .phase = phase,
+          .subject = problem.robot.contacts()[contact.contact].name,
+          .most = kMostOfWay,
+          .is_asked = true,
+          .weight = kWeightOfWay,
+          .unit = "m",
           .value = [root, to](double a) { return std::exp(-a) * (to - root).norm(); },
-          .problem = [&problem, phase, held, place](double a) {
-            MotionProblem changed = problem;
-            changed.phases[phase].contacts[held].place = place(a);
-            return changed;
-          },
-          .words = [place, root](double a) {
-            const Vector3d at = place(a);
-            constexpr double kRounding = 1e-9;  // [m] no -0 from the projection on the surface
-            const Vector3d shown = (at.array().abs() < kRounding).select(0.0, at);
-            return fmt::format("[{:.6g}] m ({:.3g} m from where it stood)", fmt::join(shown, ", "), (at - root).norm());
-          }};
+          .problem =
+              [&problem, phase, held, place](double a) {
+                MotionProblem changed = problem;
+                changed.phases[phase].contacts[held].place = place(a);
+                return changed;
+              },
+          .words =
+              [place, root](double a) {
+                const Vector3d at = place(a);
+                constexpr double kRounding = 1e-9;  // [m] no -0 from the projection on the surface
+                const Vector3d shown = (at.array().abs() < kRounding).select(0.0, at);
+                return fmt::format("[{:.6g}] m ({:.3g} m from where it stood)", fmt::join(shown, ", "),
+                                   (at - root).norm());
+              }};
 }
 
 /// Feet lifted less.
 Knob clearance_knob(const MotionProblem& problem) {
-  return {.kind = "clearance", .subject = "", .most = kMostAmount, .is_asked = true, .weight = kWeightOfWay, .unit = "m",
+  return {.kind = "clearance",
+          .subject = "",
+          .most = kMostAmount,
+          .is_asked = true,
+          .weight = kWeightOfWay,
+          .unit = "m",
           .value = [&problem](double a) { return problem.swing_clearance * std::exp(-a); },
-          .problem = [&problem](double a) {
-            MotionProblem changed = problem;
-            changed.swing_clearance *= std::exp(-a);
-            return changed;
-          }};
+          .problem =
+              [&problem](double a) {
+                MotionProblem changed = problem;
+                changed.swing_clearance *= std::exp(-a);
+                return changed;
+              }};
 }
 
 void add_places(const MotionProblem& problem, std::vector<Knob>& knobs) {

@@ -25,7 +25,8 @@ struct MassMotion {
 };
 MassMotion centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
-/// How far the centre of mass can be from the base whatever the joints do, likewise: within `radius` of `centre`, a point of the base.
+/// How far the centre of mass can be from the base whatever the joints do, likewise: within `radius` of `centre`, a
+/// point of the base.
 struct MassReach {
   Eigen::Vector3d centre;  ///< base frame [m]
   double radius = 0.0;     ///< [m]

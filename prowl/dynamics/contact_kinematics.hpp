@@ -14,9 +14,10 @@ namespace prowl {
 ///   velocity      J(q) v                [m/s]
 ///   acceleration  g(q, v, a) = J a + J̇ v  [m/s^2], the classical (material) acceleration
 ///
-/// Derivatives in q are with respect to the tangent of configuration.hpp. All follow from one rule for a chain of joints,
-/// with d_j the velocity of p and w_j the angular velocity at v_j = 1: turning joint i moves everything behind it as one
-/// rigid body, so for i at or before j in the chain  ∂d_j/∂q_i = w_i × d_j,  ∂w_j/∂q_i = w_i × w_j  (docs/theory.md).
+/// Derivatives in q are with respect to the tangent of configuration.hpp. All follow from one rule for a chain of
+/// joints, with d_j the velocity of p and w_j the angular velocity at v_j = 1: turning joint i moves everything behind
+/// it as one rigid body, so for i at or before j in the chain  ∂d_j/∂q_i = w_i × d_j,  ∂w_j/∂q_i = w_i × w_j
+/// (docs/theory.md).
 class ContactKinematics {
  public:
   /// `contacts`: indices of contacts of the robot, in the order of the rows.
@@ -28,8 +29,8 @@ class ContactKinematics {
   /// Takes the configuration at which `terms` was updated last.
   void set_configuration(const RigidBodyTerms& terms);
 
-  const Eigen::VectorXd& positions() const { return positions_; }    ///< rows() [m]
-  const Eigen::MatrixXd& jacobian() const { return jacobian_; }      ///< rows() x nv, for v
+  const Eigen::VectorXd& positions() const { return positions_; }        ///< rows() [m]
+  const Eigen::MatrixXd& jacobian() const { return jacobian_; }          ///< rows() x nv, for v
   const Eigen::MatrixXd& positions_dq() const { return positions_dq_; }  ///< rows() x nv, for the tangent of q
 
   /// out = J x, and out -= Jᵀ y, with what is zero in J left out.
@@ -56,10 +57,10 @@ class ContactKinematics {
   /// One degree of freedom in the chain of one contact; world axes.
   struct Link {
     int dof = 0;
-    Eigen::Vector3d w, d;            ///< angular velocity behind the joint and velocity of p at v_j = 1
-    Eigen::Vector3d omega, alpha;    ///< angular velocity and acceleration of the body before the joint
-    Eigen::Vector3d omega_after;     ///< angular velocity of the body behind the joint
-    Eigen::Vector3d dg_dq, dg_dv;    ///< derivatives of the acceleration of p
+    Eigen::Vector3d w, d;          ///< angular velocity behind the joint and velocity of p at v_j = 1
+    Eigen::Vector3d omega, alpha;  ///< angular velocity and acceleration of the body before the joint
+    Eigen::Vector3d omega_after;   ///< angular velocity of the body behind the joint
+    Eigen::Vector3d dg_dq, dg_dv;  ///< derivatives of the acceleration of p
 
     /// Derivatives of omega and alpha behind the joint in q, seen from what turns with it.
     Eigen::Vector3d V() const { return omega.cross(w); }

@@ -26,8 +26,10 @@ class ForwardDynamics {
     Eigen::MatrixXd q, v, tau;
   };
 
-  /// `contacts`: indices of contacts of the robot, in the order of the forces. `rank_threshold`: see Projector::compute.
-  ForwardDynamics(const RobotModel& robot, std::vector<int> contacts, double rank_threshold = Projector::kRankThreshold);
+  /// `contacts`: indices of contacts of the robot, in the order of the forces. `rank_threshold`: see
+  /// Projector::compute.
+  ForwardDynamics(const RobotModel& robot, std::vector<int> contacts,
+                  double rank_threshold = Projector::kRankThreshold);
 
   /// a and f. Throws NumericalError if they are not finite.
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
@@ -35,11 +37,11 @@ class ForwardDynamics {
   /// around q).
   void evaluate_with_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
 
-  const Eigen::VectorXd& acceleration() const { return a_; }                ///< a, nv
-  const Eigen::VectorXd& forces() const { return f_; }                      ///< f, 3 a contact, world frame
-  const Derivatives& acceleration_derivatives() const { return da_; }       ///< nv rows
-  const Derivatives& force_derivatives() const { return df_; }              ///< 3 rows a contact
-  const Projector& projector() const { return projector_; }                 ///< of J at the last evaluation
+  const Eigen::VectorXd& acceleration() const { return a_; }           ///< a, nv
+  const Eigen::VectorXd& forces() const { return f_; }                 ///< f, 3 a contact, world frame
+  const Derivatives& acceleration_derivatives() const { return da_; }  ///< nv rows
+  const Derivatives& force_derivatives() const { return df_; }         ///< 3 rows a contact
+  const Projector& projector() const { return projector_; }            ///< of J at the last evaluation
 
  private:
   void add_turn_of_lost_acceleration(Eigen::MatrixXd& dg_dq) const;
@@ -49,7 +51,7 @@ class ForwardDynamics {
   ContactKinematics kinematics_;
   Projector projector_;
   double rank_threshold_;
-  Eigen::MatrixXd P_, pinv_;  // P, J⁺
+  Eigen::MatrixXd P_, pinv_;                               // P, J⁺
   Eigen::PartialPivLU<Eigen::MatrixXd> constrained_mass_;  // of Mc
   Eigen::VectorXd a_, f_;
   Derivatives da_, df_;

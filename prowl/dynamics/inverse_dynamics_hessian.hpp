@@ -37,12 +37,12 @@ struct TreeMotion {
     Eigen::Matrix<double, 6, 3> composite_variation;  ///< B of the composite, its columns of angular velocities
   };
   std::vector<Body> bodies;
-  SpatialColumns S;              ///< motion at v_k = 1
-  SpatialColumns V, A;           ///< v_p x S,  a_p x S + v_p x V with gravity in a_p
-  SpatialColumns W;              ///< v_p x S + v_k x S
-  SpatialColumns I_S;            ///< I S            of the composite behind k
-  SpatialColumns I_W_B_S;        ///< I W + B S
-  SpatialColumns I_A_B_V_S_F;    ///< I A + B V + S x* F
+  SpatialColumns S;            ///< motion at v_k = 1
+  SpatialColumns V, A;         ///< v_p x S,  a_p x S + v_p x V with gravity in a_p
+  SpatialColumns W;            ///< v_p x S + v_k x S
+  SpatialColumns I_S;          ///< I S            of the composite behind k
+  SpatialColumns I_W_B_S;      ///< I W + B S
+  SpatialColumns I_A_B_V_S_F;  ///< I A + B V + S x* F
 };
 
 /// Second derivatives of lambda . RNEA(q, v, a) in O(n depth): Singh, Russell, Wensing, "On second-order derivatives of
@@ -60,9 +60,9 @@ class InverseDynamicsHessian {
  private:
   /// Of one body, then of all behind its joint.
   struct Adjoint {
-    SpatialVector m;             ///< velocity of the body at v = lambda
-    SpatialVector H, P;          ///< I m;  v x* I m - I (v x m) - m x* I v
-    Eigen::Matrix3d D_angular;   ///< D X = (0, -2 H_linear x X_linear + D_angular X_angular)
+    SpatialVector m;            ///< velocity of the body at v = lambda
+    SpatialVector H, P;         ///< I m;  v x* I m - I (v x m) - m x* I v
+    Eigen::Matrix3d D_angular;  ///< D X = (0, -2 H_linear x X_linear + D_angular X_angular)
     SpatialVector D(const SpatialVector& X) const;
   };
   void propagate(const TreeMotion& tree, const Eigen::VectorXd& lambda);

@@ -15,8 +15,8 @@ using BoolArray = Eigen::Array<bool, Eigen::Dynamic, 1>;
 constexpr int kMaxIterations = 200;
 constexpr double kFirstDamping = 1e-6;  // [m^2]: well below the square of a leg's lever, near Gauss-Newton at once
 constexpr double kLeastDamping = 1e-14;
-constexpr double kMostDamping = 1e6;    // no descent even along the projected gradient: a minimum to rounding
-constexpr double kLeastStep = 1e-12;    // [rad]
+constexpr double kMostDamping = 1e6;  // no descent even along the projected gradient: a minimum to rounding
+constexpr double kLeastStep = 1e-12;  // [rad]
 
 std::vector<int> contacts_of(const std::vector<ContactTarget>& targets) {
   std::vector<int> contacts;
@@ -49,8 +49,8 @@ class Misfit {
 };
 
 /// Step of Levenberg-Marquardt over the joints that are not held at a limit.
-Eigen::VectorXd damped_step(const Eigen::MatrixXd& J, const Eigen::VectorXd& gradient,
-                            const BoolArray& held, double damping) {
+Eigen::VectorXd damped_step(const Eigen::MatrixXd& J, const Eigen::VectorXd& gradient, const BoolArray& held,
+                            double damping) {
   const Eigen::VectorXd free = (!held).cast<double>();
   const Eigen::MatrixXd J_free = J * free.asDiagonal();
   Eigen::MatrixXd normal = J_free.transpose() * J_free;

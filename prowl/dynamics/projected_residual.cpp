@@ -8,10 +8,10 @@ namespace prowl {
 
 namespace {
 
-/// s as a part of the robot's mass. Away from c = 0 the forces that are recovered are those of springs of stiffness s kp: at s = mass
-/// and a step of 10 ms 1 mm off a contact's place is the weight of the robot, and cones and forces that have to vanish are bent by
-/// it (HyQ trot, 125 intervals: 66 + 54 iterations, with this 18 + 31; 0.1 and 0.001 do as well). It also
-/// says how well e vanishes where rows hold to a tolerance: at 1e-6 of the weight to about 1e-3 m/s^2.
+/// s as a part of the robot's mass. Away from c = 0 the forces that are recovered are those of springs of stiffness s
+/// kp: at s = mass and a step of 10 ms 1 mm off a contact's place is the weight of the robot, and cones and forces that
+/// have to vanish are bent by it (HyQ trot, 125 intervals: 66 + 54 iterations, with this 18 + 31; 0.1 and 0.001 do as
+/// well). It also says how well e vanishes where rows hold to a tolerance: at 1e-6 of the weight to about 1e-3 m/s^2.
 constexpr double kContactWeight = 0.01;
 
 }  // namespace

@@ -23,15 +23,15 @@ struct DynamicsPoint {
   Eigen::VectorXd chosen_forces;  ///< w, one a row of `chosen_rows` [N]
 };
 
-/// First derivatives of a vector y(q, v, a, tau, w, e); q in the tangent of configuration.hpp. e is the stabilised contact
-/// acceleration, all rows of the set, as if it could be shifted by itself: the derivative in the anchors is -kp times that.
-/// gains: kd and kp.
+/// First derivatives of a vector y(q, v, a, tau, w, e); q in the tangent of configuration.hpp. e is the stabilised
+/// contact acceleration, all rows of the set, as if it could be shifted by itself: the derivative in the anchors is -kp
+/// times that. gains: kd and kp.
 struct PointDerivatives {
   Eigen::MatrixXd q, v, a, tau, w, e, gains;
 };
 
-/// Second derivatives of a scalar s(q, v, a, tau, w, e, kd, kp) that is linear in all but q and v: the blocks that are not
-/// zero, but that of kp and the anchors, which is -de (below).
+/// Second derivatives of a scalar s(q, v, a, tau, w, e, kd, kp) that is linear in all but q and v: the blocks that are
+/// not zero, but that of kp and the anchors, which is -de (below).
 struct PointHessian : SecondDerivatives {
   using SecondDerivatives::SecondDerivatives;
   Eigen::MatrixXd qtau, qw, qe;
@@ -46,14 +46,16 @@ struct PointHessian : SecondDerivatives {
 ///   f = (J J')⁺ (J r - s e)                     contact forces, minimum norm, world frame           [N]
 ///   c = r - J' f  =  P r + s J⁺ e               n + 6 rows
 ///
-/// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold; s, a hundredth
-/// of the robot's mass [kg], only weighs the one against the other (the projection mixes forces and moments as SI units have
-/// them). Away from c = 0 the forces f do depend on s: the less, the smaller it is. Any set of contacts: none, or redundant ones, where J loses rank and f is the choice of least norm (first derivatives hold at constant rank).
+/// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold; s, a
+/// hundredth of the robot's mass [kg], only weighs the one against the other (the projection mixes forces and moments
+/// as SI units have them). Away from c = 0 the forces f do depend on s: the less, the smaller it is. Any set of
+/// contacts: none, or redundant ones, where J loses rank and f is the choice of least norm (first derivatives hold at
+/// constant rank).
 ///
-/// Redundant contacts may also be given `chosen_rows`: rows of J that depend on the others. Their forces w are then inputs,
-/// their rows of e are left out, and the forces of the other rows follow: (f_S, w) are all forces that do the same, f = Z w
-/// and a particular force. c = 0 has the same solutions, as far as the rows of e that are left out agree with the others.
-/// One object holds the work space of one thread; results stay until the next evaluation.
+/// Redundant contacts may also be given `chosen_rows`: rows of J that depend on the others. Their forces w are then
+/// inputs, their rows of e are left out, and the forces of the other rows follow: (f_S, w) are all forces that do the
+/// same, f = Z w and a particular force. c = 0 has the same solutions, as far as the rows of e that are left out agree
+/// with the others. One object holds the work space of one thread; results stay until the next evaluation.
 class ProjectedResidual {
  public:
   ProjectedResidual(const RobotModel& robot, std::vector<int> contacts, std::vector<int> chosen_rows = {});
@@ -69,15 +71,15 @@ class ProjectedResidual {
   /// The same, and their exact first derivatives (also away from c = 0).
   void evaluate_with_derivatives(const DynamicsPoint& point);
 
-  const Eigen::VectorXd& residual() const { return c_; }       ///< nv
-  const Eigen::VectorXd& forces() const { return f_; }         ///< 3 per contact of the set, world frame
+  const Eigen::VectorXd& residual() const { return c_; }                ///< nv
+  const Eigen::VectorXd& forces() const { return f_; }                  ///< 3 per contact of the set, world frame
   const PointDerivatives& residual_derivatives() const { return dc_; }  ///< nv rows
   const PointDerivatives& force_derivatives() const { return df_; }     ///< 3 rows a contact
-  int rank() const { return projector_.rank(); }               ///< of the rows of J that are not chosen
+  int rank() const { return projector_.rank(); }                        ///< of the rows of J that are not chosen
   bool has_full_rank() const { return projector_.full_rank(); }
 
-  /// Hessian of mu . c + nu . f at fixed mu (nv) and nu (3 a contact), at the point of the last evaluate_with_derivatives.
-  /// Needs full rank of the rows of J that are not chosen.
+  /// Hessian of mu . c + nu . f at fixed mu (nv) and nu (3 a contact), at the point of the last
+  /// evaluate_with_derivatives. Needs full rank of the rows of J that are not chosen.
   const PointHessian& hessian(const DynamicsPoint& point, const Eigen::VectorXd& mu, const Eigen::VectorXd& nu);
 
   /// Positions of the contacts of the set at the last evaluation, and their derivatives.
@@ -94,16 +96,16 @@ class ProjectedResidual {
   RigidBodyTerms terms_;
   ContactKinematics kinematics_;
   std::vector<int> chosen_rows_, kept_rows_;
-  Projector projector_;          ///< of the kept rows
-  Eigen::MatrixXd kept_;         ///< those rows of J, if not all
-  Eigen::MatrixXd gram_inverse_; ///< (J J')⁺ of the kept rows, zero in the chosen ones
+  Projector projector_;           ///< of the kept rows
+  Eigen::MatrixXd kept_;          ///< those rows of J, if not all
+  Eigen::MatrixXd gram_inverse_;  ///< (J J')⁺ of the kept rows, zero in the chosen ones
   Eigen::VectorXd r_, e_, c_, f_;
   PointDerivatives dc_, df_;
   PointHessian hessian_;
   // Work space, so that nothing is allocated after the first evaluation.
-  Eigen::MatrixXd A_q_;              ///< derivative of the equations of motion in q with f fixed
-  Eigen::MatrixXd K_;                ///< (J J')⁺ J
-  Eigen::MatrixXd e_gains_;          ///< derivative of e in the gains
+  Eigen::MatrixXd A_q_;      ///< derivative of the equations of motion in q with f fixed
+  Eigen::MatrixXd K_;        ///< (J J')⁺ J
+  Eigen::MatrixXd e_gains_;  ///< derivative of e in the gains
   Eigen::MatrixXd work_m_, work_n_, rhs_, cross_;
   Eigen::VectorXd l1_, l2_, work_v_, work_f_, zero_;
 };

@@ -68,7 +68,8 @@ void Projector::find_rank(double threshold) {
   }
 }
 
-// Complete orthogonal decomposition: J' Π = V [R1 R2], a trapezoid; its transpose is W T, so that J = Π W T V', U = Π W.
+// Complete orthogonal decomposition: J' Π = V [R1 R2], a trapezoid; its transpose is W T, so that J = Π W T V', U = Π
+// W.
 void Projector::factor_deficient() {
   if (rank_ == 0) {
     inverse_factor_.setZero(0, transposed_.cols());

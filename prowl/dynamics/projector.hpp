@@ -22,8 +22,8 @@ class Projector {
   /// Pivot ratios in between are too near the threshold: right methods may differ there by several percent.
   static constexpr double kAmbiguousAbove = 1e-10, kAmbiguousBelow = 1e-6;
 
-  /// Throws NumericalError if J is not finite. A larger threshold is for configurations that are a little off their contacts,
-  /// where rows that depend on each other do so but for that distance [m].
+  /// Throws NumericalError if J is not finite. A larger threshold is for configurations that are a little off their
+  /// contacts, where rows that depend on each other do so but for that distance [m].
   void compute(const Eigen::MatrixXd& J, double rank_threshold = kRankThreshold);
 
   int rank() const { return rank_; }

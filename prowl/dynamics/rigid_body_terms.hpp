@@ -14,7 +14,8 @@ namespace prowl {
 ///   r0(q, v, a) = RNEA = M(q) a + h(q, v)      [N, N m], n + 6 rows: force and moment on the base (base frame), joints
 ///
 /// Derivatives in q are with respect to the tangent of configuration.hpp (world displacement of the base, rotation
-/// vector in the base frame, joints). One object holds the work space of one thread; results stay until the next update.
+/// vector in the base frame, joints). One object holds the work space of one thread; results stay until the next
+/// update.
 class RigidBodyTerms {
  public:
   explicit RigidBodyTerms(const RobotModel& robot);

@@ -15,7 +15,8 @@ inline SpatialVector spatial(const Eigen::Vector3d& linear, const Eigen::Vector3
 
 /// Motion x motion: how b changes while it is carried along with a.
 inline SpatialVector cross(const SpatialVector& a, const SpatialVector& b) {
-  const Eigen::Vector3d a_linear = a.head<3>(), a_angular = a.tail<3>(), b_linear = b.head<3>(), b_angular = b.tail<3>();
+  const Eigen::Vector3d a_linear = a.head<3>(), a_angular = a.tail<3>(), b_linear = b.head<3>(),
+                        b_angular = b.tail<3>();
   return spatial(a_angular.cross(b_linear) + a_linear.cross(b_angular), a_angular.cross(b_angular));
 }
 

@@ -20,7 +20,10 @@ Eigen::Index foot_row(std::size_t foot) { return kFeet + 3 * static_cast<Eigen::
 
 BaseEstimator::BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const std::vector<bool>& in_contact,
                              const EstimatorNoise& noise)
-    : noise_(noise), legs_(robot), position_(base_position(q)), rotation_(base_rotation(q)),
+    : noise_(noise),
+      legs_(robot),
+      position_(base_position(q)),
+      rotation_(base_rotation(q)),
       feet_(robot.contacts().size()) {
   covariance_.setZero(foot_row(feet_.size()), foot_row(feet_.size()));
   constexpr double kKnown = 1e-5;  // the start is known, to rounding
@@ -91,7 +94,8 @@ void BaseEstimator::put_down(int contact) {
   const Eigen::Index row = foot_row(c);
   const Eigen::Matrix3d turn = -rotation_ * so3::skew(legs_.position(contact));
   covariance_.middleRows<3>(row) = covariance_.middleRows<3>(kPosition) + turn * covariance_.middleRows<3>(kRotation);
-  covariance_.middleCols<3>(row) = covariance_.middleCols<3>(kPosition) + covariance_.middleCols<3>(kRotation) * turn.transpose();
+  covariance_.middleCols<3>(row) =
+      covariance_.middleCols<3>(kPosition) + covariance_.middleCols<3>(kRotation) * turn.transpose();
   const Eigen::Matrix3Xd J = noise_.encoder * rotation_ * legs_.linear(contact);
   covariance_.block<3, 3>(row, row) += J * J.transpose();
   covariance_.diagonal().segment<3>(row).array() += kKinematics * kKinematics;
@@ -114,8 +118,9 @@ void BaseEstimator::correct() {
     const Eigen::Vector3d expected = rotation_.transpose() * (foot.place - position_);
     const Eigen::Vector3d innovation = legs_.position(contact) - expected;
     // P H' with H = (-R', 0, [expected]×, 0, 0, ..., R')
-    const Eigen::MatrixXd PHt = (covariance_.middleCols<3>(foot_row(c)) - covariance_.middleCols<3>(kPosition)) * rotation_ -
-                                covariance_.middleCols<3>(kRotation) * so3::skew(expected);
+    const Eigen::MatrixXd PHt =
+        (covariance_.middleCols<3>(foot_row(c)) - covariance_.middleCols<3>(kPosition)) * rotation_ -
+        covariance_.middleCols<3>(kRotation) * so3::skew(expected);
     Eigen::Matrix3d S = rotation_.transpose() * (PHt.middleRows<3>(foot_row(c)) - PHt.middleRows<3>(kPosition)) +
                         so3::skew(expected) * PHt.middleRows<3>(kRotation);
     const Eigen::Matrix3Xd J = noise_.encoder * legs_.linear(contact);

@@ -8,9 +8,9 @@ namespace prowl {
 ///
 ///   q' = v,  v' = a + w,  y = q + n
 ///
-/// a is the acceleration that the model expects of the commanded torques [rad/s^2], w white noise of density S [rad^2/s^3]:
-/// what the model does not know. Its bandwidth is (S / (σ² dt))^(1/4) rad/s; differences of encoder samples, by contrast,
-/// have σ √2 / dt: 1.4 rad/s for 1 mrad at 1 kHz.
+/// a is the acceleration that the model expects of the commanded torques [rad/s^2], w white noise of density S
+/// [rad^2/s^3]: what the model does not know. Its bandwidth is (S / (σ² dt))^(1/4) rad/s; differences of encoder
+/// samples, by contrast, have σ √2 / dt: 1.4 rad/s for 1 mrad at 1 kHz.
 class JointFilter {
  public:
   /// Starts at known positions and at rest. `noise` σ > 0 [rad] a sample, `density` S.

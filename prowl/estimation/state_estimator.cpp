@@ -15,7 +15,8 @@ StateEstimator::StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q
 
 void StateEstimator::update(double dt, const SensorReading& reading, const Eigen::VectorXd& tau, const Stand& stand) {
   joints_.update(dt, acceleration(q_, v_, tau, stand).tail(robot_.nu()), reading.encoders);
-  base_.update(dt, reading.gyro, reading.accelerometer, reading.encoders, joints_.rates(), stand.in_contact, stand.normals);
+  base_.update(dt, reading.gyro, reading.accelerometer, reading.encoders, joints_.rates(), stand.in_contact,
+               stand.normals);
   q_.head<3>() = base_.position();
   set_base_rotation(q_, base_.rotation());
   q_.tail(robot_.nu()) = joints_.positions();
@@ -48,8 +49,8 @@ Eigen::VectorXd StateEstimator::acceleration(const Eigen::VectorXd& q, const Eig
     }
     dynamics = std::make_unique<ForwardDynamics>(robot_, contacts, kContactRankThreshold);
   }
-  // A robot that has fallen apart in its own eyes still has to go on. Where rates are absurd their squares in the dynamics would
-  // drive them further, sample by sample, whatever the encoders say.
+  // A robot that has fallen apart in its own eyes still has to go on. Where rates are absurd their squares in the
+  // dynamics would drive them further, sample by sample, whatever the encoders say.
   if (!has_plausible_rates(v)) return Eigen::VectorXd::Zero(robot_.nv());
   try {
     dynamics->evaluate(q, v, tau);

@@ -21,12 +21,13 @@ struct Stand {
   std::vector<Eigen::Vector3d> normals;  ///< of the surface under each, unit vectors, world frame
 };
 
-/// State of the whole robot as a robot can know it: base by BaseEstimator, joints by JointFilter with the accelerations that
-/// its own model expects of the torques it has commanded. Without the model the filter would lag behind what the feedback
-/// does, and with the delay of the torques swing legs would shake.
+/// State of the whole robot as a robot can know it: base by BaseEstimator, joints by JointFilter with the accelerations
+/// that its own model expects of the torques it has commanded. Without the model the filter would lag behind what the
+/// feedback does, and with the delay of the torques swing legs would shake.
 class StateEstimator {
  public:
-  /// Starts at the known state q, at rest. `joint_density` [rad^2/s^3]: of the accelerations that the model does not know.
+  /// Starts at the known state q, at rest. `joint_density` [rad^2/s^3]: of the accelerations that the model does not
+  /// know.
   StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Stand& stand, const EstimatorNoise& noise,
                  double joint_density);
 

@@ -24,8 +24,8 @@ constexpr double kAtItsPlace = 1e-3;  // [m]
 constexpr double kFull = 0.999;       // of the weight, or of a torque limit: less is less
 
 /// Contacts that a posture does not have where they have to be.
-std::vector<std::string> missed_places(const MotionProblem& problem, const ContactSchedule& schedule, int p, const VectorXd& q,
-                                       const std::string& when) {
+std::vector<std::string> missed_places(const MotionProblem& problem, const ContactSchedule& schedule, int p,
+                                       const VectorXd& q, const std::string& when) {
   const auto places = known_places(problem, schedule);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
@@ -40,7 +40,8 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
         surface.at(nearest_in_patch(surface, surface.coordinates(is)), contact.radius));
     const double gap = (is - should).norm();
     if (gap <= kAtItsPlace) continue;
-    missed.push_back(fmt::format("{}: no posture found that has contact {} in its place: {:.3g} m off", when, contact.name, gap));
+    missed.push_back(
+        fmt::format("{}: no posture found that has contact {} in its place: {:.3g} m off", when, contact.name, gap));
   }
   return missed;
 }
@@ -60,12 +61,14 @@ std::string name_of_node(const MotionProblem& problem, NodeRef at) {
 constexpr std::size_t kStands = 3;  // contacts; on fewer a robot moves, and a phase of a trot is no reason for doubt
 
 /// "" if the robot can stand still in this posture, need not, or if the solver does not know.
-std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase, const VectorXd& q, const NlpSolver& solver) {
+std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase, const VectorXd& q,
+                                const NlpSolver& solver) {
   if (phase.contacts.size() < kStands) return "";
   const StandingLoad load = standing_load(problem, q, phase.contacts, solver);
   if (!load.solved || load.share >= kFull) return "";
   if (load.share < 1.0 - kFull) {
-    return "cannot stand still in the guessed posture: its contacts cannot balance the weight (place of the feet, friction)";
+    return "cannot stand still in the guessed posture: its contacts cannot balance the weight (place of the feet, "
+           "friction)";
   }
   const RobotModel& robot = problem.robot;
   std::vector<std::string> joints;
@@ -73,9 +76,8 @@ std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase
     const double needed = load.torque_needed(j);
     const double limit = needed < 0.0 ? robot.torque_lower(j, q(7 + j), 0.0) : robot.torque_upper(j, q(7 + j), 0.0);
     if (std::abs(load.share * needed) < kFull * std::abs(limit)) continue;
-    joints.push_back(fmt::format("{} needs {:.3g} {} of {:.3g}", robot.joint_names()[j],
-                                 std::abs(needed), robot.joint_is_prismatic()[j] ? "N" : "N m",
-                                 std::abs(limit)));
+    joints.push_back(fmt::format("{} needs {:.3g} {} of {:.3g}", robot.joint_names()[j], std::abs(needed),
+                                 robot.joint_is_prismatic()[j] ? "N" : "N m", std::abs(limit)));
   }
   return fmt::format("cannot stand still in the guessed posture: {}", fmt::join(joints, ", "));
 }

@@ -19,12 +19,12 @@ struct Slide {
   double shortfall = 0.0;     ///< in (0, 1]; 1 is free fall, and no surfaces
 };
 
-/// None where K holds up; nor where it nearly does (shortfall below 1e-6), nor where the cones together are so wide (walls
-/// that face each other) that no direction can be made certain.
+/// None where K holds up; nor where it nearly does (shortfall below 1e-6), nor where the cones together are so wide
+/// (walls that face each other) that no direction can be made certain.
 std::optional<Slide> slide_on(const std::vector<Surface>& surfaces);
 
-/// The factor on all friction coefficients from which on K holds up, >= 1, to 1e-6; infinite where none does. On one plane the
-/// coefficient needed is the tangent of its tilt.
+/// The factor on all friction coefficients from which on K holds up, >= 1, to 1e-6; infinite where none does. On one
+/// plane the coefficient needed is the tangent of its tilt.
 double friction_factor_needed(const std::vector<Surface>& surfaces);
 
 }  // namespace prowl

@@ -11,7 +11,7 @@ namespace prowl {
 namespace {
 
 constexpr double kStickiestSole = 2.0;  // [-] rubber on dry concrete has about 1, that of climbing shoes less than 2
-constexpr double kTimeToFall = 1.0;     // [s] a body of 1 m falls over in 0.5 s, and a mesh sees nothing between its nodes
+constexpr double kTimeToFall = 1.0;  // [s] a body of 1 m falls over in 0.5 s, and a mesh sees nothing between its nodes
 
 double longest_interval(const Phase& phase) {
   double longest = 0.0;
@@ -25,13 +25,15 @@ std::vector<std::string> implausibilities(const MotionProblem& problem) {
   std::vector<std::string> lines = implausible_sizes(problem.robot);
   for (const Surface& surface : problem.surfaces) {
     if (surface.friction <= kStickiestSole) continue;
-    lines.push_back(fmt::format("surface '{}' has friction {:g}; rubber on dry concrete has about 1", surface.name, surface.friction));
+    lines.push_back(fmt::format("surface '{}' has friction {:g}; rubber on dry concrete has about 1", surface.name,
+                                surface.friction));
   }
   for (const Phase& phase : problem.phases) {
     const double longest = longest_interval(phase);
     if (longest <= kTimeToFall) continue;
-    lines.push_back(fmt::format("phase '{}' has mesh intervals of {:.3g} s, in which a robot could fall over (durations are in seconds)",
-                                phase.name, longest));
+    lines.push_back(fmt::format(
+        "phase '{}' has mesh intervals of {:.3g} s, in which a robot could fall over (durations are in seconds)",
+        phase.name, longest));
   }
   return lines;
 }

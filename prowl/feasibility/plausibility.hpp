@@ -7,9 +7,9 @@
 
 namespace prowl {
 
-/// What a problem says that is possible, yet seldom meant, each a line in the words of the task: a robot in other units than
-/// metres and kilograms, friction that no sole has, mesh intervals in which a robot could fall over. A problem with such numbers is
-/// solved like any other.
+/// What a problem says that is possible, yet seldom meant, each a line in the words of the task: a robot in other units
+/// than metres and kilograms, friction that no sole has, mesh intervals in which a robot could fall over. A problem
+/// with such numbers is solved like any other.
 std::vector<std::string> implausibilities(const MotionProblem& problem);
 
 }  // namespace prowl

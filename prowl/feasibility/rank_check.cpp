@@ -1,9 +1,9 @@
 #include "prowl/feasibility/rank_check.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +17,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Of the joints, to postures beside [rad, m]: far above what a rank threshold of 1e-8 is about, and few joints cannot go so far.
+/// Of the joints, to postures beside [rad, m]: far above what a rank threshold of 1e-8 is about, and few joints cannot
+/// go so far.
 constexpr double kBeside = 0.05;
 constexpr int kPostures = 3;
 constexpr double kPushes = 0.1;  // of the largest force of such a push
@@ -62,7 +63,8 @@ std::optional<LostRank> lost_rank(const RobotModel& robot, const VectorXd& q, co
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(J * J.transpose());
   const VectorXd force = eigen.eigenvectors().leftCols(J.rows() - lost.rank).rowwise().norm();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (force.segment<3>(3 * static_cast<Eigen::Index>(i)).norm() > kPushes * force.maxCoeff()) lost.contacts.push_back(contacts[i]);
+    if (force.segment<3>(3 * static_cast<Eigen::Index>(i)).norm() > kPushes * force.maxCoeff())
+      lost.contacts.push_back(contacts[i]);
   }
   return lost;
 }
@@ -78,10 +80,11 @@ std::vector<std::string> postures_that_lose_rank(const MotionProblem& problem, c
     if (!lost) continue;
     std::vector<std::string> names;
     for (const int c : lost->contacts) names.push_back(problem.robot.contacts()[c].name);
-    lines.push_back(fmt::format("start of phase '{}': singular posture: {} of the {} directions that contacts hold elsewhere (rank of the "
-                                "contact Jacobian); {} can push against each other without any torque, as with stretched legs: start "
-                                "with joints bent by a few degrees",
-                                phase.name, lost->rank, lost->beside, fmt::join(names, ", ")));
+    lines.push_back(fmt::format(
+        "start of phase '{}': singular posture: {} of the {} directions that contacts hold elsewhere (rank of the "
+        "contact Jacobian); {} can push against each other without any torque, as with stretched legs: start "
+        "with joints bent by a few degrees",
+        phase.name, lost->rank, lost->beside, fmt::join(names, ", ")));
   }
   return lines;
 }

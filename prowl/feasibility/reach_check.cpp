@@ -30,8 +30,7 @@ std::vector<Held> held_in(const MotionProblem& problem, const ContactSchedule& s
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
     const PhaseContact& contact = phase.contacts[i];
     const ContactReach leg = contact_reach(problem.robot, contact.contact);
-    held.push_back({problem.robot.contacts()[contact.contact],
-                    problem.surfaces[contact.surface], leg,
+    held.push_back({problem.robot.contacts()[contact.contact], problem.surfaces[contact.surface], leg,
                     leg.first_joint < 0 ? "the base" : problem.robot.joint_names()[leg.first_joint],
                     places[schedule.stance(p, i)]});
   }
@@ -43,8 +42,8 @@ double least_distance(const Held& held, const BoundaryCondition& condition) {
   const PointBounds root = point_bounds(condition, held.leg.root);
   if (held.place) return root.distance(*held.place);
   if (root.lower != root.upper) return 0.0;
-  const Vector3d nearest = held.surface.at(nearest_in_patch(held.surface, held.surface.coordinates(root.lower)),
-                                           held.contact.radius);
+  const Vector3d nearest =
+      held.surface.at(nearest_in_patch(held.surface, held.surface.coordinates(root.lower)), held.contact.radius);
   return root.distance(nearest);
 }
 
@@ -62,9 +61,10 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem) {
       for (const Held& one : held) {
         const double distance = least_distance(one, condition);
         if (!(distance > one.leg.length + kMargin)) continue;
-        reasons.push_back(fmt::format("{}, phase '{}': contact {} is out of reach: {:.3g} m or more from {}, where its leg "
-                                      "begins, which is {:.3g} m long", condition.name, phase, one.contact.name, distance,
-                                      one.first_joint, one.leg.length));
+        reasons.push_back(
+            fmt::format("{}, phase '{}': contact {} is out of reach: {:.3g} m or more from {}, where its leg "
+                        "begins, which is {:.3g} m long",
+                        condition.name, phase, one.contact.name, distance, one.first_joint, one.leg.length));
       }
     }
     for (std::size_t i = 0; i < held.size(); ++i) {

@@ -7,9 +7,10 @@
 
 namespace prowl {
 
-/// Contacts that no posture brings to their places, in the words of the task; empty if none is certain. By lengths alone
-/// (ContactReach), so that what they forbid is out of reach whatever the joints and their limits:
-/// - where a goal bounds the base: the distance from there to the place of each contact that is held at that time, known or,
+/// Contacts that no posture brings to their places, in the words of the task; empty if none is certain. By lengths
+/// alone (ContactReach), so that what they forbid is out of reach whatever the joints and their limits:
+/// - where a goal bounds the base: the distance from there to the place of each contact that is held at that time,
+/// known or,
 ///   if the optimiser chooses it, the nearest of its surface;
 /// - in every phase: two known places farther apart than the two legs span.
 std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem);

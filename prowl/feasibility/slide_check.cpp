@@ -40,7 +40,8 @@ std::string friction_in_words(const std::vector<Surface>& surfaces) {
   const double factor = friction_factor_needed(surfaces);
   std::string text = "too little friction to stand: ";
   for (const Surface& surface : surfaces) {
-    text += fmt::format("{}surface '{}' has {:.3g}", &surface == surfaces.data() ? "" : ", ", surface.name, surface.friction);
+    text += fmt::format("{}surface '{}' has {:.3g}", &surface == surfaces.data() ? "" : ", ", surface.name,
+                        surface.friction);
     if (std::isfinite(factor)) text += fmt::format(" and needs {:.3g}", factor * surface.friction);
   }
   return std::isfinite(factor) ? text : text + "; no friction would do";
@@ -53,7 +54,8 @@ struct Hold {
   double least_along_d;
 };
 
-std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSchedule& schedule, int p, const Vector3d& d) {
+std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSchedule& schedule, int p,
+                                 const Vector3d& d) {
   const RobotModel& robot = problem.robot;
   const MassReach mass = mass_reach(robot);
   std::vector<Hold> holds;
@@ -69,8 +71,7 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
     if (!place) continue;
     const int contact = phase.contacts[i].contact;
     const ContactReach leg = contact_reach(robot, contact);
-    holds.push_back({"contact " + robot.contacts()[contact].name,
-                     time_of(problem, {p, phase.intervals}),
+    holds.push_back({"contact " + robot.contacts()[contact].name, time_of(problem, {p, phase.intervals}),
                      d.dot(*place) - (leg.length + (leg.root - mass.centre).norm() + mass.radius)});
   }
   return holds;
@@ -98,9 +99,11 @@ std::optional<std::string> why_it_slides(const MotionProblem& problem) {
       const double slid = 0.5 * acceleration * time * time - speed * time;
       const double allowed = slide->direction.dot(start.position) - hold.least_along_d;
       if (!(slid > allowed + kMargin)) continue;
-      return fmt::format("phase '{}': {}. Within {:.3g} s the robot would {} {:.2f} m or more, and {} allows {:.2f} m at "
-                         "most", phase.name, friction_in_words(surfaces), time, surfaces.empty() ? "fall" : "slide", slid, hold.name,
-                         std::max(0.0, allowed));
+      return fmt::format(
+          "phase '{}': {}. Within {:.3g} s the robot would {} {:.2f} m or more, and {} allows {:.2f} m at "
+          "most",
+          phase.name, friction_in_words(surfaces), time, surfaces.empty() ? "fall" : "slide", slid, hold.name,
+          std::max(0.0, allowed));
     }
   }
   return std::nullopt;

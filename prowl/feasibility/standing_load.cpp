@@ -75,8 +75,8 @@ StandingLoad standing_load(const MotionProblem& problem, const VectorXd& q, cons
   kinematics.set_configuration(terms);
   const VectorXd gravity = terms.inverse_dynamics() / robot.weight();
 
-  // Variables: the share of the weight, then the edges' forces, in weights. Rows: s g - J' f, that is what the base must not
-  // be left with and the joints' torques over the weight.
+  // Variables: the share of the weight, then the edges' forces, in weights. Rows: s g - J' f, that is what the base
+  // must not be left with and the joints' torques over the weight.
   MatrixXd rows(robot.nv(), 1 + kEdges * static_cast<Index>(contacts.size()));
   rows.col(0) = gravity;
   for (std::size_t c = 0; c < contacts.size(); ++c) {

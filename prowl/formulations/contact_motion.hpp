@@ -5,9 +5,9 @@
 
 namespace prowl {
 
-/// How far a motion is from keeping its contacts still, by its own q, v and a: worst contact that is held, worst node. What the
-/// contact rows of a program ask for, whether it has them or not. The certificate looks at v between the nodes too, and at
-/// the accelerations that the torques cause in place of the planned ones.
+/// How far a motion is from keeping its contacts still, by its own q, v and a: worst contact that is held, worst node.
+/// What the contact rows of a program ask for, whether it has them or not. The certificate looks at v between the nodes
+/// too, and at the accelerations that the torques cause in place of the planned ones.
 struct ContactMotion {
   double velocity = 0.0;      ///< |J v| [m/s]
   double acceleration = 0.0;  ///< |J a + J̇ v| [m/s²]

@@ -63,11 +63,12 @@ const Value& choice(const Table<Value>& table, const std::string& name) {
 MakeProgram collocation_with(std::unique_ptr<DynamicsForm> (*make_dynamics)()) {
   return [make_dynamics](const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
                          const Trajectory& guess) {
-    CollocationForm form{.dynamics_name = formulation.dynamics,
-                         .dynamics = make_dynamics(),
-                         .rule = choice(kRules, formulation.transcription)(),
-                         .contact = *std::ranges::find(contact_forms(), formulation.contact, &ContactForm::name),
-                         .chart = choice(kCharts, formulation.orientation)(base_rotation(problem.start_configuration()))};
+    CollocationForm form{
+        .dynamics_name = formulation.dynamics,
+        .dynamics = make_dynamics(),
+        .rule = choice(kRules, formulation.transcription)(),
+        .contact = *std::ranges::find(contact_forms(), formulation.contact, &ContactForm::name),
+        .chart = choice(kCharts, formulation.orientation)(base_rotation(problem.start_configuration()))};
     return std::make_unique<Collocation>(problem, mesh, guess, std::move(form));
   };
 }
@@ -104,8 +105,8 @@ std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, cons
   return make_collocation(formulation, problem, mesh, guess);
 }
 
-std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
-                                           const Trajectory& guess) {
+std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem,
+                                            const Mesh& mesh, const Trajectory& guess) {
   check("dynamics", formulation.dynamics, dynamics_names());
   check("transcription", formulation.transcription, transcription_names());
   check("contact", formulation.contact, contact_names());

@@ -27,8 +27,8 @@ const std::vector<std::string>& transcription_names();
 const std::vector<std::string>& contact_names();
 const std::vector<std::string>& orientation_names();
 
-/// Of the problem on a mesh, about a guess with one point a node. Throws InputError if there is no such choice, if two of the
-/// four do not go together, or if the problem asks for something that the formulation has not.
+/// Of the problem on a mesh, about a guess with one point a node. Throws InputError if there is no such choice, if two
+/// of the four do not go together, or if the problem asks for something that the formulation has not.
 std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const MotionProblem& problem,
                                             const Mesh& mesh, const Trajectory& guess);
 

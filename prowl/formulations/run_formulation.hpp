@@ -12,8 +12,8 @@ namespace prowl {
 /// What one formulation came to: a line of the table of `prowl compare`.
 struct FormulationRun {
   Formulation formulation;
-  std::string solver;                       ///< name and version: there are several SNOPTs
-  int nodes = 0;                            ///< of the mesh
+  std::string solver;  ///< name and version: there are several SNOPTs
+  int nodes = 0;       ///< of the mesh
   int num_variables = 0, num_constraints = 0;
   int jacobian_nonzeros = 0, hessian_nonzeros = 0;  ///< places of the patterns; of the Hessian the lower triangle
   SolveResult result;
@@ -32,8 +32,8 @@ struct FormulationRun {
 /// worst / limit of a check: above 1 it fails. Infinite for NaN, 0 for what is 0 and has to be.
 double share_of_limit(const CertificateCheck& check);
 
-/// Solves the problem on its own mesh, from a guess that its task alone gives, and judges the motion. Throws InputError as
-/// make_formulation() and make_guess() do, and if the solver cannot take such a program.
+/// Solves the problem on its own mesh, from a guess that its task alone gives, and judges the motion. Throws InputError
+/// as make_formulation() and make_guess() do, and if the solver cannot take such a program.
 FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
                                const SolverOptions& options, HessianKind hessian = HessianKind::exact,
                                const std::string& guess = guess_names().front());

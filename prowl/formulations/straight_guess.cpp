@@ -53,7 +53,8 @@ Trajectory straight_guess(const MotionProblem& problem, const Mesh& mesh) {
   const std::vector<Posture> through = postures(problem, mesh);
   std::vector<StaticEquilibrium> standing;
   for (const Phase& phase : problem.phases) {
-    standing.push_back(static_equilibrium(problem.robot, problem.start_configuration(), contact_indices(phase.contacts)));
+    standing.push_back(
+        static_equilibrium(problem.robot, problem.start_configuration(), contact_indices(phase.contacts)));
   }
 
   Trajectory guess;

@@ -44,7 +44,8 @@ class Descriptor {
   void sync() const {
     if (::fsync(number_) != 0) fail(path_, "cannot write to disk", errno);
   }
-  /// Permissions and group of what is to be replaced, if there is something: who made it private, or a group's, meant that.
+  /// Permissions and group of what is to be replaced, if there is something: who made it private, or a group's, meant
+  /// that.
   void be_as_private_as(const fs::path& old) const {
     constexpr mode_t kPermissions = 07777;
     struct stat was = {}, is = {};
@@ -55,7 +56,8 @@ class Descriptor {
       permissions = (permissions & ~static_cast<mode_t>(S_ISGID | S_IRWXG)) | ((permissions & S_IRWXO) << 3);
     }
     const bool is_same = ::fstat(number_, &is) == 0 && (is.st_mode & kPermissions) == permissions;
-    if (!is_same && ::fchmod(number_, permissions) != 0) fail(path_, "cannot get the permissions of the old one", errno);
+    if (!is_same && ::fchmod(number_, permissions) != 0)
+      fail(path_, "cannot get the permissions of the old one", errno);
   }
 
  private:
@@ -94,8 +96,8 @@ constexpr int kMostAttempts = 1000;
 
 enum class FolderAbove { has_to_exist, is_made };
 
-/// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the old. This
-/// user's alone where there is a `folder`, or one for files: what they replace may be private.
+/// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the
+/// old. This user's alone where there is a `folder`, or one for files: what they replace may be private.
 class SiblingFolder {
  public:
   SiblingFolder(const fs::path& folder, FolderAbove above) {
@@ -146,8 +148,8 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
   if (errno != ENOTEMPTY && errno != EEXIST) fail(folder, "cannot put the new folder in place", errno);
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) fail(folder, "cannot exchange with the new folder", errno);
-  // Some network file systems cannot exchange: two renames, and the first is taken back if the second fails. A kill between them
-  // leaves the old content under a name that says whose it was.
+  // Some network file systems cannot exchange: two renames, and the first is taken back if the second fails. A kill
+  // between them leaves the old content under a name that says whose it was.
   const fs::path old = fmt::format("{}.prowl-{}.old", folder.string(), ::getpid());
   if (::rename(folder.c_str(), old.c_str()) != 0) fail(folder, "cannot move the old folder away", errno);
   if (::rename(fresh.c_str(), folder.c_str()) != 0) {
@@ -159,22 +161,25 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
 }
 
 /// Throws FileError where no other folder can take this one's name: what something is mounted on, or what is another
-/// user's in a folder where only owners may rename (as /tmp). One that another process takes away meanwhile is in nobody's way.
+/// user's in a folder where only owners may rename (as /tmp). One that another process takes away meanwhile is in
+/// nobody's way.
 void check_exchangeable(const fs::path& path) {
   struct stat here = {}, above = {};
   if (::stat(path.c_str(), &here) != 0) {
     if (errno == ENOENT) return;
     fail(path, "cannot look at this folder", errno);
   }
-  if (::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0 && errno != ENOENT) fail(path, "cannot be replaced", errno);
+  if (::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0 && errno != ENOENT)
+    fail(path, "cannot be replaced", errno);
   if (::stat(path.parent_path().c_str(), &above) != 0) fail(path.parent_path(), "cannot look at this folder", errno);
   struct statx more = {};
   const bool is_known = ::statx(AT_FDCWD, path.c_str(), 0, STATX_BASIC_STATS, &more) == 0 &&
                         (more.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0;
   const bool is_mounted = is_known ? (more.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 : here.st_dev != above.st_dev;
   if (is_mounted) {
-    throw FileError(fmt::format("{}: something is mounted there, and what is written takes a folder's place as a whole; need a folder in it",
-                                path.string()));
+    throw FileError(fmt::format(
+        "{}: something is mounted there, and what is written takes a folder's place as a whole; need a folder in it",
+        path.string()));
   }
   const uid_t user = ::geteuid();
   const bool is_others = user != 0 && here.st_uid != user && above.st_uid != user;
@@ -182,7 +187,8 @@ void check_exchangeable(const fs::path& path) {
 }
 
 /// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them
-/// again: permissions tell nothing of /proc, of names too long, or of a disk that is full. A kill may leave an empty folder.
+/// again: permissions tell nothing of /proc, of names too long, or of a disk that is full. A kill may leave an empty
+/// folder.
 void try_to_make(const fs::path& path) {
   std::error_code error;
   std::vector<fs::path> missing;  // from the inside out
@@ -209,7 +215,8 @@ void try_to_make(const fs::path& path) {
   remove_missing();
 }
 
-/// A file of one of these names, a folder that one of them goes through, what a killed process left, or what is gone meanwhile.
+/// A file of one of these names, a folder that one of them goes through, what a killed process left, or what is gone
+/// meanwhile.
 bool is_own(const std::string& name, const fs::directory_entry& entry, const std::set<std::string>& own_names) {
   for (const fs::path& part : fs::path(name)) {
     if (is_sibling_name(part.string())) return true;
@@ -232,22 +239,24 @@ std::string not_own(const fs::path& folder, const std::set<std::string>& own_nam
       if (!is_own(name, *entry, own_names)) return name;
     }
     if (!error) return "";
-    if (error != std::errc::no_such_file_or_directory || attempt == kMostAttempts) {  // else a folder in it went meanwhile
+    if (error != std::errc::no_such_file_or_directory ||
+        attempt == kMostAttempts) {  // else a folder in it went meanwhile
       throw FileError(fmt::format("{}: cannot look at this folder: {}", folder.string(), error.message()));
     }
     if (!fs::exists(folder, error)) return "";
   }
 }
 
-/// Throws FileError unless `path` is missing, or a folder of these names that another may take the place of. `shown`: what the
-/// user calls it.
+/// Throws FileError unless `path` is missing, or a folder of these names that another may take the place of. `shown`:
+/// what the user calls it.
 void check_old(const fs::path& path, const fs::path& shown, const std::set<std::string>& own_names) {
   std::error_code error;
   if (!fs::exists(path, error)) return;
   if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", shown.string()));
   if (const std::string name = not_own(path, own_names); !name.empty()) {
-    throw FileError(fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another folder",
-                                shown.string(), name));
+    throw FileError(
+        fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another folder",
+                    shown.string(), name));
   }
   check_exchangeable(path);
 }
@@ -292,20 +301,24 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
   Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
 }
 
-void check_writable(const fs::path& folder) { const SiblingFolder trial(real_path(folder) / "file", FolderAbove::has_to_exist); }
+void check_writable(const fs::path& folder) {
+  const SiblingFolder trial(real_path(folder) / "file", FolderAbove::has_to_exist);
+}
 
 void write_files_atomically(const fs::path& folder, const std::map<std::string, std::string>& files) {
   const fs::path place = real_path(folder);
   std::error_code error;
   for (const auto& [name, text] : files) {  // a rename would put a file in place of /dev/null, for who may do that
     const fs::file_status old = fs::status(place / name, error);
-    if (fs::exists(old) && !fs::is_regular_file(old)) throw FileError(fmt::format("{}: not a file", (place / name).string()));
+    if (fs::exists(old) && !fs::is_regular_file(old))
+      throw FileError(fmt::format("{}: not a file", (place / name).string()));
   }
   const SiblingFolder fresh(place / "file", FolderAbove::has_to_exist);
   for (const auto& [name, text] : files) write_new(fresh.path() / name, text, place / name);
   for (const auto& [name, text] : files) {
     const fs::path target = place / name;
-    if (::rename((fresh.path() / name).c_str(), target.c_str()) != 0) fail(target, "cannot put the new file in place", errno);
+    if (::rename((fresh.path() / name).c_str(), target.c_str()) != 0)
+      fail(target, "cannot put the new file in place", errno);
   }
   Descriptor(place, O_RDONLY | O_DIRECTORY).sync();
 }

@@ -12,8 +12,8 @@ void check_overrides(const SourceText& task_file, const TaskOverrides& overrides
   constexpr double kShortestSolve = 1e-9, kLongestSolve = 1e9;  // [s]; no time at all, and 30 years
   const auto check = [&](const char* name, auto value, auto lower, auto upper) {
     if (!value || (*value >= lower && *value <= upper)) return;
-    throw InputError(fmt::format("{}: {} = {} in place of the file's is not allowed; need {} to {}", task_file.path.string(), name, *value,
-                                 lower, upper));
+    throw InputError(fmt::format("{}: {} = {} in place of the file's is not allowed; need {} to {}",
+                                 task_file.path.string(), name, *value, lower, upper));
   };
   check("intervals", overrides.intervals, 1, kMostIntervals);
   check("max_iterations", overrides.max_iterations, 1, std::numeric_limits<int>::max());

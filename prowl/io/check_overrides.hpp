@@ -4,7 +4,8 @@
 
 namespace prowl {
 
-/// Throws InputError for values that no task file and no command line may have; a plan's file and a program may say anything.
+/// Throws InputError for values that no task file and no command line may have; a plan's file and a program may say
+/// anything.
 void check_overrides(const SourceText& task_file, const TaskOverrides& overrides);
 
 }  // namespace prowl

@@ -74,13 +74,14 @@ void check_resumable(const PlanRecord& record, const Task& task, const std::vect
   };
   compare("task file", record.task.task_file.text, task.task_file.text);
   compare("robot file", record.task.robot_file.text, task.robot_file.text);
-  compare("URDF", as_utf8(record.task.problem.robot.description().urdf_text), task.problem.robot.description().urdf_text);
+  compare("URDF", as_utf8(record.task.problem.robot.description().urdf_text),
+          task.problem.robot.description().urdf_text);
   const auto is_its_mesh = [&](const MotionProblem& mesh) { return is_same_mesh(mesh, record.task.problem); };
   if (meshes.empty() || std::ranges::any_of(meshes, is_its_mesh)) return;
   std::vector<int> intervals;
   for (const MotionProblem& mesh : meshes) intervals.push_back(count_intervals(mesh));
-  refuse(fmt::format("the checkpoint is on another mesh, of {} intervals; here they are of {}", count_intervals(record.task.problem),
-                     fmt::join(intervals, ", ")));
+  refuse(fmt::format("the checkpoint is on another mesh, of {} intervals; here they are of {}",
+                     count_intervals(record.task.problem), fmt::join(intervals, ", ")));
 }
 
 }  // namespace prowl

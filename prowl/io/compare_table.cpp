@@ -51,7 +51,9 @@ Cell seconds_per_iteration(const FormulationRun& run) {
   return run.result.iterations > 0 ? Cell{run.seconds_per_iteration()} : Cell{};
 }
 
-Cell status(const CompareRecord&, const ComparedRun& line) { return line.run ? to_string(line.run->result.status) : "not run"; }
+Cell status(const CompareRecord&, const ComparedRun& line) {
+  return line.run ? to_string(line.run->result.status) : "not run";
+}
 
 Cell note(const CompareRecord&, const ComparedRun& line) {
   if (!line.run) return line.reason;
@@ -68,13 +70,18 @@ std::vector<Column> choices() {
   add("intervals", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.intervals; });
   add("nodes", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.nodes; });
   add("dynamics", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.dynamics; });
-  add("transcription", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.transcription; });
+  add("transcription",
+      [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.transcription; });
   add("contact", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.contact; });
-  add("orientation", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.orientation; });
+  add("orientation",
+      [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.formulation.orientation; });
   add("solver", [](const CompareRecord&, const ComparedRun& line) -> Cell { return line.solver; });
-  columns.push_back({.key = "solver_version", .heading = "version", .value = of_run([](const FormulationRun& run) -> Cell {
+  columns.push_back({.key = "solver_version",
+                     .heading = "version",
+                     .value = of_run([](const FormulationRun& run) -> Cell {
                        return run.solver.empty() ? Cell{} : Cell{run.solver};
-                     }), .kind = Column::Kind::choice});
+                     }),
+                     .kind = Column::Kind::choice});
   add("hessian", [](const CompareRecord& record, const ComparedRun&) -> Cell { return to_string(record.hessian); });
   add("guess", [](const CompareRecord& record, const ComparedRun&) -> Cell { return record.guess; });
   return columns;
@@ -85,9 +92,11 @@ std::vector<Column> effort() {
   using Run = FormulationRun;
   return {
       {"variables", "variables", of_run([](const Run& run) -> Cell { return run.num_variables; })},
-      {"variables_per_node", "a node", of_run([](const Run& run) -> Cell { return run.variables_per_node(); }), "{:.1f}"},
+      {"variables_per_node", "a node", of_run([](const Run& run) -> Cell { return run.variables_per_node(); }),
+       "{:.1f}"},
       {"constraints", "constraints", of_run([](const Run& run) -> Cell { return run.num_constraints; })},
-      {"constraints_per_node", "a node", of_run([](const Run& run) -> Cell { return run.constraints_per_node(); }), "{:.1f}"},
+      {"constraints_per_node", "a node", of_run([](const Run& run) -> Cell { return run.constraints_per_node(); }),
+       "{:.1f}"},
       {"jacobian_nonzeros", "Jacobian non-zeros", of_run([](const Run& run) -> Cell { return run.jacobian_nonzeros; })},
       {"hessian_nonzeros", "Hessian non-zeros", of_run([](const Run& run) -> Cell { return run.hessian_nonzeros; })},
       {"status", "status", status},
@@ -95,7 +104,8 @@ std::vector<Column> effort() {
       {"seconds", "time [s]", of_run([](const Run& run) -> Cell { return run.result.seconds; })},
       {"seconds_per_iteration", "an iteration [ms]", of_run(seconds_per_iteration), "{:.3g}", 1e3},
       {"cpu_seconds", "CPU [s]", of_run([](const Run& run) -> Cell { return run.result.times.cpu; })},
-      {"evaluation_seconds", "evaluation [s]", of_run([](const Run& run) -> Cell { return run.result.times.evaluation(); })},
+      {"evaluation_seconds", "evaluation [s]",
+       of_run([](const Run& run) -> Cell { return run.result.times.evaluation(); })},
       {"linear_algebra_seconds", "", of_run([](const Run& run) -> Cell { return run.result.times.linear_algebra; })},
   };
 }
@@ -110,15 +120,16 @@ std::vector<Column> outcome() {
       {"dual_violation", "", of_run([](const Run& run) -> Cell { return run.result.dual_violation; })},
       {"grade", "grade", of_run([](const Run& run) -> Cell { return to_string(run.certificate.grade); })},
       {"worst_check", "worst check", of_worst([](const Check& check) -> Cell { return check.name; })},
-      {"worst_check_share_of_limit", "of its limit", of_worst([](const Check& check) -> Cell { return share_of_limit(check); })},
+      {"worst_check_share_of_limit", "of its limit",
+       of_worst([](const Check& check) -> Cell { return share_of_limit(check); })},
       {"worst_check_worst", "", of_worst([](const Check& check) -> Cell { return check.worst; })},
       {"worst_check_limit", "", of_worst([](const Check& check) -> Cell { return check.limit; })},
       {"worst_check_unit", "", of_worst([](const Check& check) -> Cell { return check.unit; })},
       {"reintegration_error", "re-integration [-]", of_check("re-integration"), "{:.2g}"},
       {"contact_drift_m", "drift [mm]", of_check("contact drift"), "{:.2g}", 1e3},
       {"contact_velocity_m_s", "contact velocity [mm/s]", of_check("contact velocity"), "{:.2g}", 1e3},
-      {"node_contact_velocity_m_s", "J v [mm/s]",
-       of_run([](const Run& run) -> Cell { return run.contacts.velocity; }), "{:.2g}", 1e3},
+      {"node_contact_velocity_m_s", "J v [mm/s]", of_run([](const Run& run) -> Cell { return run.contacts.velocity; }),
+       "{:.2g}", 1e3},
       {"node_contact_acceleration_m_s2", "d(J v)/dt [mm/s²]",
        of_run([](const Run& run) -> Cell { return run.contacts.acceleration; }), "{:.2g}", 1e3},
       {"task_cost", "task's cost", of_run([](const Run& run) -> Cell { return run.inverse_dynamics.cost; }), "{:.7g}"},
@@ -133,7 +144,8 @@ std::vector<Column> outcome() {
 const std::vector<Column>& columns() {
   static const std::vector<Column> all = [] {
     std::vector<Column> columns;
-    for (const auto& group : {choices(), effort(), outcome()}) columns.insert(columns.end(), group.begin(), group.end());
+    for (const auto& group : {choices(), effort(), outcome()})
+      columns.insert(columns.end(), group.begin(), group.end());
     return columns;
   }();
   return all;
@@ -172,7 +184,9 @@ struct MarkdownText {
   std::string operator()(std::monostate) const { return ""; }
   std::string operator()(const std::string& text) const { return markdown_text(text); }
   std::string operator()(int number) const { return fmt::format("{}", number); }
-  std::string operator()(double number) const { return fmt::format(fmt::runtime(column.format), number * column.scale); }
+  std::string operator()(double number) const {
+    return fmt::format(fmt::runtime(column.format), number * column.scale);
+  }
 };
 
 struct JsonValue {
@@ -187,7 +201,8 @@ bool is_text(const CompareRecord& record, const Column& column) {
 }
 
 bool is_empty(const CompareRecord& record, const Column& column) {
-  return std::ranges::all_of(record.runs, [&](const ComparedRun& line) { return column.value(record, line) == Cell{}; });
+  return std::ranges::all_of(record.runs,
+                             [&](const ComparedRun& line) { return column.value(record, line) == Cell{}; });
 }
 
 bool is_the_same_in_all(const CompareRecord& record, const Column& column) {
@@ -215,7 +230,8 @@ bool is_shown(const CompareRecord& record, const Column& column) {
 /// One column of the table with its heading and the line below it, all of one width but for notes, which may be long.
 std::vector<std::string> markdown_column(const CompareRecord& record, const Column& column) {
   std::vector<std::string> cells = {column.heading};
-  for (const ComparedRun& line : record.runs) cells.push_back(std::visit(MarkdownText{column}, column.value(record, line)));
+  for (const ComparedRun& line : record.runs)
+    cells.push_back(std::visit(MarkdownText{column}, column.value(record, line)));
   const bool left = is_text(record, column);
   std::size_t widest = 3;  // of "--:"
   for (const std::string& cell : cells) widest = std::max(widest, width(cell));

@@ -12,8 +12,8 @@ namespace prowl {
 /// One line of the table of `prowl compare`: a combination of choices, and what came of it.
 struct ComparedRun {
   Formulation formulation;
-  std::string solver;            ///< as at the command line
-  int intervals = 0, nodes = 0;  ///< of the mesh
+  std::string solver;                      ///< as at the command line
+  int intervals = 0, nodes = 0;            ///< of the mesh
   std::optional<FormulationRun> run = {};  ///< none if the choices do not go together, or nothing could be evaluated
   std::string reason = {};                 ///< why there is none
 };
@@ -31,8 +31,9 @@ struct CompareRecord {
   bool interrupted() const { return static_cast<int>(runs.size()) < asked; }
 };
 
-// One table in three forms (docs/formulations.md): the same lines, and the same columns in the same order, but that Markdown is
-// to be read: it says above the table what is the same in all lines, rounds, and leaves out what explains a figure.
+// One table in three forms (docs/formulations.md): the same lines, and the same columns in the same order, but that
+// Markdown is to be read: it says above the table what is the same in all lines, rounds, and leaves out what explains a
+// figure.
 std::string compare_markdown(const CompareRecord& record);
 /// Numbers in SI units, so that they read back as they were; cells are empty where there is nothing to say.
 std::string compare_csv(const CompareRecord& record);

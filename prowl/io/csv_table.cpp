@@ -21,7 +21,8 @@ std::vector<std::string_view> split_text(std::string_view text, char separator) 
   }
 }
 
-std::vector<double> csv_numbers(const std::string& where, std::string_view line, const std::vector<std::string>& columns) {
+std::vector<double> csv_numbers(const std::string& where, std::string_view line,
+                                const std::vector<std::string>& columns) {
   const std::size_t size = 1 + static_cast<std::size_t>(std::count(line.begin(), line.end(), ','));
   if (size != columns.size()) throw InputError(fmt::format("{}: {} cells; need {}", where, size, columns.size()));
   const std::vector<std::string_view> cells = split_text(line, ',');
@@ -29,7 +30,8 @@ std::vector<double> csv_numbers(const std::string& where, std::string_view line,
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), row[i]);
     if (error != std::errc{} || end != cells[i].data() + cells[i].size()) {
-      throw InputError(fmt::format("{}: {}: \"{}\" is not allowed; need a finite number", where, columns[i], shown(cells[i])));
+      throw InputError(
+          fmt::format("{}: {}: \"{}\" is not allowed; need a finite number", where, columns[i], shown(cells[i])));
     }
   }
   return row;
@@ -47,7 +49,8 @@ CsvTable read_csv_table(const SourceText& source) {
   CsvTable table;
   table.file = source.path.string();
   std::string_view text = source.text;
-  if (!text.ends_with('\n')) throw InputError(fmt::format("{}: the last line has no end; the file is cut short", table.file));
+  if (!text.ends_with('\n'))
+    throw InputError(fmt::format("{}: the last line has no end; the file is cut short", table.file));
   const auto next_line = [&text] {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(line.size() + 1);
@@ -58,7 +61,8 @@ CsvTable read_csv_table(const SourceText& source) {
   const auto columns = std::count(names.begin(), names.end(), ',') + 1;
   // Nothing is allocated for cells that cannot be there: each has a character and a separator.
   constexpr std::ptrdiff_t kMostColumns = 100000, kFewCells = 1000000;
-  if (columns > kMostColumns) throw InputError(fmt::format("{}:1: {} columns; need at most {}", table.file, columns, kMostColumns));
+  if (columns > kMostColumns)
+    throw InputError(fmt::format("{}:1: {} columns; need at most {}", table.file, columns, kMostColumns));
   if (rows > 0 && columns > (kFewCells + std::ssize(text) / 2) / rows) {
     throw InputError(fmt::format("{}: too short for {} columns and {} rows", table.file, columns, rows));
   }

@@ -12,9 +12,10 @@ namespace prowl {
 /// Parts of a text between separators; one more than there are separators.
 std::vector<std::string_view> split_text(std::string_view text, char separator);
 
-/// The numbers in one line of a CSV file, "nan" and "inf" too. Throws InputError, beginning with `where`, unless there is
-/// one for each of the columns.
-std::vector<double> csv_numbers(const std::string& where, std::string_view line, const std::vector<std::string>& columns);
+/// The numbers in one line of a CSV file, "nan" and "inf" too. Throws InputError, beginning with `where`, unless there
+/// is one for each of the columns.
+std::vector<double> csv_numbers(const std::string& where, std::string_view line,
+                                const std::vector<std::string>& columns);
 
 /// A CSV file of numbers under a heading.
 struct CsvTable {
@@ -30,7 +31,8 @@ struct CsvTable {
 /// Most bytes of a file with a table: two minutes of a quadruped's simulation at 1 kHz.
 constexpr std::size_t kLongestTable = std::size_t{384} << 20;
 
-/// Throws InputError "file:line: ..." unless all lines have as many numbers as the heading has names, and the last one ends.
+/// Throws InputError "file:line: ..." unless all lines have as many numbers as the heading has names, and the last one
+/// ends.
 CsvTable read_csv_table(const SourceText& source);
 
 }  // namespace prowl

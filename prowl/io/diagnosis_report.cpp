@@ -38,19 +38,22 @@ std::string with_unit(double value, const std::string& unit) {
 /// "phase 2 'swing', lh_foot, friction at 0.410 s: 37 N short".
 std::string in_words(const Breach& breach, const MotionProblem& problem) {
   const std::string what = breach.kind == LimitKind::goal ? "" : ", " + in_words(std::string(to_string(breach.kind)));
-  return fmt::format("{}, {}{} at {:.3g} s: {} {}", phase_in_words(problem, breach.phase), breach.subject, what, breach.time,
-                     with_unit(breach.amount, breach.unit),
-                     breach.kind == LimitKind::friction || breach.kind == LimitKind::clearance ? "short" : "beyond its bound");
+  return fmt::format(
+      "{}, {}{} at {:.3g} s: {} {}", phase_in_words(problem, breach.phase), breach.subject, what, breach.time,
+      with_unit(breach.amount, breach.unit),
+      breach.kind == LimitKind::friction || breach.kind == LimitKind::clearance ? "short" : "beyond its bound");
 }
 
 /// What a change turns: "friction of floor", "duration of phase 1", "goal 1, base z".
 std::string what_it_turns(const Change& change, const MotionProblem& problem) {
   if (change.kind == "friction") return "friction of " + change.subject;
   if (change.kind == "duration") {
-    return change.phase < 0 ? "duration of all phases together" : "duration of " + phase_in_words(problem, change.phase);
+    return change.phase < 0 ? "duration of all phases together"
+                            : "duration of " + phase_in_words(problem, change.phase);
   }
   if (change.kind == "goal") return change.subject;
-  if (change.kind == "place") return fmt::format("step of {} in {}", change.subject, phase_in_words(problem, change.phase));
+  if (change.kind == "place")
+    return fmt::format("step of {} in {}", change.subject, phase_in_words(problem, change.phase));
   if (change.kind == "clearance") return "swing clearance";
   const std::string limit = change.kind == "torque"           ? "torque limit"
                             : change.kind == "joint_velocity" ? "velocity limit"
@@ -62,7 +65,9 @@ std::string what_it_turns(const Change& change, const MotionProblem& problem) {
 std::string in_words(const Change& change, const MotionProblem& problem) {
   const std::string besides = change.besides.empty() ? "" : ", " + change.besides;
   if (change.is_factor) return fmt::format("{} times {:.3g}{}", what_it_turns(change, problem), change.to, besides);
-  const auto words = [&](const std::string& own, double value) { return own.empty() ? with_unit(value, change.unit) : own; };
+  const auto words = [&](const std::string& own, double value) {
+    return own.empty() ? with_unit(value, change.unit) : own;
+  };
   return fmt::format("{} {} instead of {}{}", what_it_turns(change, problem), words(change.to_words, change.to),
                      words(change.from_words, change.from), besides);
 }
@@ -77,14 +82,15 @@ std::string what_is_missing(const Diagnosis& diagnosis, const MotionProblem& pro
   }
   if (!missing.empty()) return missing;
   if (diagnosis.elastic_status == SolveStatus::converged) {
-    return fmt::format("not solved ({}), though on {} mesh intervals no limit has to give way: the solver may have missed a solution",
-                       diagnosis.message, diagnosis.search_intervals);
+    return fmt::format(
+        "not solved ({}), though on {} mesh intervals no limit has to give way: the solver may have missed a solution",
+        diagnosis.message, diagnosis.search_intervals);
   }
   return fmt::format("not solved ({})", diagnosis.message);
 }
 
-/// After it: "solvable with friction of floor 0.61 instead of 0.52, perhaps with duration of phase 1 0.55 s instead of 0.4 s".
-/// What was tried on the task's mesh and did not hold is for the text below.
+/// After it: "solvable with friction of floor 0.61 instead of 0.52, perhaps with duration of phase 1 0.55 s instead of
+/// 0.4 s". What was tried on the task's mesh and did not hold is for the text below.
 std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& problem) {
   if (diagnosis.changes.empty()) {
     return diagnosis.out_of_time || diagnosis.interrupted ? "no change of one number was found in the time"
@@ -94,48 +100,72 @@ std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& pro
   std::vector<std::string> proved, perhaps;
   bool is_fine = true;
   for (const Change& change : diagnosis.changes) {
-    if (change.is_proved || !change.was_tried) (change.is_proved ? proved : perhaps).push_back(in_words(change, problem));
+    if (change.is_proved || !change.was_tried)
+      (change.is_proved ? proved : perhaps).push_back(in_words(change, problem));
     is_fine = is_fine && (change.passes || !change.is_proved);
   }
   perhaps.resize(std::min(perhaps.size(), kMostPerhaps));
-  if (proved.empty() && perhaps.empty()) return "no change of one number was found that makes it solvable on its own mesh";
-  std::string help = proved.empty() ? "" : fmt::format("{} with {}", is_fine ? "solvable" : "solved but for the error of its mesh (--refine)", fmt::join(proved, ", or "));
+  if (proved.empty() && perhaps.empty())
+    return "no change of one number was found that makes it solvable on its own mesh";
+  std::string help =
+      proved.empty()
+          ? ""
+          : fmt::format("{} with {}", is_fine ? "solvable" : "solved but for the error of its mesh (--refine)",
+                        fmt::join(proved, ", or "));
   if (perhaps.empty()) return help;
   return fmt::format("{} with {}", help.empty() ? "perhaps solvable" : help + ", perhaps", fmt::join(perhaps, ", or "));
 }
 
 /// Of a task that has a plan.
 std::string how_it_is_found(const Diagnosis& diagnosis) {
-  if (diagnosis.needs_one_mesh) return "the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes";
+  if (diagnosis.needs_one_mesh)
+    return "the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes";
   if (diagnosis.status == SolveStatus::converged) return "the task has a plan";
-  return fmt::format("the task has a plan (its mesh was solved from the initial guess), but not as prowl plan goes about it: {}",
-                     diagnosis.stopped_by.empty() ? diagnosis.message : diagnosis.stopped_by);
+  return fmt::format(
+      "the task has a plan (its mesh was solved from the initial guess), but not as prowl plan goes about it: {}",
+      diagnosis.stopped_by.empty() ? diagnosis.message : diagnosis.stopped_by);
 }
 
 Json to_json(const Breach& breach, const MotionProblem& problem) {
-  return {{"kind", to_string(breach.kind)}, {"phase", breach.phase + 1},
-          {"phase_name", problem.phases[breach.phase].name}, {"time_s", breach.time},
-          {"subject", breach.subject}, {"amount", breach.amount}, {"unit", breach.unit}, {"relative", breach.relative},
+  return {{"kind", to_string(breach.kind)},
+          {"phase", breach.phase + 1},
+          {"phase_name", problem.phases[breach.phase].name},
+          {"time_s", breach.time},
+          {"subject", breach.subject},
+          {"amount", breach.amount},
+          {"unit", breach.unit},
+          {"relative", breach.relative},
           {"words", in_words(breach, problem)}};
 }
 
 Json phase_to_json(int phase) { return phase < 0 ? Json(nullptr) : Json(phase + 1); }
 
 Json to_json(const Change& change, const MotionProblem& problem) {
-  return {{"kind", change.kind}, {"phase", phase_to_json(change.phase)}, {"subject", change.subject},
-          {"from", change.from}, {"to", change.to}, {"unit", change.unit}, {"factor", std::exp(change.amount)},
-          {"besides", change.besides}, {"is_proved", change.is_proved}, {"was_tried", change.was_tried}, {"passes", change.passes}, {"words", in_words(change, problem)}};
+  return {{"kind", change.kind},
+          {"phase", phase_to_json(change.phase)},
+          {"subject", change.subject},
+          {"from", change.from},
+          {"to", change.to},
+          {"unit", change.unit},
+          {"factor", std::exp(change.amount)},
+          {"besides", change.besides},
+          {"is_proved", change.is_proved},
+          {"was_tried", change.was_tried},
+          {"passes", change.passes},
+          {"words", in_words(change, problem)}};
 }
 
 }  // namespace
 
 std::string diagnosis_headline(const Diagnosis& diagnosis, const MotionProblem& problem) {
-  const std::string found = how_it_is_found(diagnosis), plan = diagnosis.needs_one_mesh ? "prowl plan --one-mesh" : "prowl plan";
+  const std::string found = how_it_is_found(diagnosis),
+                    plan = diagnosis.needs_one_mesh ? "prowl plan --one-mesh" : "prowl plan";
   if (diagnosis.solvable && diagnosis.certificate.passed) return found + ", and it passes its certificate";
   if (diagnosis.solvable) {
-    const std::string next = holds_but_for_its_mesh(diagnosis.certificate) ? "its mesh is too coarse: " + plan + " --refine"
-                             : diagnosis.changes.empty()                   ? fmt::format("all checks: {}, prowl check", plan)
-                                                                           : what_would_help(diagnosis, problem);
+    const std::string next = holds_but_for_its_mesh(diagnosis.certificate)
+                                 ? "its mesh is too coarse: " + plan + " --refine"
+                             : diagnosis.changes.empty() ? fmt::format("all checks: {}, prowl check", plan)
+                                                         : what_would_help(diagnosis, problem);
     return fmt::format("{}, but it fails its certificate: {}; {}", found, failed_checks(diagnosis.certificate), next);
   }
   return fmt::format("{}; {}", what_is_missing(diagnosis, problem), what_would_help(diagnosis, problem));
@@ -153,17 +183,25 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
     text += fmt::format("  gives way    and {} more limits\n", diagnosis.breaches.size() - kMostBreaches);
   }
   for (const Change& change : diagnosis.changes) {
-    const std::string proof = change.passes      ? "this plan passes its certificate"
-                              : change.is_proved ? "on the mesh of the task, whose error is too large for the certificate: --refine"
-                              : change.was_tried && diagnosis.search_intervals == count_intervals(problem)
-                                  ? "solved from the initial guess, but prowl plan's motion is none that passes its certificate"
-                              : change.was_tried ? fmt::format("solved on {} mesh intervals, but not on the task's own", diagnosis.search_intervals)
-                                                 : fmt::format("solved on {} mesh intervals only", diagnosis.search_intervals);
-    text += fmt::format("  {:<11}  with {} ({})\n", change.passes ? "solvable" : change.is_proved ? "solved" : "perhaps", in_words(change, problem), proof);
+    const std::string proof =
+        change.passes      ? "this plan passes its certificate"
+        : change.is_proved ? "on the mesh of the task, whose error is too large for the certificate: --refine"
+        : change.was_tried && diagnosis.search_intervals == count_intervals(problem)
+            ? "solved from the initial guess, but prowl plan's motion is none that passes its certificate"
+        : change.was_tried
+            ? fmt::format("solved on {} mesh intervals, but not on the task's own", diagnosis.search_intervals)
+            : fmt::format("solved on {} mesh intervals only", diagnosis.search_intervals);
+    text += fmt::format("  {:<11}  with {} ({})\n",
+                        change.passes      ? "solvable"
+                        : change.is_proved ? "solved"
+                                           : "perhaps",
+                        in_words(change, problem), proof);
   }
   if (diagnosis.solvable) return text;
-  if (diagnosis.interrupted) text += "interrupted: not all that could help was tried\n";
-  else if (diagnosis.out_of_time) text += "the time is up: not all that could help was tried (--max-time)\n";
+  if (diagnosis.interrupted)
+    text += "interrupted: not all that could help was tried\n";
+  else if (diagnosis.out_of_time)
+    text += "the time is up: not all that could help was tried (--max-time)\n";
   return text;
 }
 
@@ -187,7 +225,8 @@ std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& prob
                {"out_of_time", diagnosis.out_of_time},
                {"interrupted", diagnosis.interrupted}};
   if (!diagnosis.kind.empty()) {
-    json["cause"] = {{"kind", diagnosis.kind}, {"phase", phase_to_json(diagnosis.phase)}, {"subject", diagnosis.subject}};
+    json["cause"] = {
+        {"kind", diagnosis.kind}, {"phase", phase_to_json(diagnosis.phase)}, {"subject", diagnosis.subject}};
   }
   for (const Breach& breach : diagnosis.breaches) json["breaches"].push_back(to_json(breach, problem));
   for (const Change& change : diagnosis.changes) json["changes"].push_back(to_json(change, problem));

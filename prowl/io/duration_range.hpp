@@ -6,8 +6,6 @@
 
 namespace prowl {
 
-inline NumberRange duration_range() {
-  return {.lower = kShortestPhase, .upper = kLongestMotion};
-}
+inline NumberRange duration_range() { return {.lower = kShortestPhase, .upper = kLongestMotion}; }
 
 }  // namespace prowl

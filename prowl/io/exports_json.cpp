@@ -72,13 +72,11 @@ Json phases_json(const PlanRecord& plan) {
     if (!span) continue;
     Json contacts = Json::array();
     for (const PhaseContact& c : problem.phases[p].contacts) {
-      contacts.push_back({{"contact", problem.robot.contacts()[c.contact].name},
-                          {"surface", problem.surfaces[c.surface].name}});
+      contacts.push_back(
+          {{"contact", problem.robot.contacts()[c.contact].name}, {"surface", problem.surfaces[c.surface].name}});
     }
-    phases.push_back({{"name", problem.phases[p].name},
-                      {"start_s", span->start},
-                      {"end_s", span->end},
-                      {"contacts", contacts}});
+    phases.push_back(
+        {{"name", problem.phases[p].name}, {"start_s", span->start}, {"end_s", span->end}, {"contacts", contacts}});
   }
   return phases;
 }
@@ -108,12 +106,21 @@ Json links_json(const std::vector<RobotLink>& links) {
 }
 
 /// Fills what is a list with one entry a sample. `in_parent` gets the placements of the links in their parents.
-Json samples_json(const RobotModel& robot, const MotionSamples& samples, const std::vector<RobotLink>& links, Json& in_parent) {
+Json samples_json(const RobotModel& robot, const MotionSamples& samples, const std::vector<RobotLink>& links,
+                  Json& in_parent) {
   const BodyTree tree = body_tree(robot);
   BodyPlacements placements(robot);
-  Json json = {{"time_s", Json::array()}, {"phase", Json::array()}, {"q", Json::array()},   {"v", Json::array()},
-               {"a", nullptr},            {"tau", Json::array()},   {"in_contact", Json::array()},
-               {"force_N", Json::array()}, {"contact_position_m", Json::array()}, {"link_placement", Json::array()}, {"K", nullptr}};
+  Json json = {{"time_s", Json::array()},
+               {"phase", Json::array()},
+               {"q", Json::array()},
+               {"v", Json::array()},
+               {"a", nullptr},
+               {"tau", Json::array()},
+               {"in_contact", Json::array()},
+               {"force_N", Json::array()},
+               {"contact_position_m", Json::array()},
+               {"link_placement", Json::array()},
+               {"K", nullptr}};
   if (!samples.simulated) json["a"] = Json::array();
   if (!samples.gains.empty()) json["K"] = Json::array();
   for (std::size_t i = 0; i < samples.points.size(); ++i) {

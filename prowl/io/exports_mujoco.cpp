@@ -12,7 +12,8 @@ std::string numbers(const Eigen::VectorXd& values) { return fmt::format("{}", fm
 
 }  // namespace
 
-std::string mujoco_keyframes_xml(const MotionProblem& problem, const MotionSamples& samples, const std::string& model_file) {
+std::string mujoco_keyframes_xml(const MotionProblem& problem, const MotionSamples& samples,
+                                 const std::string& model_file) {
   tinyxml2::XMLPrinter xml;
   xml.OpenElement("mujoco");
   xml.PushAttribute("model", fmt::format("{} {}", problem.robot.name(), problem.name).c_str());

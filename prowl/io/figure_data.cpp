@@ -97,7 +97,8 @@ std::string gains_csv(const RobotModel& robot, const Tracker& tracker, int joint
     const TrackingPlan::Segment& segment = plan.segments[s];
     for (int i = 0; i < segment.samples; ++i) {
       const double share = static_cast<double>(i) / (segment.samples - 1);
-      const Eigen::Map<const Eigen::MatrixXd> K(plan.gains.col(segment.first_sample + i).data(), plan.nu(), 2 * plan.nv());
+      const Eigen::Map<const Eigen::MatrixXd> K(plan.gains.col(segment.first_sample + i).data(), plan.nu(),
+                                                2 * plan.nv());
       std::vector<double> row = {segment.start + share * (segment.end - segment.start), static_cast<double>(s)};
       const Eigen::RowVectorXd gains = K.row(joint);
       row.insert(row.end(), gains.begin(), gains.end());
@@ -132,8 +133,8 @@ std::string limit_curves_csv(const RobotModel& robot) {
     const double first = limit.curve.lower_end(), last = limit.curve.upper_end();
     for (int i = 0; i < kCurvePoints; ++i) {
       const double position = first + (last - first) * i / (kCurvePoints - 1);
-      fmt::format_to(std::back_inserter(text), "{},{},{}\n", robot.joint_names()[limit.joint],
-                     position, robot.torque_upper(limit.joint, position, 0.0));
+      fmt::format_to(std::back_inserter(text), "{},{},{}\n", robot.joint_names()[limit.joint], position,
+                     robot.torque_upper(limit.joint, position, 0.0));
     }
   }
   return text;

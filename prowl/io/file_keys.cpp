@@ -37,8 +37,9 @@ void add_running_weights(FileKeys& keys) {
   keys.push_back({"cost", "base_angular_acceleration", vector, "weight on it, base frame [s⁴/rad²]"});
   keys.push_back({"cost", "joint_acceleration", joints, "weight on joint accelerations [s⁴/rad²]"});
   keys.push_back({"cost", "torque", joints, "weight on torques about torque_reference [1/(N m)²]"});
-  keys.push_back({"cost", "torque_reference", "\"static\" or \"zero\"; default \"static\"",
-                  "torques that cost nothing: those that hold the start posture on the first phase's contacts, or zero"});
+  keys.push_back(
+      {"cost", "torque_reference", "\"static\" or \"zero\"; default \"static\"",
+       "torques that cost nothing: those that hold the start posture on the first phase's contacts, or zero"});
   keys.push_back({"cost", "time", "number >= 0; default 0", "cost of every second, for phases of free duration [1/s]"});
   keys.push_back({"cost", "force", vector, "weight on every contact's force, world x y z [1/N²]"});
 }
@@ -85,7 +86,8 @@ FileKeys make_task_file_keys() {
       {"surface", "point_m", "3 numbers [m]; default [0, 0, 0]", "any point of the plane, world frame"},
       {"surface", "normal", "3 numbers; default [0, 0, 1]", "points out of the ground; any length but zero"},
       {"surface", "patch_m", "3 or more [number, number]; default: a plane without an edge",
-       "corners of a convex patch, counterclockwise seen from outside, in surface coordinates: lengths from point_m along "
+       "corners of a convex patch, counterclockwise seen from outside, in surface coordinates: lengths from point_m "
+       "along "
        "x turned into the plane, and across"},
       {"surface", "friction", "number > 0 [-]; default 0.5", "Coulomb coefficient"},
       {"start", "joints", "{joint = number} [rad]", "in place of the robot's nominal ones"},
@@ -97,7 +99,8 @@ FileKeys make_task_file_keys() {
       {"phase", "name", "string; default \"phase 1\", \"phase 2\", ...", "for goals and messages"},
       {"phase", "contacts", "\"all\", or a list of contacts or {contact, surface, place_m}",
        "contacts that hold their place; on the first surface unless said"},
-      {"phase", "duration_s", "number from 0.001 to 600, or [min, max] [s]", "how long it lasts; between two bounds the optimiser chooses"},
+      {"phase", "duration_s", "number from 0.001 to 600, or [min, max] [s]",
+       "how long it lasts; between two bounds the optimiser chooses"},
       {"phase", "intervals", "integer, 1 to 10000", "mesh intervals that it is cut into"},
       {"phase", "steps", "\"equal\" or \"free\"; default \"equal\"",
        "lengths of the intervals; free: chosen by the optimiser, one by one, within the duration's bounds / intervals"},
@@ -109,7 +112,8 @@ FileKeys make_task_file_keys() {
       {"gait", "strides", "integer, 1 to 1000", "every foot swings once in each"},
       {"gait", "stride_s", "number from 0.001 to 600, or [min, max] [s]",
        "how long one takes; between two bounds the optimiser chooses for each phase, which has its share of both"},
-      {"gait", "stride_length_m", "number >= 0 [m]; not with [[goal]]", "how far the base goes along the surface in each"},
+      {"gait", "stride_length_m", "number >= 0 [m]; not with [[goal]]",
+       "how far the base goes along the surface in each"},
       {"gait", "heading_rad", "number [rad]; default: where the base faces at the start",
        "where to, seen from above, about the world's z from its x"},
       {"gait", "duty_factor", "number, 0.75 (walk) or 0.5 to 0.99; default 0.8 (walk) or 0.6",
@@ -117,10 +121,12 @@ FileKeys make_task_file_keys() {
       {"gait", "start_s", "number from 0.001 to 600 [s]; default 0.5", "all feet stand before the first stride"},
       {"gait", "settle_s", "number from 0.001 to 600 [s]; default 0.5", "all feet stand after the last landing"},
       {"gait", "surface", "string; default: the first surface", "name of the one that the feet touch"},
-      {"gait", "intervals_per_second", "number > 0 [1/s]; default 50", "mesh of every phase; at least 2 intervals each"},
+      {"gait", "intervals_per_second", "number > 0 [1/s]; default 50",
+       "mesh of every phase; at least 2 intervals each"},
       {"goal", "time_s", "number > 0 [s], at a node", "when; this or phase"},
       {"goal", "phase", "string", "when: at the end of the phase with this name"},
-      {"goal", "fraction", "number, 0 to 1, at a node; default 1", "with phase: at this part of it, in place of its end"},
+      {"goal", "fraction", "number, 0 to 1, at a node; default 1",
+       "with phase: at this part of it, in place of its end"},
       {"goal", "base_position_m", kBounds3, "place of the base, world frame [m]"},
       {"goal", "base_displacement_m", kBounds3, "the same from where it starts, world axes [m]"},
       {"goal", "base_rpy_rad", "3 x (number or \"free\")",
@@ -135,8 +141,10 @@ FileKeys make_task_file_keys() {
   add_running_weights(keys);
   add_state_weights(keys, "terminal_cost");
   add_tracking(keys);
-  keys.push_back({"solver", "tolerance", "number, 1e-12 to 1e-2; default 1e-6", "on optimality and on the constraints"});
-  keys.push_back({"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations, on each mesh"});
+  keys.push_back(
+      {"solver", "tolerance", "number, 1e-12 to 1e-2; default 1e-6", "on optimality and on the constraints"});
+  keys.push_back(
+      {"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations, on each mesh"});
   keys.push_back({"solver", "max_time_s", "number > 0 [s]; default 300", "stop after this much wall-clock time"});
   keys.push_back({"simulation", "base_position_m", "number > 0 [m]; default 0.02",
                   "most that the base in rest at the end is away from where the plan ends"});
@@ -144,7 +152,8 @@ FileKeys make_task_file_keys() {
   keys.push_back({"simulation", "slip_m", "number > 0 [m]; default 0.02", "most that a standing foot slips"});
   keys.push_back({"simulation", "friction", "number > 0; default: that of each [[surface]]",
                   "coefficient of all surfaces; more than what is planned with leaves a margin"});
-  keys.push_back({"simulation", "rest_s", "number > 0 [s]; default 1.5", "how long the robot goes on standing after the plan"});
+  keys.push_back(
+      {"simulation", "rest_s", "number > 0 [s]; default 1.5", "how long the robot goes on standing after the plan"});
   return keys;
 }
 
@@ -154,7 +163,8 @@ const FileKeys& robot_file_keys() {
   static const FileKeys keys = {
       {"", "name", "string", "name of the robot"},
       {"", "urdf", "path or package://...", "its URDF; a path is relative to this file"},
-      {"", "package_dirs", "list of paths; default none", "where package:// is looked for first, relative to this file"},
+      {"", "package_dirs", "list of paths; default none",
+       "where package:// is looked for first, relative to this file"},
       {"", "contact", "[[contact]], one or more", "points of the robot that may touch surfaces"},
       {"", "nominal", "[nominal]", "the posture that motions start from unless said otherwise"},
       {"", "limits", "[limits.JOINT]", "limits that replace those of the URDF"},
@@ -171,7 +181,8 @@ const FileKeys& robot_file_keys() {
       {"limits", "torque_over_position", "4 or more [rad, N m]; default none",
        "torque limit over the joint position, both ways: a smooth curve through these points, over all of its range"},
       {"limits", "torque_over_velocity", "4 or more [rad/s, N m]; default none",
-       "limit of the torque in the direction of positive velocity, over all of -velocity ... velocity; mirrored for the other"},
+       "limit of the torque in the direction of positive velocity, over all of -velocity ... velocity; mirrored for "
+       "the other"},
   };
   return keys;
 }
@@ -190,8 +201,8 @@ std::vector<std::string> key_names(const FileKeys& keys, const std::string& tabl
 }
 
 const std::string& key_meaning(const FileKeys& keys, const std::string& table, const std::string& name) {
-  const auto key = std::find_if(keys.begin(), keys.end(),
-                                [&](const FileKey& k) { return k.table == table && k.name == name; });
+  const auto key =
+      std::find_if(keys.begin(), keys.end(), [&](const FileKey& k) { return k.table == table && k.name == name; });
   assert(key != keys.end());
   return key->meaning;
 }

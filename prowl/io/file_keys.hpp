@@ -7,9 +7,9 @@ namespace prowl {
 
 /// One key of a robot or task file. The reader takes no other, and docs/ lists exactly these (a test compares).
 struct FileKey {
-  std::string table;    ///< "" for the top, else as in the file: "phase", "cost.contact_position"
+  std::string table;  ///< "" for the top, else as in the file: "phase", "cost.contact_position"
   std::string name;
-  std::string value;    ///< type, unit, range, and the default where there is one
+  std::string value;  ///< type, unit, range, and the default where there is one
   std::string meaning;
 };
 using FileKeys = std::vector<FileKey>;

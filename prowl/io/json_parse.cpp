@@ -21,14 +21,16 @@ class Limits {
   bool operator()(int depth, Json::parse_event_t event, const Json&) {
     if (depth > kDeepestJson) fail("lists and objects", kDeepestJson, "deep");
     if (event == Json::parse_event_t::object_start) keys_[depth + 1] = 0;
-    if (event == Json::parse_event_t::key && ++keys_[depth] > kMostJsonKeys) fail("keys", kMostJsonKeys, "in an object");
+    if (event == Json::parse_event_t::key && ++keys_[depth] > kMostJsonKeys)
+      fail("keys", kMostJsonKeys, "in an object");
     if (event != Json::parse_event_t::key && ++values_ > kMostJsonValues) fail("values", kMostJsonValues, "in all");
     return true;
   }
 
  private:
   [[noreturn]] void fail(const char* what, int most, const char* where) const {
-    throw InputError(fmt::format("{}: {} more than {} {} are not allowed: no file that prowl wrote", file_, what, most, where));
+    throw InputError(
+        fmt::format("{}: {} more than {} {} are not allowed: no file that prowl wrote", file_, what, most, where));
   }
 
   std::string file_;
@@ -43,7 +45,8 @@ Json parse_json(const SourceText& source) {
     return Json::parse(source.text, Limits(source));
   } catch (const Json::parse_error& error) {
     const std::size_t at = std::max<std::size_t>(error.byte, 1) - 1;  // it counts from 1; 0 where it does not know
-    throw InputError(fmt::format("{}: not JSON from here on: the file is cut short or was edited", place_in(source, at)));
+    throw InputError(
+        fmt::format("{}: not JSON from here on: the file is cut short or was edited", place_in(source, at)));
   } catch (const Json::out_of_range&) {
     throw InputError(fmt::format("{}: a number in it is beyond 1.8e308", source.path.string()));
   }

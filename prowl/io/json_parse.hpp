@@ -7,8 +7,8 @@
 
 namespace prowl {
 
-/// Throws InputError "file:line:column: ..." for what is not JSON, and "file: ..." for what would not fit: nlohmann's library takes
-/// any depth, and looks for a key of an ordered object one by one.
+/// Throws InputError "file:line:column: ..." for what is not JSON, and "file: ..." for what would not fit: nlohmann's
+/// library takes any depth, and looks for a key of an ordered object one by one.
 nlohmann::ordered_json parse_json(const SourceText& source);
 
 constexpr int kDeepestJson = 32;          ///< plan.json has 6

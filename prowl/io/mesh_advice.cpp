@@ -48,15 +48,16 @@ std::string mesh_advice(const PlanRecord& record) {
       const std::optional<int> intervals = intervals_option(record.task, needed);
       option = fmt::format("{}, or {}",
                            intervals ? fmt::format("about --intervals {}", *intervals)
-                                     : fmt::format("about more than {} intervals", kMostIntervals), option);
+                                     : fmt::format("about more than {} intervals", kMostIntervals),
+                           option);
     }
     text += fmt::format("for grade {} ({:g}) {}\n", grade, goal, option);
   };
   advise("draft", CertificateLimits::integration_error_draft);
   advise("certified", CertificateLimits::integration_error_certified);
   if (text.empty()) return "";
-  return fmt::format("local integration error {:.1e} with {} intervals; falls with the step cubed:\n",
-                     worst->error, errors.size()) +
+  return fmt::format("local integration error {:.1e} with {} intervals; falls with the step cubed:\n", worst->error,
+                     errors.size()) +
          text;
 }
 

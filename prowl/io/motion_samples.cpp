@@ -16,8 +16,9 @@ constexpr double kMostSamples = 1e6;
 void check_rate(std::optional<double> rate, double duration) {
   if (!rate) return;
   if (!(*rate > 0.0 && std::isfinite(*rate) && *rate * duration <= kMostSamples)) {
-    throw InputError(fmt::format("--rate: {} is not allowed; need more than 0 Hz and at most {:g}, which are {:g} samples in {} s",
-                                 *rate, std::floor(kMostSamples / duration), kMostSamples, duration));
+    throw InputError(
+        fmt::format("--rate: {} is not allowed; need more than 0 Hz and at most {:g}, which are {:g} samples in {} s",
+                    *rate, std::floor(kMostSamples / duration), kMostSamples, duration));
   }
 }
 

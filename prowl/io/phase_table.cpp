@@ -23,8 +23,7 @@ std::string in_words(const Duration& duration) {
 
 /// "floor", "floor, lands, opens"
 std::string in_words(const MotionProblem& problem, const ContactSchedule& schedule, int phase, int i) {
-  const PhaseContact& held =
-      problem.phases[phase].contacts[i];
+  const PhaseContact& held = problem.phases[phase].contacts[i];
   return problem.surfaces[held.surface].name + (schedule.lands(phase, i) ? ", lands" : "") +
          (schedule.opens(phase, i) ? ", opens" : "");
 }

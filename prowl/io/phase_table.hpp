@@ -6,8 +6,8 @@
 
 namespace prowl {
 
-/// The phases of a motion, one a line: duration, mesh intervals and, for every contact of the robot, the surface that it
-/// holds, and whether it lands at the phase's first node or opens at its last.
+/// The phases of a motion, one a line: duration, mesh intervals and, for every contact of the robot, the surface that
+/// it holds, and whether it lands at the phase's first node or opens at its last.
 std::string phase_table(const MotionProblem& problem);
 /// The same as JSON, with the places that the task prescribes.
 std::string phases_json(const MotionProblem& problem);

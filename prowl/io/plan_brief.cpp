@@ -47,24 +47,29 @@ std::string check_table(const std::vector<const CertificateCheck*>& checks) {
   }
   const std::size_t where_width = kScreen - name_width - worst_width - kVerdict - 4 * kGap;
   std::string text;
-  const auto line = [&](const std::string& name, const std::string& worst, const std::string& where, const char* verdict) {
+  const auto line = [&](const std::string& name, const std::string& worst, const std::string& where,
+                        const char* verdict) {
     const std::string row = fmt::format("  {:<{}}  {:>{}}  {:<{}}  {}", name, name_width, worst, worst_width,
                                         cut(where, where_width), where_width, verdict);
     text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
   };
   line("check", "worst", "where", "");
   for (const CertificateCheck* check : checks) {
-    line(check->name, with_unit(check->worst, check->unit), check->where, !check->passed ? "FAIL" : is_draft(*check) ? "draft" : "pass");
+    line(check->name, with_unit(check->worst, check->unit), check->where,
+         !check->passed     ? "FAIL"
+         : is_draft(*check) ? "draft"
+                            : "pass");
   }
   return text;
 }
 
 std::string certificate_brief(const Certificate& certificate, const std::filesystem::path& directory) {
   const std::vector<const CertificateCheck*> shown = shown_checks(certificate);
-  std::string text = fmt::format("certificate: {}, grade: {}\n", certificate.passed ? "passed" : "FAILED", to_string(certificate.grade));
+  std::string text = fmt::format("certificate: {}, grade: {}\n", certificate.passed ? "passed" : "FAILED",
+                                 to_string(certificate.grade));
   text += check_table(shown);
-  text += fmt::format("worst < 0: so much is left; limits and all {} checks: prowl check {}\n", certificate.checks.size(),
-                      directory.string());
+  text += fmt::format("worst < 0: so much is left; limits and all {} checks: prowl check {}\n",
+                      certificate.checks.size(), directory.string());
   return text + failed_checks_line(certificate);
 }
 

@@ -26,7 +26,8 @@ const char* const kTracker = "tracker.bin";
 /// Whatever may be in the folder of a plan; a new plan removes what was made of the old one.
 const std::set<std::string>& own_names() {
   static const std::set<std::string> names = [] {
-    std::set<std::string> all = {kPlan, kNodes, kUniform, kTracker, "simulate.json", "simulate.csv", "sweep.json", kReportFile};
+    std::set<std::string> all = {kPlan,           kNodes,         kUniform,     kTracker,
+                                 "simulate.json", "simulate.csv", "sweep.json", kReportFile};
     for (const std::string& figure : figure_file_names()) all.insert(std::string(kFiguresFolder) + "/" + figure);
     for (const std::string& file : export_file_names()) all.insert(std::string(kExportsFolder) + "/" + file);
     return all;

@@ -142,7 +142,8 @@ class Reader {
   std::vector<Reader> list(const char* key) const {
     if (!need(key).is_array()) fail(key, "a list");
     std::vector<Reader> entries;
-    for (const Json& entry : need(key)) entries.emplace_back(fmt::format("{}.{}[{}]", where_, key, entries.size()), entry);
+    for (const Json& entry : need(key))
+      entries.emplace_back(fmt::format("{}.{}[{}]", where_, key, entries.size()), entry);
     return entries;
   }
   /// null as in number(). Indices among them are small enough to be exact.
@@ -151,7 +152,8 @@ class Reader {
     const auto is_number = [](const Json& entry) { return entry.is_number() || entry.is_null(); };
     if (!list.is_array() || !std::ranges::all_of(list, is_number)) fail(key, "numbers");
     std::vector<double> values;
-    for (const Json& entry : list) values.push_back(entry.is_null() ? std::numeric_limits<double>::quiet_NaN() : entry.get<double>());
+    for (const Json& entry : list)
+      values.push_back(entry.is_null() ? std::numeric_limits<double>::quiet_NaN() : entry.get<double>());
     return values;
   }
   std::vector<std::string> texts(const char* key) const {
@@ -162,7 +164,8 @@ class Reader {
   const Json& json() const { return *json_; }
   const std::string& where() const { return where_; }
   [[noreturn]] void fail(const char* key, const std::string& needed) const {
-    throw InputError(fmt::format("{}.{}: {} is not allowed; need {}", where_, key, shown(need(key).dump(-1, ' ', false, Json::error_handler_t::replace)), needed));
+    throw InputError(fmt::format("{}.{}: {} is not allowed; need {}", where_, key,
+                                 shown(need(key).dump(-1, ' ', false, Json::error_handler_t::replace)), needed));
   }
 
  private:
@@ -185,12 +188,16 @@ class Reader {
 int read_version(const Reader& plan) {
   const int version = plan.integer("schema_version");
   if (version > kSchemaVersion) {
-    throw InputError(fmt::format("{}.schema_version: {}, written by a newer Prowl; this one reads {} to {}: use that Prowl, or plan "
-                                 "again with this one", plan.where(), version, kOldestVersion, kSchemaVersion));
+    throw InputError(
+        fmt::format("{}.schema_version: {}, written by a newer Prowl; this one reads {} to {}: use that Prowl, or plan "
+                    "again with this one",
+                    plan.where(), version, kOldestVersion, kSchemaVersion));
   }
   if (version < kOldestVersion) {
-    throw InputError(fmt::format("{}.schema_version: {} is no longer read; need {} to {}: plan again with prowl plan, task_file in it "
-                                 "has the task", plan.where(), version, kOldestVersion, kSchemaVersion));
+    throw InputError(fmt::format(
+        "{}.schema_version: {} is no longer read; need {} to {}: plan again with prowl plan, task_file in it "
+        "has the task",
+        plan.where(), version, kOldestVersion, kSchemaVersion));
   }
   return version;
 }
@@ -229,11 +236,12 @@ Certificate read_certificate(const Reader& json, int version) {
                                   .certified_limit = check.number("certified_limit")});
   }
   for (const Reader& interval : json.list("integration_errors")) {
-    certificate.interval_errors.push_back({.start = interval.number("start_s"),
-                                           .end = interval.number("end_s"),
-                                           .error = interval.number("error"),
-                                           .where = interval.text("where"),
-                                           .reintegration = version < 3 ? std::nan("") : interval.number("reintegration")});
+    certificate.interval_errors.push_back(
+        {.start = interval.number("start_s"),
+         .end = interval.number("end_s"),
+         .error = interval.number("error"),
+         .where = interval.text("where"),
+         .reintegration = version < 3 ? std::nan("") : interval.number("reintegration")});
   }
   certificate.redundant_contacts = json.texts("redundant_contacts");
   for (const Reader& phase : json.list("contact_ranks")) {
@@ -261,8 +269,8 @@ MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
     constexpr double kRounding = 1e-9;
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
     if (std::ssize(shares) != intervals || !std::ranges::all_of(shares, is_step) || std::abs(sum - 1.0) > kRounding) {
-      throw InputError(fmt::format("{}.shares: {} numbers with sum {:.6g}; need {} numbers > 0 with sum 1, or none", phase.where(),
-                                   shares.size(), sum, intervals));
+      throw InputError(fmt::format("{}.shares: {} numbers with sum {:.6g}; need {} numbers > 0 with sum 1, or none",
+                                   phase.where(), shares.size(), sum, intervals));
     }
     steps.push_back(std::move(shares));
   }
@@ -306,7 +314,8 @@ SolveResult read_result(const Reader& plan, int version) {
 std::vector<LevelResult> read_levels(const Reader& solver, int version) {
   std::vector<LevelResult> levels;
   for (const Reader& level : solver.list("levels")) {
-    levels.push_back({level.integer("intervals"), read_status(level), level.integer("iterations"), level.number("seconds"),
+    levels.push_back({level.integer("intervals"), read_status(level), level.integer("iterations"),
+                      level.number("seconds"),
                       version < 2 && !level.has("cpu_seconds") ? 0.0 : level.number("cpu_seconds")});
   }
   return levels;
@@ -349,14 +358,10 @@ std::vector<MeshIteration> read_convergence(const Reader& solver, int version) {
 }
 
 Json decay_to_json(const PhaseDecay& decay) {
-  return {{"phase", decay.name},
-          {"start_s", decay.start},
-          {"end_s", decay.end},
-          {"directions", decay.directions},
-          {"worst", decay.worst},
-          {"worst_direction", decay.worst_direction},
-          {"mean", decay.mean},
-          {"bandwidth_radps", decay.bandwidth}};
+  return {{"phase", decay.name},  {"start_s", decay.start},
+          {"end_s", decay.end},   {"directions", decay.directions},
+          {"worst", decay.worst}, {"worst_direction", decay.worst_direction},
+          {"mean", decay.mean},   {"bandwidth_radps", decay.bandwidth}};
 }
 
 /// null where there are no gains.

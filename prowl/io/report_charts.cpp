@@ -62,13 +62,16 @@ class Charts {
     }
     const char* const angles[] = {"roll", "pitch", "yaw"};
     for (int i = 0; i < 3; ++i) {
-      charts.push_back(chart(angles[i], "rad", [i](const auto& p) { return rpy_from_rotation(base_rotation(p.q))(i); }));
+      charts.push_back(
+          chart(angles[i], "rad", [i](const auto& p) { return rpy_from_rotation(base_rotation(p.q))(i); }));
     }
     for (int i = 0; i < 3; ++i) {
-      charts.push_back(chart(fmt::format("velocity {} (base frame)", kAxes[i]), "m/s", [i](const auto& p) { return p.v(i); }));
+      charts.push_back(
+          chart(fmt::format("velocity {} (base frame)", kAxes[i]), "m/s", [i](const auto& p) { return p.v(i); }));
     }
     for (int i = 0; i < 3; ++i) {
-      charts.push_back(chart(fmt::format("angular velocity {} (base frame)", kAxes[i]), "rad/s", [i](const auto& p) { return p.v(3 + i); }));
+      charts.push_back(chart(fmt::format("angular velocity {} (base frame)", kAxes[i]), "rad/s",
+                             [i](const auto& p) { return p.v(3 + i); }));
     }
     return charts;
   }
@@ -100,7 +103,8 @@ class Charts {
     for (std::size_t c = 0; c < robot_.contacts().size(); ++c) {
       for (int i = 0; i < 3; ++i) {
         const Eigen::Index k = 3 * static_cast<Eigen::Index>(c) + i;
-        charts.push_back(chart(fmt::format("{} {}", robot_.contacts()[c].name, kAxes[i]), "N", [k](const auto& p) { return p.force(k); }));
+        charts.push_back(chart(fmt::format("{} {}", robot_.contacts()[c].name, kAxes[i]), "N",
+                               [k](const auto& p) { return p.force(k); }));
       }
     }
     return charts;
@@ -115,12 +119,16 @@ class Charts {
       add_limit(with_limit, [](const auto&) { return 1.0; });
       charts.push_back(with_limit);
     };
-    add("joint torque, worst joint", chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::torque_share); }));
-    add("joint position, worst joint", chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::position_share); }));
-    add("joint velocity, worst joint", chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::velocity_share); }));
+    add("joint torque, worst joint",
+        chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::torque_share); }));
+    add("joint position, worst joint",
+        chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::position_share); }));
+    add("joint velocity, worst joint",
+        chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::velocity_share); }));
     for (std::size_t c = 0; c < robot_.contacts().size(); ++c) {
       Json one = {{"title", ""}, {"unit", "of limit"}, {"series", Json::array()}};
-      one["series"].push_back(series("plan", "plan", "plan", plan_, [this, c](const auto& p) { return friction_share(p, static_cast<int>(c)); }));
+      one["series"].push_back(series("plan", "plan", "plan", plan_,
+                                     [this, c](const auto& p) { return friction_share(p, static_cast<int>(c)); }));
       add(fmt::format("friction, {}", robot_.contacts()[c].name), one);
     }
     return charts;
@@ -147,7 +155,9 @@ class Charts {
     if (!std::isfinite(upper - lower)) return 0.0;
     return std::abs(p.q(7 + j) - 0.5 * (lower + upper)) / (0.5 * (upper - lower));
   }
-  double velocity_share(const TrajectoryPoint& p, int j) const { return std::abs(p.v(6 + j)) / robot_.velocity_limit()(j); }
+  double velocity_share(const TrajectoryPoint& p, int j) const {
+    return std::abs(p.v(6 + j)) / robot_.velocity_limit()(j);
+  }
 
   /// Tangential force over what friction can hold; nothing while the contact is open or bears next to nothing.
   double friction_share(const TrajectoryPoint& p, int c) const {
@@ -189,7 +199,8 @@ Json report_gains(const TrackingPlan& plan, double step) {
     for (int i = 0; i <= parts; ++i) {  // the ends of a segment among them
       const int sample = static_cast<int>(std::lround(static_cast<double>(i) * (segment.samples - 1) / parts));
       times.push_back(segment.start + length * sample / (segment.samples - 1));
-      const Eigen::Map<const Eigen::MatrixXd> K(plan.gains.col(segment.first_sample + sample).data(), plan.nu(), 2 * plan.nv());
+      const Eigen::Map<const Eigen::MatrixXd> K(plan.gains.col(segment.first_sample + sample).data(), plan.nu(),
+                                                2 * plan.nv());
       for (int j = 0; j < plan.nu(); ++j) {
         for (int k = 0; k < 2 * plan.nv(); ++k) values.push_back(static_cast<float>(K(j, k)));
       }

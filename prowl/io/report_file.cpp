@@ -45,7 +45,9 @@ Json phases_json(const MotionProblem& problem, const Trajectory& trajectory) {
 
 /// An argument of a shell, in quotes where it needs them.
 std::string shell_quoted(const std::string& text) {
-  const auto is_plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::string_view("/._-+:=,@%").find(static_cast<char>(c)) != std::string_view::npos; };
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::string_view("/._-+:=,@%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
   if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -57,9 +59,11 @@ std::string plan_command(const PlanRecord& record) {
   const TaskOverrides& overrides = record.task.overrides;
   std::string command = "prowl plan " + shell_quoted(record.task.task_file.path.string());
   std::string solver = record.plan.solver;
-  std::transform(solver.begin(), solver.end(), solver.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(solver.begin(), solver.end(), solver.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   const std::vector<std::string>& names = solver_names();
-  if (solver != names.front() && std::find(names.begin(), names.end(), solver) != names.end()) command += " --solver " + solver;
+  if (solver != names.front() && std::find(names.begin(), names.end(), solver) != names.end())
+    command += " --solver " + solver;
   if (overrides.intervals) command += fmt::format(" --intervals {}", *overrides.intervals);
   if (overrides.max_iterations) command += fmt::format(" --max-iterations {}", *overrides.max_iterations);
   if (overrides.max_seconds) command += fmt::format(" --max-time {}", *overrides.max_seconds);
@@ -71,16 +75,18 @@ std::string plan_command(const PlanRecord& record) {
 Json parse_simulation(const ReportInputs& inputs) {
   if (!inputs.simulation_json) return nullptr;
   Json json = parse_json(*inputs.simulation_json);
-  if (!json.is_object()) throw InputError(inputs.simulation_json->path.string() + ": not JSON; run prowl simulate again");
+  if (!json.is_object())
+    throw InputError(inputs.simulation_json->path.string() + ": not JSON; run prowl simulate again");
   return json;
 }
 
-/// In place of the placeholder. '<' is only ever inside a string of the JSON, where \u003c means the same; without it no
-/// text can end the element or begin another.
+/// In place of the placeholder. '<' is only ever inside a string of the JSON, where \u003c means the same; without it
+/// no text can end the element or begin another.
 std::string filled(const std::string& page, const std::string& data) {
   const std::size_t place = page.find(kPlaceholder);
   if (place == std::string::npos || page.find(kPlaceholder, place + 1) != std::string::npos) {
-    throw FileError(fmt::format("the page of the report is not one that was built for it: need {} in it once", kPlaceholder));
+    throw FileError(
+        fmt::format("the page of the report is not one that was built for it: need {} in it once", kPlaceholder));
   }
   std::string safe;
   safe.reserve(data.size());
@@ -91,7 +97,8 @@ std::string filled(const std::string& page, const std::string& data) {
 /// The page with a policy that lets it talk to its server.
 std::string served(std::string page) {
   const std::size_t place = page.find(kPolicy);
-  if (place == std::string::npos) throw FileError(fmt::format("the page of the report is not one that was built for it: need {} in it", kPolicy));
+  if (place == std::string::npos)
+    throw FileError(fmt::format("the page of the report is not one that was built for it: need {} in it", kPolicy));
   return page.replace(place, std::string_view(kPolicy).size(), kServedPolicy);
 }
 
@@ -129,14 +136,16 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
   if (inputs.tracking) data["gains"] = report_gains(*inputs.tracking, kGainStep);
   data["warnings"] = report.warnings;
   if (inputs.state != PageState::file) data["live"] = {{"solved", inputs.state == PageState::solved}};
-  report.html = filled(inputs.state == PageState::file ? inputs.template_html : served(inputs.template_html), data.dump(-1, ' ', false, Json::error_handler_t::replace));
+  report.html = filled(inputs.state == PageState::file ? inputs.template_html : served(inputs.template_html),
+                       data.dump(-1, ' ', false, Json::error_handler_t::replace));
   return report;
 }
 
 std::string report_iterate(const MotionProblem& problem, const Trajectory& motion, const MeshIteration& at) {
   const std::vector<TrajectoryPoint> points = report_points(motion, report_step(motion.duration()));
   std::size_t switches = 0;
-  for (std::size_t k = 1; k < motion.nodes.size(); ++k) switches += motion.nodes[k].phase != motion.nodes[k - 1].phase ? 1 : 0;
+  for (std::size_t k = 1; k < motion.nodes.size(); ++k)
+    switches += motion.nodes[k].phase != motion.nodes[k - 1].phase ? 1 : 0;
   const Json iterate = {{"level", at.level},
                         {"intervals", motion.nodes.size() - 1 - switches},
                         {"iteration", at.progress.iteration},

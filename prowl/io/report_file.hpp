@@ -19,11 +19,11 @@ enum class PageState { file, solving, solved };
 /// All that goes into a report.
 struct ReportInputs {
   const PlanRecord& plan;
-  std::string directory;                  ///< of the plan, as the user named it
-  std::optional<SourceText> simulation = {};      ///< simulate.csv
-  std::optional<SourceText> simulation_json = {}; ///< simulate.json
-  std::optional<TrackingPlan> tracking = {};      ///< tracker.bin
-  std::string template_html;              ///< the page without data, built from report/
+  std::string directory;                           ///< of the plan, as the user named it
+  std::optional<SourceText> simulation = {};       ///< simulate.csv
+  std::optional<SourceText> simulation_json = {};  ///< simulate.json
+  std::optional<TrackingPlan> tracking = {};       ///< tracker.bin
+  std::string template_html;                       ///< the page without data, built from report/
   PageState state = PageState::file;
 };
 
@@ -32,12 +32,13 @@ struct Report {
   std::vector<std::string> warnings;  ///< what it shows in another way than asked for, one line each
 };
 
-/// A page that replays the plan, and the simulation if there is one (docs/report.md). Meshes are looked for as package:// in
-/// robot files is. Nothing from the files becomes markup or script: it is in the page as JSON without any '<'.
-/// Throws InputError for files that are wrong, FileError for a template that is not one.
+/// A page that replays the plan, and the simulation if there is one (docs/report.md). Meshes are looked for as
+/// package:// in robot files is. Nothing from the files becomes markup or script: it is in the page as JSON without any
+/// '<'. Throws InputError for files that are wrong, FileError for a template that is not one.
 Report make_report(const ReportInputs& inputs, const PackageSearch& search);
 
-/// An iterate of the solver for a page that is served: its motion, charts and phases as in a report, and how far it is. One line.
+/// An iterate of the solver for a page that is served: its motion, charts and phases as in a report, and how far it is.
+/// One line.
 std::string report_iterate(const MotionProblem& problem, const Trajectory& motion, const MeshIteration& at);
 
 }  // namespace prowl

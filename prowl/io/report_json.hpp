@@ -1,7 +1,7 @@
 #pragma once
 
-// Internal to io: the parts of what a report shows, as JSON (docs/report.md). Times in seconds, placements in the world as
-// x y z [m] and a unit quaternion x y z w; arrays of numbers are base64 of little-endian 32-bit floats.
+// Internal to io: the parts of what a report shows, as JSON (docs/report.md). Times in seconds, placements in the world
+// as x y z [m] and a unit quaternion x y z w; arrays of numbers are base64 of little-endian 32-bit floats.
 #include <nlohmann/json.hpp>
 
 #include "prowl/io/plan_directory.hpp"

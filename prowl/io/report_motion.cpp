@@ -10,7 +10,7 @@
 namespace prowl {
 namespace {
 
-constexpr double kStep = 0.01;       ///< [s]: a picture each at 60 Hz and a fifth of the speed
+constexpr double kStep = 0.01;  ///< [s]: a picture each at 60 Hz and a fifth of the speed
 constexpr double kMostPoints = 3000;
 
 /// First column of a block of the file, whose columns lie together in the order of the robot's names.
@@ -67,7 +67,8 @@ std::vector<TrajectoryPoint> simulated_points(const RobotModel& robot, const Csv
   for (Eigen::Index r = 0; r < simulation.rows(); ++r) {
     const auto row = simulation.values.col(r);
     if (!row.allFinite()) break;  // MuJoCo diverged
-    if (!points.empty() && row(at.time) < points.back().time + step * (1.0 - 1e-6) && r + 1 < simulation.rows()) continue;
+    if (!points.empty() && row(at.time) < points.back().time + step * (1.0 - 1e-6) && r + 1 < simulation.rows())
+      continue;
     TrajectoryPoint& point = points.emplace_back();
     point.time = row(at.time);
     point.q.resize(robot.nq());

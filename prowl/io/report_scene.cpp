@@ -60,9 +60,8 @@ class Meshes {
         places_[uri].push_back(meshes.size());
         Json colour = nullptr;
         if (part.colour) colour = to_json(*part.colour);
-        meshes.push_back({{"positions", base64(part.positions)},
-                          {"triangles", base64(part.triangles)},
-                          {"colour", colour}});
+        meshes.push_back(
+            {{"positions", base64(part.positions)}, {"triangles", base64(part.triangles)}, {"colour", colour}});
       }
     }
     return meshes;
@@ -126,7 +125,8 @@ Json report_scene(const MotionProblem& problem, const PackageSearch& search, std
   const BodyTree tree = body_tree(robot);
   Meshes meshes(robot, search);
   const std::vector<RobotVisual> visuals = readable_visuals(robot, tree, meshes, warnings);
-  Json json = {{"meshes", meshes.take()}, {"visuals", Json::array()}, {"bodies", Json::array()}, {"contacts", Json::array()}};
+  Json json = {
+      {"meshes", meshes.take()}, {"visuals", Json::array()}, {"bodies", Json::array()}, {"contacts", Json::array()}};
   for (const RobotVisual& visual : visuals) {
     Json colour = nullptr, parts = Json::array();
     if (visual.colour) colour = to_json(*visual.colour);
@@ -164,9 +164,7 @@ Json report_motion_json(const RobotModel& robot, const std::vector<TrajectoryPoi
     }
     for (const double f : point.force) forces.push_back(static_cast<float>(f));
   }
-  return {{"time", times},
-          {"placements", base64(placements)},
-          {"forces", base64(forces)}};
+  return {{"time", times}, {"placements", base64(placements)}, {"forces", base64(forces)}};
 }
 
 }  // namespace prowl

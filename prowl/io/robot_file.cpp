@@ -22,7 +22,8 @@ std::vector<ContactPoint> read_contacts(const TomlTable& root, bool needed) {
   if (!needed && !root.find("contact")) return {};
   root.need("contact");
   std::vector<ContactPoint> contacts;
-  constexpr std::size_t kMostContacts = 100;  // two hands and two feet of twenty points have fewer; each is a frame of the model
+  constexpr std::size_t kMostContacts =
+      100;  // two hands and two feet of twenty points have fewer; each is a frame of the model
   for (const TomlTable& table : root.find_tables("contact", kMostContacts)) {
     const ContactPoint contact = read_contact(table);
     for (const ContactPoint& other : contacts) {
@@ -65,7 +66,8 @@ JointLimits read_limits(const TomlTable& table) {
     limits.position_upper = ends[1].as_number();
     if (*limits.position_lower > *limits.position_upper) position->fail("min > max is not allowed; need [min, max]");
   }
-  if (const auto velocity = table.find("velocity_radps")) limits.velocity = velocity->as_number(NumberRange::positive());
+  if (const auto velocity = table.find("velocity_radps"))
+    limits.velocity = velocity->as_number(NumberRange::positive());
   if (const auto torque = table.find("torque_Nm")) limits.torque = torque->as_number(NumberRange::positive());
   if (const auto curve = table.find("torque_over_position")) limits.torque_over_position = read_curve(*curve);
   if (const auto curve = table.find("torque_over_velocity")) limits.torque_over_velocity = read_curve(*curve);

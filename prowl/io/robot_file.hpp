@@ -15,8 +15,8 @@ struct RobotReading {
   std::optional<SourceText> urdf_copy = std::nullopt;  ///< in place of the URDF, if that is not there
 };
 
-/// Reads a robot file (docs/robot-file.md). Throws InputError "file:line:column: key: ..." for anything wrong in it; names
-/// of frames and joints are checked by load_robot only, as only the URDF knows them.
+/// Reads a robot file (docs/robot-file.md). Throws InputError "file:line:column: key: ..." for anything wrong in it;
+/// names of frames and joints are checked by load_robot only, as only the URDF knows them.
 RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search,
                                   const RobotReading& reading = {});
 RobotDescription read_robot_file(const std::filesystem::path& path, const PackageSearch& search);

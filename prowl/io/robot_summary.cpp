@@ -47,8 +47,8 @@ std::string contact_table(const RobotModel& robot) {
   if (std::ranges::all_of(robot.contacts(), is_like_first)) {
     std::vector<std::string> names;
     for (const ContactPoint& contact : robot.contacts()) names.push_back(contact.name);
-    return fmt::format("  contacts: {}\n    in the frames of these names, radius {:g} m, offset {:g} {:g} {:g} m\n", fmt::join(names, ", "),
-                       first.radius, first.offset.x(), first.offset.y(), first.offset.z());
+    return fmt::format("  contacts: {}\n    in the frames of these names, radius {:g} m, offset {:g} {:g} {:g} m\n",
+                       fmt::join(names, ", "), first.radius, first.offset.x(), first.offset.y(), first.offset.z());
   }
   std::vector<Row> rows = {{"contact", "frame", "radius", "offset"}};
   for (const ContactPoint& contact : robot.contacts()) {
@@ -66,7 +66,8 @@ std::string joint_table(const RobotModel& robot) {
     const std::string length = slides ? "m" : "rad";
     rows.push_back({robot.joint_names()[i], fmt::format("{}", j), limit(robot.nominal_configuration()(7 + j), length),
                     fmt::format("{:.4g} ... {:.4g}", robot.position_lower()(j), robot.position_upper()(j)),
-                    limit(robot.velocity_limit()(j), length + "/s"), limit(robot.torque_limit()(j), slides ? "N" : "N m")});
+                    limit(robot.velocity_limit()(j), length + "/s"),
+                    limit(robot.torque_limit()(j), slides ? "N" : "N m")});
   }
   return aligned(rows, 1);
 }
@@ -98,11 +99,11 @@ std::string robot_summary(const RobotModel& robot, const RobotInspection& inspec
   text += fmt::format("  URDF {}\n", robot.description().urdf.string());
   text += joint_table(robot);
   text += contact_table(robot);
-  text += fmt::format("nominal posture: base at {:.4f} {:.4f} {:.4f} m", without_sign(q(0)), without_sign(q(1)), without_sign(q(2)));
+  text += fmt::format("nominal posture: base at {:.4f} {:.4f} {:.4f} m", without_sign(q(0)), without_sign(q(1)),
+                      without_sign(q(2)));
   if (!robot.contacts().empty()) {
-    text +=
-        fmt::format("; contacts: {} rows, rank {}{}", inspection.contact_rows, inspection.contact_rank,
-                    inspection.contact_rank < inspection.contact_rows ? " (redundant contacts)" : "");
+    text += fmt::format("; contacts: {} rows, rank {}{}", inspection.contact_rows, inspection.contact_rank,
+                        inspection.contact_rank < inspection.contact_rows ? " (redundant contacts)" : "");
   }
   text += inspection.warnings.empty() ? "\nno warnings\n" : "\n";
   for (const RobotWarning& warning : inspection.warnings) text += fmt::format("warning: {}\n", warning.text);

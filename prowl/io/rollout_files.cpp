@@ -20,13 +20,15 @@ TorqueUse torque_use(const RolloutMeasures& measures) {
   return {measures.largest_torque_share, measures.largest_torque_joint, measures.saturated, measures.positive_work};
 }
 
-double control_rate(const RolloutOptions& options) { return options.control_step > 0.0 ? 1.0 / options.control_step : 0.0; }
+double control_rate(const RolloutOptions& options) {
+  return options.control_step > 0.0 ? 1.0 / options.control_step : 0.0;
+}
 
 std::string offset_text(const RolloutRecord& record) {
   const Eigen::Vector3d &p = record.base_offset, rpy = record.base_offset_rpy / kDegree;
   if (p.isZero(0.0) && rpy.isZero(0.0)) return "start as planned";
-  return fmt::format("base at the start off by ({:g}, {:g}, {:g}) cm, roll {:.3g}, pitch {:.3g}, yaw {:.3g} deg", 100 * p.x(),
-                     100 * p.y(), 100 * p.z(), rpy.x(), rpy.y(), rpy.z());
+  return fmt::format("base at the start off by ({:g}, {:g}, {:g}) cm, roll {:.3g}, pitch {:.3g}, yaw {:.3g} deg",
+                     100 * p.x(), 100 * p.y(), 100 * p.z(), rpy.x(), rpy.y(), rpy.z());
 }
 
 Json load_json(const ContactLoad& load) {
@@ -63,8 +65,8 @@ SimulationSample as_simulation_sample(const RobotModel& robot, const Tracker& tr
 
 }  // namespace
 
-std::vector<std::string> rollout_failures(const Tracker& tracker, const Rollout& rollout, const RolloutMeasures& measures,
-                                          const SuccessCriteria& criteria) {
+std::vector<std::string> rollout_failures(const Tracker& tracker, const Rollout& rollout,
+                                          const RolloutMeasures& measures, const SuccessCriteria& criteria) {
   if (!rollout.fell) return failures_in_rest(measures.base_position, measures.base_angle, criteria);
   return {fmt::format("fell at {:.3f} s, in phase '{}'", rollout.end_time, last_segment(tracker, rollout).name)};
 }
@@ -72,19 +74,21 @@ std::vector<std::string> rollout_failures(const Tracker& tracker, const Rollout&
 std::string rollout_summary(const PlanRecord& plan, const RolloutRecord& record) {
   const RolloutMeasures& measures = record.measures;
   const RobotModel& robot = plan.task.problem.robot;
-  std::string text = fmt::format("{} {}, rollout of the projected dynamics, {}: {}\n", robot.name(), plan.task.problem.name,
-                                 record.options.closed_loop ? "closed loop" : "open loop",
+  std::string text = fmt::format("{} {}, rollout of the projected dynamics, {}: {}\n", robot.name(),
+                                 plan.task.problem.name, record.options.closed_loop ? "closed loop" : "open loop",
                                  record.failures.empty() ? "success" : "FAILED");
   const double rate = control_rate(record.options);
-  text += fmt::format("  {}; control {}, true state\n", offset_text(record), rate > 0.0 ? fmt::format("at {:g} Hz", rate) : "continuous");
+  text += fmt::format("  {}; control {}, true state\n", offset_text(record),
+                      rate > 0.0 ? fmt::format("at {:g} Hz", rate) : "continuous");
   for (const std::string& failure : record.failures) text += fmt::format("  failed: {}\n", failure);
   text += error_heading();
   text += error_line("base position", measures.base_position, 0.01, "cm ");
   text += error_line("base orientation", measures.base_angle, kDegree, "deg");
   text += error_line("worst joint", measures.joints, kDegree, "deg");
   text += torque_line(torque_use(measures));
-  text += "  contacts hold here whatever the force: on the ground a foot that pulls (< 0)\n"
-          "  would lift, and one beyond its friction cone (> 0) would slip\n";
+  text +=
+      "  contacts hold here whatever the force: on the ground a foot that pulls (< 0)\n"
+      "  would lift, and one beyond its friction cone (> 0) would slip\n";
   text += fmt::format("  {:<28}{:>24}{:>24}\n", "contact", "least normal force", "beyond friction cone");
   for (std::size_t c = 0; c < measures.contacts.size(); ++c) {
     const ContactLoad& load = measures.contacts[c];
@@ -98,8 +102,8 @@ std::string rollout_summary(const PlanRecord& plan, const RolloutRecord& record)
 
 std::string rollout_json(const PlanRecord& plan, const Tracker& tracker, const RolloutRecord& record) {
   const RolloutMeasures& measures = record.measures;
-  Json json = verdict_json(plan, {kEngine, record.failures, record.rollout.fell ? "fell" : "finished", record.rollout.end_time,
-                                  last_segment(tracker, record.rollout).name});
+  Json json = verdict_json(plan, {kEngine, record.failures, record.rollout.fell ? "fell" : "finished",
+                                  record.rollout.end_time, last_segment(tracker, record.rollout).name});
   json.update({{"base_position_m", error_json(measures.base_position)},
                {"base_angle_rad", error_json(measures.base_angle)},
                {"joints_rad", error_json(measures.joints)},
@@ -132,7 +136,8 @@ std::string rollout_csv(const RobotModel& robot, const Tracker& tracker, const R
 
 void write_rollout(const std::filesystem::path& directory, const PlanRecord& plan, const Tracker& tracker,
                    const RolloutRecord& record) {
-  write_simulation_files(directory, rollout_json(plan, tracker, record), rollout_csv(plan.task.problem.robot, tracker, record));
+  write_simulation_files(directory, rollout_json(plan, tracker, record),
+                         rollout_csv(plan.task.problem.robot, tracker, record));
 }
 
 }  // namespace prowl

@@ -56,9 +56,11 @@ TorqueUse torque_use(const SimulationResult& result) {
 std::vector<std::string> csv_columns(const RobotModel& robot) {
   std::vector<std::string> columns = {"time_s"};
   for (const char* kind : {"ref", "true", "seen"}) {
-    for (const char* name : {"px_m", "py_m", "pz_m", "qx", "qy", "qz", "qw"}) columns.push_back(fmt::format("{}_base_{}", kind, name));
+    for (const char* name : {"px_m", "py_m", "pz_m", "qx", "qy", "qz", "qw"})
+      columns.push_back(fmt::format("{}_base_{}", kind, name));
     for (const auto& joint : robot.joint_names()) columns.push_back(fmt::format("{}_q_{}_rad", kind, joint));
-    for (const char* name : {"vx_mps", "vy_mps", "vz_mps", "wx_radps", "wy_radps", "wz_radps"}) columns.push_back(fmt::format("{}_base_{}", kind, name));
+    for (const char* name : {"vx_mps", "vy_mps", "vz_mps", "wx_radps", "wy_radps", "wz_radps"})
+      columns.push_back(fmt::format("{}_base_{}", kind, name));
     for (const auto& joint : robot.joint_names()) columns.push_back(fmt::format("{}_v_{}_radps", kind, joint));
   }
   for (const char* kind : {"feedforward", "feedback", "tau"}) {
@@ -77,18 +79,20 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
   const SimulationResult& result = record.result;
   const SimulationOptions& options = record.options;
   const MotionProblem& problem = plan.task.problem;
-  std::string text = fmt::format("{} {} in MuJoCo, {}, {}: {}\n", problem.robot.name(), problem.name,
-                                 options.open_loop ? "open loop" : "closed loop",
-                                 options.perfect_state ? "true state" : "estimated state",
-                                 result.success() ? "success" : "FAILED");
-  text += fmt::format("  seed {}, control at {:g} Hz, delay {:g} ms, sensor noise x {:g}{}{}\n", options.seed,
-                      options.control_rate, 1e3 * options.delay, options.perfect_state ? 0.0 : options.noise_scale,
-                      options.physics.mass_scale != 1.0 ? fmt::format(", masses x {:g}", options.physics.mass_scale) : "",
-                      options.physics.friction ? fmt::format(", friction {:g}", *options.physics.friction) : "");
+  std::string text =
+      fmt::format("{} {} in MuJoCo, {}, {}: {}\n", problem.robot.name(), problem.name,
+                  options.open_loop ? "open loop" : "closed loop",
+                  options.perfect_state ? "true state" : "estimated state", result.success() ? "success" : "FAILED");
+  text +=
+      fmt::format("  seed {}, control at {:g} Hz, delay {:g} ms, sensor noise x {:g}{}{}\n", options.seed,
+                  options.control_rate, 1e3 * options.delay, options.perfect_state ? 0.0 : options.noise_scale,
+                  options.physics.mass_scale != 1.0 ? fmt::format(", masses x {:g}", options.physics.mass_scale) : "",
+                  options.physics.friction ? fmt::format(", friction {:g}", *options.physics.friction) : "");
   if (options.bandwidth > 0.0) text += fmt::format("  actuators of {:g} Hz\n", options.bandwidth);
   for (const Push& push : options.pushes) {
-    text += fmt::format("  push of {:.3g} N s along [{:.3g}, {:.3g}, {:.3g}] from {:.3g} s for {:.3g} s\n", push.impulse.norm(), push.impulse.x(),
-                        push.impulse.y(), push.impulse.z(), push.time, push.duration);
+    text += fmt::format("  push of {:.3g} N s along [{:.3g}, {:.3g}, {:.3g}] from {:.3g} s for {:.3g} s\n",
+                        push.impulse.norm(), push.impulse.x(), push.impulse.y(), push.impulse.z(), push.time,
+                        push.duration);
   }
   for (const std::string& failure : result.failures) text += fmt::format("  failed: {}\n", failure);
   text += error_heading();
@@ -109,12 +113,14 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
   double late = 0.0;
   int missing = 0;
   for (const ContactSwitch& change : result.switches) {
-    if (std::isnan(change.measured)) ++missing;
-    else late = std::max(late, std::abs(change.measured - change.planned));
+    if (std::isnan(change.measured))
+      ++missing;
+    else
+      late = std::max(late, std::abs(change.measured - change.planned));
   }
   if (!result.switches.empty()) {
-    text += fmt::format("  contacts    {} switches, at most {:.0f} ms off the plan{}\n", result.switches.size(), 1e3 * late,
-                        missing > 0 ? fmt::format(", {} missing", missing) : "");
+    text += fmt::format("  contacts    {} switches, at most {:.0f} ms off the plan{}\n", result.switches.size(),
+                        1e3 * late, missing > 0 ? fmt::format(", {} missing", missing) : "");
   }
   return text;
 }
@@ -153,8 +159,8 @@ std::string simulation_csv(const RobotModel& robot, const std::vector<Simulation
   const auto append = [&row](const Eigen::VectorXd& values) { row.insert(row.end(), values.begin(), values.end()); };
   for (const SimulationSample& sample : samples) {
     row = {sample.time};
-    for (const Eigen::VectorXd* part : {&sample.q_ref, &sample.v_ref, &sample.q, &sample.v, &sample.q_seen, &sample.v_seen,
-                                        &sample.feedforward, &sample.feedback, &sample.tau}) {
+    for (const Eigen::VectorXd* part : {&sample.q_ref, &sample.v_ref, &sample.q, &sample.v, &sample.q_seen,
+                                        &sample.v_seen, &sample.feedforward, &sample.feedback, &sample.tau}) {
       append(*part);
     }
     for (const ContactReading& contact : sample.contacts) {
@@ -167,7 +173,8 @@ std::string simulation_csv(const RobotModel& robot, const std::vector<Simulation
 }
 
 void write_simulation(const std::filesystem::path& directory, const PlanRecord& plan, const SimulationRecord& record) {
-  write_simulation_files(directory, simulation_json(plan, record), simulation_csv(plan.task.problem.robot, record.result.samples));
+  write_simulation_files(directory, simulation_json(plan, record),
+                         simulation_csv(plan.task.problem.robot, record.result.samples));
 }
 
 }  // namespace prowl

@@ -39,13 +39,17 @@ Json torque_json(const TorqueUse& use) {
 }
 
 std::string torque_line(const TorqueUse& use) {
-  const std::string largest = std::isfinite(use.largest_share)
-                                  ? fmt::format("{:.0f} % of the limit at most ({})", 100 * use.largest_share, use.joint)
-                                  : fmt::format("{} was where it can give none", use.joint);
-  return fmt::format("  torque      {}, at a limit {:.1f} % of the time, {:.0f} J of work\n", largest, 100 * use.saturated, use.positive_work);
+  const std::string largest =
+      std::isfinite(use.largest_share)
+          ? fmt::format("{:.0f} % of the limit at most ({})", 100 * use.largest_share, use.joint)
+          : fmt::format("{} was where it can give none", use.joint);
+  return fmt::format("  torque      {}, at a limit {:.1f} % of the time, {:.0f} J of work\n", largest,
+                     100 * use.saturated, use.positive_work);
 }
 
-std::string error_heading() { return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "in rest"); }
+std::string error_heading() {
+  return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "in rest");
+}
 
 std::string error_line(const std::string& name, const ErrorMeasure& error, double unit, const std::string& unit_name) {
   const auto value = [&](double size) -> std::string {

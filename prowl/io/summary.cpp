@@ -27,9 +27,9 @@ const char* in_words(SolveStatus status) {
 
 /// Whether nothing costs anything: then all motions that keep the constraints are as good.
 bool is_zero(const QuadraticCost& cost) {
-  return cost.configuration_weight.isZero(0.0) && cost.velocity_weight.isZero(0.0) && cost.acceleration_weight.isZero(0.0) &&
-         cost.torque_weight.isZero(0.0) && cost.force_weight.isZero(0.0) && cost.time_weight == 0.0 &&
-         cost.contact_positions.empty();
+  return cost.configuration_weight.isZero(0.0) && cost.velocity_weight.isZero(0.0) &&
+         cost.acceleration_weight.isZero(0.0) && cost.torque_weight.isZero(0.0) && cost.force_weight.isZero(0.0) &&
+         cost.time_weight == 0.0 && cost.contact_positions.empty();
 }
 
 /// "33 + 9 on 39 + 135 intervals", or the number alone where there was one mesh.
@@ -54,8 +54,9 @@ std::string failed_checks(const Certificate& certificate) {
   for (const CertificateCheck& check : certificate.checks) {
     if (check.passed) continue;
     const std::string limit = with_unit(check.limit, ""), worst = with_unit(check.worst, "");
-    text += fmt::format("{}{} ({} > {})", text.empty() ? "" : ", ", check.name,
-                        worst == limit ? fmt::format("{:.9g}", check.worst) : worst, with_unit(check.limit, check.unit));
+    text +=
+        fmt::format("{}{} ({} > {})", text.empty() ? "" : ", ", check.name,
+                    worst == limit ? fmt::format("{:.9g}", check.worst) : worst, with_unit(check.limit, check.unit));
   }
   return text;
 }
@@ -70,8 +71,8 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   const SolveResult& result = record.plan.result;
   const double duration = record.plan.trajectory.duration();
   if (!record.plan.reasons.empty()) {
-    std::string text = fmt::format("{} {}{}: infeasible, and certain to be: the solver did not start\n", problem.robot.name(),
-                                   problem.name, when);
+    std::string text = fmt::format("{} {}{}: infeasible, and certain to be: the solver did not start\n",
+                                   problem.robot.name(), problem.name, when);
     for (const std::string& reason : record.plan.reasons) text += fmt::format("  reason       {}\n", reason);
     return text;
   }
@@ -85,11 +86,14 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   text += fmt::format("  solution     cost {:.6g}, violation of constraints {:.1e}, dual {:.1e}\n", result.cost,
                       result.constraint_violation, result.dual_violation);
   if (is_zero(problem.running_cost) && is_zero(problem.terminal_cost)) {
-    text += "  note         without [cost] all motions are as good, and what comes out need not be smooth (docs/task-file.md)\n";
+    text +=
+        "  note         without [cost] all motions are as good, and what comes out need not be smooth "
+        "(docs/task-file.md)\n";
   }
   if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);
   if (result.status != SolveStatus::converged && record.plan.certificate.passed) {
-    text += "  note         the motion passes its certificate all the same; only the solver's own tolerance is not met\n";
+    text +=
+        "  note         the motion passes its certificate all the same; only the solver's own tolerance is not met\n";
   }
   for (const std::string& hint : record.plan.hints) text += fmt::format("  hint         {}\n", hint);
   return text;
@@ -111,12 +115,16 @@ std::string certificate_summary(const Certificate& certificate) {
   line("check", "worst", "limit", "time", "where", "");
   for (const CertificateCheck& check : certificate.checks) {
     line(check.name, with_unit(check.worst, check.unit), with_unit(check.limit, check.unit),
-         fmt::format("{:.3f} s", check.time), check.where, !check.passed ? "FAIL" : check.worst <= check.certified_limit ? "pass" : "draft");
+         fmt::format("{:.3f} s", check.time), check.where,
+         !check.passed                          ? "FAIL"
+         : check.worst <= check.certified_limit ? "pass"
+                                                : "draft");
   }
   if (!certificate.redundant_contacts.empty()) {
     std::vector<std::string> ranks;
     for (const ContactRank& phase : certificate.contact_ranks) {
-      if (phase.rank < phase.rows) ranks.push_back(fmt::format("'{}' rank {} of {} rows", phase.phase, phase.rank, phase.rows));
+      if (phase.rank < phase.rows)
+        ranks.push_back(fmt::format("'{}' rank {} of {} rows", phase.phase, phase.rank, phase.rows));
     }
     text += fmt::format("  forces of {}: a choice, those of other contacts are unique ({})\n",
                         fmt::join(certificate.redundant_contacts, ", "), fmt::join(ranks, ", "));
@@ -138,7 +146,8 @@ std::string feedback_summary(const FeedbackDesign& feedback, double step) {
   }
   if (!feedback.stands_on) {
     text += feedback.slowest_rate < 0.0
-                ? "  WARNING: the gains do not hold the robot after the end; tracking.bandwidth_radps leaves too little of them\n"
+                ? "  WARNING: the gains do not hold the robot after the end; tracking.bandwidth_radps leaves too "
+                  "little of them\n"
                 : "  no gains to stand on with after the end: its contacts do not hold the robot\n";
   }
   return text;

@@ -24,8 +24,8 @@ std::string with_unit(double value, const std::string& unit);
 /// The gains and what they do to deviations, in a few lines.
 std::string feedback_summary(const FeedbackDesign& feedback, double step);
 
-/// All that is printed of a plan: all of the above and the advice on the mesh; of one that is certain to have no solution only
-/// why, since a certificate of its initial guess says nothing.
+/// All that is printed of a plan: all of the above and the advice on the mesh; of one that is certain to have no
+/// solution only why, since a certificate of its initial guess says nothing.
 std::string plan_report(const PlanRecord& record, const std::string& when = "");
 
 }  // namespace prowl

@@ -49,7 +49,8 @@ std::vector<std::size_t> worst_first(const SweepRecord& record) {
 }
 
 std::string describe(const SimulationOptions& options) {
-  std::string text = fmt::format("mass x {:.2f}, friction {:.2f}", options.physics.mass_scale, options.physics.friction.value_or(NAN));
+  std::string text =
+      fmt::format("mass x {:.2f}, friction {:.2f}", options.physics.mass_scale, options.physics.friction.value_or(NAN));
   for (const Push& push : options.pushes) {
     const double direction = std::atan2(push.impulse.y(), push.impulse.x()) * 180.0 / std::numbers::pi;
     text += fmt::format(", {:g} N s towards {:.0f} deg at {:.2f} s", push.impulse.norm(), direction, push.time);
@@ -61,32 +62,37 @@ std::string describe(const SimulationOptions& options) {
 
 std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record) {
   const SuccessRate rate = overall(record);
-  std::string text = fmt::format("{} {} in MuJoCo, perturbed: {} of {} succeed, {:.1f} % (95 % interval: {:.1f} to {:.1f} %)\n",
-                                 plan.task.problem.robot.name(), plan.task.problem.name, rate.successes, rate.cases,
-                                 100 * rate.rate(), 100 * rate.lower, 100 * rate.upper);
+  std::string text =
+      fmt::format("{} {} in MuJoCo, perturbed: {} of {} succeed, {:.1f} % (95 % interval: {:.1f} to {:.1f} %)\n",
+                  plan.task.problem.robot.name(), plan.task.problem.name, rate.successes, rate.cases, 100 * rate.rate(),
+                  100 * rate.lower, 100 * rate.upper);
   if (record.interrupted) {
-    text += rate.cases < record.asked ? fmt::format("  interrupted: {} of {} simulations were finished\n", rate.cases, record.asked)
-                                      : "  interrupted while looking at one perturbation alone\n";
+    text += rate.cases < record.asked
+                ? fmt::format("  interrupted: {} of {} simulations were finished\n", rate.cases, record.asked)
+                : "  interrupted while looking at one perturbation alone\n";
   }
   text += "  pushed in phase                             success\n";
   for (const Count& count : by_phase(tracker, record)) {
     text += fmt::format("    {:<40}  {} of {}\n", count.phase, count.successes, count.cases);
   }
   const bool as_default = record.ranges == PerturbationRanges{} && !record.cases.front().options.open_loop;
-  text += as_default ? "  worst cases (prowl simulate DIR --case SEED)\n" : "  worst cases (options of each: sweep.json)\n";
+  text +=
+      as_default ? "  worst cases (prowl simulate DIR --case SEED)\n" : "  worst cases (options of each: sweep.json)\n";
   const std::vector<std::size_t> order = worst_first(record);
   constexpr std::size_t kWorst = 5;
   for (std::size_t i = 0; i < std::min(kWorst, order.size()); ++i) {
     const SweepCase& one = record.cases[order[i]];
     text += fmt::format("    seed {:<6} {}: {}\n", record.first_seed + order[i], describe(one.options),
-                        one.result.success() ? fmt::format("success, base {:.1f} cm off", 100 * one.result.base_position.rest)
-                                             : one.result.failures.front());
+                        one.result.success()
+                            ? fmt::format("success, base {:.1f} cm off", 100 * one.result.base_position.rest)
+                            : one.result.failures.front());
   }
   if (!record.breakdowns.empty()) text += "  one perturbation alone: success falls under one half between\n";
   for (const Breakdown& found : record.breakdowns) {
-    text += fmt::format("    {:<20} {}\n", found.kind,
-                        std::isfinite(found.fails) ? fmt::format("{:g} and {:g} {}", found.holds, found.fails, found.unit)
-                                                   : fmt::format("not up to {:g} {}", found.holds, found.unit));
+    text +=
+        fmt::format("    {:<20} {}\n", found.kind,
+                    std::isfinite(found.fails) ? fmt::format("{:g} and {:g} {}", found.holds, found.fails, found.unit)
+                                               : fmt::format("not up to {:g} {}", found.holds, found.unit));
   }
   return text;
 }

@@ -8,11 +8,11 @@ namespace prowl {
 /// What `prowl sweep` was asked for, and what came out.
 struct SweepRecord {
   std::uint64_t first_seed = 1;
-  int asked = 0;                 ///< cases; more than there are below if it was interrupted
+  int asked = 0;  ///< cases; more than there are below if it was interrupted
   PerturbationRanges ranges;
   std::vector<SweepCase> cases = {};  ///< of seeds first_seed, first_seed + 1, ...
   std::vector<Breakdown> breakdowns = {};
-  bool interrupted = false;      ///< cases or breakdowns are missing
+  bool interrupted = false;  ///< cases or breakdowns are missing
 };
 
 std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record);

@@ -86,7 +86,8 @@ int find_name(const TomlValue& value, const std::string& what, const std::vector
   return static_cast<int>(found - names.begin());
 }
 
-/// Takes a posture from the level ground, z = 0, to a surface: turned the shortest way, what was at the origin at its point.
+/// Takes a posture from the level ground, z = 0, to a surface: turned the shortest way, what was at the origin at its
+/// point.
 void put_on(const Surface& surface, TaskStart& start) {
   const Eigen::Matrix3d turn =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), surface.normal).toRotationMatrix();
@@ -187,8 +188,8 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
   return read;
 }
 
-/// A phase whose steps are free becomes phases of one interval each, so that each step is a duration of its own between the
-/// phase's bounds / intervals. Conditions go with their nodes.
+/// A phase whose steps are free becomes phases of one interval each, so that each step is a duration of its own between
+/// the phase's bounds / intervals. Conditions go with their nodes.
 void split_free_steps(const std::vector<std::optional<TomlValue>>& free_steps, std::vector<Phase>& phases,
                       std::vector<BoundaryCondition>& conditions) {
   std::vector<Phase> pieces;
@@ -201,8 +202,8 @@ void split_free_steps(const std::vector<std::optional<TomlValue>>& free_steps, s
       continue;
     }
     if (n > kMostFreeSteps) {
-      free_steps[p]->fail(fmt::format("{} free steps are not allowed; need at most {}: each takes the space of a phase", n,
-                                      kMostFreeSteps));
+      free_steps[p]->fail(fmt::format("{} free steps are not allowed; need at most {}: each takes the space of a phase",
+                                      n, kMostFreeSteps));
     }
     for (int i = 0; i < n; ++i) {
       Phase& step = pieces.emplace_back(phases[p]);
@@ -238,14 +239,16 @@ void check_lengths(const TomlTable& root, const std::vector<Phase>& phases) {
     root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
   }
   if (seconds > kLongestMotion) {
-    root.value().fail(fmt::format("phases of {:g} s in all are not allowed; need at most {:g} s", seconds, kLongestMotion));
+    root.value().fail(
+        fmt::format("phases of {:g} s in all are not allowed; need at most {:g} s", seconds, kLongestMotion));
   }
 }
 
 SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
   SolverOptions options;
   if (const auto table = root.find_table("solver")) {
-    if (const auto value = table->find("tolerance")) options.tolerance = value->as_number({.lower = 1e-12, .upper = 1e-2});
+    if (const auto value = table->find("tolerance"))
+      options.tolerance = value->as_number({.lower = 1e-12, .upper = 1e-2});
     if (const auto value = table->find("max_iterations")) {
       options.max_iterations = value->as_integer(1, std::numeric_limits<int>::max());
     }
@@ -287,12 +290,14 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
                         .friction_model = {},
                         .swing_clearance = 0.0,
                         .goal_tolerance = {}};
-  constexpr double kSwingClearance = 0.05;  // of the standing height: what a legged robot lifts its feet by on flat ground
+  constexpr double kSwingClearance =
+      0.05;  // of the standing height: what a legged robot lifts its feet by on flat ground
   const auto clearance = root.find("swing_clearance_m");
   problem.swing_clearance = clearance ? clearance->as_number(NumberRange::nonnegative())
                                       : kSwingClearance * problem.robot.nominal_configuration()(2);
   if (const auto model = root.find("friction_model")) {
-    problem.friction_model = model->as_one_of("friction model", {"cone", "pyramid"}) == 0 ? FrictionModel::cone : FrictionModel::pyramid;
+    problem.friction_model =
+        model->as_one_of("friction model", {"cone", "pyramid"}) == 0 ? FrictionModel::cone : FrictionModel::pyramid;
   }
   read_costs(root, problem);
   return problem;
@@ -354,7 +359,8 @@ Task read_task_text(const SourceText& task_file, const PackageSearch& search, co
   const TomlTable root = task_root(document);
   const std::filesystem::path robot = robot_path(task_file, root);
   std::error_code unknown;  // which read_text_file then tells
-  if (!std::filesystem::exists(robot, unknown) && !unknown) root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
+  if (!std::filesystem::exists(robot, unknown) && !unknown)
+    root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
   SourceText robot_file;
   try {
     robot_file = read_text_file(robot);

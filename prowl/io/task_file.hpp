@@ -25,7 +25,7 @@ struct Task {
   MotionProblem problem;
   SolverOptions solver;
   TrackingOptions tracking;
-  SuccessCriteria success = {};  ///< of a simulation
+  SuccessCriteria success = {};                   ///< of a simulation
   std::optional<double> simulated_friction = {};  ///< of all surfaces in a simulation; else as planned with
   SourceText task_file;
   SourceText robot_file;
@@ -35,7 +35,8 @@ struct Task {
 
 /// Reads a task file (docs/task-file.md) and the robot file that it names. Throws InputError
 /// "file:line:column: key: ..." for whatever is wrong in either.
-Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides = {});
+Task read_task_file(const std::filesystem::path& path, const PackageSearch& search,
+                    const TaskOverrides& overrides = {});
 
 /// The same from a text at hand; what it names is relative to the folder of task_file.path, where no file needs to be.
 Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides = {});

@@ -10,13 +10,14 @@ namespace {
 
 constexpr int kMostStrides = 1000;  // above that a typing mistake, and gigabytes of memory
 constexpr double kLargestDutyFactor = 0.99;
-constexpr double kSteepest = 0.1;   // z of the normal: 84 degrees
+constexpr double kSteepest = 0.1;  // z of the normal: 84 degrees
 
 Feet need_feet(const TomlTable& table, const RobotModel& robot) {
   if (const auto feet = find_feet(robot)) return *feet;
-  table.value().fail(
-      fmt::format("a gait needs four contacts, one fore left, fore right, hind left and hind right in the nominal posture; "
-                  "the {} of {} are not that: write the phases out as [[phase]]", robot.contacts().size(), robot.name()));
+  table.value().fail(fmt::format(
+      "a gait needs four contacts, one fore left, fore right, hind left and hind right in the nominal posture; "
+      "the {} of {} are not that: write the phases out as [[phase]]",
+      robot.contacts().size(), robot.name()));
 }
 
 GaitPattern read_pattern(const TomlTable& table) {
@@ -31,7 +32,8 @@ int read_surface(const TomlTable& table, const std::vector<Surface>& surfaces) {
   const auto value = table.find("surface");
   const std::size_t index = value ? value->as_one_of("surface", names) : 0;
   if (surfaces[index].normal.z() < kSteepest) {
-    (value ? *value : table.value()).fail("surface '" + names[index] + "' is too steep to walk on; need its normal upward");
+    (value ? *value : table.value())
+        .fail("surface '" + names[index] + "' is too steep to walk on; need its normal upward");
   }
   return static_cast<int>(index);
 }
@@ -91,8 +93,7 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
   const Feet feet = need_feet(*table, robot);
   const Gait gait = read_values(*table, surfaces);
   check_intervals(*table, gait);
-  return TaskGait{expand(gait, robot, feet),
-                  read_displacement(root, *table, gait, surfaces[gait.surface], start)};
+  return TaskGait{expand(gait, robot, feet), read_displacement(root, *table, gait, surfaces[gait.surface], start)};
 }
 
 }  // namespace prowl

@@ -16,8 +16,8 @@ struct TaskGait {
   std::optional<Eigen::Vector3d> displacement;  ///< of the base at the end [m]; none if the file has goals of its own
 };
 
-/// None if the file has no [gait]. Throws InputError on anything wrong in it, on [[phase]] beside it, and if the robot is
-/// not one on four legs.
+/// None if the file has no [gait]. Throws InputError on anything wrong in it, on [[phase]] beside it, and if the robot
+/// is not one on four legs.
 std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot, const std::vector<Surface>& surfaces,
                                   const TaskStart& start);
 

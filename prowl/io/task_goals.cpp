@@ -33,13 +33,15 @@ NodeRef node_at_time(const TomlValue& value, const std::vector<Phase>& phases) {
   constexpr double kSameTime = 1e-6;  // [s]; a decimal fraction in a file is not an exact node time
   const double time = value.as_number(NumberRange::positive());
   const std::vector<NodeTime> nodes = node_times(phases);
-  const auto after = std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
+  const auto after =
+      std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
   if (after == nodes.end()) {
     value.fail(fmt::format("{:g} is after the end; need 0 < time <= {:g} [s]", time, nodes.back().time));
   }
   if (after->time <= time + kSameTime) return after->at;
   if (after == nodes.begin()) {
-    value.fail(fmt::format("{:g} is not at a node of the mesh; the first after the start is {:.6g} [s]", time, after->time));
+    value.fail(
+        fmt::format("{:g} is not at a node of the mesh; the first after the start is {:.6g} [s]", time, after->time));
   }
   value.fail(fmt::format("{:g} is not at a node of the mesh; the nearest are {:.6g} and {:.6g} [s]", time,
                          std::prev(after)->time, after->time));

@@ -15,8 +15,8 @@ struct TaskStart {
 /// The condition that fixes the start, at rest.
 BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q);
 
-/// The goal of a gait: at the end of the last phase the base is displaced from the start by so much (world frame [m]), at
-/// rest, turned as at the start; the legs as they like.
+/// The goal of a gait: at the end of the last phase the base is displaced from the start by so much (world frame [m]),
+/// at rest, turned as at the start; the legs as they like.
 BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
                           const std::vector<Phase>& phases);
 

@@ -27,7 +27,8 @@ TrackingOptions read_tracking(const TomlTable& root, const RobotModel& robot) {
     options.torque_deviation *= value->as_number(kDeviation) / TrackingOptions::kTorqueShare;
   }
   if (const auto value = table->find("landing_s")) options.landing_time = value->as_number(NumberRange::nonnegative());
-  if (const auto value = table->find("bandwidth_radps")) options.largest_bandwidth = value->as_number(NumberRange::positive());
+  if (const auto value = table->find("bandwidth_radps"))
+    options.largest_bandwidth = value->as_number(NumberRange::positive());
   return options;
 }
 

@@ -33,7 +33,8 @@ SourceText read_text_file(const std::filesystem::path& path, std::size_t max_byt
   const auto bytes = std::filesystem::file_size(path, error);
   if (error) throw FileError(fmt::format("{}: cannot read: {}", path.string(), error.message()));
   if (bytes > max_bytes) {
-    throw InputError(fmt::format("{}: {} bytes; need at most {}: is it the right file?", path.string(), bytes, max_bytes));
+    throw InputError(
+        fmt::format("{}: {} bytes; need at most {}: is it the right file?", path.string(), bytes, max_bytes));
   }
   std::string text(static_cast<std::size_t>(bytes), '\0');
   if (!file.read(text.data(), static_cast<std::streamsize>(bytes))) {

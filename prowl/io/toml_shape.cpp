@@ -23,7 +23,8 @@ std::size_t after_string(std::string_view text, std::size_t at) {
       return at;  // a mistake
     } else if (text.substr(at, quotes) == std::string(quotes, quote)) {
       at += quotes;
-      for (int more = 0; is_long && more < 2 && at < text.size() && text[at] == quote; ++more) ++at;  // quotes of its own at its end
+      for (int more = 0; is_long && more < 2 && at < text.size() && text[at] == quote; ++more)
+        ++at;  // quotes of its own at its end
       return at;
     }
   }

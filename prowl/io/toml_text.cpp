@@ -1,7 +1,8 @@
 #include "prowl/io/toml_text.hpp"
 
-#include <sstream>
 #include <toml++/toml.h>
+
+#include <sstream>
 
 namespace prowl {
 

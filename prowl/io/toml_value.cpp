@@ -50,8 +50,8 @@ std::string where_else(const FileKeys& keys, const std::string& name) {
 
 /// " [s]" for "phase[0].duration_s" or "goal[1].time_s[0]"; "" for a key without unit.
 std::string unit_of(const std::string& path) {
-  static const std::pair<std::string, std::string> kUnits[] = {
-      {"_m", "m"}, {"_s", "s"}, {"_rad", "rad"}, {"_mps", "m/s"}, {"_radps", "rad/s"}, {"_Nm", "N m"}};
+  static const std::pair<std::string, std::string> kUnits[] = {{"_m", "m"},     {"_s", "s"},         {"_rad", "rad"},
+                                                               {"_mps", "m/s"}, {"_radps", "rad/s"}, {"_Nm", "N m"}};
   std::string key = path;
   while (key.ends_with(']')) key.erase(key.rfind('['));
   for (const auto& [ending, unit] : kUnits) {
@@ -69,7 +69,8 @@ std::optional<std::string> place_of(const SourceText& source, const std::string&
     if (const auto node = toml::at_path(root, rest)) {
       const bool is_member = end == std::string::npos || rest[end] == '.';
       const toml::table* const table = parent.empty() ? &root : toml::at_path(root, parent).as_table();
-      if (with_key && is_member && table) return at(source, table->find(rest.substr(parent.empty() ? 0 : end + 1))->first.source());
+      if (with_key && is_member && table)
+        return at(source, table->find(rest.substr(parent.empty() ? 0 : end + 1))->first.source());
       return at(source, node.node()->source());
     }
     rest = parent;
@@ -140,7 +141,8 @@ std::string TomlValue::as_name() const {
 std::vector<TomlValue> TomlValue::as_list() const {
   const auto* list = node_->as_array();
   if (!list) fail_type("a list in [ ]");
-  constexpr std::size_t kMost = 10000;  // a corner, a point, a contact each: a mistake above that, and gigabytes of memory
+  constexpr std::size_t kMost =
+      10000;  // a corner, a point, a contact each: a mistake above that, and gigabytes of memory
   if (list->size() > kMost) fail(fmt::format("a list of {} is not allowed; need at most {}", list->size(), kMost));
   std::vector<TomlValue> values;
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -219,13 +221,14 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::as_named_values(const 
 TomlTable::TomlTable(const TomlValue& value, const FileKeys& keys, const std::string& declared)
     : value_(value), keys_(&keys), declared_(declared) {
   const std::vector<std::string> names = key_names(keys, declared);
-  if (!value.is_table()) value.fail(fmt::format("{} is not allowed; need a table with {}", describe(value.node()),
-                                                fmt::join(names, ", ")));
+  if (!value.is_table())
+    value.fail(fmt::format("{} is not allowed; need a table with {}", describe(value.node()), fmt::join(names, ", ")));
   for (const auto& [key, node] : *value.node().as_table()) {
     const std::string name(key.str());
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw InputError(fmt::format("{}{}: unknown key{}{} Known: {}", at(value.source(), key.source()), path_of(shown(name)),
-                                 did_you_mean(name, names), where_else(keys, name), fmt::join(names, ", ")));
+    throw InputError(fmt::format("{}{}: unknown key{}{} Known: {}", at(value.source(), key.source()),
+                                 path_of(shown(name)), did_you_mean(name, names), where_else(keys, name),
+                                 fmt::join(names, ", ")));
   }
 }
 
@@ -287,9 +290,7 @@ void TomlDocument::refuse_key(const std::string& key, const std::string& message
   if (const toml::node* node = table_.get(key)) TomlValue(source_, *node, key).fail(message);
 }
 
-TomlTable TomlDocument::root(const FileKeys& keys) const {
-  return TomlTable(TomlValue(source_, table_, ""), keys, "");
-}
+TomlTable TomlDocument::root(const FileKeys& keys) const { return TomlTable(TomlValue(source_, table_, ""), keys, ""); }
 
 std::optional<std::string> find_place(const SourceText& source, const std::string& path) {
   return place_of(source, path, false);

@@ -52,7 +52,7 @@ class TomlValue {
   std::vector<TomlValue> as_list() const;
   std::vector<TomlValue> as_list(std::size_t size) const;
   Eigen::Vector3d as_vector3(const NumberRange& range = NumberRange::any()) const;
-  Bounds as_bounds() const;     ///< a number, "free" or [lower, upper]
+  Bounds as_bounds() const;                         ///< a number, "free" or [lower, upper]
   Bounds as_range(const NumberRange& range) const;  ///< a number or [min, max]
   /// Index of a text in `known`, which are names of a `what`.
   std::size_t as_one_of(const std::string& what, const std::vector<std::string>& known) const;
@@ -120,8 +120,8 @@ class TomlDocument {
   toml::table table_;
 };
 
-/// "file:line:column: " of a key path ("contact[1].frame") in a file that parses, or of the deepest part of the path that
-/// it has; "file:1:1: " if it has none. For what other layers find wrong.
+/// "file:line:column: " of a key path ("contact[1].frame") in a file that parses, or of the deepest part of the path
+/// that it has; "file:1:1: " if it has none. For what other layers find wrong.
 std::string locate(const SourceText& source, const std::string& path);
 /// The same of the key, where not its value but its name is wrong.
 std::string locate_key(const SourceText& source, const std::string& path);

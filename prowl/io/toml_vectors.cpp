@@ -4,7 +4,8 @@
 
 namespace prowl {
 
-void read_axes(const TomlTable& table, const std::string& key, const NumberRange& range, Eigen::Ref<Eigen::VectorXd> values) {
+void read_axes(const TomlTable& table, const std::string& key, const NumberRange& range,
+               Eigen::Ref<Eigen::VectorXd> values) {
   const auto value = table.find(key);
   if (!value) return;
   if (value->is_list()) {

@@ -94,8 +94,8 @@ void check_row(const std::string& where, const MotionProblem& problem, std::size
   }
 }
 
-/// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in its steps, as long as it may last.
-/// Returns its end [s].
+/// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in its steps, as long as it may
+/// last. Returns its end [s].
 double check_times(const std::string& file, const Phase& phase, double begin, const TrajectoryPoint* first,
                    std::size_t line) {
   constexpr double kRounding = 1e-9;  // of the time
@@ -127,9 +127,9 @@ std::string heading(const RobotModel& robot) { return fmt::format("{}", fmt::joi
 
 std::vector<std::string> trajectory_columns(const RobotModel& robot) {
   std::vector<std::string> columns = {
-      "time_s",         "phase",          "base_px_m",      "base_py_m",        "base_pz_m",       "base_qx",
-      "base_qy",        "base_qz",        "base_qw",        "base_vx_mps",      "base_vy_mps",     "base_vz_mps",
-      "base_wx_radps",  "base_wy_radps",  "base_wz_radps",  "base_ax_mps2",     "base_ay_mps2",    "base_az_mps2",
+      "time_s",          "phase",           "base_px_m",      "base_py_m",    "base_pz_m",    "base_qx",
+      "base_qy",         "base_qz",         "base_qw",        "base_vx_mps",  "base_vy_mps",  "base_vz_mps",
+      "base_wx_radps",   "base_wy_radps",   "base_wz_radps",  "base_ax_mps2", "base_ay_mps2", "base_az_mps2",
       "base_dwx_radps2", "base_dwy_radps2", "base_dwz_radps2"};
   for (const auto& joint : robot.joint_names()) columns.push_back("q_" + joint + "_rad");
   for (const auto& joint : robot.joint_names()) columns.push_back("v_" + joint + "_radps");
@@ -152,7 +152,8 @@ std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& tr
 
 std::size_t longest_trajectory(const MotionProblem& problem) {
   constexpr std::size_t kLongestCell = 64;  // with its comma; a double needs 25, other programs may write more digits
-  return heading(problem.robot).size() + 2 + num_rows(problem) * trajectory_columns(problem.robot).size() * kLongestCell;
+  return heading(problem.robot).size() + 2 +
+         num_rows(problem) * trajectory_columns(problem.robot).size() * kLongestCell;
 }
 
 Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source) {
@@ -189,7 +190,8 @@ Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& s
 
 Trajectory sample_uniformly(const Trajectory& trajectory, double step) {
   const double end = trajectory.duration();
-  if (!(step > 0.0) || end / step > kMostUniformSamples) throw InputError(fmt::format("step: {} s is too fine for a motion of {} s", step, end));
+  if (!(step > 0.0) || end / step > kMostUniformSamples)
+    throw InputError(fmt::format("step: {} s is too fine for a motion of {} s", step, end));
   Trajectory samples;
   for (long i = 0; static_cast<double>(i) * step < end - 1e-9 * step; ++i) {
     samples.nodes.push_back(sample(trajectory, static_cast<double>(i) * step));

@@ -23,9 +23,11 @@ constexpr std::size_t kVertexBytes = 3 * sizeof(float);
 
 void check_file(const std::filesystem::path& file) {
   std::string kind = file.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(kind.begin(), kind.end(), kind.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
-    throw InputError(fmt::format("{}: this kind of mesh is not read; need .dae, .stl, .obj, .ply or .glb", file.string()));
+    throw InputError(
+        fmt::format("{}: this kind of mesh is not read; need .dae, .stl, .obj, .ply or .glb", file.string()));
   }
   std::error_code error;
   if (std::filesystem::file_size(file, error) > kLargestFile || error) {
@@ -65,14 +67,15 @@ std::vector<VisualMesh> read_visual_mesh(const std::filesystem::path& file) {
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   // Normals are made again from the triangles that are left; vertices that differ in them alone become one.
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                                          aiComponent_COLORS | aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS |
-                                                          aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
-                                                          aiComponent_CAMERAS);
-  const aiScene* const scene =
-      importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_RemoveComponent | aiProcess_PreTransformVertices |
-                                           aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
-  if (scene == nullptr) throw InputError(fmt::format("{}: Assimp cannot read it: {}", file.string(), importer.GetErrorString()));
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                  aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
+                                  aiComponent_TEXTURES | aiComponent_LIGHTS | aiComponent_CAMERAS);
+  const aiScene* const scene = importer.ReadFile(
+      file.string(), aiProcess_Triangulate | aiProcess_RemoveComponent | aiProcess_PreTransformVertices |
+                         aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  if (scene == nullptr)
+    throw InputError(fmt::format("{}: Assimp cannot read it: {}", file.string(), importer.GetErrorString()));
   std::vector<VisualMesh> meshes;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     VisualMesh mesh = to_mesh(*scene->mMeshes[i], *scene);
@@ -86,10 +89,11 @@ std::vector<VisualMesh> read_visual_mesh(const std::filesystem::path& file) {
 void simplify(VisualMesh& mesh, double share) {
   if (share >= 1.0 || mesh.triangles.empty()) return;
   constexpr float kAnyError = 1.0f;  // of the size of the mesh: the number of triangles decides
-  const std::size_t target = 3 * std::max<std::size_t>(4, static_cast<std::size_t>(share * static_cast<double>(mesh.num_triangles())));
+  const std::size_t target =
+      3 * std::max<std::size_t>(4, static_cast<std::size_t>(share * static_cast<double>(mesh.num_triangles())));
   std::vector<std::uint32_t> fewer(mesh.triangles.size());
-  std::size_t count = meshopt_simplify(fewer.data(), mesh.triangles.data(), mesh.triangles.size(), mesh.positions.data(),
-                                       mesh.num_vertices(), kVertexBytes, target, kAnyError);
+  std::size_t count = meshopt_simplify(fewer.data(), mesh.triangles.data(), mesh.triangles.size(),
+                                       mesh.positions.data(), mesh.num_vertices(), kVertexBytes, target, kAnyError);
   if (count > 2 * target) {  // many small pieces, each of which would stay: give up their shape
     count = meshopt_simplifySloppy(fewer.data(), mesh.triangles.data(), mesh.triangles.size(), mesh.positions.data(),
                                    mesh.num_vertices(), kVertexBytes, target, kAnyError);

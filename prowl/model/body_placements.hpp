@@ -15,8 +15,8 @@ class BodyPlacements {
   explicit BodyPlacements(const RobotModel& robot);
   ~BodyPlacements();
 
-  /// Placements in the world, of the base and then of the body behind each joint, in the order of BodyTree::bodies; q as in
-  /// RobotModel. Valid until the next call.
+  /// Placements in the world, of the base and then of the body behind each joint, in the order of BodyTree::bodies; q
+  /// as in RobotModel. Valid until the next call.
   const std::vector<Eigen::Isometry3d>& at(const Eigen::VectorXd& q);
 
  private:

@@ -9,17 +9,17 @@
 
 namespace prowl {
 
-/// A rigid body of the robot, what fixed joints hold together in one, and the joint that it hangs on. As plain data, for
-/// programs that build the robot again by other means.
+/// A rigid body of the robot, what fixed joints hold together in one, and the joint that it hangs on. As plain data,
+/// for programs that build the robot again by other means.
 struct Body {
-  std::string name;                                            ///< of its joint; "base" for the first
-  int parent = -1;                                             ///< index into BodyTree::bodies; -1 for the base
-  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity(); ///< of the body in its parent with the joint at 0
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();             ///< of the joint, through the body's origin, body axes
+  std::string name;                                             ///< of its joint; "base" for the first
+  int parent = -1;                                              ///< index into BodyTree::bodies; -1 for the base
+  Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< of the body in its parent with the joint at 0
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();              ///< of the joint, through the body's origin, body axes
   bool prismatic = false;
-  double mass = 0.0;                                           ///< [kg]
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();            ///< of mass, in the body [m]
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();           ///< about the centre of mass, body axes [kg m^2]
+  double mass = 0.0;                                  ///< [kg]
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();   ///< of mass, in the body [m]
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass, body axes [kg m^2]
 };
 
 struct BodyTree {

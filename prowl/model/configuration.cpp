@@ -36,7 +36,8 @@ Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy) {
 }
 
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R) {
-  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))), std::atan2(R(1, 0), R(0, 0))};
+  return {std::atan2(R(2, 1), R(2, 2)), std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0))),
+          std::atan2(R(1, 0), R(0, 0))};
 }
 
 }  // namespace prowl

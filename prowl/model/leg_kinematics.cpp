@@ -15,8 +15,8 @@ struct LegKinematics::Workspace {
 };
 
 LegKinematics::LegKinematics(const RobotModel& robot)
-    : workspace_(new Workspace{robot.pinocchio(), pinocchio::Data(robot.pinocchio().model),
-                               Eigen::VectorXd::Zero(robot.nq()), {}}),
+    : workspace_(new Workspace{
+          robot.pinocchio(), pinocchio::Data(robot.pinocchio().model), Eigen::VectorXd::Zero(robot.nq()), {}}),
       positions_(robot.contacts().size(), Eigen::Vector3d::Zero()),
       linear_(robot.contacts().size(), Eigen::Matrix3Xd::Zero(3, robot.nu())),
       angular_(robot.contacts().size(), Eigen::Matrix3Xd::Zero(3, robot.nu())) {

@@ -18,17 +18,20 @@ void check(const LimitCurve::Table& table) {
   }
   constexpr std::size_t kMostPoints = 200;  // they take a dense matrix of that size
   if (table.size() > kMostPoints) {
-    throw InputError(fmt::format("a limit curve of {} points is not allowed; need at most {}", table.size(), kMostPoints));
+    throw InputError(
+        fmt::format("a limit curve of {} points is not allowed; need at most {}", table.size(), kMostPoints));
   }
   for (std::size_t i = 0; i < table.size(); ++i) {
     const auto& [x, limit] = table[i];
     if (!std::isfinite(x) || !std::isfinite(limit) || !(limit > 0.0)) {
-      throw InputError(fmt::format("point {} of the limit curve, ({:g}, {:g}), is not allowed; need a finite place and a "
-                                   "limit > 0", i + 1, x, limit));
+      throw InputError(
+          fmt::format("point {} of the limit curve, ({:g}, {:g}), is not allowed; need a finite place and a "
+                      "limit > 0",
+                      i + 1, x, limit));
     }
     if (i > 0 && !(x > table[i - 1].first)) {
-      throw InputError(fmt::format("point {} of the limit curve is at {:g}, not after the one before it at {:g}", i + 1, x,
-                                   table[i - 1].first));
+      throw InputError(fmt::format("point {} of the limit curve is at {:g}, not after the one before it at {:g}", i + 1,
+                                   x, table[i - 1].first));
     }
   }
 }
@@ -37,8 +40,8 @@ Eigen::Spline<double, 1, 3> interpolate(const LimitCurve::Table& table) {
   Eigen::RowVectorXd limits(static_cast<Eigen::Index>(table.size())), places(limits.size());
   for (std::size_t i = 0; i < table.size(); ++i) {
     limits(static_cast<Eigen::Index>(i)) = table[i].second;
-    places(static_cast<Eigen::Index>(i)) = (table[i].first - table.front().first) /
-                                           (table.back().first - table.front().first);
+    places(static_cast<Eigen::Index>(i)) =
+        (table[i].first - table.front().first) / (table.back().first - table.front().first);
   }
   return Eigen::SplineFitting<Eigen::Spline<double, 1, 3>>::Interpolate(limits, 3, places);
 }
@@ -52,8 +55,10 @@ LimitCurve::LimitCurve(const Table& table)
   for (int i = 0; i <= kSamples; ++i) {
     const double x = first_ + (last_ - first_) * i / kSamples;
     if (value(x) > 0.0) continue;
-    throw InputError(fmt::format("the limit curve through these points is {:g} at {:g}; need > 0 everywhere: give more "
-                                 "points there", value(x), x));
+    throw InputError(
+        fmt::format("the limit curve through these points is {:g} at {:g}; need > 0 everywhere: give more "
+                    "points there",
+                    value(x), x));
   }
 }
 

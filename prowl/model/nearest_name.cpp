@@ -9,8 +9,8 @@ namespace prowl {
 
 namespace {
 
-/// Letters changed, missing, added, or swapped with the next: Levenshtein's distance with swaps (optimal string alignment),
-/// row by row.
+/// Letters changed, missing, added, or swapped with the next: Levenshtein's distance with swaps (optimal string
+/// alignment), row by row.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));

@@ -5,8 +5,8 @@
 
 namespace prowl {
 
-/// The name that takes the fewest changed, missing, added or swapped letters (upper and lower case count as one) from `wrong`;
-/// empty if there are no names.
+/// The name that takes the fewest changed, missing, added or swapped letters (upper and lower case count as one) from
+/// `wrong`; empty if there are no names.
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names);
 
 /// "; did you mean 'x'?" for the end of a message, or empty if there are no names.

@@ -23,9 +23,9 @@ namespace {
 using Kind = RobotWarning::Kind;
 using Warnings = std::vector<RobotWarning>;
 
-constexpr double kLevel = 1e-3;          // [m]
-constexpr double kRelative = 1e-3;       // of masses and limits, left against right
-constexpr double kTinyMass = 1e-5;       // of the robot's mass
+constexpr double kLevel = 1e-3;     // [m]
+constexpr double kRelative = 1e-3;  // of masses and limits, left against right
+constexpr double kTinyMass = 1e-5;  // of the robot's mass
 // Of the largest singular value: what is below the threshold counts as zero; between the other two it might be either.
 constexpr double kRankThreshold = 1e-8, kSurelyZero = 1e-10, kSurelyNot = 1e-6;
 
@@ -185,17 +185,19 @@ std::vector<std::string> contact_frame_names(const RobotModel& robot) {
 }
 
 std::vector<std::string> implausible_sizes(const RobotModel& robot) {
-  constexpr double kLargestBall = 0.25;                    // of the robot's size; feet have a tenth of that
-  constexpr double kThinnest = 1.0, kDensest = 1e4;        // [kg/m^3], of a cube as large as the robot; ours have 50 to 500
+  constexpr double kLargestBall = 0.25;              // of the robot's size; feet have a tenth of that
+  constexpr double kThinnest = 1.0, kDensest = 1e4;  // [kg/m^3], of a cube as large as the robot; ours have 50 to 500
   std::vector<std::string> lines;
   const double size = robot.size(), density = robot.mass() / (size * size * size);
   if (!robot.contacts().empty() && (density < kThinnest || density > kDensest)) {
-    lines.push_back(fmt::format("{:.3g} kg, and contacts {:.3g} m from the base: is the robot in kilograms and metres?", robot.mass(), size));
+    lines.push_back(fmt::format("{:.3g} kg, and contacts {:.3g} m from the base: is the robot in kilograms and metres?",
+                                robot.mass(), size));
   }
   for (const ContactPoint& contact : robot.contacts()) {
     if (contact.radius <= kLargestBall * size) continue;
-    lines.push_back(fmt::format("contact '{}' has a radius of {:.3g} m, and is {:.3g} m from the base: is it in metres?", contact.name,
-                                contact.radius, size));
+    lines.push_back(
+        fmt::format("contact '{}' has a radius of {:.3g} m, and is {:.3g} m from the base: is it in metres?",
+                    contact.name, contact.radius, size));
   }
   return lines;
 }

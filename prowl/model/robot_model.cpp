@@ -27,7 +27,7 @@ namespace {
 
 constexpr auto kLinkOrFixedJoint = static_cast<pinocchio::FrameType>(pinocchio::BODY | pinocchio::FIXED_JOINT);
 const char* const kWorldFrame = "universe";
-constexpr pinocchio::JointIndex kBaseJoint = 1;  // 0 is the world
+constexpr pinocchio::JointIndex kBaseJoint = 1;    // 0 is the world
 constexpr std::uintmax_t kLargestUrdf = 4u << 20;  // [bytes]; the largest known are below 1 MB
 
 std::string read_text(const std::filesystem::path& path) {
@@ -81,7 +81,8 @@ std::vector<std::string> link_names(const pinocchio::Model& model) {
   return names;
 }
 
-/// The link or, if there is none, the fixed joint of that name: it may be that of both. None that Pinocchio adds by itself.
+/// The link or, if there is none, the fixed joint of that name: it may be that of both. None that Pinocchio adds by
+/// itself.
 std::optional<pinocchio::FrameIndex> find_frame(const pinocchio::Model& model, const std::string& name) {
   for (const pinocchio::FrameType type : {pinocchio::BODY, pinocchio::FIXED_JOINT}) {
     if (name != kWorldFrame && model.existFrame(name, type)) return model.getFrameId(name, type);
@@ -96,13 +97,15 @@ std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& de
   for (std::size_t i = 0; i < description.contacts.size(); ++i) {
     const ContactPoint& contact = description.contacts[i];
     const auto refuse = [&](const std::string& why) {
-      throw DescriptionError(fmt::format("contact[{}].frame", i), fmt::format("robot '{}': contact '{}': {}", description.name, contact.name, why));
+      throw DescriptionError(fmt::format("contact[{}].frame", i),
+                             fmt::format("robot '{}': contact '{}': {}", description.name, contact.name, why));
     };
-    if (contact.name.empty() || !names.insert(contact.name).second) refuse("the name of a contact must be unique and not empty");
+    if (contact.name.empty() || !names.insert(contact.name).second)
+      refuse("the name of a contact must be unique and not empty");
     const std::optional<pinocchio::FrameIndex> found = find_frame(model, contact.frame);
     if (!found) {
-      refuse(fmt::format("frame '{}' is no link or fixed joint of {}{}", shown(contact.frame), description.urdf.string(),
-                         did_you_mean(contact.frame, links)));
+      refuse(fmt::format("frame '{}' is no link or fixed joint of {}{}", shown(contact.frame),
+                         description.urdf.string(), did_you_mean(contact.frame, links)));
     }
     if (!(contact.radius >= 0.0) || !std::isfinite(contact.radius)) {
       refuse(fmt::format("radius {} is not allowed; need radius >= 0 [m]", contact.radius));
@@ -126,8 +129,9 @@ Eigen::Index joint_index(const RobotDescription& description, const std::vector<
                          const std::string& field, const std::string& name) {
   const auto joint = std::find(joints.begin(), joints.end(), name);
   if (joint == joints.end()) {
-    throw DescriptionError(field + "." + name, fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, shown(name),
-                                                           description.urdf.string(), did_you_mean(name, joints)));
+    throw DescriptionError(field + "." + name,
+                           fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, shown(name),
+                                       description.urdf.string(), did_you_mean(name, joints)));
   }
   return joint - joints.begin();
 }
@@ -145,9 +149,13 @@ void check_limits(const RobotModel& robot) {
     };
     const double lower = robot.position_lower()(j), upper = robot.position_upper()(j);
     const double velocity = robot.velocity_limit()(j), torque = robot.torque_limit()(j);
-    if (!(lower < upper)) refuse(limits.position_lower || limits.position_upper, fmt::format("position from {} to {}", lower, upper), "lower < upper");
-    if (!(velocity > 0.0)) refuse(limits.velocity.has_value(), fmt::format("velocity limit {}", velocity), "velocity > 0");
-    if (!(torque > 0.0)) refuse(limits.torque.has_value(), fmt::format("torque limit (effort) {}", torque), "effort > 0");
+    if (!(lower < upper))
+      refuse(limits.position_lower || limits.position_upper, fmt::format("position from {} to {}", lower, upper),
+             "lower < upper");
+    if (!(velocity > 0.0))
+      refuse(limits.velocity.has_value(), fmt::format("velocity limit {}", velocity), "velocity > 0");
+    if (!(torque > 0.0))
+      refuse(limits.torque.has_value(), fmt::format("torque limit (effort) {}", torque), "effort > 0");
   }
 }
 
@@ -218,8 +226,9 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   for (const auto& [name, position] : description_.nominal_joints) {
     const Eigen::Index j = joint_index(description_, joint_names_, "nominal.joints", name);
     if (!std::isfinite(position)) {
-      throw DescriptionError("nominal.joints." + name, fmt::format("robot '{}': nominal.joints.{}: {} is not a finite position",
-                                                                   this->name(), name, position));
+      throw DescriptionError(
+          "nominal.joints." + name,
+          fmt::format("robot '{}': nominal.joints.{}: {} is not a finite position", this->name(), name, position));
     }
     nominal_configuration_(7 + j) = position;
   }

@@ -95,13 +95,15 @@ std::vector<RobotVisual> shapes_of(const RobotModel& robot, const Sources& sourc
 }  // namespace
 
 std::vector<RobotVisual> robot_visuals(const RobotModel& robot) {
-  return shapes_of(robot, [](const urdf::Link& link) { return link.visual_array; },
-                   [](const urdf::Visual& source) { return colour_of(source); });
+  return shapes_of(
+      robot, [](const urdf::Link& link) { return link.visual_array; },
+      [](const urdf::Visual& source) { return colour_of(source); });
 }
 
 std::vector<RobotVisual> robot_collisions(const RobotModel& robot) {
-  return shapes_of(robot, [](const urdf::Link& link) { return link.collision_array; },
-                   [](const urdf::Collision&) { return std::optional<Eigen::Vector3d>(); });
+  return shapes_of(
+      robot, [](const urdf::Link& link) { return link.collision_array; },
+      [](const urdf::Collision&) { return std::optional<Eigen::Vector3d>(); });
 }
 
 std::optional<RobotVisual> inertia_box(const BodyTree& tree, int index) {

@@ -45,7 +45,8 @@ std::string printable(std::string_view text) {
     if (c.size == 0) {
       result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[0]));
     } else if (is_control(c.code)) {
-      result += c.code < 0x100 ? fmt::format("\\x{:02x}", static_cast<unsigned>(c.code)) : fmt::format("\\u{:04x}", static_cast<unsigned>(c.code));
+      result += c.code < 0x100 ? fmt::format("\\x{:02x}", static_cast<unsigned>(c.code))
+                               : fmt::format("\\u{:04x}", static_cast<unsigned>(c.code));
     } else {
       result += text.substr(0, c.size);
     }

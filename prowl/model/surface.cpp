@@ -13,8 +13,10 @@ std::string Surface::patch_fault(const std::vector<Eigen::Vector2d>& corners) {
     const Eigen::Vector2d edge = next - corners[i], following = corners[(i + 2) % corners.size()] - next;
     const double cross = edge.x() * following.y() - edge.y() * following.x();
     if (!(cross > 0.0)) {
-      return fmt::format("the corners after corner {} do not turn left; need a convex patch, counterclockwise seen from "
-                         "outside", i + 1);
+      return fmt::format(
+          "the corners after corner {} do not turn left; need a convex patch, counterclockwise seen from "
+          "outside",
+          i + 1);
     }
     turned += std::atan2(cross, edge.dot(following));
   }

@@ -21,7 +21,8 @@ struct Surface {
   static std::string patch_fault(const std::vector<Eigen::Vector2d>& corners);
 
   /// Axes of the surface coordinates, unit vectors in the world: the first is x turned into the plane (y, where x is
-  /// along the normal), the second completes (first, second, normal) to a right-handed frame. World x y on level ground.
+  /// along the normal), the second completes (first, second, normal) to a right-handed frame. World x y on level
+  /// ground.
   Eigen::Matrix<double, 3, 2> axes() const {
     Eigen::Vector3d first = Eigen::Vector3d::UnitX() - normal.x() * normal;
     if (first.norm() < 1e-3) first = Eigen::Vector3d::UnitY() - normal.y() * normal;

@@ -13,8 +13,8 @@ void RobotModel::add_torque_curve(const std::string& name, int joint, const Limi
   try {
     torque_curves_.push_back({joint, over_velocity, LimitCurve(table)});
   } catch (const InputError& error) {
-    throw DescriptionError("limits." + name, fmt::format("limits.{}.torque_over_{}: {}", name, over_velocity ? "velocity" : "position",
-                                                         error.what()));
+    throw DescriptionError("limits." + name, fmt::format("limits.{}.torque_over_{}: {}", name,
+                                                         over_velocity ? "velocity" : "position", error.what()));
   }
 }
 
@@ -25,10 +25,12 @@ void RobotModel::check_torque_curves() const {
     const double upper = limit.over_velocity ? velocity_limit_(limit.joint) : position_upper_(limit.joint);
     if (limit.curve.lower_end() <= lower && limit.curve.upper_end() >= upper) continue;
     const std::string& name = joint_names_[limit.joint];
-    throw DescriptionError("limits." + name,
-                           fmt::format("limits.{}.torque_over_{}: a table from {:g} to {:g} is not allowed; it has to cover the "
-                                       "joint's range, {:g} to {:g}", name, limit.over_velocity ? "velocity" : "position",
-                                       limit.curve.lower_end(), limit.curve.upper_end(), lower, upper));
+    throw DescriptionError(
+        "limits." + name,
+        fmt::format("limits.{}.torque_over_{}: a table from {:g} to {:g} is not allowed; it has to cover the "
+                    "joint's range, {:g} to {:g}",
+                    name, limit.over_velocity ? "velocity" : "position", limit.curve.lower_end(),
+                    limit.curve.upper_end(), lower, upper));
   }
 }
 

@@ -97,7 +97,8 @@ void check_joint(const Place& place, const XMLElement& joint, const std::vector<
     if (end == nullptr) place.refuse(joint, fmt::format("no <{} link=\"...\"/>", role));
     ends[i] = urdf_text(place, *end, "link");
     if (std::find(links.begin(), links.end(), ends[i]) == links.end()) {
-      place.refuse(*end, fmt::format("{} link '{}' does not exist{}", role, shown(ends[i]), did_you_mean(ends[i], links)));
+      place.refuse(*end,
+                   fmt::format("{} link '{}' does not exist{}", role, shown(ends[i]), did_you_mean(ends[i], links)));
     }
   }
   if (!parents.emplace(ends[1], ends[0]).second) {
@@ -141,7 +142,8 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
   for (const tinyxml2::XMLNode* n = document.FirstChild(); n != nullptr; n = n->NextSibling()) {
     // Nobody here expands entities, so that a text with one would not be what its author means.
     if (n->ToUnknown() == nullptr || std::string_view(n->Value()).find("<!ENTITY") == std::string_view::npos) continue;
-    throw InputError(fmt::format("{}:{}: entities (<!ENTITY ...>) are not allowed; write out what they stand for", file, n->GetLineNum()));
+    throw InputError(fmt::format("{}:{}: entities (<!ENTITY ...>) are not allowed; write out what they stand for", file,
+                                 n->GetLineNum()));
   }
   for (const XMLElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     if (std::string(e->Name()).starts_with("xacro:")) {

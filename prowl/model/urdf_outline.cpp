@@ -16,7 +16,8 @@ UrdfOutline urdf_outline(const std::string& file, const std::string& xml) {
   for (const auto& [name, joint] : urdf->joints_) {
     if (joint->type == urdf::Joint::FIXED || !joint->limits) continue;
     const urdf::JointLimits& limits = *joint->limits;
-    outline.joints.push_back({name, joint->type == urdf::Joint::PRISMATIC, limits.lower, limits.upper, limits.velocity, limits.effort});
+    outline.joints.push_back(
+        {name, joint->type == urdf::Joint::PRISMATIC, limits.lower, limits.upper, limits.velocity, limits.effort});
   }
   return outline;
 }

@@ -59,8 +59,9 @@ double check_urdf_vector(const UrdfPlace& place, const XMLElement* at, const cha
     largest = std::max(largest, std::abs(value));
   }
   if (words || count != size) {
-    place.refuse(*at, fmt::format("<{} {}=\"{}\">: expected {}", at->Name(), name, shown(at->Attribute(name)),
-                                  size == 3 ? "three finite numbers like 0 0 1.5" : "four finite numbers like 0.5 0.5 0.5 1"));
+    place.refuse(
+        *at, fmt::format("<{} {}=\"{}\">: expected {}", at->Name(), name, shown(at->Attribute(name)),
+                         size == 3 ? "three finite numbers like 0 0 1.5" : "four finite numbers like 0.5 0.5 0.5 1"));
   }
   return largest;
 }

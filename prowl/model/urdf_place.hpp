@@ -23,7 +23,8 @@ constexpr double kLargestInUrdf = 1e9;  ///< of any length, mass, inertia [SI]: 
 std::string urdf_text(const UrdfPlace& place, const tinyxml2::XMLElement& at, const char* name);
 
 /// The same as one finite number.
-double urdf_number(const UrdfPlace& place, const tinyxml2::XMLElement& at, const char* name, double largest = kLargestInUrdf);
+double urdf_number(const UrdfPlace& place, const tinyxml2::XMLElement& at, const char* name,
+                   double largest = kLargestInUrdf);
 
 /// Refuses an attribute `name` of the element that is not `size` finite numbers, 3 or 4; it may be missing, as may the
 /// element (nullptr). Returns their largest absolute value.

@@ -15,7 +15,8 @@ namespace {
 
 void check_size(const UrdfPlace& place, const XMLElement& shape, const char* name) {
   const double size = urdf_number(place, shape, name);
-  if (size < 0.0) place.refuse(shape, fmt::format("<{} {}=\"{}\">: expected a number >= 0 [m]", shape.Name(), name, size));
+  if (size < 0.0)
+    place.refuse(shape, fmt::format("<{} {}=\"{}\">: expected a number >= 0 [m]", shape.Name(), name, size));
 }
 
 void check_box(const UrdfPlace& place, const XMLElement& box) {
@@ -24,7 +25,8 @@ void check_box(const UrdfPlace& place, const XMLElement& box) {
   if (std::string_view(box.Attribute("size")).find('-') == std::string_view::npos) return;
   std::istringstream numbers(box.Attribute("size"));
   for (double size = 0.0; numbers >> size;) {
-    if (size < 0.0) place.refuse(box, fmt::format("<box size=\"{}\">: expected numbers >= 0 [m]", shown(box.Attribute("size"))));
+    if (size < 0.0)
+      place.refuse(box, fmt::format("<box size=\"{}\">: expected numbers >= 0 [m]", shown(box.Attribute("size"))));
   }
 }
 
@@ -46,7 +48,8 @@ void check_shapes(const UrdfPlace& place, const XMLElement& link) {
     for (const XMLElement* e = link.FirstChildElement(use); e != nullptr; e = e->NextSiblingElement(use)) {
       check_urdf_origin(place, *e);
       const XMLElement* geometry = e->FirstChildElement("geometry");
-      if (geometry != nullptr && geometry->FirstChildElement() != nullptr) check_geometry(place, *geometry->FirstChildElement());
+      if (geometry != nullptr && geometry->FirstChildElement() != nullptr)
+        check_geometry(place, *geometry->FirstChildElement());
       const XMLElement* material = e->FirstChildElement("material");
       if (material != nullptr) check_urdf_vector(place, material->FirstChildElement("color"), "rgba", 4);
     }

@@ -14,14 +14,17 @@ struct ContactPositionCost {
 
 /// Quadratic cost of one instant:
 ///
-///   w_t + 1/2 ( |q (-) q_ref|^2_Wq + |v|^2_Wv + |a|^2_Wa + |tau - tau_ref|^2_Wtau + sum_c |f_c|^2_Wf + contact positions )
+///   w_t + 1/2 ( |q (-) q_ref|^2_Wq + |v|^2_Wv + |a|^2_Wa + |tau - tau_ref|^2_Wtau + sum_c |f_c|^2_Wf + contact
+///   positions )
 ///
-/// with diagonal weights >= 0. w_t makes time itself cost, for phases of free duration. The running cost is its integral over time, the terminal cost its value at the last node
-/// (there only the terms of q and v count). q (-) q_ref is prowl::difference(q_ref, q): its first six entries weigh the
-/// base pose. tau_ref is normally the static torque of the start.
+/// with diagonal weights >= 0. w_t makes time itself cost, for phases of free duration. The running cost is its
+/// integral over time, the terminal cost its value at the last node (there only the terms of q and v count). q (-)
+/// q_ref is prowl::difference(q_ref, q): its first six entries weigh the base pose. tau_ref is normally the static
+/// torque of the start.
 struct QuadraticCost {
-  Eigen::VectorXd q_ref;                ///< nq
-  Eigen::VectorXd configuration_weight; ///< nv: base displacement (world) [1/m^2], rotation [1/rad^2], joints [1/rad^2]
+  Eigen::VectorXd q_ref;  ///< nq
+  Eigen::VectorXd
+      configuration_weight;             ///< nv: base displacement (world) [1/m^2], rotation [1/rad^2], joints [1/rad^2]
   Eigen::VectorXd velocity_weight;      ///< nv: base twist (base frame) and joint rates [s^2/m^2, s^2/rad^2]
   Eigen::VectorXd acceleration_weight;  ///< nv, likewise [s^4/m^2, s^4/rad^2]
   Eigen::VectorXd tau_ref;              ///< nu [N m]
@@ -34,9 +37,9 @@ struct QuadraticCost {
 /// 1/2 |difference(q_ref, q)|^2_W with its derivatives in the tangent at q (configuration.hpp).
 struct ConfigurationCost {
   double value = 0.0;
-  Eigen::VectorXd gradient;             ///< nv
-  Eigen::VectorXd hessian_diagonal;     ///< nv; the rotation's entries (3 ... 5) are in the block instead
-  Eigen::Matrix3d hessian_rotation;     ///< rows and columns 3 ... 5
+  Eigen::VectorXd gradient;          ///< nv
+  Eigen::VectorXd hessian_diagonal;  ///< nv; the rotation's entries (3 ... 5) are in the block instead
+  Eigen::Matrix3d hessian_rotation;  ///< rows and columns 3 ... 5
 };
 ConfigurationCost configuration_cost(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& weight,
                                      const Eigen::VectorXd& q);

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "prowl/motion/friction_cone.hpp"
 #include "prowl/model/surface.hpp"
+#include "prowl/motion/friction_cone.hpp"
 
 namespace prowl {
 

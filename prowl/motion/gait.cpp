@@ -21,8 +21,8 @@ class PhaseList {
 
   /// A phase in which all contacts hold but those of these feet.
   void add(std::string name, const std::vector<Foot>& swinging, const Duration& duration) {
-    constexpr double kRounding = 1e-9;     // 0.3 s at 50/s are 15 intervals, not 16
-    constexpr int kFewestIntervals = 2;    // a swing keeps its clearance at the nodes inside
+    constexpr double kRounding = 1e-9;   // 0.3 s at 50/s are 15 intervals, not 16
+    constexpr int kFewestIntervals = 2;  // a swing keeps its clearance at the nodes inside
     Phase phase;
     phase.name = std::move(name);
     phase.duration = duration;
@@ -85,8 +85,8 @@ std::optional<Feet> find_feet(const RobotModel& robot) {
 
 const std::vector<GaitPattern>& gait_patterns() {
   using enum Foot;
-  // A duty factor above the least leaves time in which all feet stand. Without it the feet on the ground lose their force
-  // at the very moment at which the next ones touch it.
+  // A duty factor above the least leaves time in which all feet stand. Without it the feet on the ground lose their
+  // force at the very moment at which the next ones touch it.
   static const std::vector<GaitPattern> patterns = {
       {"walk", {{lh}, {lf}, {rh}, {rf}}, 0.8},
       {"trot", {{lf, rh}, {rf, lh}}, 0.6},

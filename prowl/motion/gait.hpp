@@ -19,8 +19,8 @@ enum class Foot { lf, rf, lh, rh };
 using Feet = std::array<int, 4>;
 
 /// Which contact is which foot, by where they are in the nominal posture: one in each quarter around the middle of all
-/// contacts, along the axes of the base (x forward, y to the left). None for a robot that is not made so, or has more or
-/// fewer than four contacts.
+/// contacts, along the axes of the base (x forward, y to the left). None for a robot that is not made so, or has more
+/// or fewer than four contacts.
 std::optional<Feet> find_feet(const RobotModel& robot);
 
 /// Feet that swing together, one group after the other, once each in a stride.
@@ -41,20 +41,20 @@ const std::vector<GaitPattern>& gait_patterns();
 struct Gait {
   GaitPattern pattern;
   int strides = 1;
-  Duration stride;                    ///< of one stride; each phase has its share of both bounds [s]
-  double duty_factor = 0.75;          ///< at least pattern.least_duty_factor(), below 1 [-]
-  double start = 0.5;                 ///< all feet stand before the first stride [s]
-  double settle = 0.5;                ///< and from the last landing to the end, in place of the last stand of a stride [s]
-  double intervals_per_second = 50.0; ///< of a phase at its longest [1/s]
-  int surface = 0;                    ///< index into MotionProblem::surfaces
+  Duration stride;            ///< of one stride; each phase has its share of both bounds [s]
+  double duty_factor = 0.75;  ///< at least pattern.least_duty_factor(), below 1 [-]
+  double start = 0.5;         ///< all feet stand before the first stride [s]
+  double settle = 0.5;        ///< and from the last landing to the end, in place of the last stand of a stride [s]
+  double intervals_per_second = 50.0;  ///< of a phase at its longest [1/s]
+  int surface = 0;                     ///< index into MotionProblem::surfaces
 };
 
 /// The phases of a gait: "start", swings and stands of every stride, "settle". Feet that land are free to choose their
 /// place. A stand shorter than a microsecond is left out.
 std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet);
 
-/// A displacement along a surface [m]: seen from above it goes to the heading [rad, about the world's z from its x], and it
-/// climbs as the surface does. The surface must not stand upright.
+/// A displacement along a surface [m]: seen from above it goes to the heading [rad, about the world's z from its x],
+/// and it climbs as the surface does. The surface must not stand upright.
 Eigen::Vector3d along_surface(const Surface& surface, double heading, double length);
 
 }  // namespace prowl

@@ -64,7 +64,8 @@ void check_surface(const std::string& field, const Surface& surface) {
     refuse("{}.friction: {} is not allowed; need a coefficient > 0", field, surface.friction);
   }
   if (surface.patch.empty()) return;
-  if (const std::string fault = Surface::patch_fault(surface.patch); !fault.empty()) refuse("{}.patch: {}", field, fault);
+  if (const std::string fault = Surface::patch_fault(surface.patch); !fault.empty())
+    refuse("{}.patch: {}", field, fault);
 }
 
 void check_place(const MotionProblem& problem, const std::string& field, const PhaseContact& contact) {
@@ -120,10 +121,11 @@ void check_surfaces_of_contacts(const MotionProblem& problem) {
     for (const PhaseContact& held : problem.phases[p].contacts) {
       for (const PhaseContact& before : problem.phases[p - 1].contacts) {
         if (held.contact != before.contact || held.surface == before.surface) continue;
-        refuse("phases[{}]: contact '{}' goes from surface '{}' to '{}' without opening; need a phase between in which it "
-               "is open", p, problem.robot.contacts()[held.contact].name,
-               problem.surfaces[before.surface].name,
-               problem.surfaces[held.surface].name);
+        refuse(
+            "phases[{}]: contact '{}' goes from surface '{}' to '{}' without opening; need a phase between in which it "
+            "is open",
+            p, problem.robot.contacts()[held.contact].name, problem.surfaces[before.surface].name,
+            problem.surfaces[held.surface].name);
       }
     }
   }
@@ -177,9 +179,12 @@ void check_places(const MotionProblem& problem) {
     const auto& contacts = problem.phases[p].contacts;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       if (!contacts[i].place || schedule.lands(static_cast<int>(p), static_cast<int>(i))) continue;
-      refuse("phases[{}].contacts[{}].place: contact '{}' does not land in this phase, it {}; need no place, or the phase in which "
-             "it lands", p, i, problem.robot.contacts()[contacts[i].contact].name,
-             p == 0 ? "starts where the start posture has it" : "holds from the phase before");
+      refuse(
+          "phases[{}].contacts[{}].place: contact '{}' does not land in this phase, it {}; need no place, or the phase "
+          "in which "
+          "it lands",
+          p, i, problem.robot.contacts()[contacts[i].contact].name,
+          p == 0 ? "starts where the start posture has it" : "holds from the phase before");
     }
   }
 }
@@ -191,13 +196,17 @@ void check_start_outside(const MotionProblem& problem, const RigidBodyTerms& ter
     for (const Surface& surface : problem.surfaces) {
       const double gap = surface.distance(terms.contact_position(c)) - contact.radius;
       if (!surface.patch.empty() || gap >= -kOnSurface) continue;
-      refuse("boundary_conditions[0].q_ref: contact '{}' starts {:.1f} mm inside surface '{}'; need it outside: another start, or "
-             "a normal that points to the robot's side", contact.name, -1e3 * gap, surface.name);
+      refuse(
+          "boundary_conditions[0].q_ref: contact '{}' starts {:.1f} mm inside surface '{}'; need it outside: another "
+          "start, or "
+          "a normal that points to the robot's side",
+          contact.name, -1e3 * gap, surface.name);
     }
   }
 }
 
-/// The contacts of the first phase must be on their surfaces, inside their patches and, at the start velocity, stay there.
+/// The contacts of the first phase must be on their surfaces, inside their patches and, at the start velocity, stay
+/// there.
 void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& terms) {
   const Phase& phase = problem.phases.front();
   ContactKinematics kinematics(contact_indices(phase.contacts));
@@ -218,8 +227,11 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
     const Eigen::Vector2d on_surface = surface.coordinates(kinematics.positions().segment<3>(row));
     const double outside = (on_surface - nearest_in_patch(surface, on_surface)).norm();
     if (outside > kOnSurface) {
-      refuse("boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm outside the patch of surface '{}'; need "
-             "at most {} mm", contact.name, 1e3 * outside, surface.name, 1e3 * kOnSurface);
+      refuse(
+          "boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm outside the patch of surface "
+          "'{}'; need "
+          "at most {} mm",
+          contact.name, 1e3 * outside, surface.name, 1e3 * kOnSurface);
     }
     const double speed = velocities.segment<3>(row).norm();
     if (!(speed <= kAtRest)) {
@@ -244,8 +256,10 @@ void check_rotations(const MotionProblem& problem) {
     for (int p = 0; p < condition.at.phase; ++p) time += problem.phases[p].intervals;
     const auto [other, is_first] = binding.insert({time, i});
     if (is_first) continue;
-    refuse("boundary_conditions[{}].configuration: it binds the base's rotation at the time at which "
-           "boundary_conditions[{}] does; need one condition there", i, other->second);
+    refuse(
+        "boundary_conditions[{}].configuration: it binds the base's rotation at the time at which "
+        "boundary_conditions[{}] does; need one condition there",
+        i, other->second);
   }
 }
 

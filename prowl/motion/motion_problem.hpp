@@ -51,7 +51,8 @@ struct MotionProblem {
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
   FrictionModel friction_model = FrictionModel::cone;
-  double swing_clearance = 0.0;  ///< of contacts in the air above the surfaces they pass, in the middle of the swing [m]
+  double swing_clearance =
+      0.0;  ///< of contacts in the air above the surfaces they pass, in the middle of the swing [m]
   GoalTolerance goal_tolerance;
 
   const BoundaryCondition& start() const { return boundary_conditions.front(); }

@@ -42,9 +42,7 @@ struct Phase {
   std::vector<double> shares = {};
 
   /// Length of interval i, 0 ... intervals - 1, of a phase that lasts so long [s].
-  double step(int i, double lasting) const {
-    return shares.empty() ? lasting / intervals : lasting * shares[i];
-  }
+  double step(int i, double lasting) const { return shares.empty() ? lasting / intervals : lasting * shares[i]; }
   /// From the start of a phase that lasts so long to its node k, 0 ... intervals [s]. The last is at the end exactly.
   double node_time(int k, double lasting) const {
     if (k == intervals) return lasting;

@@ -153,18 +153,17 @@ DerivativeReport check_derivatives(Nlp& nlp, const Eigen::VectorXd& z, double co
         moved[j] += distance;
         return value(moved);
       };
-      return Eigen::VectorXd((8.0 * (at_distance(h) - at_distance(-h)) - (at_distance(2.0 * h) - at_distance(-2.0 * h))) /
-                             (12.0 * h));
+      return Eigen::VectorXd(
+          (8.0 * (at_distance(h) - at_distance(-h)) - (at_distance(2.0 * h) - at_distance(-2.0 * h))) / (12.0 * h));
     };
-    const Eigen::VectorXd cost = difference([&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
-      return Eigen::VectorXd::Constant(1, nlp.cost(x));
-    });
+    const Eigen::VectorXd cost = difference(
+        [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return Eigen::VectorXd::Constant(1, nlp.cost(x)); });
     note(report.gradient, gradient[j], cost[0], 0, j, variable);
     const Eigen::VectorXd dg = difference([&](const Eigen::VectorXd& x) { return at.constraints(x); });
     compare_column(jacobian_columns, dg, j, 0, options.outside_tolerance, constraint, report.jacobian,
                    report.pattern_faults);
-    const Eigen::VectorXd dl = difference(
-        [&](const Eigen::VectorXd& x) { return at.lagrangian_gradient(x, cost_factor, multipliers); });
+    const Eigen::VectorXd dl =
+        difference([&](const Eigen::VectorXd& x) { return at.lagrangian_gradient(x, cost_factor, multipliers); });
     compare_column(hessian_columns, dl, j, j, options.outside_tolerance, variables, report.hessian,
                    report.pattern_faults);
   }

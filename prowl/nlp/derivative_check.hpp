@@ -31,7 +31,7 @@ struct DerivativeReport {
 };
 
 struct DerivativeCheckOptions {
-  double step = 5e-5;               ///< h = step max(1, |z_j|); fourth-order differences: truncation h^4, rounding eps / h
+  double step = 5e-5;  ///< h = step max(1, |z_j|); fourth-order differences: truncation h^4, rounding eps / h
   double outside_tolerance = 1e-6;  ///< |d| above this outside the pattern is a fault
 };
 

@@ -17,7 +17,8 @@ struct SparsityPattern {
 
 /// Nonlinear program: minimise f(z) subject to z_lower <= z <= z_upper, g_lower <= g(z) <= g_upper.
 /// Sizes, bounds and sparsity are fixed at construction; +-inf where there is no bound.
-/// Evaluations may reuse internal work space: one Nlp, one thread (but see use_threads()). They may throw NumericalError.
+/// Evaluations may reuse internal work space: one Nlp, one thread (but see use_threads()). They may throw
+/// NumericalError.
 class Nlp {
  public:
   virtual ~Nlp() = default;
@@ -43,8 +44,8 @@ class Nlp {
   virtual std::string describe_constraint(int row) const = 0;
   virtual std::string describe_variable(int index) const = 0;
 
-  /// Lets an evaluation use so many threads, and as many of a ThreadTeam evaluate different stages at once. Returns how many it
-  /// stands, 1 to `count`. Does not change what comes out.
+  /// Lets an evaluation use so many threads, and as many of a ThreadTeam evaluate different stages at once. Returns how
+  /// many it stands, 1 to `count`. Does not change what comes out.
   virtual int use_threads(int /*count*/) { return 1; }
 
   /// The same program as a chain of stages, if it is one; valid as long as the Nlp is.

@@ -37,13 +37,14 @@ struct SolverOptions {
   double max_seconds = 300.0;
   int threads = 1;             ///< for evaluations; results do not depend on it
   bool start_is_near = false;  ///< a solution of a neighbouring problem: stay near it
-  /// Those of that solution (SolveResult::stage_multipliers), if its stages have the same sizes; empty: none. For solvers that
-  /// go by stages. Riccati then takes its first steps whole, without asking a filter, and takes them back if they lead away.
+  /// Those of that solution (SolveResult::stage_multipliers), if its stages have the same sizes; empty: none. For
+  /// solvers that go by stages. Riccati then takes its first steps whole, without asking a filter, and takes them back
+  /// if they lead away.
   std::vector<StageMultipliers> start_multipliers = {};
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
   /// The variables of the iterate that on_iteration told of just before; may be empty, which saves gathering them.
   std::function<void(const Eigen::VectorXd& z)> on_iterate;
-  const std::atomic<bool>* interrupt = nullptr;            ///< looked at once an iteration; true stops
+  const std::atomic<bool>* interrupt = nullptr;  ///< looked at once an iteration; true stops
 };
 
 /// Throws InputError that names the option which makes no sense.
@@ -62,9 +63,9 @@ struct SolveTimes {
 
 struct SolveResult {
   SolveStatus status = SolveStatus::solver_failed;
-  std::string message;          ///< the solver's own words, and what failed where
-  Eigen::VectorXd z;            ///< the solution, or the iterate of least violation
-  Eigen::VectorXd multipliers;  ///< of g at z; empty if unknown
+  std::string message;                              ///< the solver's own words, and what failed where
+  Eigen::VectorXd z;                                ///< the solution, or the iterate of least violation
+  Eigen::VectorXd multipliers;                      ///< of g at z; empty if unknown
   std::vector<StageMultipliers> stage_multipliers;  ///< of the stages at z; empty if unknown
   double cost = 0.0;
   double constraint_violation = 0.0;

@@ -32,9 +32,9 @@ struct StageMultipliers {
 ///   minimise   sum of cost_k(u_k, x_k)   subject to   x_{k+1} = next_k(u_k, x_k)   (not after the last stage),
 ///   equalities_k(u_k, x_k) = 0,   lower_k <= inequalities_k(u_k, x_k) <= upper_k
 ///
-/// The variables of a stage are one vector (u_k, x_k). Bounds on variables are rows here, variables that are fixed may be
-/// left out; the first stage has the states that nothing fixes. Evaluations may throw NumericalError. What they return
-/// is valid until the next evaluation of that stage.
+/// The variables of a stage are one vector (u_k, x_k). Bounds on variables are rows here, variables that are fixed may
+/// be left out; the first stage has the states that nothing fixes. Evaluations may throw NumericalError. What they
+/// return is valid until the next evaluation of that stage.
 class StagewiseNlp {
  public:
   virtual ~StagewiseNlp() = default;
@@ -50,9 +50,9 @@ class StagewiseNlp {
   virtual const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd& ux, double cost_factor,
                                          const StageMultipliers& multipliers) = 0;
 
-  /// Values and all derivatives of a stage at once, for the functions below. Those know how a stage is made, and so need
-  /// less than the dense matrices above; what they return holds until the stage is linearised again or its derivatives()
-  /// or hessian() are asked for, whatever values() are.
+  /// Values and all derivatives of a stage at once, for the functions below. Those know how a stage is made, and so
+  /// need less than the dense matrices above; what they return holds until the stage is linearised again or its
+  /// derivatives() or hessian() are asked for, whatever values() are.
   virtual void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) = 0;
   /// The same without second derivatives: what lagrangian_hessian() returns has no meaning then.
   virtual void linearise_to_first_order(int k, const Eigen::VectorXd& ux) = 0;

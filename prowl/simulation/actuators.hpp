@@ -7,8 +7,8 @@
 
 namespace prowl {
 
-/// Torque at the joints: the commanded one after a delay, through a filter of first order, within the limits that the joints
-/// have at their true position and velocity.
+/// Torque at the joints: the commanded one after a delay, through a filter of first order, within the limits that the
+/// joints have at their true position and velocity.
 class Actuators {
  public:
   /// `delay` is rounded to steps of `dt`; bandwidth [Hz], 0 for none. Starts with the torques `initial`.
@@ -25,7 +25,7 @@ class Actuators {
  private:
   const RobotModel& robot_;
   long delay_steps_, now_ = 0;
-  double share_;  ///< of the way to the command in one step
+  double share_;                                           ///< of the way to the command in one step
   std::deque<std::pair<long, Eigen::VectorXd>> commands_;  ///< with the step at which each begins to count
   Eigen::VectorXd wanted_, filtered_, torque_;
   double largest_share_ = 0.0;

@@ -8,7 +8,9 @@
 namespace prowl {
 
 Measures::Measures(const MotionProblem& problem, const Tracker& tracker, double end)
-    : problem_(problem), tracker_(tracker), end_(end),
+    : problem_(problem),
+      tracker_(tracker),
+      end_(end),
       slip_now_(problem.robot.contacts().size(), Eigen::Vector3d::Zero()),
       slip_(problem.robot.contacts().size(), 0.0),
       touches_(problem.robot.contacts().size()) {}
@@ -32,7 +34,8 @@ void Measures::add(const SimulationSample& sample, const std::vector<Eigen::Vect
   }
 }
 
-void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& tau, const Eigen::VectorXd& v, double dt) {
+void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& tau, const Eigen::VectorXd& v,
+                           double dt) {
   if (actuators.largest_share() > result_.largest_torque_share) {
     result_.largest_torque_share = actuators.largest_share();
     result_.largest_torque_joint = problem_.robot.joint_names()[actuators.most_used()];

@@ -33,8 +33,7 @@ std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const Bo
       continue;
     }
     const double angle = body.prismatic ? 0.0 : robot.nominal_configuration()(6 + static_cast<Eigen::Index>(b));
-    rotations.push_back(rotations[body.parent] * body.placement.linear() *
-                        Eigen::AngleAxisd(angle, body.axis));
+    rotations.push_back(rotations[body.parent] * body.placement.linear() * Eigen::AngleAxisd(angle, body.axis));
   }
   return rotations;
 }
@@ -132,7 +131,8 @@ void set_options(const PhysicsOptions& options, mjSpec* spec) {
 
 }  // namespace
 
-MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces, const PhysicsOptions& options) {
+MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces,
+                            const PhysicsOptions& options) {
   silence();
   MujocoSpec spec(mj_makeSpec());
   set_options(options, spec.get());
@@ -159,7 +159,8 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
     copy(from.axis, joint->axis);
     joint->range[0] = robot.position_lower()(j);
     joint->range[1] = robot.position_upper()(j);
-    joint->limited = std::isfinite(joint->range[0]) && std::isfinite(joint->range[1]) ? mjLIMITED_TRUE : mjLIMITED_FALSE;
+    joint->limited =
+        std::isfinite(joint->range[0]) && std::isfinite(joint->range[1]) ? mjLIMITED_TRUE : mjLIMITED_FALSE;
     mjsActuator* const actuator = mjs_addActuator(spec.get(), nullptr);
     mjs_setToMotor(actuator);
     mjs_setName(actuator->element, from.name.c_str());
@@ -180,7 +181,8 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
 
 MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
                               const PhysicsOptions& options) {
-  // MuJoCo does not promise that specs may be made and compiled in several threads; ThreadSanitizer sees a race within it.
+  // MuJoCo does not promise that specs may be made and compiled in several threads; ThreadSanitizer sees a race within
+  // it.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const MujocoSpec spec = make_mujoco_spec(robot, surfaces, options);

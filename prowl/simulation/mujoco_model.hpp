@@ -25,9 +25,11 @@ struct DeleteMujocoSpec {
 using MujocoSpec = std::unique_ptr<mjSpec, DeleteMujocoSpec>;
 
 /// The model of physics.hpp before MuJoCo's compiler has seen it.
-MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces, const PhysicsOptions& options);
+MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces,
+                            const PhysicsOptions& options);
 
-/// Builds the model of physics.hpp. Its degrees of freedom are in the robot's order. Throws InputError with MuJoCo's reason.
+/// Builds the model of physics.hpp. Its degrees of freedom are in the robot's order. Throws InputError with MuJoCo's
+/// reason.
 MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
                               const PhysicsOptions& options);
 

@@ -7,8 +7,8 @@
 #include "prowl/error.hpp"
 #include "prowl/simulation/mujoco_model.hpp"
 
-// In MuJoCo's library but not in its headers, and kept for one thread. Without it saved files have six digits, which moves feet
-// by micrometres. requirements.txt pins the library, and a test compares what comes back.
+// In MuJoCo's library but not in its headers, and kept for one thread. Without it saved files have six digits, which
+// moves feet by micrometres. requirements.txt pins the library, and a test compares what comes back.
 extern "C" {
 int _mjPRIVATE__get_xml_precision();
 void _mjPRIVATE__set_xml_precision(int digits);

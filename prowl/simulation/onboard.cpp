@@ -6,7 +6,8 @@
 namespace prowl {
 namespace {
 
-// Joint accelerations that the model does not know, as white noise [rad^2/s^3]: docs/simulation.md says how it was chosen.
+// Joint accelerations that the model does not know, as white noise [rad^2/s^3]: docs/simulation.md says how it was
+// chosen.
 constexpr double kJointDensity = 1.0;
 
 /// What the filter is told of sensors without noise: it divides by it.
@@ -28,8 +29,7 @@ std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& trac
     stand.in_contact = tracker.plan().segments[s].in_contact;
     stand.normals.assign(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());
     for (const PhaseContact& contact : problem.phases[p].contacts) {
-      stand.normals[contact.contact] =
-          problem.surfaces[contact.surface].normal;
+      stand.normals[contact.contact] = problem.surfaces[contact.surface].normal;
     }
   }
   return stands;
@@ -74,8 +74,6 @@ void Onboard::act(double t) {
   commands_.back() = command_;
 }
 
-const Stand& Onboard::stand(double t) const {
-  return stands_[&tracker_.segment(t) - tracker_.plan().segments.data()];
-}
+const Stand& Onboard::stand(double t) const { return stands_[&tracker_.segment(t) - tracker_.plan().segments.data()]; }
 
 }  // namespace prowl

@@ -7,8 +7,8 @@
 
 namespace prowl {
 
-/// What runs on the robot: from sensor readings to torques. Knows the plan, the robot as modelled, how noisy its sensors are
-/// and how long its torques take; nothing of the truth unless it is told.
+/// What runs on the robot: from sensor readings to torques. Knows the plan, the robot as modelled, how noisy its
+/// sensors are and how long its torques take; nothing of the truth unless it is told.
 class Onboard {
  public:
   /// Commands are `period` [s] apart.
@@ -34,7 +34,8 @@ class Onboard {
   double period_;
   std::vector<Stand> stands_;  ///< of each segment of the tracker
   StateEstimator estimator_;
-  std::vector<Eigen::VectorXd> commands_;  ///< that are on their way, oldest first; the first acts until the next reading
+  std::vector<Eigen::VectorXd>
+      commands_;  ///< that are on their way, oldest first; the first acts until the next reading
   Eigen::VectorXd feedforward_, feedback_, command_, q_, v_;
 };
 

@@ -9,9 +9,9 @@
 
 namespace prowl {
 
-/// Encoders and an IMU in the base frame. The IMU gives means over the time between two samples, as those that integrate
-/// inside do. The random numbers are those of std::mt19937_64 and of Boost's normal distribution, whose result, unlike that
-/// of std::normal_distribution, does not depend on the standard library.
+/// Encoders and an IMU in the base frame. The IMU gives means over the time between two samples, as those that
+/// integrate inside do. The random numbers are those of std::mt19937_64 and of Boost's normal distribution, whose
+/// result, unlike that of std::normal_distribution, does not depend on the standard library.
 class Sensors {
  public:
   Sensors(int joints, const SensorNoise& noise, double scale, std::uint64_t seed);

@@ -19,16 +19,19 @@ void check(const SimulationOptions& options, double end) {
   const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {
     if (!ok) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, range));
   };
-  need(options.control_rate >= 10.0 && options.control_rate <= 1e5, "control rate", options.control_rate, "10 to 1e5 Hz");
+  need(options.control_rate >= 10.0 && options.control_rate <= 1e5, "control rate", options.control_rate,
+       "10 to 1e5 Hz");
   need(options.delay >= 0.0 && options.delay <= 1.0, "delay", options.delay, "0 to 1 s");
-  need(options.unknown_delay >= 0.0 && options.unknown_delay <= 1.0, "unknown delay", options.unknown_delay, "0 to 1 s");
+  need(options.unknown_delay >= 0.0 && options.unknown_delay <= 1.0, "unknown delay", options.unknown_delay,
+       "0 to 1 s");
   need(options.bandwidth >= 0.0 && std::isfinite(options.bandwidth), "bandwidth", options.bandwidth, ">= 0 Hz");
   need(options.noise_scale >= 0.0 && std::isfinite(options.noise_scale), "noise", options.noise_scale, ">= 0");
   need(options.physics.step >= 1e-5 && options.physics.step <= 1e-2, "step", options.physics.step, "1e-5 to 1e-2 s");
   need(options.physics.mass_scale > 0.0 && std::isfinite(options.physics.mass_scale), "mass scale",
        options.physics.mass_scale, "> 0");
   for (const Push& push : options.pushes) {
-    need(push.time >= 0.0 && push.time <= end, "push time", push.time, fmt::format("0 to {:g} s, the end of the simulation", end));
+    need(push.time >= 0.0 && push.time <= end, "push time", push.time,
+         fmt::format("0 to {:g} s, the end of the simulation", end));
     need(push.duration > 0.0 && std::isfinite(push.duration), "push duration", push.duration, "a finite number > 0 s");
     need(push.impulse.allFinite(), "push impulse", push.impulse.sum(), "finite numbers");
   }
@@ -47,10 +50,13 @@ Eigen::Vector3d push_at(const std::vector<Push>& pushes, double t) {
 std::vector<std::string> failures(const SimulationResult& result, const MotionProblem& problem,
                                   const SuccessCriteria& criteria) {
   std::vector<std::string> texts;
-  if (result.end == SimulationResult::End::fell) texts.push_back(fmt::format("fell at {:.3f} s, in phase '{}'", result.end_time, result.phase));
-  if (result.end == SimulationResult::End::diverged) texts.push_back(fmt::format("the simulation diverged at {:.3f} s", result.end_time));
+  if (result.end == SimulationResult::End::fell)
+    texts.push_back(fmt::format("fell at {:.3f} s, in phase '{}'", result.end_time, result.phase));
+  if (result.end == SimulationResult::End::diverged)
+    texts.push_back(fmt::format("the simulation diverged at {:.3f} s", result.end_time));
   if (result.end == SimulationResult::End::finished) {
-    for (std::string& text : failures_in_rest(result.base_position, result.base_angle, criteria)) texts.push_back(std::move(text));
+    for (std::string& text : failures_in_rest(result.base_position, result.base_angle, criteria))
+      texts.push_back(std::move(text));
   }
   for (std::size_t c = 0; c < result.slip.size(); ++c) {
     if (result.slip[c] <= criteria.slip) continue;
@@ -65,14 +71,17 @@ class Run {
  public:
   Run(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
       const SimulationOptions& options)
-      : problem_(problem), tracker_(tracker), options_(options),
+      : problem_(problem),
+        tracker_(tracker),
+        options_(options),
         period_(1.0 / options.control_rate),
         substeps_(std::max(1, static_cast<int>(std::ceil(period_ / options.physics.step - 1e-6)))),
         end_(tracker.end() + criteria.rest),
         physics_(problem.robot, problem.surfaces, stepped(options.physics, period_ / substeps_)),
         sensors_(problem.robot.nu(), options.noise, options.noise_scale, options.seed),
         onboard_(problem, tracker, options, period_),
-        actuators_(problem.robot, period_ / substeps_, options.delay + options.unknown_delay, options.bandwidth, first_torque(tracker)),
+        actuators_(problem.robot, period_ / substeps_, options.delay + options.unknown_delay, options.bandwidth,
+                   first_torque(tracker)),
         measures_(problem, tracker, end_),
         slip_(problem.robot.contacts().size()) {
     physics_.set_state(problem.start_configuration(), Eigen::VectorXd::Zero(problem.robot.nv()));

@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// Standard deviations of one sensor sample, white noise. Besides it every sensor has a constant bias, drawn once from a
-/// normal distribution of the same standard deviation.
+/// Standard deviations of one sensor sample, white noise. Besides it every sensor has a constant bias, drawn once from
+/// a normal distribution of the same standard deviation.
 struct SensorNoise {
   double encoder = 1e-3;        ///< [rad]
   double gyro = 2e-3;           ///< [rad/s]
@@ -34,16 +34,16 @@ struct SuccessCriteria {
 struct SimulationOptions {
   double control_rate = 1000.0;  ///< [Hz]
   SensorNoise noise;
-  double noise_scale = 1.0;      ///< on all of it
-  double delay = 2e-3;           ///< from the sample of the sensors to the torque [s]
-  double unknown_delay = 0.0;    ///< on top of it, which the controller does not count on [s]
-  double bandwidth = 0.0;        ///< of the actuators, first order [Hz]; 0: they follow at once
-  bool perfect_state = false;    ///< the controller sees the true state, not the estimated one
-  bool open_loop = false;        ///< feedforward torques only
+  double noise_scale = 1.0;    ///< on all of it
+  double delay = 2e-3;         ///< from the sample of the sensors to the torque [s]
+  double unknown_delay = 0.0;  ///< on top of it, which the controller does not count on [s]
+  double bandwidth = 0.0;      ///< of the actuators, first order [Hz]; 0: they follow at once
+  bool perfect_state = false;  ///< the controller sees the true state, not the estimated one
+  bool open_loop = false;      ///< feedforward torques only
   PhysicsOptions physics;
   std::vector<Push> pushes;
   std::uint64_t seed = 1;
-  double record_rate = 0.0;      ///< of SimulationResult::samples [Hz]; 0: none
+  double record_rate = 0.0;  ///< of SimulationResult::samples [Hz]; 0: none
 };
 
 }  // namespace prowl

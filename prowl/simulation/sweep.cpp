@@ -8,8 +8,8 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
-#include <random>
 #include <optional>
+#include <random>
 #include <thread>
 
 namespace prowl {
@@ -52,13 +52,15 @@ struct Kind {
 };
 
 /// On top of `options`.
-std::vector<Kind> kinds_of_perturbation(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options) {
+std::vector<Kind> kinds_of_perturbation(const MotionProblem& problem, const Tracker& tracker,
+                                        const SimulationOptions& options) {
   const double planned = problem.surfaces.empty() ? 0.5 : problem.surfaces.front().friction;
   const double friction = options.physics.friction.value_or(planned);
   return {
       {"masses larger by", "%", 10.0, 320.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 + 0.01 * x; }},
       {"masses smaller by", "%", 10.0, 80.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 - 0.01 * x; }},
-      {"friction lower by", "%", 10.0, 80.0, [friction](auto& o, double x, auto&) { o.physics.friction = (1.0 - 0.01 * x) * friction; }},
+      {"friction lower by", "%", 10.0, 80.0,
+       [friction](auto& o, double x, auto&) { o.physics.friction = (1.0 - 0.01 * x) * friction; }},
       {"push of", "N s", 5.0, 160.0,
        [&tracker](auto& o, double x, auto& random) {
          o.pushes = {draw_push(tracker, x, x, PerturbationRanges{}.push_duration, random)};
@@ -70,7 +72,8 @@ std::vector<Kind> kinds_of_perturbation(const MotionProblem& problem, const Trac
 
 }  // namespace
 
-SimulationOptions perturbed(const Tracker& tracker, const SimulationOptions& options, const PerturbationRanges& ranges, std::uint64_t seed) {
+SimulationOptions perturbed(const Tracker& tracker, const SimulationOptions& options, const PerturbationRanges& ranges,
+                            std::uint64_t seed) {
   std::mt19937_64 random(seed);
   SimulationOptions result = options;
   result.seed = random();  // the sensors' numbers are others than these
@@ -129,9 +132,10 @@ SuccessRate success_rate(int successes, int cases) {
   return rate;
 }
 
-std::vector<Breakdown> find_breakdowns(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
-                                       const SimulationOptions& options, std::uint64_t seed, int cases,
-                                       const SweepProgress& on_done, const std::atomic<bool>* interrupt) {
+std::vector<Breakdown> find_breakdowns(const MotionProblem& problem, const Tracker& tracker,
+                                       const SuccessCriteria& criteria, const SimulationOptions& options,
+                                       std::uint64_t seed, int cases, const SweepProgress& on_done,
+                                       const std::atomic<bool>* interrupt) {
   const std::vector<Kind> kinds = kinds_of_perturbation(problem, tracker, options);
   int most = 0, done = 0;
   for (const Kind& kind : kinds) most += cases * kind.most_sizes();
@@ -149,7 +153,8 @@ std::vector<Breakdown> find_breakdowns(const MotionProblem& problem, const Track
       if (on_done) on_done(done, most);
     };
     const auto finished = run_cases(problem, tracker, criteria, all, count, interrupt);
-    return 2 * std::ranges::count_if(finished, [](const SweepCase& one) { return one.result.success(); }) >= std::ssize(finished);
+    return 2 * std::ranges::count_if(finished, [](const SweepCase& one) { return one.result.success(); }) >=
+           std::ssize(finished);
   };
 
   std::vector<Breakdown> breakdowns;

@@ -13,7 +13,8 @@ void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_start, const Solve
 }
 
 std::optional<std::string> why_nothing_left(const Nlp& nlp) {
-  const auto why = [](const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, auto describe) -> std::optional<std::string> {
+  const auto why = [](const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                      auto describe) -> std::optional<std::string> {
     for (int i = 0; i < lower.size(); ++i) {
       if (lower[i] <= upper[i]) continue;  // false for NaN too
       return fmt::format("{}: bounds [{}, {}] leave nothing", describe(i), lower[i], upper[i]);

@@ -267,7 +267,8 @@ class FatropProblem : public fatrop::Nlp<Type> {
     } catch (const NumericalError& error) {
       failure_ = fmt::format("{} at {}: {}", what, nlp_.describe_stage(k), error.what());
     } catch (const std::exception& error) {
-      throw Stopped{SolveStatus::solver_failed, fmt::format("{} at {} threw: {}", what, nlp_.describe_stage(k), error.what())};
+      throw Stopped{SolveStatus::solver_failed,
+                    fmt::format("{} at {} threw: {}", what, nlp_.describe_stage(k), error.what())};
     }
     return false;
   }
@@ -322,11 +323,11 @@ void set_options(fatrop::OptionRegistry& registry, const SolverOptions& options)
   registry.set_option("max_iter", options.max_iterations + 1);  // one more than it is let, see callback()
   registry.set_option("acceptable_iter", std::numeric_limits<int>::max());
   // Fatrop takes a reduced Hessian for indefinite if a diagonal entry of its Cholesky factor is below this part of the
-  // largest. Near the end the barrier's curvature is 1e12 times the cost's, and its own 1e-6 finds every step indefinite
-  // (HyQ step, 41 intervals: 301 iterations and no end where the least eigenvalue was 4e-3; with this 13).
+  // largest. Near the end the barrier's curvature is 1e12 times the cost's, and its own 1e-6 finds every step
+  // indefinite (HyQ step, 41 intervals: 301 iterations and no end where the least eigenvalue was 4e-3; with this 13).
   registry.set_option("linsol_pivot_tol", 1e-12);
-  // The first regularisation that is tried, and by how much it grows until one has done. Fatrop's 1e-4 and 100 overshoot
-  // (Talos weight shift, 4 and 12 intervals: no end in 292 and 123 iterations, with these 66 and 27).
+  // The first regularisation that is tried, and by how much it grows until one has done. Fatrop's 1e-4 and 100
+  // overshoot (Talos weight shift, 4 and 12 intervals: no end in 292 and 123 iterations, with these 66 and 27).
   registry.set_option("delta_w0", 1.0);
   registry.set_option("kappa_wplusem", 8.0);
   // As for Ipopt, see there.
@@ -390,7 +391,8 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     const auto algorithm = builder.with_options_registry(&registry).build();
     set_options(registry, options);
     // As for Ipopt; no option in Fatrop's registry.
-    if (const auto nlp_of_method = std::dynamic_pointer_cast<fatrop::IpNlpOrig<Type>>(builder.get_ipdata()->get_nlp())) {
+    if (const auto nlp_of_method =
+            std::dynamic_pointer_cast<fatrop::IpNlpOrig<Type>>(builder.get_ipdata()->get_nlp())) {
       nlp_of_method->set_bound_relax_factor(0.01 * options.tolerance);
     }
     fatrop::IpEqMultInitializer<Type> initializer(builder.get_ipdata(), builder.get_pd_solver());

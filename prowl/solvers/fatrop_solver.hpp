@@ -22,7 +22,8 @@ class FatropSolver : public NlpSolver {
   /// Throws InputError only if an option or the size of z_start makes no sense.
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
 
-  /// What the kernels of its linear algebra (BLASFEO) were built for: "AVX2 FMA"; "" if they know of no instruction set.
+  /// What the kernels of its linear algebra (BLASFEO) were built for: "AVX2 FMA"; "" if they know of no instruction
+  /// set.
   static std::string linear_algebra();
   /// What of that this processor has, in the same words.
   static std::string processor();

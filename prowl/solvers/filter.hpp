@@ -4,8 +4,8 @@
 
 namespace prowl {
 
-/// Pairs (constraint violation theta, barrier function phi) that a line search may not come back to (Wächter and Biegler
-/// 2006, sec. 2.3).
+/// Pairs (constraint violation theta, barrier function phi) that a line search may not come back to (Wächter and
+/// Biegler 2006, sec. 2.3).
 class Filter {
  public:
   void reset(double largest_theta) {

@@ -27,11 +27,11 @@ constexpr double kNearlyFeasible = 1e-2, kHugeMultiplier = 1e5;
 constexpr double kLargestCostSlope = 100.0;
 constexpr double kStepAccuracy = 1e-2;  ///< of Newton's equations, as a part of the tolerance: what a full step leaves
 
-/// First mu times the number of stages: the cost is an integral, the barrier a sum over stages, and for both to weigh the
-/// same on each mesh mu has to fall as a step does (HyQ rear from the task alone on 350 intervals: with mu = 1e-3
+/// First mu times the number of stages: the cost is an integral, the barrier a sum over stages, and for both to weigh
+/// the same on each mesh mu has to fall as a step does (HyQ rear from the task alone on 350 intervals: with mu = 1e-3
 /// 59 iterations, with this 22; on 23 intervals 16 and 16).
-/// Near a solution whose multipliers are known slacks are placed by them, and mu can be near its end: HyQ balance with the goal
-/// moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
+/// Near a solution whose multipliers are known slacks are placed by them, and mu can be near its end: HyQ balance with
+/// the goal moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
 constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-4, kKnownBarrier = 3e-5;
 constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< of slacks off their bounds
 /// Where no part of a step is an improvement, shorter steps by more regularisation, so many times.
@@ -186,7 +186,8 @@ void InteriorPoint::update_dual_violation() {
     nlp_.add_pull_back(k, on_[i].next, on_[i].inequalities, violation);
     if (k > 0) violation.tail(nlp_.size(k).states) -= on_[i - 1].next;
     if (!violation.allFinite()) throw NumericalError(nlp_.describe_stage(k) + ": first derivatives are not finite");
-    if (violation.size() > 0) largest_dual_violation_ = std::max(largest_dual_violation_, violation.cwiseAbs().maxCoeff());
+    if (violation.size() > 0)
+      largest_dual_violation_ = std::max(largest_dual_violation_, violation.cwiseAbs().maxCoeff());
   }
 }
 
@@ -400,8 +401,8 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
       }
       linearise();
       const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasible;
-      // A regularised step that removes a violation leaves multipliers in proportion to the regularisation, and these bend
-      // the Lagrangian, which asks for more of it.
+      // A regularised step that removes a violation leaves multipliers in proportion to the regularisation, and these
+      // bend the Lagrangian, which asks for more of it.
       if (regularisation_ > 0.0 && violation_is_small && largest_multiplier() > kHugeMultiplier) {
         estimate_multipliers();
         linearise();

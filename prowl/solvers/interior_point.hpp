@@ -16,7 +16,8 @@ namespace prowl {
 
 /// Interior point method with filter line search (Wächter and Biegler 2006) on a chain of stages:
 ///
-///   minimise  cost - mu log(distances of s from its bounds)   subject to  x_{k+1} = next, equalities = 0, inequalities = s
+///   minimise  cost - mu log(distances of s from its bounds)   subject to  x_{k+1} = next, equalities = 0, inequalities
+///   = s
 ///
 /// for a sequence of mu that goes to zero, each step by StageKkt with the exact Hessian. Docs: docs/solvers.md.
 class InteriorPoint {

@@ -20,10 +20,11 @@ constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1.0, kSTheta = 1
 constexpr int kMostCorrections = 4;
 constexpr double kShortestStep = 1e-12;  ///< part of a direction; below it is rounding
 constexpr int kMostRestorations = 100;
-/// From a neighbour's solution with its multipliers Newton's first steps go as far as bounds allow, whatever the filter says; if
-/// they lead away from the constraints they are taken back. Such a start violates one condition (the goal that moved), and the step spreads its curvature over all stages, so that the sum
-/// of violations rises although it falls by orders with the next step. Halved steps then creep: HyQ balance, goal moved by 2 cm,
-/// worst of 50: 13 iterations, with one whole step 3; step: 72, with one 16, with two 12, with four 13.
+/// From a neighbour's solution with its multipliers Newton's first steps go as far as bounds allow, whatever the filter
+/// says; if they lead away from the constraints they are taken back. Such a start violates one condition (the goal that
+/// moved), and the step spreads its curvature over all stages, so that the sum of violations rises although it falls by
+/// orders with the next step. Halved steps then creep: HyQ balance, goal moved by 2 cm, worst of 50: 13 iterations,
+/// with one whole step 3; step: 72, with one 16, with two 12, with four 13.
 constexpr int kWholeSteps = 2;
 constexpr double kAway = 10.0, kSmallViolation = 1e-2;  ///< times the start's violation, or this if that is less
 
@@ -81,10 +82,12 @@ bool InteriorPoint::correct_second_order(double alpha, double theta) {
   return false;
 }
 
-void InteriorPoint::keep_start() { whole_steps_from_ = {ux_, slacks_, lambda_, on_, mu_, violation(values_, slacks_.s)}; }
+void InteriorPoint::keep_start() {
+  whole_steps_from_ = {ux_, slacks_, lambda_, on_, mu_, violation(values_, slacks_.s)};
+}
 
-/// Called once an iteration: after the whole steps goes on from where they led, or if that is far from the constraints, from
-/// where they began, as from any other start.
+/// Called once an iteration: after the whole steps goes on from where they led, or if that is far from the constraints,
+/// from where they began, as from any other start.
 void InteriorPoint::end_whole_steps() {
   if (!whole_steps_from_ || iterations_ < kWholeSteps) return;
   if (!(violation(values_, slacks_.s) <= kAway * std::max(whole_steps_from_->theta, kSmallViolation))) {

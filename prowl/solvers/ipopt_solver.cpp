@@ -1,12 +1,12 @@
 #include "prowl/solvers/ipopt_solver.hpp"
 
+#include <IpLinearSolvers.h>
+#include <IpStdCInterface.h>
 #include <IpoptConfig.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <IpIpoptApplication.hpp>
-#include <IpLinearSolvers.h>
-#include <IpStdCInterface.h>
 #include <IpTNLP.hpp>
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@
 // MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: another BLAS may not have it.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
-// Ipopt 3.14 has the first of these, 3.14.18 both. Weak, for another libipopt.so may come first, by LD_LIBRARY_PATH: it is to be
-// named, not a symbol that it lacks.
+// Ipopt 3.14 has the first of these, 3.14.18 both. Weak, for another libipopt.so may come first, by LD_LIBRARY_PATH: it
+// is to be named, not a symbol that it lacks.
 #pragma weak IpoptGetAvailableLinearSolvers
 #pragma weak GetIpoptVersion
 
@@ -200,8 +200,8 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetIntegerValue("print_level", 0);
   list.SetStringValue("hessian_approximation", "exact");
   list.SetNumericValue("tol", options.tolerance);
-  // Less than what the result is judged by (judge()): Ipopt looks before it puts the variables back within the bounds that it
-  // relaxed, below.
+  // Less than what the result is judged by (judge()): Ipopt looks before it puts the variables back within the bounds
+  // that it relaxed, below.
   list.SetNumericValue("constr_viol_tol", 0.9 * options.tolerance);
   // `tol` is about the problem as Ipopt scales it; these two about the problem itself, and their defaults are loose.
   list.SetNumericValue("dual_inf_tol", options.tolerance);
@@ -232,8 +232,8 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
 void set_linear_solver(Ipopt::OptionsList& list, IpoptLinearSolver linear_solver) {
   if (linear_solver == IpoptLinearSolver::spral) {
     list.SetStringValue("linear_solver", "spral");
-    // Its own choice, to scale and to order by a matching that is made anew each time, takes longer than the factorisation
-    // (CPU time of HyQ stand, 40 intervals: 2.3 s in place of 0.7 s).
+    // Its own choice, to scale and to order by a matching that is made anew each time, takes longer than the
+    // factorisation (CPU time of HyQ stand, 40 intervals: 2.3 s in place of 0.7 s).
     list.SetStringValue("spral_order", "metis");
     list.SetStringValue("spral_scaling", "ruiz");
     // Fronts of fewer columns than its 32: stages have some 50 variables, few of which are free.
@@ -267,10 +267,12 @@ std::string loaded_file() {
 std::optional<std::string> why_missing(IpoptLinearSolver linear_solver) {
   if (auto reason = IpoptSolver::why_wrong_library()) return reason;
   const bool spral = linear_solver == IpoptLinearSolver::spral;
-  const unsigned built_in = IpoptGetAvailableLinearSolvers(true);  // NOLINT(clang-analyzer-core.CallAndMessage): that it is there was seen above
+  const unsigned built_in = IpoptGetAvailableLinearSolvers(
+      true);  // NOLINT(clang-analyzer-core.CallAndMessage): that it is there was seen above
   if (built_in & (spral ? IPOPTLINEARSOLVER_SPRAL : IPOPTLINEARSOLVER_MUMPS)) return std::nullopt;
-  return fmt::format("the libipopt.so that is loaded was built without {}; that of the pinned casadi wheel has it (scripts/setup)",
-                     spral ? "SPRAL" : "MUMPS");
+  return fmt::format(
+      "the libipopt.so that is loaded was built without {}; that of the pinned casadi wheel has it (scripts/setup)",
+      spral ? "SPRAL" : "MUMPS");
 }
 
 void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options,
@@ -308,9 +310,7 @@ void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions
 
 }  // namespace
 
-std::string IpoptSolver::name() const {
-  return linear_solver_ == IpoptLinearSolver::spral ? "Ipopt-SPRAL" : "Ipopt";
-}
+std::string IpoptSolver::name() const { return linear_solver_ == IpoptLinearSolver::spral ? "Ipopt-SPRAL" : "Ipopt"; }
 
 std::string IpoptSolver::version() const { return loaded_version(); }
 

@@ -9,11 +9,14 @@ enum class IpoptLinearSolver { mumps, spral };
 
 /// Ipopt 3.14 (Wächter, Biegler 2006: primal-dual interior point, filter line search) with the exact Hessian.
 ///
-/// - Only Ipopt's "Solve_Succeeded" is `converged`; its "acceptable level" allows violations of 1e-2 and is switched off.
-/// - An evaluation that fails at a trial point shortens the step; one that Ipopt cannot step away from ends the solve as
+/// - Only Ipopt's "Solve_Succeeded" is `converged`; its "acceptable level" allows violations of 1e-2 and is switched
+/// off.
+/// - An evaluation that fails at a trial point shortens the step; one that Ipopt cannot step away from ends the solve
+/// as
 ///   `evaluation_failed`, with constraint or variable in the message.
 /// - Stopped early, it returns its best iterate: of least violation, and of least cost among those within tolerance.
-/// - Same problem, same start, same machine: same iterates (fixed elimination ordering, one thread in BLAS). With SPRAL that
+/// - Same problem, same start, same machine: same iterates (fixed elimination ordering, one thread in BLAS). With SPRAL
+/// that
 ///   is so for a build without OpenMP, as in the casadi wheel; one with OpenMP was not tried.
 class IpoptSolver : public NlpSolver {
  public:

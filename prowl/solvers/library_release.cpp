@@ -23,15 +23,17 @@ std::set<std::string> words(const std::string& text) {
 
 }  // namespace
 
-std::optional<std::string> why_other_release(const std::string& library, const std::string& loaded, const std::string& built,
-                                             const std::string& file) {
+std::optional<std::string> why_other_release(const std::string& library, const std::string& loaded,
+                                             const std::string& built, const std::string& file) {
   if (release(loaded) == release(built)) return std::nullopt;
-  return fmt::format("{} is {} {}, and this Prowl was built with {} {}: take the folder of the other one out of LD_LIBRARY_PATH, or "
-                     "install the pinned wheels and build again (scripts/setup)",
-                     file, library, loaded, library, built);
+  return fmt::format(
+      "{} is {} {}, and this Prowl was built with {} {}: take the folder of the other one out of LD_LIBRARY_PATH, or "
+      "install the pinned wheels and build again (scripts/setup)",
+      file, library, loaded, library, built);
 }
 
-std::optional<std::string> why_missing_instructions(const std::string& library, const std::string& needs, const std::string& has) {
+std::optional<std::string> why_missing_instructions(const std::string& library, const std::string& needs,
+                                                    const std::string& has) {
   const std::set<std::string> there = words(has);
   std::string missing;
   for (const std::string& word : words(needs)) {

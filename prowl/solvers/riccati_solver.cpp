@@ -48,7 +48,8 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
       best_stages = method.stages();
     }
     if (options.on_iteration) {
-      options.on_iteration({iteration, figures.cost, figures.violation, figures.dual_violation, wall_seconds() - began});
+      options.on_iteration(
+          {iteration, figures.cost, figures.violation, figures.dual_violation, wall_seconds() - began});
     }
     if (options.on_iterate) options.on_iterate(stages.flat(method.stages()));
     if (options.interrupt && options.interrupt->load()) return {{interrupted, "stopped on request"}};

@@ -4,11 +4,12 @@
 
 namespace prowl {
 
-/// Prowl's own solver for chains of stages: the interior point method of InteriorPoint with the exact Hessian, whose linear
-/// systems StageKkt solves by a Riccati recursion. docs/solvers.md.
+/// Prowl's own solver for chains of stages: the interior point method of InteriorPoint with the exact Hessian, whose
+/// linear systems StageKkt solves by a Riccati recursion. docs/solvers.md.
 ///
 /// - Takes problems with a stage-wise form only (Nlp::stagewise).
-/// - `converged` means that the dual equations and the complementarity (scaled as in Wächter and Biegler 2006, eq. (5)) and
+/// - `converged` means that the dual equations and the complementarity (scaled as in Wächter and Biegler 2006, eq. (5))
+/// and
 ///   the constraints are within tolerance in units of the stages, and the constraints as the Nlp sees them too.
 /// - A value that is not finite at a trial point shortens the step; a derivative that is not ends the solve as
 ///   `evaluation_failed`. Limits and interrupts are looked at once an iteration.

@@ -14,7 +14,8 @@ constexpr double kRounding = 1e-13;  ///< of an inequality, as a part of it or o
 
 }  // namespace
 
-Slacks::Slacks(const VectorXd& lower, const VectorXd& upper) : s(VectorXd::Zero(lower.size())), lower_(lower), upper_(upper) {
+Slacks::Slacks(const VectorXd& lower, const VectorXd& upper)
+    : s(VectorXd::Zero(lower.size())), lower_(lower), upper_(upper) {
   for (Index i = 0; i < lower.size(); ++i) {
     if (std::isfinite(lower(i))) below_.push_back({i, lower(i)});
     if (std::isfinite(upper(i))) above_.push_back({i, upper(i)});
@@ -69,9 +70,8 @@ void Slacks::weights(VectorXd& sigma) const {
 }
 
 void Slacks::set_step(double mu, const VectorXd& ds) {
-  for_each(*this, [&](Bound& b, double distance, double sign) {
-    b.dz = (mu - b.z * sign * ds(b.row)) / distance - b.z;
-  });
+  for_each(*this,
+           [&](Bound& b, double distance, double sign) { b.dz = (mu - b.z * sign * ds(b.row)) / distance - b.z; });
 }
 
 double Slacks::longest_primal(double tau, const VectorXd& ds) const {

@@ -21,8 +21,8 @@ class Slacks {
   void start(const Eigen::VectorXd& values, double push);
   /// z = mu / distance.
   void center(double mu);
-  /// Starts from multipliers of a neighbouring problem: z is what they say, but at least mu / distance, and slacks keep a
-  /// distance of mu / z.
+  /// Starts from multipliers of a neighbouring problem: z is what they say, but at least mu / distance, and slacks keep
+  /// a distance of mu / z.
   void start(const Eigen::VectorXd& values, const Eigen::VectorXd& lambda, double mu, double push);
 
   double log_barrier() const;  ///< without mu
@@ -37,13 +37,13 @@ class Slacks {
   double longest_dual(double tau) const;
   /// s = from + alpha ds. False if that is on a bound or beyond.
   bool move(const Eigen::VectorXd& from, double alpha, const Eigen::VectorXd& ds);
-  /// s = value of the inequality where that is as far inside as the fraction to the boundary allows, seen from `from`, and
-  /// differs by more than rounding: near a bound, where s is mu / z, rounding would turn mu / s about.
+  /// s = value of the inequality where that is as far inside as the fraction to the boundary allows, seen from `from`,
+  /// and differs by more than rounding: near a bound, where s is mu / z, rounding would turn mu / s about.
   void reset(const Eigen::VectorXd& from, const Eigen::VectorXd& values, double tau);
   /// z += alpha dz, and then as near to mu / distance as `spread` allows.
   void move_dual(double alpha, double mu, double spread);
 
-  double largest_complementarity(double mu) const;       ///< |z distance - mu|
+  double largest_complementarity(double mu) const;                     ///< |z distance - mu|
   double largest_dual_violation(const Eigen::VectorXd& lambda) const;  ///< |- lambda - z_lower + z_upper|
   double sum_of_multipliers() const;
 

@@ -17,8 +17,9 @@ const std::string kNoFile = "/dev/null";
 SnoptLibrary::SnoptLibrary(const std::string& file) : handle_(::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
   if (!handle_) {
     const char* const reason = ::dlerror();
-    why_unusable_ = fmt::format("SNOPT is commercial and does not come with Prowl; your own library cannot be loaded: {}",
-                                reason ? reason : file);
+    why_unusable_ =
+        fmt::format("SNOPT is commercial and does not come with Prowl; your own library cannot be loaded: {}",
+                    reason ? reason : file);
     return;
   }
   const auto resolve = [&](auto& function, const char* name) {
@@ -27,7 +28,8 @@ SnoptLibrary::SnoptLibrary(const std::string& file) : handle_(::dlopen(file.c_st
   };
   const auto require = [&](auto& function, const char* name) {
     if (!resolve(function, name) && !why_unusable_) {
-      why_unusable_ = fmt::format("{}: no function {}; need SNOPT 7 with its C interface, snopt-interface 2.1 or later", file, name);
+      why_unusable_ = fmt::format("{}: no function {}; need SNOPT 7 with its C interface, snopt-interface 2.1 or later",
+                                  file, name);
     }
   };
   require(set, "f_snset");

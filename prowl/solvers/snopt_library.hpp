@@ -8,14 +8,15 @@ namespace prowl {
 extern "C" {
 /// What SNOPT calls for values and derivatives: `status` -1 means "not defined here", -2 "stop".
 using SnoptFunction = void(int* status, int* n, double x[], int* need_values, int* num_rows, double values[],
-                           int* need_derivatives, int* num_derivatives, double derivatives[], char cu[], int* lencu, int iu[],
-                           int* leniu, double ru[], int* lenru);
+                           int* need_derivatives, int* num_derivatives, double derivatives[], char cu[], int* lencu,
+                           int iu[], int* leniu, double ru[], int* lenru);
 }
 
-/// The C functions of snopt-interface (github.com/snopt/snopt-interface, include/snopt.h) that SnoptSolver needs, out of a
-/// library that is loaded at run time. Those of initialisation changed their names and arguments from version to version. Of
-/// these f_sninitx (as SNOPT7.jl of the same authors calls it) or else f_sninitf will do. The older f_sninit has had three sets
-/// of arguments under one name, and libraries that have nothing newer pass all arguments by address: those are not used.
+/// The C functions of snopt-interface (github.com/snopt/snopt-interface, include/snopt.h) that SnoptSolver needs, out
+/// of a library that is loaded at run time. Those of initialisation changed their names and arguments from version to
+/// version. Of these f_sninitx (as SNOPT7.jl of the same authors calls it) or else f_sninitf will do. The older
+/// f_sninit has had three sets of arguments under one name, and libraries that have nothing newer pass all arguments by
+/// address: those are not used.
 class SnoptLibrary {
  public:
   /// A path, or a name that the dynamic linker looks for.
@@ -30,14 +31,15 @@ class SnoptLibrary {
   /// Work space iw, rw of at least 500 numbers each; no print file, no summary.
   void initialise(int iw[], int leniw, double rw[], int lenrw) const;
   void (*set)(const char* option, int length, int* errors, int iw[], int leniw, double rw[], int lenrw) = nullptr;
-  void (*needed_memory)(int* info, int num_rows, int n, int num_linear, int num_derivatives, int* miniw, int* minrw, int iw[],
-                        int leniw, double rw[], int lenrw) = nullptr;
+  void (*needed_memory)(int* info, int num_rows, int n, int num_linear, int num_derivatives, int* miniw, int* minrw,
+                        int iw[], int leniw, double rw[], int lenrw) = nullptr;
   void (*solve)(int start, const char* name, int num_rows, int n, double objective_constant, int objective_row,
                 SnoptFunction* function, int linear_row[], int linear_col[], int num_linear, double linear[], int row[],
                 int col[], int num_derivatives, double lower[], double upper[], double row_lower[], double row_upper[],
-                double x[], int x_state[], double x_multipliers[], double values[], int row_state[], double row_multipliers[],
-                int* info, int* num_superbasics, int* num_infeasible, double* sum_infeasible, int* miniw, int* minrw, int iu[],
-                int leniu, double ru[], int lenru, int iw[], int leniw, double rw[], int lenrw) = nullptr;
+                double x[], int x_state[], double x_multipliers[], double values[], int row_state[],
+                double row_multipliers[], int* info, int* num_superbasics, int* num_infeasible, double* sum_infeasible,
+                int* miniw, int* minrw, int iu[], int leniu, double ru[], int lenru, int iw[], int leniw, double rw[],
+                int lenrw) = nullptr;
   void (*end)(int iw[], int leniw, double rw[], int lenrw) = nullptr;
 
  private:

@@ -34,15 +34,19 @@ class SnoptProblem {
 
   const VectorXd& best() const { return best_z_; }  ///< empty if nothing was evaluated
   std::optional<SolveStatus> why_stopped() const { return why_stopped_; }
-  const std::string& mistake() const { return mistake_; }  ///< what an exception said that must not go through Fortran; else empty
+  const std::string& mistake() const {
+    return mistake_;
+  }  ///< what an exception said that must not go through Fortran; else empty
 
-  static void callback(int* status, int* n, double x[], int* need_values, int*, double values[], int* need_derivatives, int*,
-                       double derivatives[], char[], int*, int iu[], int*, double[], int*) {
+  static void callback(int* status, int* n, double x[], int* need_values, int*, double values[], int* need_derivatives,
+                       int*, double derivatives[], char[], int*, int iu[], int*, double[], int*) {
     SnoptProblem* self = nullptr;
-    std::memcpy(static_cast<void*>(&self), iu, sizeof(SnoptProblem*));  // the only thing that the interface hands through
+    std::memcpy(static_cast<void*>(&self), iu,
+                sizeof(SnoptProblem*));  // the only thing that the interface hands through
     try {
       const VectorXd z = Eigen::Map<VectorXd>(x, *n);
-      if (self->should_stop()) *status = -2;
+      if (self->should_stop())
+        *status = -2;
       else if (!self->evaluate(z, *need_values > 0 ? values : nullptr, *need_derivatives > 0 ? derivatives : nullptr)) {
         *status = self->guarded_.broken() ? -2 : -1;
       }
@@ -54,8 +58,10 @@ class SnoptProblem {
 
  private:
   bool should_stop() {
-    if (options_.interrupt && options_.interrupt->load()) why_stopped_ = SolveStatus::interrupted;
-    else if (wall_seconds() - start_ > options_.max_seconds) why_stopped_ = SolveStatus::time_limit;
+    if (options_.interrupt && options_.interrupt->load())
+      why_stopped_ = SolveStatus::interrupted;
+    else if (wall_seconds() - start_ > options_.max_seconds)
+      why_stopped_ = SolveStatus::time_limit;
     return why_stopped_.has_value();
   }
 
@@ -118,7 +124,8 @@ class Workspace {
   /// Twice what SNOPT asks for: its estimate knows nothing of the fill of its factors.
   void resize_for(int num_rows, int n, int num_derivatives) {
     int info = 0, num_integers = 0, num_reals = 0;
-    library_.needed_memory(&info, num_rows, n, 0, num_derivatives, &num_integers, &num_reals, iw(), leniw(), rw(), lenrw());
+    library_.needed_memory(&info, num_rows, n, 0, num_derivatives, &num_integers, &num_reals, iw(), leniw(), rw(),
+                           lenrw());
     integers_.resize(2 * static_cast<std::size_t>(std::max(num_integers, kLeast)));
     reals_.resize(2 * static_cast<std::size_t>(std::max(num_reals, kLeast)));
     set(fmt::format("Total integer workspace {}", leniw()));
@@ -203,7 +210,8 @@ int call(const SnoptLibrary& library, const Nlp& nlp, SnoptProblem& problem, Wor
   work.resize_for(num_rows, n, size(row));
 
   vector<double> lower = bounds(nlp.variable_lower(), false, 0.0), upper = bounds(nlp.variable_upper(), false, 0.0);
-  vector<double> row_lower = bounds(nlp.constraint_lower(), true, -1.0), row_upper = bounds(nlp.constraint_upper(), true, 1.0);
+  vector<double> row_lower = bounds(nlp.constraint_lower(), true, -1.0),
+                 row_upper = bounds(nlp.constraint_upper(), true, 1.0);
   vector<double> values(static_cast<std::size_t>(num_rows), 0.0), x_multipliers(point.x.size(), 0.0);
   vector<int> x_state(point.x.size(), 0), row_state(values.size(), 0);
   SnoptProblem* const self = &problem;
@@ -212,11 +220,11 @@ int call(const SnoptLibrary& library, const Nlp& nlp, SnoptProblem& problem, Wor
   int no_index = 0, info = 0, num_superbasics = 0, num_infeasible = 0, integers = 0, reals = 0;
   double no_number = 0.0, sum_infeasible = 0.0;
   constexpr int kCold = 0, kCostRow = 1, kNoneLinear = 0;
-  library.solve(kCold, "prowl", num_rows, n, 0.0, kCostRow, &SnoptProblem::callback, &no_index, &no_index, kNoneLinear, &no_number,
-                row.data(), col.data(), size(row), lower.data(), upper.data(), row_lower.data(), row_upper.data(),
-                point.x.data(), x_state.data(), x_multipliers.data(), values.data(), row_state.data(),
-                point.row_multipliers.data(), &info, &num_superbasics, &num_infeasible, &sum_infeasible, &integers, &reals, user,
-                std::ssize(user), &no_number, 1, work.iw(), work.leniw(), work.rw(), work.lenrw());
+  library.solve(kCold, "prowl", num_rows, n, 0.0, kCostRow, &SnoptProblem::callback, &no_index, &no_index, kNoneLinear,
+                &no_number, row.data(), col.data(), size(row), lower.data(), upper.data(), row_lower.data(),
+                row_upper.data(), point.x.data(), x_state.data(), x_multipliers.data(), values.data(), row_state.data(),
+                point.row_multipliers.data(), &info, &num_superbasics, &num_infeasible, &sum_infeasible, &integers,
+                &reals, user, std::ssize(user), &no_number, 1, work.iw(), work.leniw(), work.rw(), work.lenrw());
   return info;
 }
 
@@ -263,7 +271,8 @@ SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   result.iterations = work.major_iterations();
   if (result.status == SolveStatus::converged || result.status == SolveStatus::infeasible) {
     result.z = Eigen::Map<VectorXd>(point.x.data(), z_start.size());
-    result.multipliers = -Eigen::Map<VectorXd>(point.row_multipliers.data() + 1, nlp.num_constraints());  // SNOPT's: f − π . g
+    result.multipliers =
+        -Eigen::Map<VectorXd>(point.row_multipliers.data() + 1, nlp.num_constraints());  // SNOPT's: f − π . g
   } else {
     result.z = problem.best().size() > 0 ? problem.best() : z_start;
   }
@@ -272,7 +281,8 @@ SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   } else {
     judge(nlp, options.tolerance, "SNOPT", result);
   }
-  if (result.status == SolveStatus::converged) result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
+  if (result.status == SolveStatus::converged)
+    result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
   result.times = guarded.times();
   result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = wall_seconds() - start;

@@ -9,11 +9,13 @@ namespace prowl {
 
 class SnoptLibrary;
 
-/// SNOPT 7 (Gill, Murray, Saunders 2005: sequential quadratic programming, quasi-Newton), with exact sparse first derivatives, out
-/// of the user's own library: SNOPT is commercial. Prowl's authors have no such library; it was tested against a double with the
-/// published interface (tests/solvers/snopt_double.cpp). The SNOPT that is tested for real is Drake's (python/prowl/snopt.py).
+/// SNOPT 7 (Gill, Murray, Saunders 2005: sequential quadratic programming, quasi-Newton), with exact sparse first
+/// derivatives, out of the user's own library: SNOPT is commercial. Prowl's authors have no such library; it was tested
+/// against a double with the published interface (tests/solvers/snopt_double.cpp). The SNOPT that is tested for real is
+/// Drake's (python/prowl/snopt.py).
 ///
-/// - The print file and the summary are switched off. Options are SNOPT's own but for limits, tolerances and derivatives.
+/// - The print file and the summary are switched off. Options are SNOPT's own but for limits, tolerances and
+/// derivatives.
 /// - SNOPT takes a row for met within tolerance x |z|; it is given a tolerance that is the smaller by |z_start|.
 /// - An evaluation that fails at a trial point shortens the step.
 /// - Interrupt and time are looked at with each evaluation; on_iteration is told of evaluations.

@@ -12,10 +12,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What is left of an equality counts if it is above this part of the largest entry. Where a foot lands, its place and its
-/// velocity are conditions on one acceleration of a stage: what tells them apart there is of third order in the step, 1e-9 on
-/// fine meshes, and met by it they have multipliers of 1e12 (HyQ trot, 624 intervals). An honest condition on a place
-/// leaves the square of the step, 1e-5.
+/// What is left of an equality counts if it is above this part of the largest entry. Where a foot lands, its place and
+/// its velocity are conditions on one acceleration of a stage: what tells them apart there is of third order in the
+/// step, 1e-9 on fine meshes, and met by it they have multipliers of 1e12 (HyQ trot, 624 intervals). An honest
+/// condition on a place leaves the square of the step, 1e-5.
 constexpr double kDependent = 1e-7;
 /// Pivots below are rounding.
 constexpr double kRounding = 1e-12;
@@ -90,7 +90,8 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
   s.P = N.bottomRightCorner(states, states);
   if (free > 0) {
     s.cholesky.compute(N.topLeftCorner(free, free));
-    if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite()) return Outcome::indefinite;
+    if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite())
+      return Outcome::indefinite;
     s.G = N.bottomLeftCorner(states, free).transpose();
     if (states > 0) {  // Eigen's triangular solve of nothing takes a reference to it
       s.cholesky.matrixL().solveInPlace(s.G);
@@ -222,7 +223,8 @@ void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalitie
 }
 
 /// What is left of the equations at the sum of the solutions so far.
-double StageKkt::find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
+double StageKkt::find_residual(const StageVectors& gradient, const StageVectors& equalities,
+                               const StageVectors& links) {
   residual_gradient_ = gradient;
   residual_equalities_ = equalities;
   residual_links_ = links;
@@ -327,8 +329,8 @@ void StageKkt::forward(int k, const VectorXd* link) {
   if (s.carried > 0) on_next_[at].noalias() += next.E.transpose() * next.on_carried;
 }
 
-/// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. Those of the conditions on the
-/// state are known from the stage before.
+/// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. Those of the conditions
+/// on the state are known from the stage before.
 void StageKkt::find_multipliers(int k) {
   Stage& s = stage(k);
   const int rank = s.rank;

@@ -20,14 +20,14 @@ namespace prowl {
 /// at the stages as they were linearised last, with the multipliers of both. From the last stage to the first:
 ///
 ///   equalities     determine as many inputs as their rank, chosen by an LU factorisation with full pivoting: those are
-///                  substituted. What is left of the equalities is a condition on the state and goes to the stage before,
-///                  as equalities of that stage: E dx + e = 0
+///                  substituted. What is left of the equalities is a condition on the state and goes to the stage
+///                  before, as equalities of that stage: E dx + e = 0
 ///   free inputs    minimise (Cholesky): what remains is the cost-to-go  1/2 dx' P dx + p' dx
 ///
-/// The Cholesky factors exist if and only if M is positive definite on the steps that keep the equalities. Equalities that
-/// depend on others are left out, with multipliers of zero. An input that could meet an equality only by a huge step does
-/// not count: that equality goes to earlier stages, and iterative refinement makes up for what was left out. No memory is
-/// taken once the ranks have settled.
+/// The Cholesky factors exist if and only if M is positive definite on the steps that keep the equalities. Equalities
+/// that depend on others are left out, with multipliers of zero. An input that could meet an equality only by a huge
+/// step does not count: that equality goes to earlier stages, and iterative refinement makes up for what was left out.
+/// No memory is taken once the ranks have settled.
 class StageKkt {
  public:
   /// A view of `nlp`, which must outlive it.
@@ -51,23 +51,23 @@ class StageKkt {
   const StageVectors& along_inequalities() const { return along_inequalities_; }  ///< their derivatives times the step
 
  private:
-  /// Variables in the order (determined inputs, free inputs, states). r: all but the determined ones. What a solve reads is
-  /// kept small: on long chains it comes from main memory.
+  /// Variables in the order (determined inputs, free inputs, states). r: all but the determined ones. What a solve
+  /// reads is kept small: on long chains it comes from main memory.
   struct Stage {
     StageSize size;
-    int carried = 0;                   ///< conditions E of the next stage, which are equalities here
-    int rank = 0;                      ///< number of determined inputs
-    int passed = 0;                    ///< conditions E of this stage
+    int carried = 0;                       ///< conditions E of the next stage, which are equalities here
+    int rank = 0;                          ///< number of determined inputs
+    int passed = 0;                        ///< conditions E of this stage
     Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of the equalities, own and carried ones, in u
-    std::vector<Eigen::Index> order;   ///< place of each variable in (u, x)
-    Eigen::MatrixXd M_dd;              ///< M in the determined inputs
-    Eigen::MatrixXd K;                 ///< determined inputs = K r + k
-    Eigen::MatrixXd T;                 ///< M_dd K + M_dr
+    std::vector<Eigen::Index> order;       ///< place of each variable in (u, x)
+    Eigen::MatrixXd M_dd;                  ///< M in the determined inputs
+    Eigen::MatrixXd K;                     ///< determined inputs = K r + k
+    Eigen::MatrixXd T;                     ///< M_dd K + M_dr
     Eigen::LLT<Eigen::MatrixXd> cholesky;
-    Eigen::MatrixXd G;                 ///< L^-1 N_fx of the free inputs
+    Eigen::MatrixXd G;  ///< L^-1 N_fx of the free inputs
     Eigen::MatrixXd P, E;
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of what determines no input
-    std::vector<int> passed_rows;      ///< which of the rows in the order of the pivots E is
+    std::vector<int> passed_rows;                            ///< which of the rows in the order of the pivots E is
 
     Eigen::VectorXd m, c, k, r, p, e, step, on_rows, on_carried;
     Eigen::VectorXd gradient, permuted, no_inequalities;

@@ -29,13 +29,15 @@ struct Iterate : IterateFigures {
   VectorXd z;
 };
 
-/// Thrown through Uno, and through the Fortran of BQPD, which would otherwise try again with ever smaller trust regions.
+/// Thrown through Uno, and through the Fortran of BQPD, which would otherwise try again with ever smaller trust
+/// regions.
 struct Stopped {
   SolveStatus status;
   std::string message;
 };
 
-/// What Uno asks, passed on to the Nlp. While it restores feasibility Uno has variables of its own behind those of the Nlp.
+/// What Uno asks, passed on to the Nlp. While it restores feasibility Uno has variables of its own behind those of the
+/// Nlp.
 class UnoProblem {
  public:
   UnoProblem(GuardedNlp& guarded, const SolverOptions& options, double start)
@@ -58,7 +60,8 @@ class UnoProblem {
     return guarded_.jacobian(point(z), VectorMap(values, nlp_.jacobian_pattern().size()));
   }
 
-  /// product = (Hessian of cost_factor f + multipliers . g at z) direction. Uno does not say when the Hessian is another.
+  /// product = (Hessian of cost_factor f + multipliers . g at z) direction. Uno does not say when the Hessian is
+  /// another.
   bool hessian_product(const double* z, double cost_factor, const double* multipliers, const double* direction,
                        double* product) {
     const VectorXd& z_now = point(z);
@@ -141,7 +144,9 @@ class UnoProblem {
 UnoProblem& problem_of(void* self) { return *static_cast<UnoProblem*>(self); }
 uno_int failed(bool good) { return good ? 0 : 1; }
 
-uno_int give_cost(uno_int, const double* z, double* value, void* self) { return failed(problem_of(self).cost(z, *value)); }
+uno_int give_cost(uno_int, const double* z, double* value, void* self) {
+  return failed(problem_of(self).cost(z, *value));
+}
 uno_int give_gradient(uno_int, const double* z, double* gradient, void* self) {
   return failed(problem_of(self).cost_gradient(z, gradient));
 }
@@ -226,14 +231,16 @@ struct Silence {
   Silence& operator=(const Silence&) = delete;
 };
 
-void run_uno(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options, UnoProblem& problem, SolveResult& result) {
+void run_uno(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options, UnoProblem& problem,
+             SolveResult& result) {
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const Silence silence;
   const Handle model = make_model(nlp, z_start, problem), solver = configured_solver(options, problem);
   uno_optimize(solver.get(), model.get());
 
-  const auto [status, words] = outcome(uno_get_optimization_status(solver.get()), uno_get_solution_status(solver.get()));
+  const auto [status, words] =
+      outcome(uno_get_optimization_status(solver.get()), uno_get_solution_status(solver.get()));
   result.status = status;
   result.message = words;
   result.iterations = uno_get_number_iterations(solver.get());

@@ -12,12 +12,12 @@
 namespace prowl {
 namespace {
 
-constexpr std::size_t kSoleJoints = 5;    // with fewer a leg cannot keep a sole level
-constexpr double kSnap = 0.35;            // [rad]
-constexpr double kSameHeight = 5e-3;      // [m]: spheres that touch together
-constexpr double kLargestBall = 0.25;     // of the leg's length: wheels are the largest
-constexpr double kToe = 0.02;             // [m]: the toe is the longer end of a foot, and ahead if neither is
-constexpr double kRounding = 1e-5;        // [m]
+constexpr std::size_t kSoleJoints = 5;  // with fewer a leg cannot keep a sole level
+constexpr double kSnap = 0.35;          // [rad]
+constexpr double kSameHeight = 5e-3;    // [m]: spheres that touch together
+constexpr double kLargestBall = 0.25;   // of the leg's length: wheels are the largest
+constexpr double kToe = 0.02;           // [m]: the toe is the longer end of a foot, and ahead if neither is
+constexpr double kRounding = 1e-5;      // [m]
 
 double rounded(double x) { return kRounding * std::round(x / kRounding) + 0.0; }
 
@@ -42,7 +42,8 @@ Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {
 }
 
 /// The link of the foot whose origin is nearest to a point of the body.
-const RobotLink& nearest_link(const RobotPose& pose, int body, const Eigen::Vector3d& point, const std::string& preferred) {
+const RobotLink& nearest_link(const RobotPose& pose, int body, const Eigen::Vector3d& point,
+                              const std::string& preferred) {
   const RobotLink* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const RobotLink& link : pose.links()) {
@@ -99,10 +100,12 @@ class FootFinder {
     for (const FootShape& shape : shapes_.shapes) {
       if (shape.radius > 0.0 && lowest(shape) <= lowest() + kSameHeight) touching.push_back(&shape);
     }
-    for (const FootShape* shape : touching) middle += level_ * shape->points.col(0) / static_cast<double>(touching.size());
+    for (const FootShape* shape : touching)
+      middle += level_ * shape->points.col(0) / static_cast<double>(touching.size());
     std::vector<std::string> corners;
     for (const FootShape* shape : touching) {
-      corners.push_back(corner_name((level_ * shape->points.col(0) - middle).head<2>(), middle.x() > -kToe, is_on_the_left()));
+      corners.push_back(
+          corner_name((level_ * shape->points.col(0) - middle).head<2>(), middle.x() > -kToe, is_on_the_left()));
     }
     const bool are_corners = touching.size() == 4 && std::set(corners.begin(), corners.end()).size() == 4;
     for (const FootShape* shape : touching) {
@@ -133,7 +136,9 @@ class FootFinder {
     if (!rectangle) return {};
     const double height = all.row(2).minCoeff();
     const Eigen::Vector2d middle = 0.5 * (rectangle->lower + rectangle->upper);
-    const auto in_body = [&](double x, double y) -> Eigen::Vector3d { return level_.transpose() * Eigen::Vector3d(x, y, height); };
+    const auto in_body = [&](double x, double y) -> Eigen::Vector3d {
+      return level_.transpose() * Eigen::Vector3d(x, y, height);
+    };
     const RobotLink& link = nearest_link(pose_, leg_.foot, in_body(middle.x(), middle.y()), "");
     FootContacts foot;
     for (const double x : {rectangle->upper.x(), rectangle->lower.x()}) {
@@ -143,8 +148,8 @@ class FootFinder {
       }
     }
     const Eigen::Vector2d edges = rectangle->upper - rectangle->lower;
-    foot.how = fmt::format("a rectangle of {:.1f} x {:.1f} cm inside the flat part of the {} shape, {}", 100.0 * edges.x(),
-                           100.0 * edges.y(), kind(), shapes_.shapes[0].kind);
+    foot.how = fmt::format("a rectangle of {:.1f} x {:.1f} cm inside the flat part of the {} shape, {}",
+                           100.0 * edges.x(), 100.0 * edges.y(), kind(), shapes_.shapes[0].kind);
     return foot;
   }
 
@@ -164,7 +169,8 @@ class FootFinder {
     FootContacts foot;
     if (radius > 0.0 && radius < kLargestBall * reach && is_above) {
       foot.contacts = {contact_at(link, link.name, link.placement.translation(), radius)};
-      foot.how = fmt::format("a ball around the frame, as large as the {} shape ({}) reaches below it", kind(), shape->kind);
+      foot.how =
+          fmt::format("a ball around the frame, as large as the {} shape ({}) reaches below it", kind(), shape->kind);
     } else {
       foot.contacts = {contact_at(link, link.name, shape->points.col(at), 0.0)};
       foot.how = fmt::format("the lowest point of the {} shape ({}), without a ball around it", kind(), shape->kind);
@@ -175,7 +181,8 @@ class FootFinder {
   /// Without a shape: the lowest frame of the foot.
   FootContacts bare_frame() const {
     const auto height = [&](const RobotLink& link) {
-      return link.body == leg_.foot ? (level_ * link.placement.translation()).z() : std::numeric_limits<double>::infinity();
+      return link.body == leg_.foot ? (level_ * link.placement.translation()).z()
+                                    : std::numeric_limits<double>::infinity();
     };
     const RobotLink& lowest = *std::ranges::min_element(pose_.links(), {}, height);
     return {{contact_at(lowest, lowest.name, lowest.placement.translation(), 0.0)},

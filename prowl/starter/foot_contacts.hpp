@@ -21,8 +21,8 @@ struct FootContacts {
 /// - else, on a leg of five joints or more, the corners of a rectangle inside its flat sole;
 /// - else a ball around the frame that its lowest point lies below; or that point itself.
 ///
-/// A sole need not be level in this pose: of the axes of the foot's links, the one that points most nearly down is taken
-/// for down if it is within 20 degrees of it.
+/// A sole need not be level in this pose: of the axes of the foot's links, the one that points most nearly down is
+/// taken for down if it is within 20 degrees of it.
 FootContacts foot_contacts(const RobotPose& pose, const Leg& leg, const FootShapes& shapes);
 
 }  // namespace prowl

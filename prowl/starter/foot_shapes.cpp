@@ -105,7 +105,8 @@ void add_shapes(const std::vector<RobotVisual>& shapes, int body, const RobotMod
 
 }  // namespace
 
-std::vector<FootShapes> foot_shapes(const RobotModel& robot, const std::vector<int>& bodies, const PackageSearch& search) {
+std::vector<FootShapes> foot_shapes(const RobotModel& robot, const std::vector<int>& bodies,
+                                    const PackageSearch& search) {
   const std::vector<RobotVisual> collisions = robot_collisions(robot), visuals = robot_visuals(robot);
   std::vector<FootShapes> result;
   for (const int body : bodies) {

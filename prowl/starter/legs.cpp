@@ -17,12 +17,12 @@ namespace {
 
 constexpr double kSameLevel = 0.25;  // of the height of the base over the lowest end
 constexpr double kHangs = 0.5;       // of the reach of the furthest end: less, and it is an arm to the side
-constexpr double kBelow = 0.8;       // of the height: legs stand around the base, not beside it; bent ones all reach back
+constexpr double kBelow = 0.8;  // of the height: legs stand around the base, not beside it; bent ones all reach back
 
 struct Limb {
   std::vector<int> joints;
-  int end = 0;                  // body
-  Eigen::Vector3d lowest;       // of its frames, in the axes of the search [m]
+  int end = 0;             // body
+  Eigen::Vector3d lowest;  // of its frames, in the axes of the search [m]
 };
 
 std::vector<Limb> find_limbs(const BodyTree& tree) {
@@ -92,15 +92,16 @@ std::vector<Leg> to_legs(const std::vector<Limb>& limbs) {
 LegSearch find_legs(const RobotModel& robot) {
   constexpr double kRight = std::numbers::pi / 2.0;
   // z up, then y up and down, x up and down, z down: rotations about x and y alone, so that forward stays near x.
-  const std::vector<Eigen::Vector3d> tries = {{0.0, 0.0, 0.0},     {kRight, 0.0, 0.0},  {-kRight, 0.0, 0.0},
+  const std::vector<Eigen::Vector3d> tries = {{0.0, 0.0, 0.0},     {kRight, 0.0, 0.0}, {-kRight, 0.0, 0.0},
                                               {0.0, -kRight, 0.0}, {0.0, kRight, 0.0}, {2.0 * kRight, 0.0, 0.0}};
   const Eigen::VectorXd joints = neutral_joints(robot);
   LegSearch search;
   std::vector<Limb> found, limbs;
   for (const Eigen::Vector3d& rpy : tries) {
     search.base_rpy = rpy;
-    search.upright = (Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
-                         .toRotationMatrix();
+    search.upright =
+        (Eigen::AngleAxisd(rpy.y(), Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(rpy.x(), Eigen::Vector3d::UnitX()))
+            .toRotationMatrix();
     RobotPose pose(robot, search.upright);
     pose.set(joints);
     limbs = find_limbs(pose.tree());
@@ -108,10 +109,11 @@ LegSearch find_legs(const RobotModel& robot) {
     if (!found.empty()) break;
   }
   if (found.empty()) {
-    throw InputError(fmt::format(
-        "{}: no legs found: no two of its {} limbs reach down to one level with all joints next to 0; write the robot file by hand "
-        "(docs/adding-a-robot.md), or see that the URDF is of a legged robot",
-        robot.description().urdf.string(), limbs.size()));
+    throw InputError(
+        fmt::format("{}: no legs found: no two of its {} limbs reach down to one level with all joints next to 0; "
+                    "write the robot file by hand "
+                    "(docs/adding-a-robot.md), or see that the URDF is of a legged robot",
+                    robot.description().urdf.string(), limbs.size()));
   }
   search.legs = to_legs(found);
   for (const Limb& limb : limbs) {

@@ -23,8 +23,8 @@ struct LegSearch {
 };
 
 /// The limbs that reach furthest down with all joints next to 0, seen from the base, are the legs: those whose ends are
-/// within a quarter of the height of the lowest. Down is against z of the base; or, if nothing hangs down that way, along
-/// another of its axes. Throws InputError if there are not two legs or more.
+/// within a quarter of the height of the lowest. Down is against z of the base; or, if nothing hangs down that way,
+/// along another of its axes. Throws InputError if there are not two legs or more.
 LegSearch find_legs(const RobotModel& robot);
 
 }  // namespace prowl

@@ -13,10 +13,10 @@
 namespace prowl {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;     // [rad]; a range beyond is none
-constexpr double kStraight = 0.1, kMostBent = 2.6;   // [rad], of a knee
-constexpr double kSwing = 1.5;                       // [rad], of other joints of legs, either way
-constexpr double kVelocity = 10.0;                   // [rad/s]
+constexpr double kTurn = 2.0 * std::numbers::pi;    // [rad]; a range beyond is none
+constexpr double kStraight = 0.1, kMostBent = 2.6;  // [rad], of a knee
+constexpr double kSwing = 1.5;                      // [rad], of other joints of legs, either way
+constexpr double kVelocity = 10.0;                  // [rad/s]
 constexpr double kTorqueOfStanding = 5.0;
 
 double two_digits(double x) {
@@ -40,8 +40,11 @@ std::map<std::string, JointLimits> usable_limits(const UrdfOutline& outline) {
   for (const UrdfOutline::Limits& joint : outline.joints) {
     JointLimits usable;
     if (joint.prismatic && (!joint.has_range() || !(joint.velocity > 0.0))) {
-      throw InputError(fmt::format("joint '{}' slides, and its range [m] or velocity [m/s] is not in the URDF, nor can it be guessed: put lower, upper "
-                                   "and velocity into its <limit>", joint.joint));
+      throw InputError(
+          fmt::format("joint '{}' slides, and its range [m] or velocity [m/s] is not in the URDF, nor can it be "
+                      "guessed: put lower, upper "
+                      "and velocity into its <limit>",
+                      joint.joint));
     }
     if (!joint.has_range()) {
       usable.position_lower = -std::numbers::pi;
@@ -60,7 +63,8 @@ std::vector<LimitGuess> guess_limits(const RobotModel& robot, const UrdfOutline&
   const double all_legs = std::max(1e-2, standing_torque.cwiseAbs().maxCoeff());
   for (int j = 0; j < robot.nu(); ++j) {
     const std::string& name = robot.joint_names()[j];
-    const auto found = std::find_if(outline.joints.begin(), outline.joints.end(), [&](const auto& joint) { return joint.joint == name; });
+    const auto found = std::find_if(outline.joints.begin(), outline.joints.end(),
+                                    [&](const auto& joint) { return joint.joint == name; });
     if (found == outline.joints.end()) continue;
     bool in_leg = false;
     const Knee* knee = nullptr;
@@ -73,7 +77,8 @@ std::vector<LimitGuess> guess_limits(const RobotModel& robot, const UrdfOutline&
     const bool is_endless = in_leg && !found->prismatic && (found->lower < -kTurn || found->upper > kTurn);
     if (!found->has_range() || is_endless) guess.position = range_of(j, knee, posture);
     if (!(found->velocity > 0.0)) guess.velocity = kVelocity;
-    if (!(found->effort > 0.0)) guess.torque = two_digits(kTorqueOfStanding * (in_leg ? all_legs : std::abs(standing_torque(j))));
+    if (!(found->effort > 0.0))
+      guess.torque = two_digits(kTorqueOfStanding * (in_leg ? all_legs : std::abs(standing_torque(j))));
     guess.torque_is_no_limit = found->effort >= kNoRealLimit;
     if (guess.position || guess.velocity || guess.torque || guess.torque_is_no_limit) guesses.push_back(guess);
   }

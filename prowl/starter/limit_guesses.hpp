@@ -23,13 +23,13 @@ struct LimitGuess {
   bool is_knee = false;
 };
 
-/// Limits that a RobotModel takes, for joints whose limits it would refuse: as wide as can be. To look at the robot with.
+/// Limits that a RobotModel takes, for joints whose limits it would refuse: as wide as can be. To look at the robot
+/// with.
 std::map<std::string, JointLimits> usable_limits(const UrdfOutline& outline);
 
 /// For joints of legs: a range beyond +-2 pi becomes one that keeps a knee bent its own way, 0.1 rad from straight, and
-/// other joints within 1.5 rad of the posture. For all: a range, velocity or torque that a RobotModel refuses is replaced, torque
-/// by five times what standing takes.
-/// `standing_torque`: nu [N m].
+/// other joints within 1.5 rad of the posture. For all: a range, velocity or torque that a RobotModel refuses is
+/// replaced, torque by five times what standing takes. `standing_torque`: nu [N m].
 std::vector<LimitGuess> guess_limits(const RobotModel& robot, const UrdfOutline& outline, const std::vector<Leg>& legs,
                                      const StandingPosture& posture, const Eigen::VectorXd& standing_torque);
 

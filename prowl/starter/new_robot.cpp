@@ -15,8 +15,9 @@ namespace {
 constexpr std::size_t kLargestUrdf = 4u << 20;  // [bytes], as RobotModel has it
 
 /// The contacts of all feet in one pose; contacts_of_leg gets the indices of those of each leg.
-std::vector<ContactPoint> find_feet(const RobotPose& pose, const std::vector<Leg>& legs, const std::vector<FootShapes>& shapes,
-                                    std::vector<FootContacts>& feet, std::vector<std::vector<int>>& contacts_of_leg) {
+std::vector<ContactPoint> find_feet(const RobotPose& pose, const std::vector<Leg>& legs,
+                                    const std::vector<FootShapes>& shapes, std::vector<FootContacts>& feet,
+                                    std::vector<std::vector<int>>& contacts_of_leg) {
   feet.clear();
   contacts_of_leg.clear();
   std::vector<ContactPoint> contacts;
@@ -59,7 +60,9 @@ NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& searc
   description.urdf = std::filesystem::absolute(urdf).lexically_normal();
   description.urdf_text = read_text_file(description.urdf, kLargestUrdf).text;
   const UrdfOutline outline = urdf_outline(description.urdf.string(), description.urdf_text);
-  description.name = is_name(outline.name) ? outline.name : is_name(description.urdf.stem().string()) ? description.urdf.stem().string() : "robot";
+  description.name = is_name(outline.name)                       ? outline.name
+                     : is_name(description.urdf.stem().string()) ? description.urdf.stem().string()
+                                                                 : "robot";
   description.limits = usable_limits(outline);
 
   const RobotModel bare(description);

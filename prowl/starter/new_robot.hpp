@@ -15,14 +15,14 @@ namespace prowl {
 
 /// A robot description made from a URDF alone, and how each part of it came about.
 struct NewRobot {
-  RobotDescription description;       ///< with contacts, posture and limits; its name is the URDF's
-  double mass = 0.0;                  ///< [kg]
+  RobotDescription description;  ///< with contacts, posture and limits; its name is the URDF's
+  double mass = 0.0;             ///< [kg]
   LegSearch search;
-  std::vector<FootContacts> feet;     ///< one a leg
+  std::vector<FootContacts> feet;  ///< one a leg
   StandingPosture posture;
   std::vector<LimitGuess> limits;
-  double torque_share = 0.0;          ///< most that a joint needs for standing still, of its limit
-  std::string torque_joint;           ///< which
+  double torque_share = 0.0;  ///< most that a joint needs for standing still, of its limit
+  std::string torque_joint;   ///< which
   std::vector<std::string> missing_meshes;
 };
 

@@ -23,11 +23,11 @@ constexpr double kDepth = 0.25, kDepthOnSoles = 0.12;
 constexpr double kStep = 0.2, kStepOnSoles = 0.1;
 constexpr double kShift[] = {0.08, 0.045, -0.08}, kShiftOnSoles[] = {0.02, 0.02, -0.05};
 constexpr double kTurn[] = {0.05, 0.1, 0.1}, kTurnOnSoles[] = {0.0, 0.0, 0.05};  // [rad]
-constexpr double kSmaller = 0.8, kSmallest = 0.1;  // factors on all of these
-constexpr double kInside = 0.05;                   // [rad], from the limits
-constexpr double kTorqueShare = 0.8;               // of the limits, at rest
+constexpr double kSmaller = 0.8, kSmallest = 0.1;                                // factors on all of these
+constexpr double kInside = 0.05;                                                 // [rad], from the limits
+constexpr double kTorqueShare = 0.8;                                             // of the limits, at rest
 constexpr double kFitted = 1e-6, kFittedSoles = 1e-4;  // [m]: soles that are level but for rounding
-constexpr double kUnbalanced = 0.01;               // of the weight
+constexpr double kUnbalanced = 0.01;                   // of the weight
 
 // The weight of torques goes with 1 / mass^2: docs/adding-a-robot.md. HyQ's and Talos's tasks have these.
 constexpr double kHyqMass = 86.8, kHyqWeight = 1e-5, kWeightOnSoles = 3e-5;
@@ -65,7 +65,8 @@ bool can_rest(const RobotModel& robot, bool soles, const Eigen::Vector3d& shift,
     if (std::abs(torque(j)) > kTorqueShare * robot.torque_limit()(j)) return false;
     const double start = robot.nominal_configuration()(7 + j);
     if (std::abs(joints(j) - start) < 1e-6) continue;  // not part of this motion: near a limit it may be
-    if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside) return false;
+    if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside)
+      return false;
   }
   return true;
 }
@@ -80,23 +81,29 @@ std::optional<double> largest_factor(const Fits& fits) {
 }
 
 [[noreturn]] void refuse_all_sizes(const RobotModel& robot, const char* motion) {
-  throw InputError(fmt::format("robot '{}': no {} found that stays within its limits, however small; see prowl robot, and choose a "
-                               "nominal posture further inside the limits, or --kind hold", robot.name(), motion));
+  throw InputError(
+      fmt::format("robot '{}': no {} found that stays within its limits, however small; see prowl robot, and choose a "
+                  "nominal posture further inside the limits, or --kind hold",
+                  robot.name(), motion));
 }
 
 /// Throws InputError for a robot that its contacts or its joints cannot carry at rest in the nominal posture.
 void check_that_it_stands(const RobotModel& robot) {
   const StaticEquilibrium rest = static_equilibrium(robot, robot.nominal_configuration(), all_contacts(robot));
   if (rest.residual > kUnbalanced * robot.weight()) {
-    throw InputError(fmt::format(
-        "robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left of {:.0f} N): a task that begins and ends at "
-        "rest needs contacts around its centre of mass, three points or flat feet", robot.name(), robot.contacts().size(), rest.residual, robot.weight()));
+    throw InputError(
+        fmt::format("robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left "
+                    "of {:.0f} N): a task that begins and ends at "
+                    "rest needs contacts around its centre of mass, three points or flat feet",
+                    robot.name(), robot.contacts().size(), rest.residual, robot.weight()));
   }
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
     if (std::abs(rest.tau(j)) <= kTorqueShare * robot.torque_limit()(j)) continue;
-    throw InputError(fmt::format("robot '{}': standing in the nominal posture takes {:.3g} of {:.3g} N m at {}: need another posture, or limits.{}.torque_Nm if the "
-                                 "limit is not the maker's", robot.name(), std::abs(rest.tau(j)), robot.torque_limit()(j),
-                                 robot.joint_names()[j], robot.joint_names()[j]));
+    throw InputError(fmt::format(
+        "robot '{}': standing in the nominal posture takes {:.3g} of {:.3g} N m at {}: need another posture, or "
+        "limits.{}.torque_Nm if the "
+        "limit is not the maker's",
+        robot.name(), std::abs(rest.tau(j)), robot.torque_limit()(j), robot.joint_names()[j], robot.joint_names()[j]));
   }
 }
 
@@ -107,15 +114,19 @@ bool is_same_foot(const RobotModel& robot, std::size_t c, std::size_t other) {
 
 void check_that_it_can_step(const RobotModel& robot, const NewTask& task, int foot) {
   if (!task.soles && task.stay.size() < 3) {
-    throw InputError(fmt::format("robot '{}': with {} lifted it stands on {} points, which need three to be balanced, or a flat foot; no --kind step",
-                                 robot.name(), task.swing.front(), task.stay.size()));
+    throw InputError(
+        fmt::format("robot '{}': with {} lifted it stands on {} points, which need three to be balanced, or a flat "
+                    "foot; no --kind step",
+                    robot.name(), task.swing.front(), task.stay.size()));
   }
   LegKinematics legs(robot);
   legs.update(robot.nominal_configuration().tail(robot.nu()));
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(legs.linear(foot));
   if ((svd.singularValues().array() > 1e-6 * svd.singularValues()(0)).count() < 3) {
-    throw InputError(fmt::format("robot '{}': the leg of {} moves its foot in a plane only, so that the weight cannot go to the other feet; no --kind step",
-                                 robot.name(), task.swing.front()));
+    throw InputError(
+        fmt::format("robot '{}': the leg of {} moves its foot in a plane only, so that the weight cannot go to the "
+                    "other feet; no --kind step",
+                    robot.name(), task.swing.front()));
   }
 }
 
@@ -123,11 +134,15 @@ void check_that_it_can_step(const RobotModel& robot, const NewTask& task, int fo
 void choose_shift(const RobotModel& robot, NewTask& task) {
   const auto& shares = task.soles ? kShiftOnSoles : kShift;
   const auto& angles = task.soles ? kTurnOnSoles : kTurn;
-  const Eigen::Vector3d all_shift = task.height * Eigen::Vector3d(shares[0], shares[1], shares[2]), all_turn(angles[0], angles[1], angles[2]);
-  const Eigen::Vector3d everything(1.0, 1.0, 1.0), along_x(1.0, 0.0, 1.0), about_y(0.0, 1.0, 0.0), along_y(0.0, 1.0, 1.0), about_x(1.0, 0.0, 0.0);
-  for (const auto& [shift, turn] : {std::pair(everything, everything), std::pair(along_x, about_y), std::pair(along_y, about_x)}) {
+  const Eigen::Vector3d all_shift = task.height * Eigen::Vector3d(shares[0], shares[1], shares[2]),
+                        all_turn(angles[0], angles[1], angles[2]);
+  const Eigen::Vector3d everything(1.0, 1.0, 1.0), along_x(1.0, 0.0, 1.0), about_y(0.0, 1.0, 0.0),
+      along_y(0.0, 1.0, 1.0), about_x(1.0, 0.0, 0.0);
+  for (const auto& [shift, turn] :
+       {std::pair(everything, everything), std::pair(along_x, about_y), std::pair(along_y, about_x)}) {
     const auto try_with = [&, s = shift, t = turn](double factor) {
-      task.shift = (factor * all_shift.cwiseProduct(s)).unaryExpr([](double x) { return 1e-3 * std::round(1e3 * x) + 0.0; });
+      task.shift =
+          (factor * all_shift.cwiseProduct(s)).unaryExpr([](double x) { return 1e-3 * std::round(1e3 * x) + 0.0; });
       task.turn = (factor * all_turn.cwiseProduct(t)).unaryExpr([](double x) { return hundredths(x); });
       return can_rest(robot, task.soles, task.shift, task.turn);
     };
@@ -176,13 +191,15 @@ NewTask new_task(const RobotModel& robot, NewTaskKind kind) {
   check_that_it_stands(robot);
   if (kind == NewTaskKind::crouch) {
     const double depth = (task.soles ? kDepthOnSoles : kDepth) * task.height;
-    const auto factor = largest_factor([&](double f) { return can_rest(robot, task.soles, {0.0, 0.0, -f * depth}, Eigen::Vector3d::Zero()); });
+    const auto factor = largest_factor(
+        [&](double f) { return can_rest(robot, task.soles, {0.0, 0.0, -f * depth}, Eigen::Vector3d::Zero()); });
     if (!factor) refuse_all_sizes(robot, "crouch");
     task.depth = std::max(0.01, 0.01 * std::floor(100.0 * *factor * depth));
   }
   if (kind == NewTaskKind::stand && robot.contacts().size() < 3) {
-    throw InputError(fmt::format("robot '{}': on {} points a base that moves aside falls over; no --kind stand, but hold and crouch",
-                                 robot.name(), robot.contacts().size()));
+    throw InputError(
+        fmt::format("robot '{}': on {} points a base that moves aside falls over; no --kind stand, but hold and crouch",
+                    robot.name(), robot.contacts().size()));
   }
   if (kind == NewTaskKind::stand) choose_shift(robot, task);
   if (kind == NewTaskKind::step) choose_step(robot, task);

@@ -12,20 +12,20 @@ enum class NewTaskKind { hold, stand, crouch, step };
 /// A motion sized for one robot. Lengths in [m].
 struct NewTask {
   NewTaskKind kind = NewTaskKind::crouch;
-  bool soles = false;                  ///< feet of several contacts
-  double height = 0.0;                 ///< of the base in the nominal posture, over the ground
-  double depth = 0.0;                  ///< crouch: how far down
+  bool soles = false;                               ///< feet of several contacts
+  double height = 0.0;                              ///< of the base in the nominal posture, over the ground
+  double depth = 0.0;                               ///< crouch: how far down
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< stand: of the base
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();   ///< stand: base_rpy_rad
-  std::vector<std::string> swing;      ///< step: contacts of the foot that steps
-  std::vector<std::string> stay;       ///< step: the others
+  std::vector<std::string> swing;                   ///< step: contacts of the foot that steps
+  std::vector<std::string> stay;                    ///< step: the others
   Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< step: where the first of `swing` lands
-  double length = 0.0;                 ///< step
+  double length = 0.0;                              ///< step
   double torque_weight = 0.0;
 };
 
-/// Sizes: a share of the standing height, made smaller until inverse kinematics finds a posture within the limits, well inside
-/// them, whose torques at rest the joints can give. Throws InputError for a robot that cannot stand still on its
+/// Sizes: a share of the standing height, made smaller until inverse kinematics finds a posture within the limits, well
+/// inside them, whose torques at rest the joints can give. Throws InputError for a robot that cannot stand still on its
 /// contacts, or cannot do such a motion at any size.
 NewTask new_task(const RobotModel& robot, NewTaskKind kind);
 

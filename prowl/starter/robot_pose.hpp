@@ -26,7 +26,7 @@ class RobotPose {
   const std::vector<RobotLink>& links() const { return links_; }
   const Eigen::Isometry3d& body(int index) const { return (*bodies_)[index]; }
   Eigen::Vector3d point(int body_index, const Eigen::Vector3d& in_body) const { return body(body_index) * in_body; }
-  Eigen::Vector3d contact(std::size_t index) const;       ///< of robot().contacts() [m]
+  Eigen::Vector3d contact(std::size_t index) const;  ///< of robot().contacts() [m]
   /// Of a joint: the origin of the body that it moves [m].
   Eigen::Vector3d joint(int index) const { return body(index + 1).translation(); }
   Eigen::Vector3d center_of_mass() const;

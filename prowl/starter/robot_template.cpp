@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHead = R"(# {name}: {mass:.1f} kg, {legs} legs. Written by `prowl new robot` from the URDF. What says "guess" is to be looked at;
+constexpr const char* kHead =
+    R"(# {name}: {mass:.1f} kg, {legs} legs. Written by `prowl new robot` from the URDF. What says "guess" is to be looked at;
 # `prowl robot {file}` shows what Prowl understands of it and warns. All keys: docs/robot-file.md.
 name = "{name}"
 
@@ -31,21 +32,25 @@ name = "{name}"
 frame = "{frame}"
 )";
 
-constexpr const char* kPosture = R"(# Posture that motions start from, guess: by inverse kinematics, all contacts on the ground below the hips, legs
+constexpr const char* kPosture =
+    R"(# Posture that motions start from, guess: by inverse kinematics, all contacts on the ground below the hips, legs
 # stretched to {stretch:.0f} % of their length, knees {knees} where limits allow both ways.
 # The base is then {height:.3f} m up. Standing takes {torque}.
 # Instead: `group_state` "standing" or the like of the robot's SRDF. Keep joints inside their limits and knees bent.
 )";
 
-constexpr const char* kNoPosture = R"(# Posture that motions start from. NOT FOUND: no posture with bent knees puts all contacts level on the ground below the hips.
+constexpr const char* kNoPosture =
+    R"(# Posture that motions start from. NOT FOUND: no posture with bent knees puts all contacts level on the ground below the hips.
 # These are joint positions next to 0 within the limits. Change them until `prowl robot {file}` warns of nothing.
 )";
 
-constexpr const char* kLimits = R"(# Limits: the URDF's, but for what follows: they were missing or placeholders that limit nothing. Guesses, not the
+constexpr const char* kLimits =
+    R"(# Limits: the URDF's, but for what follows: they were missing or placeholders that limit nothing. Guesses, not the
 # maker's: put the data sheet's figures here, with the source. Ranges keep each knee bent its own way.
 )";
 
-constexpr const char* kAllLimits = "# Limits: the URDF's. [limits.JOINT] replaces them one by one: docs/robot-file.md.\n";
+constexpr const char* kAllLimits =
+    "# Limits: the URDF's. [limits.JOINT] replaces them one by one: docs/robot-file.md.\n";
 
 std::string number(double x) {
   const std::string text = fmt::format("{:.6g}", x);
@@ -60,7 +65,8 @@ std::string one_line(std::string text) {
 
 /// A key of TOML: quoted where a bare one is not allowed.
 std::string key(const std::string& name) {
-  const bool bare = name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
+  const bool bare =
+      name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
   return bare ? name : '"' + name + '"';
 }
 
@@ -73,7 +79,8 @@ std::string contacts(const NewRobot& robot) {
       text += fmt::format(fmt::runtime(kContact), fmt::arg("name", contact.name), fmt::arg("frame", contact.frame));
       if (contact.radius > 0.0) text += fmt::format("radius_m = {}\n", number(contact.radius));
       if (!contact.offset.isZero(0.0)) {
-        text += fmt::format("offset_m = [{}, {}, {}]\n", number(contact.offset.x()), number(contact.offset.y()), number(contact.offset.z()));
+        text += fmt::format("offset_m = [{}, {}, {}]\n", number(contact.offset.x()), number(contact.offset.y()),
+                            number(contact.offset.z()));
       }
       text += '\n';
     }
@@ -82,7 +89,8 @@ std::string contacts(const NewRobot& robot) {
 }
 
 std::string torque_in_words(const NewRobot& robot) {
-  const bool placeholders = std::any_of(robot.limits.begin(), robot.limits.end(), [](const LimitGuess& g) { return g.torque_is_no_limit; });
+  const bool placeholders =
+      std::any_of(robot.limits.begin(), robot.limits.end(), [](const LimitGuess& g) { return g.torque_is_no_limit; });
   if (placeholders) return "torques that cannot be compared with limits, for the URDF has none";
   return fmt::format("{:.0f} % of the torque limits at most ({})", 100.0 * robot.torque_share, robot.torque_joint);
 }
@@ -98,8 +106,10 @@ std::string posture(const NewRobot& robot, const fs::path& file) {
   }
   const Eigen::Vector3d& rpy = robot.search.base_rpy;
   if (!rpy.isZero(0.0)) {
-    text += fmt::format("[nominal]   # guess: z of the base does not point up, the legs hang down another way\nbase_rpy_rad = [{}, {}, {}]\n\n",
-                        number(rpy.x()), number(rpy.y()), number(rpy.z()));
+    text += fmt::format(
+        "[nominal]   # guess: z of the base does not point up, the legs hang down another way\nbase_rpy_rad = [{}, {}, "
+        "{}]\n\n",
+        number(rpy.x()), number(rpy.y()), number(rpy.z()));
   }
   text += "[nominal.joints]   # [rad]; those not named are at 0\n";
   for (const auto& [joint, position] : robot.description.nominal_joints) {
@@ -117,8 +127,11 @@ std::string limits(const NewRobot& robot) {
       text += fmt::format("position_rad = [{}, {}]{}\n", number(guess.position->first), number(guess.position->second),
                           guess.is_knee ? "   # guess: 0.1 to 2.6 rad from straight" : "   # guess");
     }
-    if (guess.velocity) text += fmt::format("velocity_radps = {}   # guess: the URDF has none\n", number(*guess.velocity));
-    if (guess.torque) text += fmt::format("torque_Nm = {}   # guess: five times what standing takes; the URDF has none\n", number(*guess.torque));
+    if (guess.velocity)
+      text += fmt::format("velocity_radps = {}   # guess: the URDF has none\n", number(*guess.velocity));
+    if (guess.torque)
+      text += fmt::format("torque_Nm = {}   # guess: five times what standing takes; the URDF has none\n",
+                          number(*guess.torque));
     if (guess.torque_is_no_limit) text += "# torque_Nm =      the URDF's 1000 N m or more is no limit\n";
     text += '\n';
   }
@@ -128,13 +141,15 @@ std::string limits(const NewRobot& robot) {
 }  // namespace
 
 std::string robot_template(const NewRobot& robot, const std::string& urdf, const fs::path& file) {
-  const std::string others = robot.search.other_ends.empty()
-                                 ? std::string()
-                                 : fmt::format("\n# No contacts: the limbs that end in {}.", fmt::join(robot.search.other_ends, ", "));
-  std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
-                                 fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
-                                 fmt::arg("urdf", toml_string(urdf)), fmt::arg("others", others));
-  for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# A mesh that was not read: {}\n", one_line(mesh));
+  const std::string others = robot.search.other_ends.empty() ? std::string()
+                                                             : fmt::format("\n# No contacts: the limbs that end in {}.",
+                                                                           fmt::join(robot.search.other_ends, ", "));
+  std::string text =
+      fmt::format(fmt::runtime(kHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
+                  fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
+                  fmt::arg("urdf", toml_string(urdf)), fmt::arg("others", others));
+  for (const std::string& mesh : robot.missing_meshes)
+    text += fmt::format("# A mesh that was not read: {}\n", one_line(mesh));
   text += '\n';
   text += contacts(robot);
   text += posture(robot, file);

@@ -13,15 +13,16 @@ namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point>;
 
-constexpr double kLayer = 2e-3;        // [m]: rounded edges and triangles of a mesh
-constexpr double kLayerShare = 0.02;   // of the foot's length
-constexpr double kLeast = 0.02;        // [m]
-constexpr double kDrawnIn = 0.97;      // an edge does not carry
-constexpr int kSteps = 40;             // of each side of the rectangle
+constexpr double kLayer = 2e-3;       // [m]: rounded edges and triangles of a mesh
+constexpr double kLayerShare = 0.02;  // of the foot's length
+constexpr double kLeast = 0.02;       // [m]
+constexpr double kDrawnIn = 0.97;     // an edge does not carry
+constexpr int kSteps = 40;            // of each side of the rectangle
 
 std::optional<Polygon> hull_of_lowest(const Eigen::Matrix3Xd& points) {
   const double lowest = points.row(2).minCoeff();
-  const double length = std::max(points.row(0).maxCoeff() - points.row(0).minCoeff(), points.row(1).maxCoeff() - points.row(1).minCoeff());
+  const double length = std::max(points.row(0).maxCoeff() - points.row(0).minCoeff(),
+                                 points.row(1).maxCoeff() - points.row(1).minCoeff());
   const double layer = kLayer + kLayerShare * length;
   bg::model::multi_point<Point> low;
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -50,7 +51,8 @@ std::optional<Rectangle> find_sole(const Eigen::Matrix3Xd& points) {
   if (!hull) return std::nullopt;
   bg::model::box<Point> box{};
   bg::envelope(*hull, box);
-  const Eigen::Vector2d lower(box.min_corner().x(), box.min_corner().y()), upper(box.max_corner().x(), box.max_corner().y());
+  const Eigen::Vector2d lower(box.min_corner().x(), box.min_corner().y()),
+      upper(box.max_corner().x(), box.max_corner().y());
   // Feet are symmetrical across, and not along: the ends of the length are free, of the width only its half.
   const Eigen::Vector2d middle = 0.5 * (lower + upper), edges = upper - lower;
   std::optional<Rectangle> best;
@@ -58,7 +60,8 @@ std::optional<Rectangle> find_sole(const Eigen::Matrix3Xd& points) {
   for (int back = 0; back < kSteps; ++back) {
     for (int front = kSteps; front > back; --front) {
       for (int half = kSteps; half > 0; --half) {
-        const double width = edges.y() * half / kSteps, x0 = lower.x() + edges.x() * back / kSteps, x1 = lower.x() + edges.x() * front / kSteps;
+        const double width = edges.y() * half / kSteps, x0 = lower.x() + edges.x() * back / kSteps,
+                     x1 = lower.x() + edges.x() * front / kSteps;
         if ((x1 - x0) * width <= best_area) break;
         const Rectangle r{{x0, middle.y() - 0.5 * width}, {x1, middle.y() + 0.5 * width}};
         // A corner on the edge of the hull may be outside by rounding.

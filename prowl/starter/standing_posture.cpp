@@ -12,12 +12,12 @@
 namespace prowl {
 namespace {
 
-constexpr double kSweep = 0.01;          // [rad]
-constexpr double kHipApart = 0.1;        // of the leg: hip joints that meet in a point, or nearly so
-constexpr double kToe = 0.02;            // [m]: the toe is the longer end of a foot
-constexpr double kFitted = 1e-4;         // [m]
-constexpr double kRounding = 1e-4;       // [rad]
-constexpr std::size_t kSoleContacts = 3; // from so many on the orientation of a foot counts
+constexpr double kSweep = 0.01;           // [rad]
+constexpr double kHipApart = 0.1;         // of the leg: hip joints that meet in a point, or nearly so
+constexpr double kToe = 0.02;             // [m]: the toe is the longer end of a foot
+constexpr double kFitted = 1e-4;          // [m]
+constexpr double kRounding = 1e-4;        // [rad]
+constexpr std::size_t kSoleContacts = 3;  // from so many on the orientation of a foot counts
 // How far legs are stretched, in the order of the tries. A sole at 0.93: the knee of a humanoid at 45 degrees.
 constexpr double kStretchOfPoints[] = {0.8, 0.75, 0.85, 0.7, 0.65, 0.9, 0.95};
 constexpr double kStretchOfSoles[] = {0.93, 0.9, 0.95, 0.87, 0.97, 0.84};
@@ -25,7 +25,11 @@ constexpr double kStretchOfSoles[] = {0.93, 0.9, 0.95, 0.87, 0.97, 0.84};
 class PostureSearch {
  public:
   PostureSearch(const RobotModel& robot, const LegSearch& search, const std::vector<std::vector<int>>& contacts_of_leg)
-      : robot_(robot), legs_(search.legs), contacts_(contacts_of_leg), pose_(robot, search.upright), neutral_(neutral_joints(robot)) {
+      : robot_(robot),
+        legs_(search.legs),
+        contacts_(contacts_of_leg),
+        pose_(robot, search.upright),
+        neutral_(neutral_joints(robot)) {
     pose_.set(neutral_);
     double toes = 0.0;
     for (std::size_t l = 0; l < legs_.size(); ++l) {
@@ -52,7 +56,8 @@ class PostureSearch {
       result.joints = joints->unaryExpr([](double x) { return kRounding * std::round(x / kRounding) + 0.0; });
       pose_.set(result.joints);
       double ground = std::numeric_limits<double>::infinity();
-      for (std::size_t c = 0; c < robot_.contacts().size(); ++c) ground = std::min(ground, pose_.contact(c).z() - robot_.contacts()[c].radius);
+      for (std::size_t c = 0; c < robot_.contacts().size(); ++c)
+        ground = std::min(ground, pose_.contact(c).z() - robot_.contacts()[c].radius);
       result.height = -ground;
       break;
     }
@@ -66,7 +71,8 @@ class PostureSearch {
     return sum / static_cast<double>(contacts_[leg].size());
   }
 
-  /// Distance from a joint to the middle of the contacts over one joint of the leg: (angle, distance), over a full turn.
+  /// Distance from a joint to the middle of the contacts over one joint of the leg: (angle, distance), over a full
+  /// turn.
   std::vector<std::pair<double, double>> sweep(std::size_t leg, int joint, int from) {
     std::vector<std::pair<double, double>> distances;
     Eigen::VectorXd joints = neutral_;
@@ -79,7 +85,9 @@ class PostureSearch {
     return distances;
   }
 
-  static bool shorter(const std::pair<double, double>& a, const std::pair<double, double>& b) { return a.second < b.second; }
+  static bool shorter(const std::pair<double, double>& a, const std::pair<double, double>& b) {
+    return a.second < b.second;
+  }
 
   Knee find_knee(std::size_t leg) {
     Knee knee;
@@ -156,12 +164,14 @@ class PostureSearch {
   std::vector<ContactTarget> targets(std::size_t leg, double ground, const Eigen::Vector2d& shift) const {
     std::vector<ContactTarget> result;
     const Eigen::Vector3d place(hips_[leg].x() + shift.x(), hips_[leg].y() + shift.y(), ground);
-    for (std::size_t i = 0; i < contacts_[leg].size(); ++i) result.push_back({contacts_[leg][i], place + soles_[leg][i]});
+    for (std::size_t i = 0; i < contacts_[leg].size(); ++i)
+      result.push_back({contacts_[leg][i], place + soles_[leg][i]});
     return result;
   }
 
   /// The leg's joints, in a vector of all, with the knee to one side (-1 or 1) of straight; none if that cannot be.
-  std::optional<Eigen::VectorXd> bend(std::size_t leg, int side, double stretch, double ground, const Eigen::Vector2d& shift) {
+  std::optional<Eigen::VectorXd> bend(std::size_t leg, int side, double stretch, double ground,
+                                      const Eigen::Vector2d& shift) {
     const Knee& knee = knees_[leg];
     const double bent = 2.0 * std::acos(std::clamp(stretch, 0.0, 1.0));
     const double lower = robot_.position_lower()(knee.joint), upper = robot_.position_upper()(knee.joint);

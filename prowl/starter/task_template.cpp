@@ -31,7 +31,8 @@ intervals = {intervals}   # of the mesh. Too few, and the certificate fails by i
 
 )";
 
-constexpr const char* kSteps = R"(# Phases: times with one set of contacts. A contact that the next phase lacks opens, one that the phase before lacked lands.
+constexpr const char* kSteps =
+    R"(# Phases: times with one set of contacts. A contact that the next phase lacks opens, one that the phase before lacked lands.
 # intervals: of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do.
 [[phase]]
 name = "shift"   # the weight goes over the feet that stay
@@ -53,14 +54,16 @@ intervals = {settle_intervals}
 
 )";
 
-constexpr const char* kGoalsNote = R"(# Goals hold exactly; what is not named is free. Displacements are from the start: forward, left, up [m].
+constexpr const char* kGoalsNote =
+    R"(# Goals hold exactly; what is not named is free. Displacements are from the start: forward, left, up [m].
 )";
 
 constexpr const char* kAtRest = R"(base_linear_velocity_mps = [0, 0, 0]   # at rest
 base_angular_velocity_radps = [0, 0, 0]
 )";
 
-constexpr const char* kCostNote = R"(# Running cost: half the integral of weight x difference^2, about the start posture and the torques that hold it. Mostly
+constexpr const char* kCostNote =
+    R"(# Running cost: half the integral of weight x difference^2, about the start posture and the torques that hold it. Mostly
 # acceleration: the smoother the motion, the smaller the errors of the mesh. torque goes with 1 / mass^2 of the robot.
 [cost]
 )";
@@ -86,7 +89,8 @@ base_angular_acceleration = 1.0
 joint_acceleration = 0.02
 )";
 
-constexpr const char* kCostOfStepOnPoints = R"(time = 0.2   # the phases last as long as the optimiser likes, within their bounds
+constexpr const char* kCostOfStepOnPoints =
+    R"(time = 0.2   # the phases last as long as the optimiser likes, within their bounds
 joint_velocity = 0.1
 base_linear_velocity = 0.1
 base_angular_velocity = 0.1
@@ -95,7 +99,9 @@ base_angular_acceleration = 1.0
 joint_acceleration = 0.02
 )";
 
-std::string vector(const Eigen::Vector3d& v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0); }
+std::string vector(const Eigen::Vector3d& v) {
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
+}
 
 std::string quoted(const std::vector<std::string>& names) {
   std::vector<std::string> result;
@@ -107,9 +113,11 @@ std::string what(const NewTask& task) {
   switch (task.kind) {
     case NewTaskKind::hold: return "The robot stands still, by goal and by cost.";
     case NewTaskKind::stand: return "The base moves and turns a little, feet in place.";
-    case NewTaskKind::crouch: return fmt::format("Crouch: the base {:.0f} cm down and back up, feet in place.", 100.0 * task.depth);
+    case NewTaskKind::crouch:
+      return fmt::format("Crouch: the base {:.0f} cm down and back up, feet in place.", 100.0 * task.depth);
     case NewTaskKind::step:
-      return fmt::format("A step of {:.0f} cm forward with {}.", 100.0 * task.length, task.soles ? "the left foot" : task.swing.front());
+      return fmt::format("A step of {:.0f} cm forward with {}.", 100.0 * task.length,
+                         task.soles ? "the left foot" : task.swing.front());
   }
   return "";
 }
@@ -126,14 +134,15 @@ std::string step_phases(const NewTask& task) {
   std::string landed = fmt::format("{{ contact = \"{}\", place_m = {} }}", task.swing.front(), vector(task.place));
   for (std::size_t i = 1; i < task.swing.size(); ++i) landed += ", \"" + task.swing[i] + '"';
   const auto phases = [&](const char* shift, int i, const char* swing, int j, const char* settle, int k) {
-    return fmt::format(fmt::runtime(kSteps), fmt::arg("stay", quoted(task.stay)), fmt::arg("landed", landed), fmt::arg("shift", shift),
-                       fmt::arg("shift_intervals", i), fmt::arg("swing", swing), fmt::arg("swing_intervals", j),
-                       fmt::arg("settle", settle), fmt::arg("settle_intervals", k));
+    return fmt::format(fmt::runtime(kSteps), fmt::arg("stay", quoted(task.stay)), fmt::arg("landed", landed),
+                       fmt::arg("shift", shift), fmt::arg("shift_intervals", i), fmt::arg("swing", swing),
+                       fmt::arg("swing_intervals", j), fmt::arg("settle", settle), fmt::arg("settle_intervals", k));
   };
   // Smaller robots move faster: as G1, 0.76 m up, needs it against Talos, 1.03 m up.
   const double finer = std::max(1.0, std::pow(1.1 / task.height, 1.5));
   const auto intervals = [&](int at_one_metre) { return static_cast<int>(std::ceil(finer * at_one_metre)); };
-  return task.soles ? phases("1.2", intervals(120), "0.8", intervals(100), "1.2", intervals(60)) : phases("[0.3, 1.2]   # the optimiser chooses", 70, "[0.25, 0.6]", 80, "[0.3, 1.2]", 70);
+  return task.soles ? phases("1.2", intervals(120), "0.8", intervals(100), "1.2", intervals(60))
+                    : phases("[0.3, 1.2]   # the optimiser chooses", 70, "[0.25, 0.6]", 80, "[0.3, 1.2]", 70);
 }
 
 /// Roll, pitch and yaw of a base that has `rpy` already and is turned by `turn` about the world's axes.
@@ -142,8 +151,10 @@ Eigen::Vector3d turned(const Eigen::Vector3d& rpy, const Eigen::Vector3d& turn) 
 }
 
 std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double duration) {
-  const auto goal = [&](const std::string& when, const Eigen::Vector3d& displacement, const Eigen::Vector3d& turn, bool at_rest) {
-    return fmt::format("[[goal]]\n{}base_displacement_m = {}\nbase_rpy_rad = {}\n{}\n", when, vector(displacement), vector(turn), at_rest ? kAtRest : "");
+  const auto goal = [&](const std::string& when, const Eigen::Vector3d& displacement, const Eigen::Vector3d& turn,
+                        bool at_rest) {
+    return fmt::format("[[goal]]\n{}base_displacement_m = {}\nbase_rpy_rad = {}\n{}\n", when, vector(displacement),
+                       vector(turn), at_rest ? kAtRest : "");
   };
   const std::string end = fmt::format("time_s = {:.1f}\n", duration);
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
@@ -151,16 +162,19 @@ std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double durati
     case NewTaskKind::hold: return goal(end, none, rpy, true);
     case NewTaskKind::stand: return goal(end, task.shift, turned(rpy, task.turn), true);
     case NewTaskKind::crouch:
-      return goal(fmt::format("time_s = {:.1f}\n", 0.5 * duration), {0.0, 0.0, -task.depth}, rpy, false) + goal(end, none, rpy, true);
+      return goal(fmt::format("time_s = {:.1f}\n", 0.5 * duration), {0.0, 0.0, -task.depth}, rpy, false) +
+             goal(end, none, rpy, true);
     case NewTaskKind::step:
-      return goal("phase = \"settle\"   # at its end\n", {(task.soles ? 0.5 : 0.25) * task.length, 0.0, 0.0}, rpy, true);
+      return goal("phase = \"settle\"   # at its end\n", {(task.soles ? 0.5 : 0.25) * task.length, 0.0, 0.0}, rpy,
+                  true);
   }
   return "";
 }
 
 std::string cost(const NewTask& task) {
   std::string text = kCostNote;
-  if (task.kind == NewTaskKind::step && task.soles) text += "force = 1e-6   # forces of the corners of one sole are not unique: the small ones\n";
+  if (task.kind == NewTaskKind::step && task.soles)
+    text += "force = 1e-6   # forces of the corners of one sole are not unique: the small ones\n";
   text += task.soles ? kCostOfSoles : task.kind == NewTaskKind::step ? kCostOfStepOnPoints : kCostOfPoints;
   return text + fmt::format("torque = {:g}\n", task.torque_weight);
 }
@@ -170,8 +184,9 @@ std::string cost(const NewTask& task) {
 std::string task_template(const NewTask& task, const RobotModel& robot, const std::string& robot_file) {
   const double duration = task.kind == NewTaskKind::hold ? 1.0 : task.soles ? 2.4 : 2.0;
   const int intervals = intervals_of(task, robot.contacts().size());
-  std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("what", what(task)), fmt::arg("robot", robot.name()), fmt::arg("mass", robot.mass()),
-                                 fmt::arg("height", task.height), fmt::arg("kind", to_string(task.kind)), fmt::arg("file", toml_string(robot_file)));
+  std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("what", what(task)), fmt::arg("robot", robot.name()),
+                                 fmt::arg("mass", robot.mass()), fmt::arg("height", task.height),
+                                 fmt::arg("kind", to_string(task.kind)), fmt::arg("file", toml_string(robot_file)));
   text += task.kind == NewTaskKind::step
               ? step_phases(task)
               : fmt::format(fmt::runtime(kOnePhase), fmt::arg("duration", duration), fmt::arg("intervals", intervals));

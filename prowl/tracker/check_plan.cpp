@@ -12,9 +12,9 @@ void need(bool condition, const std::string& message) {
 }
 
 void check_matrix(const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index cols, const std::string& name) {
-  need(matrix.rows() == rows && matrix.cols() == cols,
-       name + " has " + std::to_string(matrix.rows()) + " x " + std::to_string(matrix.cols()) + " numbers; need " +
-           std::to_string(rows) + " x " + std::to_string(cols));
+  need(matrix.rows() == rows && matrix.cols() == cols, name + " has " + std::to_string(matrix.rows()) + " x " +
+                                                           std::to_string(matrix.cols()) + " numbers; need " +
+                                                           std::to_string(rows) + " x " + std::to_string(cols));
   need(matrix.allFinite(), name + " holds NaN or infinity");
 }
 
@@ -27,7 +27,8 @@ void check_segments(const TrackingPlan& plan) {
          name + "its end has to be after its start");
     need(&segment == &plan.segments.front() || segment.start == (&segment)[-1].end,
          name + "has to start where the one before ends");
-    need(segment.samples >= 2 && segment.first_sample == next, name + "its samples have to follow those before, 2 or more");
+    need(segment.samples >= 2 && segment.first_sample == next,
+         name + "its samples have to follow those before, 2 or more");
     need(segment.in_contact.size() == plan.contact_names.size(), name + "need one flag a contact");
     next += segment.samples;
   }

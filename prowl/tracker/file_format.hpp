@@ -9,8 +9,8 @@
 ///   header   8 bytes "PROWLTRK", then uint32: version, joints (nu), contacts, segments, torque curves, samples;
 ///            uint64: bytes of the payload, checksum of the payload
 ///   payload  names of joints and contacts; a text is its length (uint32) and its bytes
-///            segments: name, start and end (double), samples (uint32), one byte a contact: 1 if it holds its place, else 0
-///            torque curves: joint, over_velocity, number of values (uint32), lower, upper, values (double)
+///            segments: name, start and end (double), samples (uint32), one byte a contact: 1 if it holds its place,
+///            else 0 torque curves: joint, over_velocity, number of values (uint32), lower, upper, values (double)
 ///            torque limits (nu), then q, v, tau and gains of all samples, each sample after the other (double)
 ///
 /// The file ends where the payload does. The writer is in prowl/io, the reader is Tracker::read.

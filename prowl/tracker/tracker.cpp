@@ -70,7 +70,8 @@ void Tracker::reference(double t, Vector q, Vector v) const noexcept {
   const Place place = find(t);
   q = between(place, plan_.q);
   v = between(place, plan_.v);
-  q.segment<4>(3) = quaternion(plan_.q.col(place.first)).slerp(place.share, quaternion(plan_.q.col(place.second))).coeffs();
+  q.segment<4>(3) =
+      quaternion(plan_.q.col(place.first)).slerp(place.share, quaternion(plan_.q.col(place.second))).coeffs();
 }
 
 void Tracker::gains(double t, Eigen::Ref<Eigen::MatrixXd> K) const noexcept {
@@ -78,9 +79,7 @@ void Tracker::gains(double t, Eigen::Ref<Eigen::MatrixXd> K) const noexcept {
   K = (1.0 - share) * gain(first) + share * gain(second);
 }
 
-void Tracker::feedforward(double t, Vector tau) const noexcept {
-  tau = between(find(t), plan_.tau);
-}
+void Tracker::feedforward(double t, Vector tau) const noexcept { tau = between(find(t), plan_.tau); }
 
 void Tracker::feedback(double t, const ConstVector& q, const ConstVector& v, Vector tau) const noexcept {
   assert(q.size() == plan_.nq() && v.size() == plan_.nv() && tau.size() == plan_.nu());

@@ -25,8 +25,8 @@ class TrackerError : public std::runtime_error {
 ///   nv...  v* - v              base twist, each in its own base frame [m/s, rad/s]; joint rates
 ///
 /// The reference lies on the grid of the plan (2 ms unless asked otherwise): linear in between, orientations along the
-/// shortest turn, K linear too. At a switch of contacts, the later phase. Before the start the first sample, after the end
-/// the last: the robot goes on standing with its last gains. A time that is NaN counts as after the end.
+/// shortest turn, K linear too. At a switch of contacts, the later phase. Before the start the first sample, after the
+/// end the last: the robot goes on standing with its last gains. A time that is NaN counts as after the end.
 ///
 /// Immutable; any number of threads may ask at once. No call but the constructor and read() allocates or throws.
 class Tracker {
@@ -39,22 +39,22 @@ class Tracker {
   /// Throws TrackerError, naming what is wrong, unless sizes and times are those of tracking_plan.hpp, numbers finite,
   /// quaternions of unit length.
   explicit Tracker(TrackingPlan plan);
-  /// From the file that `prowl plan` writes, tracker.bin (docs/tracking.md). Throws TrackerError if it cannot be read, is
-  /// no such file, is cut short, longer than it says, or changed.
+  /// From the file that `prowl plan` writes, tracker.bin (docs/tracking.md). Throws TrackerError if it cannot be read,
+  /// is no such file, is cut short, longer than it says, or changed.
   static Tracker read(const std::string& path);
 
-  const TrackingPlan& plan() const noexcept { return plan_; }  ///< joint and contact names, schedule, limits
+  const TrackingPlan& plan() const noexcept { return plan_; }             ///< joint and contact names, schedule, limits
   double start() const noexcept { return plan_.segments.front().start; }  ///< [s]
   double end() const noexcept { return plan_.segments.back().end; }       ///< [s]
 
-  /// tau (nu) for the measured state q (nq), v (nv) at time t [s]. With NaN or infinity in the state there is no feedback.
-  /// The quaternion need not be of unit length.
+  /// tau (nu) for the measured state q (nq), v (nv) at time t [s]. With NaN or infinity in the state there is no
+  /// feedback. The quaternion need not be of unit length.
   void torque(double t, const ConstVector& q, const ConstVector& v, Vector tau) const noexcept;
 
   void feedforward(double t, Vector tau) const noexcept;  ///< tau*(t), not limited
   /// K(t) (x* ⊖ x), not limited.
   void feedback(double t, const ConstVector& q, const ConstVector& v, Vector tau) const noexcept;
-  void reference(double t, Vector q, Vector v) const noexcept;     ///< x*(t)
+  void reference(double t, Vector q, Vector v) const noexcept;         ///< x*(t)
   void gains(double t, Eigen::Ref<Eigen::MatrixXd> K) const noexcept;  ///< K(t), nu x 2 nv
   /// Brings tau within what the joints can give at this state.
   void limit(const ConstVector& q, const ConstVector& v, Vector tau) const noexcept;

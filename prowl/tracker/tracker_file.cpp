@@ -1,5 +1,5 @@
-// Reads tracker.bin (file_format.hpp). Nothing is allocated on the word of the file alone: every size is compared with the
-// bytes that are there first.
+// Reads tracker.bin (file_format.hpp). Nothing is allocated on the word of the file alone: every size is compared with
+// the bytes that are there first.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -50,7 +50,8 @@ class Bytes {
   /// A number that an int can hold.
   int count(const char* what) {
     const auto value = number<std::uint32_t>(what);
-    if (value > static_cast<std::uint32_t>(std::numeric_limits<int>::max())) fail(std::string("too large a number in ") + what);
+    if (value > static_cast<std::uint32_t>(std::numeric_limits<int>::max()))
+      fail(std::string("too large a number in ") + what);
     return static_cast<int>(value);
   }
 

@@ -6,8 +6,8 @@
 
 namespace prowl {
 
-/// What a tracker needs of a plan: reference, gains and contact schedule on a grid of time. Plain data; sizes as below, or
-/// Tracker refuses it. nq = 7 + nu, nv = 6 + nu.
+/// What a tracker needs of a plan: reference, gains and contact schedule on a grid of time. Plain data; sizes as below,
+/// or Tracker refuses it. nq = 7 + nu, nv = 6 + nu.
 ///
 /// Configuration q = (base position in the world [m], base quaternion x y z w, joint positions [rad, m]).
 /// Velocity v = (linear and angular velocity of the base in the base frame [m/s, rad/s], joint rates).
@@ -29,11 +29,11 @@ struct TrackingPlan {
     Eigen::VectorXd values;           ///< >= 0 [N m], two or more
   };
 
-  std::vector<std::string> joint_names;    ///< nu, in the order of q, v and tau
+  std::vector<std::string> joint_names;  ///< nu, in the order of q, v and tau
   std::vector<std::string> contact_names;
-  Eigen::VectorXd torque_limit;            ///< nu [N m], +inf where none
+  Eigen::VectorXd torque_limit;  ///< nu [N m], +inf where none
   std::vector<TorqueCurve> torque_curves;
-  std::vector<Segment> segments;           ///< one or more, in order of time
+  std::vector<Segment> segments;  ///< one or more, in order of time
 
   Eigen::MatrixXd q;      ///< nq x samples
   Eigen::MatrixXd v;      ///< nv x samples

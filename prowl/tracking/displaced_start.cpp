@@ -11,7 +11,8 @@
 
 namespace prowl {
 
-StartState displaced_start(const RobotModel& robot, const Tracker& tracker, const Eigen::Matrix<double, 6, 1>& displacement) {
+StartState displaced_start(const RobotModel& robot, const Tracker& tracker,
+                           const Eigen::Matrix<double, 6, 1>& displacement) {
   if (!displacement.allFinite()) throw InputError("base offset: need finite numbers");
   const std::vector<int> contacts = contacts_of(tracker.plan().segments.front());
   StartState start{Eigen::VectorXd(robot.nq()), Eigen::VectorXd(robot.nv())};
@@ -28,8 +29,9 @@ StartState displaced_start(const RobotModel& robot, const Tracker& tracker, cons
   for (const int c : contacts) feet.push_back({c, terms.contact_position(c)});
   const InverseKinematics found = inverse_kinematics(robot, moved, feet);
   if (!found.converged) {
-    throw InputError(fmt::format("base offset: {:.3g} m and {:.3g} rad is more than the legs allow; {:.1f} mm are missing",
-                                 displacement.head<3>().norm(), displacement.tail<3>().norm(), 1e3 * found.residual));
+    throw InputError(
+        fmt::format("base offset: {:.3g} m and {:.3g} rad is more than the legs allow; {:.1f} mm are missing",
+                    displacement.head<3>().norm(), displacement.tail<3>().norm(), 1e3 * found.residual));
   }
   return {found.q, velocity_after_landing(robot, contacts, found.q, start.v)};
 }

@@ -30,9 +30,9 @@ Reduced reduce(const LinearisedDynamics& linear, const VectorXd& weight, MatrixX
   return {Z, left * linear.A() * Z, left * linear.B()};
 }
 
-/// `Z` turned within its space to lie as near as can be to the basis of the next sample, so that along a phase the basis
-/// turns only as much as the space itself does (its own turning, Z' W dZ/dt, then is zero). The polar factor of Z' W next
-/// by Newton's iteration: Higham, Functions of Matrices, 2008, section 8.3.
+/// `Z` turned within its space to lie as near as can be to the basis of the next sample, so that along a phase the
+/// basis turns only as much as the space itself does (its own turning, Z' W dZ/dt, then is zero). The polar factor of
+/// Z' W next by Newton's iteration: Higham, Functions of Matrices, 2008, section 8.3.
 MatrixXd aligned(const MatrixXd& Z, const MatrixXd& next, const VectorXd& weight) {
   MatrixXd turn = Z.transpose() * weight.asDiagonal() * next;
   const MatrixXd identity = MatrixXd::Identity(turn.rows(), turn.cols());
@@ -47,7 +47,8 @@ MatrixXd aligned(const MatrixXd& Z, const MatrixXd& next, const VectorXd& weight
 /// Largest and mean singular value, and the coordinate that leads in the worst initial deviation.
 void fill_decay(const RobotModel& robot, const MatrixXd& transition, const MatrixXd& Z, const VectorXd& weight,
                 PhaseDecay& decay) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(transition.transpose() * transition);  // a fifth of an SVD's time to compile
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(transition.transpose() *
+                                                     transition);  // a fifth of an SVD's time to compile
   const Eigen::Index largest = Z.cols() - 1;
   decay.directions = static_cast<int>(Z.cols());
   decay.worst = std::sqrt(gram.eigenvalues()(largest));
@@ -60,10 +61,15 @@ void fill_decay(const RobotModel& robot, const MatrixXd& transition, const Matri
 /// The backward pass: from the end of the motion to its start, one sample after the other.
 class BackwardPass {
  public:
-  BackwardPass(const MotionProblem& problem, const TrackingOptions& options, bool has_phase_after_end, FeedbackDesign& design,
-               const std::function<void(const ReducedSample&)>& on_sample)
-      : robot_(problem.robot), options_(options), has_phase_after_end_(has_phase_after_end), design_(design),
-        on_sample_(on_sample), weight_(options.state_weight()), control_weight_(options.torque_weight().cwiseInverse()) {}
+  BackwardPass(const MotionProblem& problem, const TrackingOptions& options, bool has_phase_after_end,
+               FeedbackDesign& design, const std::function<void(const ReducedSample&)>& on_sample)
+      : robot_(problem.robot),
+        options_(options),
+        has_phase_after_end_(has_phase_after_end),
+        design_(design),
+        on_sample_(on_sample),
+        weight_(options.state_weight()),
+        control_weight_(options.torque_weight().cwiseInverse()) {}
 
   void run() {
     design_.gains.resize(design_.phases.size());
@@ -85,19 +91,26 @@ class BackwardPass {
       linear.evaluate(point.q, point.v, point.tau);
       const MatrixXd Z = linear.consistent_directions(weight_);
       if (Z.cols() == 0) {
-        throw NumericalError(fmt::format("no feedback gains in phase \"{}\": its contacts leave nothing that moves", phase.name));
+        throw NumericalError(
+            fmt::format("no feedback gains in phase \"{}\": its contacts leave nothing that moves", phase.name));
       }
       if (k + 1 == phase.samples.size()) {
-        transition = p + 1 < design_.phases.size() ? land(reduce(linear, weight_, Z)) : begin_at_end(reduce(linear, weight_, Z));
+        transition =
+            p + 1 < design_.phases.size() ? land(reduce(linear, weight_, Z)) : begin_at_end(reduce(linear, weight_, Z));
       } else if (Z.cols() == now_.Z.cols()) {
-        transition = (transition * step_back(reduce(linear, weight_, aligned(Z, now_.Z, weight_)), phase.step())).eval();
+        transition =
+            (transition * step_back(reduce(linear, weight_, aligned(Z, now_.Z, weight_)), phase.step())).eval();
       } else {
-        throw NumericalError(fmt::format("no feedback gains in phase \"{}\": at t = {:.3f} s its contacts begin to depend on "
-                                         "each other in another way (a leg is straight)", phase.name, point.time));
+        throw NumericalError(
+            fmt::format("no feedback gains in phase \"{}\": at t = {:.3f} s its contacts begin to depend on "
+                        "each other in another way (a leg is straight)",
+                        phase.name, point.time));
       }
       if (!S_.allFinite()) {
-        throw NumericalError(fmt::format("no feedback gains in phase \"{}\" at t = {:.3f} s: the Riccati equation is not finite "
-                                         "there", phase.name, point.time));
+        throw NumericalError(
+            fmt::format("no feedback gains in phase \"{}\" at t = {:.3f} s: the Riccati equation is not finite "
+                        "there",
+                        phase.name, point.time));
       }
       design_.gains[p][k] = gain_ * now_.Z.transpose() * weight_.asDiagonal();
       if (on_sample_) on_sample_({static_cast<int>(p), static_cast<int>(k), now_.Z, now_.A, now_.B, S_});
@@ -123,9 +136,9 @@ class BackwardPass {
     bandwidth_ = 0.0;
   }
 
-  /// Feedback from S at the sample that was done last, dtau = -gain xi, no faster than allowed: from torque to torque the
-  /// loop is gain (s I - A)⁻¹ B, in R^(1/2) dtau at high frequencies F' S F / s with F = B R^(-1/2). The eigenvalues of F' S F
-  /// are where it crosses one.
+  /// Feedback from S at the sample that was done last, dtau = -gain xi, no faster than allowed: from torque to torque
+  /// the loop is gain (s I - A)⁻¹ B, in R^(1/2) dtau at high frequencies F' S F / s with F = B R^(-1/2). The
+  /// eigenvalues of F' S F are where it crosses one.
   void set_gain() {
     const VectorXd root = control_weight_.cwiseSqrt();
     const MatrixXd F = now_.B * root.asDiagonal();
@@ -204,17 +217,18 @@ class BackwardPass {
   FeedbackDesign& design_;
   const std::function<void(const ReducedSample&)>& on_sample_;
   VectorXd weight_, control_weight_;  // W; R⁻¹
-  Reduced now_;       // at the sample that was done last
-  MatrixXd S_, gain_;  // there, dtau = -gain xi
+  Reduced now_;                       // at the sample that was done last
+  MatrixXd S_, gain_;                 // there, dtau = -gain xi
   bool is_limited_ = false;
   double bandwidth_ = 0.0;  // largest of the phase so far
-  MatrixXd landing_;  // at the first sample of the phase that was done last
-  MatrixXd whole_;    // deviation at the first sample of that phase -> at the end
+  MatrixXd landing_;        // at the first sample of the phase that was done last
+  MatrixXd whole_;          // deviation at the first sample of that phase -> at the end
 };
 
 }  // namespace
 
-std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferencePhase& last, const TrackingOptions& options) {
+std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferencePhase& last,
+                                       const TrackingOptions& options) {
   TrajectoryPoint rest = last.samples.back();
   rest.v.setZero();
   ForwardDynamics dynamics(robot, last.contacts, kContactRankThreshold);
@@ -236,7 +250,8 @@ std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferenceP
   return after;
 }
 
-FeedbackDesign design_feedback(const MotionProblem& problem, const Trajectory& trajectory, const TrackingOptions& options,
+FeedbackDesign design_feedback(const MotionProblem& problem, const Trajectory& trajectory,
+                               const TrackingOptions& options,
                                const std::function<void(const ReducedSample&)>& on_sample) {
   const auto begin = std::chrono::steady_clock::now();
   FeedbackDesign design;

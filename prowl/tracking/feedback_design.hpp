@@ -30,8 +30,9 @@ struct FeedbackDesign {
   PhaseDecay whole;                                 ///< of the whole motion
   /// The gains at the end are for ever: S there is that of standing on. Else S is that of one more second.
   bool stands_on = false;
-  double slowest_rate = 0.0, fastest_rate = 0.0;    ///< of standing on: least -Re (< 0: it falls) and modulus of closed-loop poles [1/s]
-  double seconds = 0.0;                             ///< that the design took
+  double slowest_rate = 0.0,
+         fastest_rate = 0.0;  ///< of standing on: least -Re (< 0: it falls) and modulus of closed-loop poles [1/s]
+  double seconds = 0.0;       ///< that the design took
 
   int num_samples() const;
 };
@@ -45,15 +46,18 @@ struct ReducedSample {
   const Eigen::MatrixXd& S;  ///< n x n, cost to go xi' S xi
 };
 
-/// The phase after the end of a motion, one step long: at rest in the last configuration, on its contacts, with the torques
-/// that keep it there, which are nearest to the last ones (a motion may end with an acceleration). None where no torques
-/// do: in the air, on two point feet off balance.
-std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferencePhase& last, const TrackingOptions& options);
+/// The phase after the end of a motion, one step long: at rest in the last configuration, on its contacts, with the
+/// torques that keep it there, which are nearest to the last ones (a motion may end with an acceleration). None where
+/// no torques do: in the air, on two point feet off balance.
+std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferencePhase& last,
+                                       const TrackingOptions& options);
 
-/// Time-varying linear-quadratic regulator on the projected dynamics along the motion (docs/tracking.md): backwards in time
-/// over the grid, on the deviations that the contacts allow, from the stationary solution at the end. `on_sample` is called
-/// at each sample, last first; it may be empty. Throws NumericalError, naming phase and time, where there are no gains.
-FeedbackDesign design_feedback(const MotionProblem& problem, const Trajectory& trajectory, const TrackingOptions& options,
+/// Time-varying linear-quadratic regulator on the projected dynamics along the motion (docs/tracking.md): backwards in
+/// time over the grid, on the deviations that the contacts allow, from the stationary solution at the end. `on_sample`
+/// is called at each sample, last first; it may be empty. Throws NumericalError, naming phase and time, where there are
+/// no gains.
+FeedbackDesign design_feedback(const MotionProblem& problem, const Trajectory& trajectory,
+                               const TrackingOptions& options,
                                const std::function<void(const ReducedSample&)>& on_sample = {});
 
 }  // namespace prowl

@@ -41,8 +41,8 @@ void LinearisedDynamics::evaluate(const VectorXd& q, const VectorXd& v, const Ve
   B_.setZero(2 * nv, tau.size());
   B_.bottomRows(nv) = da.tau;
 
-  // J⁺ = V T⁻¹ U' (projector.hpp): V' J⁺ takes the rows of all contacts to rank J independent ones, also where their number
-  // is larger. V' J⁺ J = V'.
+  // J⁺ = V T⁻¹ U' (projector.hpp): V' J⁺ takes the rows of all contacts to rank J independent ones, also where their
+  // number is larger. V' J⁺ J = V'.
   terms_.update_kinematics(q);
   kinematics_.set_configuration(terms_);
   kinematics_.set_motion(VectorXd::Zero(nv), v);  // the acceleration is then J v
@@ -75,8 +75,7 @@ MatrixXd LinearisedDynamics::landing(const VectorXd& weight) {
   const VectorXd inverse_weight = weight.head(nv).cwiseInverse();
   const MatrixXd places = C_.topLeftCorner(rank, nv);
   const MatrixXd spread = inverse_weight.asDiagonal() * places.transpose();
-  const MatrixXd kept =
-      MatrixXd::Identity(nv, nv) - spread * (places * spread).ldlt().solve(places);  // of dq
+  const MatrixXd kept = MatrixXd::Identity(nv, nv) - spread * (places * spread).ldlt().solve(places);  // of dq
   result.topLeftCorner(nv, nv) = kept;
 
   terms_.update_with_derivatives(q_, v_, VectorXd::Zero(nv));

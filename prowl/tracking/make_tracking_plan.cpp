@@ -8,7 +8,8 @@ namespace {
 /// The curve at so many points that straight lines between them are off by less than its rounding in a robot file.
 TrackingPlan::TorqueCurve tabulated(const RobotModel::TorqueCurve& curve) {
   constexpr int kValues = 513;
-  TrackingPlan::TorqueCurve table{curve.joint, curve.over_velocity, curve.curve.lower_end(), curve.curve.upper_end(), {}};
+  TrackingPlan::TorqueCurve table{
+      curve.joint, curve.over_velocity, curve.curve.lower_end(), curve.curve.upper_end(), {}};
   table.values = Eigen::VectorXd::LinSpaced(kValues, table.lower, table.upper).unaryExpr([&](double x) {
     return std::max(curve.curve.value(x), 0.0);
   });

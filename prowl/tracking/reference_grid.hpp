@@ -19,8 +19,8 @@ struct ReferencePhase {
   double step() const { return (end() - start()) / static_cast<double>(samples.size() - 1); }
 };
 
-/// The phases of a motion, interpolated as it was transcribed. At a switch of contacts, the last sample of a phase and the
-/// first of the next are at one time. `step` > 0 [s]. Throws InputError where a phase has no duration.
+/// The phases of a motion, interpolated as it was transcribed. At a switch of contacts, the last sample of a phase and
+/// the first of the next are at one time. `step` > 0 [s]. Throws InputError where a phase has no duration.
 std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const Trajectory& trajectory, double step);
 
 }  // namespace prowl

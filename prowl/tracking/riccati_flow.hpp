@@ -9,9 +9,9 @@ namespace prowl {
 ///
 ///   x(h) = transition x(0) − control λ(h),    λ(0) = cost x(0) + transition' λ(h),    λ = S x
 ///
-/// With it the differential Riccati equation −S' = A'S + S A − S G S + Q is solved backwards over h, exactly for constant
-/// coefficients, whatever the step: cost and control are symmetric and not negative, no difference is formed, so that S
-/// stays symmetric and not negative. docs/tracking.md#riccati-equation.
+/// With it the differential Riccati equation −S' = A'S + S A − S G S + Q is solved backwards over h, exactly for
+/// constant coefficients, whatever the step: cost and control are symmetric and not negative, no difference is formed,
+/// so that S stays symmetric and not negative. docs/tracking.md#riccati-equation.
 struct RiccatiFlow {
   Eigen::MatrixXd transition, control, cost;  ///< n x n
 

@@ -21,8 +21,8 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using Eigen::VectorXd;
 
-constexpr int kMostSteps = 20000;       // between two samples; more means that the motion blows up
-constexpr double kWidestChart = 0.5;    // [rad]; the rotation vector is good up to 2 pi
+constexpr int kMostSteps = 20000;     // between two samples; more means that the motion blows up
+constexpr double kWidestChart = 0.5;  // [rad]; the rotation vector is good up to 2 pi
 
 struct State {
   VectorXd q, v;
@@ -32,13 +32,16 @@ struct State {
 class Motion {
  public:
   Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, int segment)
-      : tracker_(tracker), options_(options), segment_(segment),
+      : tracker_(tracker),
+        options_(options),
+        segment_(segment),
         contacts_(contacts_of(tracker.plan().segments[segment])),
         dynamics_(robot, contacts_, kContactRankThreshold),
         last_moment_(segment + 1 < static_cast<int>(tracker.plan().segments.size())
                          ? std::nextafter(tracker.plan().segments[segment].end, tracker.start())
                          : std::numeric_limits<double>::infinity()),
-        held_(VectorXd::Zero(robot.nu())), force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
+        held_(VectorXd::Zero(robot.nu())),
+        force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
 
   /// The torque that is held until the next tick.
   void tick(double t, const State& x) { held_ = torque_now(t, x); }
@@ -85,12 +88,13 @@ class Motion {
   Eigen::Index force_size_;
 };
 
-/// Integrates from t to `end`, adaptively, in local coordinates y = (d, v), q = q0 ⊕ d, about the state at t. False if it
-/// takes too many steps.
+/// Integrates from t to `end`, adaptively, in local coordinates y = (d, v), q = q0 ⊕ d, about the state at t. False if
+/// it takes too many steps.
 class Integrator {
  public:
   explicit Integrator(const RolloutOptions& options)
-      : stepper_(odeint::make_controlled(options.tolerance, options.tolerance, odeint::runge_kutta_dopri5<Coordinates>())) {}
+      : stepper_(
+            odeint::make_controlled(options.tolerance, options.tolerance, odeint::runge_kutta_dopri5<Coordinates>())) {}
 
   bool integrate_to(double end, double& t, State& x, Motion& motion) {
     const Eigen::Index nv = x.v.size();

@@ -31,11 +31,12 @@ struct Rollout {
   double end_time = 0.0;               ///< when it ended, or fell [s]
 };
 
-/// Integrates the projected dynamics forward from (q, v) at the start of a tracking plan (Dormand-Prince 5(4), adaptive,
-/// Boost.Odeint; orientations in a chart about the last state). The contacts are those of the schedule, at their times:
-/// they pull too, and where one closes the velocity changes by velocity_after_landing(). So this is the model that the
-/// gains were made for, not a judge: that is the simulation. Joints turn beyond their limits. Ends early, fell, by
-/// has_fallen(), or when the dynamics are no longer finite. `on_time(t, end)` is called as it goes on [s]; it may be empty.
+/// Integrates the projected dynamics forward from (q, v) at the start of a tracking plan (Dormand-Prince 5(4),
+/// adaptive, Boost.Odeint; orientations in a chart about the last state). The contacts are those of the schedule, at
+/// their times: they pull too, and where one closes the velocity changes by velocity_after_landing(). So this is the
+/// model that the gains were made for, not a judge: that is the simulation. Joints turn beyond their limits. Ends
+/// early, fell, by has_fallen(), or when the dynamics are no longer finite. `on_time(t, end)` is called as it goes on
+/// [s]; it may be empty.
 Rollout rollout(const RobotModel& robot, const Tracker& tracker, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 const RolloutOptions& options, const std::function<void(double t, double end)>& on_time = {});
 

@@ -52,8 +52,8 @@ class ContactLoads {
 
 }  // namespace
 
-RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tracker, const Rollout& rollout, double end,
-                                std::optional<double> friction) {
+RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tracker, const Rollout& rollout,
+                                double end, std::optional<double> friction) {
   constexpr double kAtLimit = 0.999;  // of a curve: the tracker's is a table
   const RobotModel& robot = problem.robot;
   TrackingError error;
@@ -74,7 +74,8 @@ RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tra
     }
     if (largest >= kAtLimit) ++saturated;
     if (i + 1 < rollout.samples.size()) {
-      measures.positive_work += (rollout.samples[i + 1].time - at.time) * at.tau.cwiseProduct(at.v.tail(robot.nu())).cwiseMax(0.0).sum();
+      measures.positive_work +=
+          (rollout.samples[i + 1].time - at.time) * at.tau.cwiseProduct(at.v.tail(robot.nu())).cwiseMax(0.0).sum();
     }
     loads.record(at);
   }
@@ -83,7 +84,8 @@ RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tra
   measures.joints = error.joints();
   measures.largest_torque_share = torque.check().worst;
   measures.largest_torque_joint = torque.check().where;
-  measures.saturated = rollout.samples.empty() ? 0.0 : static_cast<double>(saturated) / static_cast<double>(rollout.samples.size());
+  measures.saturated =
+      rollout.samples.empty() ? 0.0 : static_cast<double>(saturated) / static_cast<double>(rollout.samples.size());
   measures.contacts = loads.loads();
   return measures;
 }

@@ -12,14 +12,15 @@ namespace prowl {
 ///   cost = integral of  sum_i (dx_i / state_deviation_i)² + sum_j (dtau_j / torque_deviation_j)²  over time
 struct TrackingOptions {
   static constexpr double kTorqueShare = 0.1;  ///< of the torque limit: the default of torque_deviation
-  double step = 2e-3;                ///< largest step of the grid of gains [s]
-  Eigen::VectorXd state_deviation;   ///< 2 nv, > 0: tangent of configuration.hpp [m, rad], v [m/s, rad/s]
-  Eigen::VectorXd torque_deviation;  ///< nu, > 0 [N m]
-  /// A foot that lands beside its place stays there. What a landing cuts off the state costs as if it stayed so long [s].
+  double step = 2e-3;                          ///< largest step of the grid of gains [s]
+  Eigen::VectorXd state_deviation;             ///< 2 nv, > 0: tangent of configuration.hpp [m, rad], v [m/s, rad/s]
+  Eigen::VectorXd torque_deviation;            ///< nu, > 0 [N m]
+  /// A foot that lands beside its place stays there. What a landing cuts off the state costs as if it stayed so long
+  /// [s].
   double landing_time = 1.0;
   /// Bandwidth of the feedback [rad/s]: frequency where the loop gain from torque to torque is one. Gains that would go
-  /// beyond it are scaled down to it, in the directions of torque where they do: delays and filters of a robot cost phase,
-  /// 0.3 rad at 3 ms and this.
+  /// beyond it are scaled down to it, in the directions of torque where they do: delays and filters of a robot cost
+  /// phase, 0.3 rad at 3 ms and this.
   double largest_bandwidth = 100.0;
 
   Eigen::VectorXd state_weight() const { return state_deviation.array().square().inverse(); }    ///< 2 nv

@@ -74,10 +74,11 @@ Certificate certify(const MotionProblem& problem, const Trajectory& trajectory) 
   }
   find_redundant_contacts(problem, trajectory, dynamics, certificate);
   const ContactPlaces places = contact_places(problem, trajectory, dynamics);
-  for (const auto& group :
-       {errors.checks, {reintegrated.check},
-        node_checks(problem, trajectory), contact_event_checks(problem, trajectory, places, dynamics),
-        sampled_limits(problem, trajectory, places, dynamics)}) {
+  for (const auto& group : {errors.checks,
+                            {reintegrated.check},
+                            node_checks(problem, trajectory),
+                            contact_event_checks(problem, trajectory, places, dynamics),
+                            sampled_limits(problem, trajectory, places, dynamics)}) {
     checks.insert(checks.end(), group.begin(), group.end());
   }
   certificate.grade = grade_of(checks);

@@ -31,24 +31,24 @@ struct CertificateLimits {
   static constexpr double penetration = 1e-3;                  ///< [m]
   static constexpr double missing_clearance = 0.1;             ///< of the clearance asked of swings [-]
   static constexpr double force_over_weight = 1e-2;  ///< friction, unilateral force, load before opening [body weight]
-  static constexpr double planned_force_over_weight = 5e-2;    ///< planned against recovered force [body weight]
-  static constexpr double contact_acceleration = 1e-3;         ///< left over by the constrained dynamics [m/s^2]
-  static constexpr double torque_ratio = 1.001;                ///< of the joint's limit at its position and velocity [-]
-  static constexpr double velocity_ratio = 1.001;              ///< of the joint's limit [-]
-  static constexpr double joint_position = 1e-3;               ///< beyond the limit [rad] or [m]
-  static constexpr double goal_torque = 1e-3;                  ///< of the joint's limit [-]
-  static constexpr double grid_step = 1e-3;                    ///< of the sampled checks [s]
-  static constexpr int grid_intervals = 10;                    ///< at least, in a mesh interval
+  static constexpr double planned_force_over_weight = 5e-2;  ///< planned against recovered force [body weight]
+  static constexpr double contact_acceleration = 1e-3;       ///< left over by the constrained dynamics [m/s^2]
+  static constexpr double torque_ratio = 1.001;              ///< of the joint's limit at its position and velocity [-]
+  static constexpr double velocity_ratio = 1.001;            ///< of the joint's limit [-]
+  static constexpr double joint_position = 1e-3;             ///< beyond the limit [rad] or [m]
+  static constexpr double goal_torque = 1e-3;                ///< of the joint's limit [-]
+  static constexpr double grid_step = 1e-3;                  ///< of the sampled checks [s]
+  static constexpr int grid_intervals = 10;                  ///< at least, in a mesh interval
 };
 
 /// One thing that has to hold, at its worst moment.
 struct CertificateCheck {
-  std::string name;      ///< "contact drift", "friction cone", "joint torque", ...
-  double worst = 0.0;    ///< in `unit`; NaN is a failure
-  double limit = 0.0;    ///< passes if worst <= limit
-  std::string unit;      ///< "m", "N", "N m", "-", ...; "SI" where quantities of several kinds are in one check
-  double time = 0.0;     ///< when the worst happens [s]
-  std::string where;     ///< contact or joint or coordinate, "" if none
+  std::string name;    ///< "contact drift", "friction cone", "joint torque", ...
+  double worst = 0.0;  ///< in `unit`; NaN is a failure
+  double limit = 0.0;  ///< passes if worst <= limit
+  std::string unit;    ///< "m", "N", "N m", "-", ...; "SI" where quantities of several kinds are in one check
+  double time = 0.0;   ///< when the worst happens [s]
+  std::string where;   ///< contact or joint or coordinate, "" if none
   bool passed = false;
   double certified_limit = 0.0;  ///< what grade certified asks of `worst`; <= limit, most often the same
 };
@@ -61,8 +61,8 @@ struct IntervalError {
   double reintegration = 0.0;     ///< of the state at its end, against the true motion from its start
 };
 
-/// Rows of the contact Jacobian of a phase, and how many of them are independent. The forces of `rank` combinations follow from
-/// the motion; rows - rank are a choice.
+/// Rows of the contact Jacobian of a phase, and how many of them are independent. The forces of `rank` combinations
+/// follow from the motion; rows - rank are a choice.
 struct ContactRank {
   std::string phase;
   int rows = 0, rank = 0;

@@ -14,8 +14,8 @@ namespace prowl {
 namespace {
 
 // Pivots of A below this part of the largest are rounding: rows that depend on each other leave 1e-14, and the smallest
-// that a real contact leaves (the light ends of a robot of 80 kg) is 1e-4. Some rows depend on each other only in the plane
-// in which the robot moves (knee and foot of both hind legs); a plan keeps to such a plane as far as its solver's
+// that a real contact leaves (the light ends of a robot of 80 kg) is 1e-4. Some rows depend on each other only in the
+// plane in which the robot moves (knee and foot of both hind legs); a plan keeps to such a plane as far as its solver's
 // tolerance, and leaves 1e-8 to 1e-7.
 constexpr double kRankThreshold = 1e-6;
 
@@ -27,10 +27,10 @@ struct ConstrainedDynamicsOracle::Workspace {
   const PinocchioModel& pinocchio;
   pinocchio::Data data;
   std::vector<int> contacts;
-  Eigen::LLT<Eigen::MatrixXd> mass;       // M = L L'
+  Eigen::LLT<Eigen::MatrixXd> mass;  // M = L L'
   Eigen::Matrix<double, 6, Eigen::Dynamic> frame_jacobian;
-  Eigen::MatrixXd A_transposed;           // L⁻¹ J'
-  Factors factors;                        // of it
+  Eigen::MatrixXd A_transposed;  // L⁻¹ J'
+  Factors factors;               // of it
 
   Workspace(const PinocchioModel& model, const std::vector<int>& held)
       : pinocchio(model),

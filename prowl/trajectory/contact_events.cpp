@@ -14,8 +14,7 @@ using Limits = CertificateLimits;
 class EventChecks {
  public:
   explicit EventChecks(const MotionProblem& problem)
-      : problem_(problem),
-        load_("force before opening", "N", Limits::force_over_weight * problem.robot.weight()) {}
+      : problem_(problem), load_("force before opening", "N", Limits::force_over_weight * problem.robot.weight()) {}
 
   void record_place(const PhaseContact& held, const ContactPlace& place) {
     const Surface& surface = problem_.surfaces[held.surface];

@@ -11,11 +11,11 @@ namespace prowl {
 
 /// What one contact of the robot does in one phase.
 struct ContactPlace {
-  std::optional<int> surface;  ///< the surface that it holds, if it is closed
-  bool closes = false;         ///< closed here, open (or elsewhere) in the phase before
-  bool opens = false;          ///< closed here, open in the phase after
-  bool swings = false;         ///< open here, but closed some time before and some time after
-  double time = 0.0;           ///< when it closed [s]
+  std::optional<int> surface;                        ///< the surface that it holds, if it is closed
+  bool closes = false;                               ///< closed here, open (or elsewhere) in the phase before
+  bool opens = false;                                ///< closed here, open in the phase after
+  bool swings = false;                               ///< open here, but closed some time before and some time after
+  double time = 0.0;                                 ///< when it closed [s]
   Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< where it was at the node where it closed, world frame [m]
 };
 

@@ -1,18 +1,15 @@
-#include "prowl/trajectory/certificate.hpp"
-
 #include <algorithm>
 #include <array>
+
+#include "prowl/trajectory/certificate.hpp"
 
 namespace prowl {
 
 const char* to_string(Grade grade) {
   switch (grade) {
-    case Grade::certified:
-      return "certified";
-    case Grade::draft:
-      return "draft";
-    case Grade::failed:
-      break;
+    case Grade::certified: return "certified";
+    case Grade::draft: return "draft";
+    case Grade::failed: break;
   }
   return "failed";
 }

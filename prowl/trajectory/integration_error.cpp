@@ -69,8 +69,7 @@ IntegrationErrors integration_errors(const RobotModel& robot, const Trajectory& 
   IntegrationErrors result;
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
     const double start = interval.left.time, end = interval.right.time;
-    const Eigen::VectorXd errors =
-        integrated_residual(interval, dynamics[interval.left.phase]).cwiseQuotient(scale);
+    const Eigen::VectorXd errors = integrated_residual(interval, dynamics[interval.left.phase]).cwiseQuotient(scale);
     Eigen::Index i = 0;
     const double largest = errors.maxCoeff<Eigen::PropagateNaN>(&i);
     result.intervals.push_back({start, end, largest, state_name(robot, i)});

@@ -13,8 +13,8 @@ namespace prowl {
 ///   e_i = ∫ |ẋ_i - f_i(x, τ)| dt / scale_i      (Betts, Practical Methods for Optimal Control, 4.7.4)
 ///
 /// by five Gauss points; scale as in state_scale.hpp. The largest e_i of an interval is O(h³) for the trapezoid. For a
-/// motion that is wrong everywhere it falls with h, so that a fine mesh hides the fault; the sum of e_i over a second of
-/// the motion does not.
+/// motion that is wrong everywhere it falls with h, so that a fine mesh hides the fault; the sum of e_i over a second
+/// of the motion does not.
 struct IntegrationErrors {
   std::vector<IntervalError> intervals;  ///< largest coordinate of each, in order
   std::vector<CertificateCheck> checks;  ///< the worst interval; the worst second, of one coordinate

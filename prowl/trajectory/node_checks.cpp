@@ -67,7 +67,9 @@ struct BoundaryChecks {
     for (Eigen::Index i = 0; i < robot.nv(); ++i) {
       const bool is_length = i < 3 || (i >= 6 && robot.joint_is_prismatic()[i - 6]);
       const std::string where = condition.name + ", " + coordinate_name(robot, i);
-      record(is_start ? start : is_length ? position : angle,
+      record(is_start    ? start
+             : is_length ? position
+                         : angle,
              violation(offset(i), condition.configuration_lower(i), condition.configuration_upper(i)), node.time,
              where);
       record(is_start ? start : velocity,

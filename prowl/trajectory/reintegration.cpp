@@ -67,7 +67,8 @@ EndState reintegrate(const MeshInterval& interval, ConstrainedDynamicsOracle& dy
 
 }  // namespace
 
-ReintegrationErrors reintegration_errors(const RobotModel& robot, const Trajectory& trajectory, PhaseDynamics& dynamics) {
+ReintegrationErrors reintegration_errors(const RobotModel& robot, const Trajectory& trajectory,
+                                         PhaseDynamics& dynamics) {
   const Eigen::VectorXd scale = state_scale(trajectory);
   WorstCase worst("re-integration", "-", CertificateLimits::reintegration_draft,
                   CertificateLimits::reintegration_certified);

@@ -33,7 +33,7 @@ ErrorMeasure TrackingError::joints() const {
 }
 
 bool has_fallen(const RobotModel& robot, const Eigen::VectorXd& q_ref, const Eigen::VectorXd& q) {
-  constexpr double kAngle = 0.5;              // [rad]
+  constexpr double kAngle = 0.5;  // [rad]
   constexpr double kHeightShare = 1.0 / 3.0;
   const Eigen::VectorXd error = difference(q_ref, q);
   const double height = robot.nominal_configuration()(2);

@@ -7,7 +7,8 @@
 
 namespace prowl {
 
-/// Size of an error over a whole run, and over the last kRestWindow of it: NaN if the run ended before. NaN if a value was.
+/// Size of an error over a whole run, and over the last kRestWindow of it: NaN if the run ended before. NaN if a value
+/// was.
 struct ErrorMeasure {
   double largest = 0.0, rms = 0.0, rest = std::numeric_limits<double>::quiet_NaN();
 };
@@ -38,8 +39,8 @@ class TrackingError {
   ErrorSum position_, angle_, worst_joint_, joints_;
 };
 
-/// Whether the base is so far from the plan's, more than 0.5 rad or a third of its nominal height, that the robot lies, or
-/// soon will.
+/// Whether the base is so far from the plan's, more than 0.5 rad or a third of its nominal height, that the robot lies,
+/// or soon will.
 bool has_fallen(const RobotModel& robot, const Eigen::VectorXd& q_ref, const Eigen::VectorXd& q);
 
 }  // namespace prowl

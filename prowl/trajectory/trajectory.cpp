@@ -53,7 +53,8 @@ TrajectoryPoint sample(const Trajectory& trajectory, double t) {
   if (trajectory.interpolation == Interpolation::trapezoid) return interpolate(*before, *after, s);
   // Between the nodes before it, one a phase switch is no interval.
   const auto interval = static_cast<std::size_t>(before - nodes.begin() - (before->phase - nodes.front().phase));
-  return hermite_point(*before, *after, trajectory.middle_torques.empty() ? nullptr : &trajectory.middle_torques[interval], s);
+  return hermite_point(*before, *after,
+                       trajectory.middle_torques.empty() ? nullptr : &trajectory.middle_torques[interval], s);
 }
 
 }  // namespace prowl

@@ -7,7 +7,7 @@ namespace prowl {
 
 /// One instant of a motion. q, v, a, tau as in RobotModel; a is the rate of v (components in the base frame).
 struct TrajectoryPoint {
-  double time = 0.0;      ///< [s]
+  double time = 0.0;  ///< [s]
   int phase = 0;
   Eigen::VectorXd q, v, a, tau;
   Eigen::VectorXd force;  ///< 3 per contact of the ROBOT (robot order), world frame [N]; zero where not in contact

@@ -14,7 +14,8 @@ namespace prowl {
 /// Keeps the largest of many values, where and when it came; a NaN counts as larger than anything.
 class WorstCase {
  public:
-  WorstCase(std::string name, std::string unit, double limit) : WorstCase(std::move(name), std::move(unit), limit, limit) {}
+  WorstCase(std::string name, std::string unit, double limit)
+      : WorstCase(std::move(name), std::move(unit), limit, limit) {}
   WorstCase(std::string name, std::string unit, double limit, double certified_limit) {
     check_.name = std::move(name);
     check_.unit = std::move(unit);

@@ -26,14 +26,14 @@ ContactPath::ContactPath(const MotionProblem& problem, const Mesh& mesh, const P
     const VectorXd q = posture(0.5 * (held.start + held.end));
     const Vector3d carried =
         base_position(q) + base_rotation(q) * (base_rotation(start).transpose() * (at_start - base_position(start)));
-    places_.push_back(surface.at(nearest_in_patch(surface, surface.coordinates(stance.place.value_or(carried))), radius));
+    places_.push_back(
+        surface.at(nearest_in_patch(surface, surface.coordinates(stance.place.value_or(carried))), radius));
   }
 }
 
 ContactPath::Span ContactPath::span(int first_phase, int last_phase) const {
   const auto time = [&](NodeRef at) { return mesh_.nodes[mesh_.index(at)].time; };
-  return {time({first_phase, 0}),
-          time({last_phase, problem_.phases[last_phase].intervals})};
+  return {time({first_phase, 0}), time({last_phase, problem_.phases[last_phase].intervals})};
 }
 
 std::vector<Vector3d> ContactPath::held_places(int phase) const {

@@ -13,8 +13,8 @@ namespace prowl {
 ///
 /// A contact that lands does so where the task puts it, else under the place on the robot where the start has it: the
 /// start's contact, carried along with the base to the middle of the stance, then dropped on its surface. In the air a
-/// contact goes from place to place in an arc over both. One that never lands again, or was never held, keeps the posture of
-/// its leg.
+/// contact goes from place to place in an arc over both. One that never lands again, or was never held, keeps the
+/// posture of its leg.
 class ContactPath {
  public:
   ContactPath(const MotionProblem& problem, const Mesh& mesh, const PosturePath& posture);

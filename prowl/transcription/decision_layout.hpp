@@ -10,7 +10,8 @@ namespace prowl {
 /// Where everything is in the decision variables z and in the constraints g: the only index arithmetic of the
 /// transcription.
 ///
-/// z: for each node of the mesh  (base position, rotation vector theta, joints | v | a | tau | w), then what nodes share:
+/// z: for each node of the mesh  (base position, rotation vector theta, joints | v | a | tau | w), then what nodes
+/// share:
 ///    for each phase of free duration its duration, for each contact that lands two surface coordinates of its place.
 ///    w are the forces of dependent contact rows, of a number that goes with the phase.
 /// g: for each node its rows (NodeFunctions),

@@ -65,8 +65,7 @@ WorldVelocityHessian::WorldVelocityHessian(const Matrix3d& chart, const Vector3d
   // lambda . R exp(x) v = l . (v + x × v + 1/2 x × (x × v)) with l = R' lambda; then x(theta) is curved too.
   const Vector3d l = (chart * so3::exp(theta)).transpose() * lambda;
   const Matrix3d Jr = so3::right_jacobian(theta);
-  const Matrix3d tangent =
-      0.5 * (l * v.transpose() + v * l.transpose()) - l.dot(v) * Matrix3d::Identity();
+  const Matrix3d tangent = 0.5 * (l * v.transpose() + v * l.transpose()) - l.dot(v) * Matrix3d::Identity();
   theta_theta = Jr.transpose() * tangent * Jr + so3::right_jacobian_derivative(theta, v.cross(l));
   theta_v = -Jr.transpose() * so3::skew(l);
 }

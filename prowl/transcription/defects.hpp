@@ -44,8 +44,8 @@ class BaseDefects {
   Product product_;  ///< of exp(-h/2 w0) exp(-theta0) (charts) exp(theta1) exp(-h/2 w1)
 };
 
-/// World velocity R v of the base with R = chart exp(theta), its derivatives in (theta, v) and the second derivatives of
-/// lambda . R v.
+/// World velocity R v of the base with R = chart exp(theta), its derivatives in (theta, v) and the second derivatives
+/// of lambda . R v.
 struct WorldVelocity {
   Eigen::Vector3d value;
   Eigen::Matrix3d d_theta, d_v;

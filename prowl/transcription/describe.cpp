@@ -7,8 +7,7 @@ namespace prowl {
 
 std::string Transcription::describe_node(int k) const {
   const MeshNode& node = mesh_.nodes[k];
-  return fmt::format("phase {} '{}', node {}", node.phase + 1, problem_.phases[node.phase].name,
-                     node.node);
+  return fmt::format("phase {} '{}', node {}", node.phase + 1, problem_.phases[node.phase].name, node.node);
 }
 
 std::string Transcription::describe_place(int k) const {
@@ -61,10 +60,8 @@ std::string Transcription::describe_shared(int index) const {
   while (layout_.place(static_cast<int>(s)) != index && layout_.place(static_cast<int>(s)) + 1 != index) ++s;
   const Stance& stance = schedule_.stances()[s];
   return fmt::format("phase {} '{}', place {} of {} on {}", stance.first_phase + 1,
-                     problem_.phases[stance.first_phase].name,
-                     index - layout_.place(static_cast<int>(s)) + 1,
-                     problem_.robot.contacts()[stance.contact].name,
-                     problem_.surfaces[stance.surface].name);
+                     problem_.phases[stance.first_phase].name, index - layout_.place(static_cast<int>(s)) + 1,
+                     problem_.robot.contacts()[stance.contact].name, problem_.surfaces[stance.surface].name);
 }
 
 }  // namespace prowl

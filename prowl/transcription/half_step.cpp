@@ -134,10 +134,12 @@ void Arrival::push_forward(VectorXd& step) const {
   const Index nu = nv_ - 6;
   const double dT = time_.column >= 0 ? time_.slope * step(time_.column) : 0.0;
   step.segment(nv_, nv_) += time_.s * step.segment(2 * nv_, nv_) + dT * node_.segment(2 * nv_, nv_);
-  step.segment<3>(3) = slope_.leftCols<3>() * Vector3d(step.segment<3>(3)) +
-                       slope_.rightCols<3>() * Vector3d(time_.s * step.segment<3>(nv_ + 3) + dT * node_.segment<3>(nv_ + 3));
+  step.segment<3>(3) =
+      slope_.leftCols<3>() * Vector3d(step.segment<3>(3)) +
+      slope_.rightCols<3>() * Vector3d(time_.s * step.segment<3>(nv_ + 3) + dT * node_.segment<3>(nv_ + 3));
   step.segment(6, nu) += time_.s * step.segment(nv_ + 6, nu) + dT * node_.segment(nv_ + 6, nu);
-  step.head<3>() += time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
+  step.head<3>() +=
+      time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
 }
 
 void Arrival::pull_back(MatrixXd& rows) const {
@@ -187,7 +189,8 @@ void Arrival::pull_back_hessian(MatrixXd& hessian, VectorXd& gradient) const {
   add_by_duration(2 * nv_, gradient.segment(nv_, nv_), time_, hessian);
 }
 
-void Departure::set(const Matrix3d& chart, const Matrix3d& next_chart, int nv, const HalfTime& time, const VectorXd& node) {
+void Departure::set(const Matrix3d& chart, const Matrix3d& next_chart, int nv, const HalfTime& time,
+                    const VectorXd& node) {
   chart_ = chart;
   nv_ = nv;
   time_ = time;
@@ -217,14 +220,15 @@ void Departure::derivatives(Eigen::Ref<MatrixXd> rows) const {
   rows.block(6, nv_ + 6, nu, nu).diagonal().setConstant(time_.s);
   rows.block(nv_, 2 * nv_, nv_, nv_).diagonal().setConstant(time_.s);
   if (time_.column < 0) return;
-  rows.col(time_.column) << world_.value, slope.rightCols<3>() * node_.segment<3>(nv_ + 3),
-      node_.segment(nv_ + 6, nu), node_.segment(2 * nv_, nv_);
+  rows.col(time_.column) << world_.value, slope.rightCols<3>() * node_.segment<3>(nv_ + 3), node_.segment(nv_ + 6, nu),
+      node_.segment(2 * nv_, nv_);
   rows.col(time_.column) *= time_.slope;
 }
 
 void Departure::add_hessian(const VectorXd& multipliers, MatrixXd& hessian) const {
   const Vector3d on_position = multipliers.head<3>();
-  add_moving(world_, {chart_, node_.segment<3>(3), node_.segment<3>(nv_), on_position}, on_position, time_, nv_, hessian);
+  add_moving(world_, {chart_, node_.segment<3>(3), node_.segment<3>(nv_), on_position}, on_position, time_, nv_,
+             hessian);
   add_turning(turn_, multipliers.segment<3>(3), node_.segment<3>(nv_ + 3), time_, nv_, hessian);
   add_by_duration(nv_ + 6, multipliers.segment(6, nv_ - 6), time_, hessian);
   add_by_duration(2 * nv_, multipliers.segment(nv_, nv_), time_, hessian);
@@ -237,7 +241,8 @@ void Departure::push_forward(const VectorXd& step, Eigen::Ref<VectorXd> state) c
   state.segment<3>(3) = slope_.leftCols<3>() * step.segment<3>(3) +
                         slope_.rightCols<3>() * (time_.s * step.segment<3>(nv_ + 3) + dT * node_.segment<3>(nv_ + 3));
   state.segment(6, nu) += time_.s * step.segment(nv_ + 6, nu) + dT * node_.segment(nv_ + 6, nu);
-  state.head<3>() += time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
+  state.head<3>() +=
+      time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
   state.tail(nv_) += time_.s * step.segment(2 * nv_, nv_) + dT * node_.segment(2 * nv_, nv_);
 }
 

@@ -14,12 +14,14 @@ struct HalfTime {
   int column = -1;     ///< of T among the variables of the node; -1 if T is fixed
 };
 
-/// The trapezoid is explicit in a state in the middle between two nodes. From the state (z, w) before a node to the node:
+/// The trapezoid is explicit in a state in the middle between two nodes. From the state (z, w) before a node to the
+/// node:
 ///
 ///   v = w + s a,   R = R_z exp(s omega),   p = p_z + s R v_linear,   joints = joints_z + s rates
 ///
-/// Variables are (base position, theta, joints | v | a | ... | shared), where R = chart exp(theta), with z in the place of
-/// q and w in that of v for the state; everything else is the same on both sides. docs/transcription.md, "Stage by stage".
+/// Variables are (base position, theta, joints | v | a | ... | shared), where R = chart exp(theta), with z in the place
+/// of q and w in that of v for the state; everything else is the same on both sides. docs/transcription.md, "Stage by
+/// stage".
 ///
 /// A linearised map takes derivatives in both directions: steps forward, gradients and Hessians back.
 class Arrival {
@@ -79,8 +81,8 @@ class Departure {
 
   /// A step of the node becomes that of (z', w').
   void push_forward(const Eigen::VectorXd& step, Eigen::Ref<Eigen::VectorXd> state) const;
-  /// A gradient in (z', w'), in the places of q and v of all the node's variables, becomes one in these; and a quadratic
-  /// form. What the variables that are carried over have in their places stays.
+  /// A gradient in (z', w'), in the places of q and v of all the node's variables, becomes one in these; and a
+  /// quadratic form. What the variables that are carried over have in their places stays.
   void pull_back(Eigen::VectorXd& gradient) const;
   void pull_back_form(Eigen::MatrixXd& m) const;
 

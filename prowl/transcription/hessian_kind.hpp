@@ -2,7 +2,8 @@
 
 namespace prowl {
 
-/// Second derivatives of the Lagrangian: exact, or of the cost alone, as if constraints and recovered forces were linear.
+/// Second derivatives of the Lagrangian: exact, or of the cost alone, as if constraints and recovered forces were
+/// linear.
 enum class HessianKind { exact, gauss_newton };
 
 /// As in plan.json and at the command line.

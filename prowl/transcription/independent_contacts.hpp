@@ -12,10 +12,10 @@ namespace prowl {
 /// Rows count as dependent where Projector would: kRankThreshold of the largest.
 std::vector<int> independent_rows(const Eigen::MatrixXd& given, const Eigen::MatrixXd& candidates);
 
-/// How the contacts of a phase depend on each other, at configuration q of its first node: contacts that stay come first, those
-/// that land add what is left. One posture stands for the phase. It does where dependence is a matter of the robot's shape (flat
-/// feet, knee and foot); from a singular one (straight legs) a row stays out that counts as soon as the legs bend, and
-/// the contact drifts, which the certificate finds.
+/// How the contacts of a phase depend on each other, at configuration q of its first node: contacts that stay come
+/// first, those that land add what is left. One posture stands for the phase. It does where dependence is a matter of
+/// the robot's shape (flat feet, knee and foot); from a singular one (straight legs) a row stays out that counts as
+/// soon as the legs bend, and the contact drifts, which the certificate finds.
 PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                              const Eigen::VectorXd& q);
 

@@ -23,8 +23,8 @@ VectorXd clamp(const VectorXd& x, const VectorXd& lower, const VectorXd& upper) 
   return x.cwiseMax(lower).cwiseMin(upper);
 }
 
-/// Configurations of all nodes: the base on the path, contacts on theirs, other joints as the path has them (relative to
-/// where the contacts left them).
+/// Configurations of all nodes: the base on the path, contacts on theirs, other joints as the path has them (relative
+/// to where the contacts left them).
 void set_configurations(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess) {
   const PosturePath posture(problem, mesh);
   const ContactPath contacts(problem, mesh, posture);
@@ -89,8 +89,9 @@ class ContactConsistency {
   Projector projector_;
 };
 
-/// Rate at node k of something that is known at the nodes, from nodes `before` and `after` (k itself at an end): the slope
-/// there of the parabola through all three, or the one-sided difference. `change(i)` is its value at i minus that at k.
+/// Rate at node k of something that is known at the nodes, from nodes `before` and `after` (k itself at an end): the
+/// slope there of the parabola through all three, or the one-sided difference. `change(i)` is its value at i minus that
+/// at k.
 template <typename Change>
 VectorXd rate(const Mesh& mesh, int before, int k, int after, const Change& change) {
   const auto time = [&](int i) { return mesh.nodes[i].time; };
@@ -123,7 +124,8 @@ void set_rates(const MotionProblem& problem, const Mesh& mesh, Trajectory& guess
   }
   for (const BoundaryCondition& condition : problem.boundary_conditions) {
     for (TrajectoryPoint& point : guess.nodes) {
-      if (point.time == time_of(condition, mesh)) point.v = clamp(point.v, condition.velocity_lower, condition.velocity_upper);
+      if (point.time == time_of(condition, mesh))
+        point.v = clamp(point.v, condition.velocity_lower, condition.velocity_upper);
     }
   }
   for (int k = 0; k < mesh.size(); ++k) {

@@ -60,7 +60,8 @@ IntervalDefects::Hessian IntervalDefects::hessian(const VectorXd& multipliers) c
   result.step_step = turn.dot(turned);
   for (const int end : {0, 1}) {
     const IntervalEnd& here = at(end);
-    const WorldVelocityHessian velocity(here.chart, here.q.segment<3>(3), here.v.segment<3>(0), -0.5 * h_ * on_position);
+    const WorldVelocityHessian velocity(here.chart, here.q.segment<3>(3), here.v.segment<3>(0),
+                                        -0.5 * h_ * on_position);
     result.turn[end] = rotation.block<6, 6>(6 * end, 6 * end);
     result.turn[end].topLeftCorner<3, 3>() += velocity.theta_theta;
     result.theta_v[end] = velocity.theta_v;

@@ -32,10 +32,10 @@ class IntervalDefects {
   /// Second derivatives of multipliers . value, by its blocks: in the variables of each end, between the ends, and with
   /// the step.
   struct Hessian {
-    Eigen::Matrix3d theta_v[2];            ///< (theta, linear velocity) at an end
-    Eigen::Matrix<double, 6, 6> turn[2];   ///< (theta, angular velocity) at an end
-    Eigen::Matrix<double, 6, 6> link;      ///< the same, end x start
-    Eigen::VectorXd step[2];               ///< step with (q | v | a) of an end
+    Eigen::Matrix3d theta_v[2];           ///< (theta, linear velocity) at an end
+    Eigen::Matrix<double, 6, 6> turn[2];  ///< (theta, angular velocity) at an end
+    Eigen::Matrix<double, 6, 6> link;     ///< the same, end x start
+    Eigen::VectorXd step[2];              ///< step with (q | v | a) of an end
     double step_step = 0.0;
   };
   Hessian hessian(const Eigen::VectorXd& multipliers) const;

@@ -29,8 +29,8 @@ Mesh make_mesh(const MotionProblem& problem) {
   double phase_start = 0.0;
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const Phase& phase = problem.phases[p];
-    const double duration = phase.duration.is_fixed() ? phase.duration.min
-                                                      : 0.5 * (phase.duration.min + phase.duration.max);
+    const double duration =
+        phase.duration.is_fixed() ? phase.duration.min : 0.5 * (phase.duration.min + phase.duration.max);
     for (int k = 0; k <= phase.intervals; ++k) {
       mesh.nodes.push_back({.phase = static_cast<int>(p),
                             .node = k,

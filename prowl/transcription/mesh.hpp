@@ -6,8 +6,8 @@
 
 namespace prowl {
 
-/// One node of the mesh. Two nodes that follow each other are the ends of a mesh interval if they are of one phase, else
-/// a phase switch: two nodes at one time, h_out = 0 on one side and h_in = 0 on the other.
+/// One node of the mesh. Two nodes that follow each other are the ends of a mesh interval if they are of one phase,
+/// else a phase switch: two nodes at one time, h_out = 0 on one side and h_in = 0 on the other.
 struct MeshNode {
   int phase = 0;
   int node = 0;        ///< within its phase, 0 ... intervals

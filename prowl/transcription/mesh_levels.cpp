@@ -39,7 +39,8 @@ MotionProblem coarsened(const MotionProblem& problem, const std::function<int(in
 std::vector<MotionProblem> mesh_levels(const MotionProblem& problem) {
   std::vector<MotionProblem> levels{problem};
   while (count_intervals(levels.back()) > kSmallMesh) {
-    MotionProblem coarse = coarsened(levels.back(), [](int intervals) { return (intervals + kCoarser - 1) / kCoarser; });
+    MotionProblem coarse =
+        coarsened(levels.back(), [](int intervals) { return (intervals + kCoarser - 1) / kCoarser; });
     if (2 * count_intervals(coarse) > count_intervals(levels.back())) break;
     levels.push_back(std::move(coarse));
   }

@@ -9,8 +9,8 @@ namespace prowl {
 
 int count_intervals(const MotionProblem& problem);
 
-/// Each phase on wanted(its intervals) of them, or more if goals need that for their nodes or it were less than four, but
-/// not more than it has.
+/// Each phase on wanted(its intervals) of them, or more if goals need that for their nodes or it were less than four,
+/// but not more than it has.
 MotionProblem coarsened(const MotionProblem& problem, const std::function<int(int)>& wanted);
 
 /// The problem on meshes of growing fineness, its own as the last: what is found on one is the guess of the next. Most

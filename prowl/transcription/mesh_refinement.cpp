@@ -12,12 +12,14 @@ namespace {
 
 using Limits = CertificateLimits;
 
-constexpr double kMargin = 1.5;       // on an error: the next motion is another one, and its errors are elsewhere
-constexpr int kMost = 4;              // pieces of an interval, or intervals in one: far from its step an error says little
-constexpr double kMergeBelow = 0.25;  // of what an error may be: what is merged shall not be split again in the next round
-constexpr double kLongest = 0.25;     // of a phase, for merged intervals: a swing has to leave, pass and land
-constexpr double kRounding = 1e-9;    // of a phase
-constexpr double kMostGrowth = 4.0;   // of a step over the one before: what the gains of contacts are good for (node_functions.cpp)
+constexpr double kMargin = 1.5;  // on an error: the next motion is another one, and its errors are elsewhere
+constexpr int kMost = 4;         // pieces of an interval, or intervals in one: far from its step an error says little
+constexpr double kMergeBelow =
+    0.25;                          // of what an error may be: what is merged shall not be split again in the next round
+constexpr double kLongest = 0.25;  // of a phase, for merged intervals: a swing has to leave, pass and land
+constexpr double kRounding = 1e-9;  // of a phase
+constexpr double kMostGrowth =
+    4.0;  // of a step over the one before: what the gains of contacts are good for (node_functions.cpp)
 
 double worst(const Certificate& certificate, const char* name) {
   const CertificateCheck* const check = certificate.find(name);
@@ -42,7 +44,8 @@ class PhaseIntervals {
 
  private:
   static void add(double length, int pieces, Steps& steps) {
-    if (!steps.empty()) pieces = std::max(pieces, static_cast<int>(std::ceil(length / (kMostGrowth * steps.back()) - kRounding)));
+    if (!steps.empty())
+      pieces = std::max(pieces, static_cast<int>(std::ceil(length / (kMostGrowth * steps.back()) - kRounding)));
     steps.insert(steps.end(), static_cast<std::size_t>(pieces), length / pieces);
   }
 

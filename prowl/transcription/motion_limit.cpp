@@ -16,7 +16,8 @@ double rate(const RobotModel& robot) { return std::sqrt(RobotModel::kGravity / r
 MotionLimit limit_of_goal(const RobotModel& robot, const std::string& goal, int i, bool is_velocity) {
   const bool is_joint = i >= 6;
   const bool is_length = is_joint ? robot.joint_is_prismatic()[i - 6] : i < 3;
-  return {.kind = LimitKind::goal, .subject = goal + ", " + (is_velocity ? "velocity of " : "") + coordinate_name(robot, i),
+  return {.kind = LimitKind::goal,
+          .subject = goal + ", " + (is_velocity ? "velocity of " : "") + coordinate_name(robot, i),
           .unit = std::string(is_length ? "m" : "rad") + (is_velocity ? "/s" : ""),
           .size = (is_length ? robot.size() : 1.0) * (is_velocity ? rate(robot) : 1.0)};
 }

@@ -29,12 +29,13 @@ struct MotionLimit {
   double size = 1.0;    ///< what counts as a violation of one, in that unit: of the robot, mostly: weight, size, both
 };
 
-/// What a goal says of entry i of a configuration's tangent, or of a velocity, 0 <= i < nv: kind, subject, unit and size.
+/// What a goal says of entry i of a configuration's tangent, or of a velocity, 0 <= i < nv: kind, subject, unit and
+/// size.
 MotionLimit limit_of_goal(const RobotModel& robot, const std::string& goal, int i, bool is_velocity);
 
-/// A robot's limit on a joint (torque, joint_position, joint_velocity): kind, subject, unit and size. Sizes are those of the
-/// robot, not of the limit: else a joint that is by far too weak would cost more than a strong one that is overloaded in
-/// its place.
+/// A robot's limit on a joint (torque, joint_position, joint_velocity): kind, subject, unit and size. Sizes are those
+/// of the robot, not of the limit: else a joint that is by far too weak would cost more than a strong one that is
+/// overloaded in its place.
 MotionLimit limit_of_joint(const RobotModel& robot, LimitKind kind, int joint);
 
 }  // namespace prowl

@@ -20,7 +20,7 @@ class NodeCost {
   double running() const { return running_value_; }
 
   struct Derivatives {
-    Eigen::VectorXd gradient;          ///< in (tangent of q | v | a | tau)
+    Eigen::VectorXd gradient;  ///< in (tangent of q | v | a | tau)
     Eigen::VectorXd force_gradient;
     Eigen::VectorXd running_gradient;  ///< that part of `gradient`; all of force_gradient is running cost
   };

@@ -16,17 +16,15 @@ using Eigen::VectorXd;
 
 constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
 
-const Phase& phase_of(const MotionProblem& problem, int phase) {
-  return problem.phases[phase];
-}
+const Phase& phase_of(const MotionProblem& problem, int phase) { return problem.phases[phase]; }
 
-/// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start of the
-/// motion to the one after the node (other phases at the middle of their durations).
+/// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start
+/// of the motion to the one after the node (other phases at the middle of their durations).
 ///
-/// Not shorter than the step after: then the explicit half of the trapezoid at most halves an error, and the implicit half makes
-/// it smaller whatever the gain. Gains for the step before let errors grow where steps do. And not shorter than the steps before:
-/// what contacts are off by after long steps would have to be gone within a short one, at a speed that the certificate
-/// sees. docs/transcription.md, "Steps of different length".
+/// Not shorter than the step after: then the explicit half of the trapezoid at most halves an error, and the implicit
+/// half makes it smaller whatever the gain. Gains for the step before let errors grow where steps do. And not shorter
+/// than the steps before: what contacts are off by after long steps would have to be gone within a short one, at a
+/// speed that the certificate sees. docs/transcription.md, "Steps of different length".
 std::vector<double> per_gain_step(const MotionProblem& problem, int phase) {
   std::vector<double> result;
   double longest = 0.0;  // [s]
@@ -117,8 +115,7 @@ std::string NodeFunctions::describe_row(int k, int row) const {
   if (row >= torque_row(k)) return torques_.describe(row - torque_row(k));
   int contact = 0;
   while (row >= contact_row(k, contact + 1)) ++contact;
-  return contact_names_[contact] +
-         (unloads(k, contact) ? ", force before it opens" : ", friction cone");
+  return contact_names_[contact] + (unloads(k, contact) ? ", force before it opens" : ", friction cone");
 }
 
 std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, int k, int row) const {
@@ -128,7 +125,9 @@ std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, 
     if (kind == PlacementRows::Kind::place || kind == PlacementRows::Kind::velocity) return std::nullopt;
     const int contact = placement_.contact(k, row - placement_row(k));
     return MotionLimit{.kind = kind == PlacementRows::Kind::inside ? LimitKind::place : LimitKind::clearance,
-                       .subject = robot.contacts()[contact].name, .unit = "m", .si = robot.size(),
+                       .subject = robot.contacts()[contact].name,
+                       .unit = "m",
+                       .si = robot.size(),
                        .size = robot.size()};
   }
   if (row >= torque_row(k)) {
@@ -139,8 +138,11 @@ std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, 
   int contact = 0;
   while (row >= contact_row(k, contact + 1)) ++contact;
   if (unloads(k, contact)) return std::nullopt;
-  return MotionLimit{.kind = LimitKind::friction, .subject = contact_names_[contact], .unit = "N",
-                     .si = 1.0 / force_scale_, .size = coefficients_[contact] / force_scale_};
+  return MotionLimit{.kind = LimitKind::friction,
+                     .subject = contact_names_[contact],
+                     .unit = "N",
+                     .si = 1.0 / force_scale_,
+                     .size = coefficients_[contact] / force_scale_};
 }
 
 // h = T / n.
@@ -178,7 +180,8 @@ void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
       values.rows.segment(row, friction.count()) = force_scale_ * friction.rows(force);
     }
   }
-  torques_.evaluate(point.q.tail(nu_), point.v.tail(nu_), point.tau, values.rows.segment(torque_row(k), torques_.count()));
+  torques_.evaluate(point.q.tail(nu_), point.v.tail(nu_), point.tau,
+                    values.rows.segment(torque_row(k), torques_.count()));
   placement_.evaluate(k, dynamics_.terms(), point.v, point.anchors,
                       values.rows.segment(placement_row(k), placement_.count(k)));
   values.cost = cost_.value(point, dynamics_.terms(), values.forces);
@@ -197,7 +200,8 @@ void NodeFunctions::evaluate_with_derivatives(const NodePoint& point, NodeValues
   fill_derivatives(point, values);
 }
 
-void NodeFunctions::gather(const PointDerivatives& derivatives, const NodePoint& point, Eigen::Ref<MatrixXd> result) const {
+void NodeFunctions::gather(const PointDerivatives& derivatives, const NodePoint& point,
+                           Eigen::Ref<MatrixXd> result) const {
   result.leftCols(num_variables()) << derivatives.q, derivatives.v, derivatives.a, derivatives.tau, derivatives.w;
   if (free_duration_) result.col(num_variables()).noalias() = derivatives.gains.lazyProduct(gains(point, 1));
   const double kp = gains(point, 0)(1);

@@ -18,9 +18,9 @@
 
 namespace prowl {
 
-/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. A sharper tip costs iterations where a foot is
-/// about to lift. Each contact has to carry eps / friction, so less where friction is low or contacts are many: all
-/// together no more than a fifth of the weight.
+/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. A sharper tip costs iterations
+/// where a foot is about to lift. Each contact has to carry eps / friction, so less where friction is low or contacts
+/// are many: all together no more than a fifth of the weight.
 double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts);
 
 /// How the contacts of a phase depend on each other, settled once: see independent_contacts.hpp.
@@ -39,22 +39,23 @@ struct StabilisationOfStep {
 };
 
 /// What is evaluated at one node. Derivatives are in the variables of the node (base position, theta, joints | v | a |
-/// tau | w) and then in what its phase shares (duration, if free | two surface coordinates of each contact that landed).
+/// tau | w) and then in what its phase shares (duration, if free | two surface coordinates of each contact that
+/// landed).
 struct NodeValues {
   double cost = 0.0;
   Eigen::VectorXd rows;
-  Eigen::VectorXd forces;         ///< 3 per contact of the phase, world frame [N]
+  Eigen::VectorXd forces;  ///< 3 per contact of the phase, world frame [N]
   Eigen::VectorXd cost_gradient;
   Eigen::MatrixXd rows_jacobian;
 };
 
 /// Everything that holds at a node of one phase, with exact first and second derivatives. Rows:
 ///
-///   dynamics, nv | contacts: friction (FrictionLimit), or at the last node of a contact that opens its force (three rows, = 0) |
-///   torque limits over position and velocity | places of contacts (PlacementRows)
+///   dynamics, nv | contacts: friction (FrictionLimit), or at the last node of a contact that opens its force (three
+///   rows, = 0) | torque limits over position and velocity | places of contacts (PlacementRows)
 ///
-/// Rows are scaled by the size of the robot, so that one tolerance means the same for 2.5 kg and for 80 kg: forces by its
-/// weight, moments by its weight times RobotModel::size().
+/// Rows are scaled by the size of the robot, so that one tolerance means the same for 2.5 kg and for 80 kg: forces by
+/// its weight, moments by its weight times RobotModel::size().
 ///
 /// One object holds the work space of one thread. Nothing is allocated by an evaluation whose results have the sizes of
 /// the node already (the last one of their owner), unless contacts lose rank.
@@ -63,21 +64,23 @@ class NodeFunctions {
   NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts,
                 const StabilisationOfStep& stabilisation = {});
 
-  int num_variables() const { return 3 * nv_ + nu_ + num_chosen_; }        ///< of a node
+  int num_variables() const { return 3 * nv_ + nu_ + num_chosen_; }  ///< of a node
   int num_shared() const { return (free_duration_ ? 1 : 0) + num_places(); }
   int num_columns() const { return num_variables() + num_shared(); }
   bool has_free_duration() const { return free_duration_; }
   /// Contacts of the phase whose place is shared variables, in their order: places in the phase's list.
   const std::vector<int>& landed() const { return landed_; }
-  const std::vector<Eigen::Matrix<double, 3, 2>>& landed_axes() const { return landed_axes_; }  ///< of anchors in places
+  const std::vector<Eigen::Matrix<double, 3, 2>>& landed_axes() const {
+    return landed_axes_;
+  }  ///< of anchors in places
 
   int num_rows(int k) const { return placement_row(k) + placement_.count(k); }
   int placement_row(int k) const { return torque_row(k) + torques_.count(); }  ///< the first about places
   double lower(int k, int row) const;
   double upper(int k, int row) const;
   std::string describe_row(int k, int row) const;
-  /// What a row asks that a task might have otherwise; none of dynamics, landings and forces before opening. Kind, subject, unit,
-  /// si and size are set.
+  /// What a row asks that a task might have otherwise; none of dynamics, landings and forces before opening. Kind,
+  /// subject, unit, si and size are set.
   std::optional<MotionLimit> limit_of_row(const RobotModel& robot, int k, int row) const;
 
   const std::vector<int>& contacts() const { return dynamics_.contacts(); }
@@ -149,7 +152,7 @@ class NodeFunctions {
   Eigen::Matrix<double, Eigen::Dynamic, 3> rotation_;  ///< of rows_jacobian, in the tangent of the rotation
   Eigen::Vector3d rotation_gradient_;                  ///< of the cost, likewise
   Eigen::VectorXd mu_, force_pull_, joints_, rates_;
-  NodeValues unused_;                                  ///< values of hessian()
+  NodeValues unused_;  ///< values of hessian()
   Eigen::VectorXd no_multipliers_;
 };
 

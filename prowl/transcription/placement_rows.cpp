@@ -8,8 +8,8 @@ namespace prowl {
 
 namespace {
 
-/// How long these phases last together, those of free duration the middle of their range [s]: progress of a swing must not
-/// depend on the mesh.
+/// How long these phases last together, those of free duration the middle of their range [s]: progress of a swing must
+/// not depend on the mesh.
 double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
   double time = 0.0;
   for (int p = first_phase; p <= last_phase; ++p) {
@@ -19,9 +19,9 @@ double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
   return time;
 }
 
-/// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at the end of one that does not
-/// land. A contact leaves and lands at rest, so that its height can only begin and end with the square of the time; one that is in the air
-/// from the start may begin as low as the start has it.
+/// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at the end of one that does
+/// not land. A contact leaves and lands at rest, so that its height can only begin and end with the square of the time;
+/// one that is in the air from the start may begin as low as the start has it.
 double clearance_profile(const Swing& swing, double s) {
   if (swing.after < 0) return swing.before < 0 ? 0.0 : s * s;
   return 16.0 * s * s * (1.0 - s) * (1.0 - s);
@@ -31,12 +31,16 @@ double clearance_profile(const Swing& swing, double s) {
 
 PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                              const std::vector<LandingAxes>& landing, int intervals_at_rest)
-    : length_(problem.robot.size()), speed_(std::sqrt(RobotModel::kGravity * length_)),
-      kinematics_({}), at_rest_(Eigen::VectorXd::Zero(problem.robot.nv())), second_(problem.robot.nv()) {
+    : length_(problem.robot.size()),
+      speed_(std::sqrt(RobotModel::kGravity * length_)),
+      kinematics_({}),
+      at_rest_(Eigen::VectorXd::Zero(problem.robot.nv())),
+      second_(problem.robot.nv()) {
   rows_.resize(static_cast<std::size_t>(problem.phases[phase].intervals) + 1);
   add_landing(problem, schedule, phase, landing);
   for (const Swing& swing : schedule.swings()) {
-    if (swing.first_phase <= phase && phase <= swing.last_phase) add_clearance(problem, schedule, phase, swing, intervals_at_rest);
+    if (swing.first_phase <= phase && phase <= swing.last_phase)
+      add_clearance(problem, schedule, phase, swing, intervals_at_rest);
   }
   kinematics_ = ContactKinematics(points_);
 }
@@ -78,8 +82,9 @@ void PlacementRows::add_landing(const MotionProblem& problem, const ContactSched
   }
 }
 
-// Surfaces without an edge are passed during the whole swing. A patch is passed while the foot is near it, and where that
-// is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the second.
+// Surfaces without an edge are passed during the whole swing. A patch is passed while the foot is near it, and where
+// that is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the
+// second.
 void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                                   const Swing& swing, int intervals_at_rest) {
   const double total = time_of(problem, swing.first_phase, swing.last_phase);
@@ -92,9 +97,7 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
   const double at_rest = swing.after < 0 ? 0.0 : intervals_at_rest * last_step;
   const double moving = at_rest < 1.0 ? 1.0 - at_rest : 1.0;
   const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
-  const auto surface_of = [&](int stance) {
-    return stance < 0 ? -1 : schedule.stances()[stance].surface;
-  };
+  const auto surface_of = [&](int stance) { return stance < 0 ? -1 : schedule.stances()[stance].surface; };
   const ContactPoint& contact = problem.robot.contacts()[swing.contact];
   for (int k = 0; k <= intervals; ++k) {
     // The first node of a swing is where it left, the last where it lands; of a switch in between one node is enough.
@@ -110,9 +113,8 @@ void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSch
       if (!passes) continue;
       const double height = problem.swing_clearance * clearance_profile(swing, risen);
       rows_[k].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,
-                                                    surface.normal.dot(surface.point) + contact.radius,
-                                                    height / length_, 1.0 / length_,
-                                                    contact.name + ", clearance above " + surface.name});
+                          surface.normal.dot(surface.point) + contact.radius, height / length_, 1.0 / length_,
+                          contact.name + ", clearance above " + surface.name});
     }
   }
 }
@@ -146,12 +148,8 @@ void PlacementRows::evaluate(int k, const RigidBodyTerms& terms, const Eigen::Ve
       case Kind::velocity:
         value = row.axis.dot(Eigen::Vector3d(kinematics_.jacobian().middleRows<3>(first).lazyProduct(v)));
         break;
-      case Kind::inside:
-        value = row.axis.dot(anchors.segment<3>(3 * row.held)) - row.offset;
-        break;
-      case Kind::clearance:
-        value = row.axis.dot(kinematics_.positions().segment<3>(first)) - row.offset;
-        break;
+      case Kind::inside: value = row.axis.dot(anchors.segment<3>(3 * row.held)) - row.offset; break;
+      case Kind::clearance: value = row.axis.dot(kinematics_.positions().segment<3>(first)) - row.offset; break;
     }
     values(i) = row.scale * value;
   }

@@ -19,12 +19,13 @@ struct LandingAxes {
 /// Constraints of one phase on where contacts are, at node k = 0 ... intervals of it:
 /// - a contact that lands at its first node is at its anchor and at rest:  axis . (p - anchor) = 0,  axis . J v = 0;
 ///   its anchor is inside the patch that it lands on:  inward . (anchor - corner) >= 0 for each edge;
-/// - a contact in the air keeps its clearance of the surfaces that it passes:  normal . (p - point) - radius >= height(k).
-/// Lengths are divided by the size l of the robot, velocities by sqrt(g l).
+/// - a contact in the air keeps its clearance of the surfaces that it passes:  normal . (p - point) - radius >=
+/// height(k). Lengths are divided by the size l of the robot, velocities by sqrt(g l).
 class PlacementRows {
  public:
-  /// `landing`: one for each contact of the phase; of no meaning for those that do not land. `intervals_at_rest`: in which a contact
-  /// that lands is down already; backward Euler, where the velocity at a node is that of the interval before it, needs one.
+  /// `landing`: one for each contact of the phase; of no meaning for those that do not land. `intervals_at_rest`: in
+  /// which a contact that lands is down already; backward Euler, where the velocity at a node is that of the interval
+  /// before it, needs one.
   PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
                 const std::vector<LandingAxes>& landing, int intervals_at_rest = 0);
 
@@ -50,10 +51,10 @@ class PlacementRows {
  private:
   struct Row {
     Kind kind;
-    int point;              ///< place of the contact among the points of kinematics_
-    int held;               ///< place among the contacts of the phase, if it lands
-    Eigen::Vector3d axis;   ///< world
-    double offset;          ///< clearance: normal . point + radius; inside: inward . corner
+    int point;             ///< place of the contact among the points of kinematics_
+    int held;              ///< place among the contacts of the phase, if it lands
+    Eigen::Vector3d axis;  ///< world
+    double offset;         ///< clearance: normal . point + radius; inside: inward . corner
     double lower, scale;
     std::string what;
   };
@@ -69,8 +70,8 @@ class PlacementRows {
   std::vector<std::vector<Row>> rows_;
   ContactKinematics kinematics_;
   Eigen::MatrixXd velocity_dq_;
-  Eigen::VectorXd v_, at_rest_;                 ///< of the last evaluate(), and zeros
-  Eigen::VectorXd on_position_, on_velocity_;   ///< multipliers, one a row of kinematics_
+  Eigen::VectorXd v_, at_rest_;                ///< of the last evaluate(), and zeros
+  Eigen::VectorXd on_position_, on_velocity_;  ///< multipliers, one a row of kinematics_
   SecondDerivatives second_;
 };
 

@@ -30,8 +30,9 @@ double time_of(const BoundaryCondition& condition, const Mesh& mesh) {
 }
 
 VectorXd meet(const BoundaryCondition& condition, const VectorXd& q) {
-  return integrate(condition.q_ref, difference(condition.q_ref, q).cwiseMax(condition.configuration_lower)
-                                       .cwiseMin(condition.configuration_upper));
+  return integrate(
+      condition.q_ref,
+      difference(condition.q_ref, q).cwiseMax(condition.configuration_lower).cwiseMin(condition.configuration_upper));
 }
 
 PosturePath::PosturePath(const MotionProblem& problem, const Mesh& mesh) {

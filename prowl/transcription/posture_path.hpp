@@ -16,8 +16,8 @@ Eigen::VectorXd meet(const BoundaryCondition& condition, const Eigen::VectorXd& 
 /// Time of a boundary condition on the mesh [s].
 double time_of(const BoundaryCondition& condition, const Mesh& mesh);
 
-/// What the boundary conditions alone say about the motion: base and joints, contacts not considered. Each coordinate of
-/// base position and joints has its own waypoints, so that one that is free at a condition goes on to the next; the
+/// What the boundary conditions alone say about the motion: base and joints, contacts not considered. Each coordinate
+/// of base position and joints has its own waypoints, so that one that is free at a condition goes on to the next; the
 /// base's rotation turns from one prescribed rotation to the next about a fixed axis, at rest at both.
 class PosturePath {
  public:

@@ -26,8 +26,8 @@ std::vector<Trajectory> motions_of_phases(const Trajectory& motion, const Motion
       throw InputError(fmt::format("the motion to start from has no interval in phase {}", p + 1));
     }
     for (const TrajectoryPoint& node : phases[p].nodes) {
-      if (node.q.size() == problem.robot.nq() && node.v.size() == problem.robot.nv() && node.a.size() == problem.robot.nv() &&
-          node.tau.size() == problem.robot.nu() &&
+      if (node.q.size() == problem.robot.nq() && node.v.size() == problem.robot.nv() &&
+          node.a.size() == problem.robot.nv() && node.tau.size() == problem.robot.nu() &&
           node.force.size() == 3 * static_cast<Eigen::Index>(problem.robot.contacts().size())) {
         continue;
       }

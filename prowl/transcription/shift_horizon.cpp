@@ -19,19 +19,21 @@ void check_nodes(const MotionProblem& problem, const Trajectory& motion) {
   const Mesh mesh = make_mesh(problem);
   const bool fits = std::ranges::equal(motion.nodes, mesh.nodes, {}, &TrajectoryPoint::phase, &MeshNode::phase);
   if (!fits) {
-    throw InputError(fmt::format("shift_horizon: the motion has {} nodes, the problem's mesh {}, or they are of other phases",
-                                 motion.nodes.size(), mesh.nodes.size()));
+    throw InputError(
+        fmt::format("shift_horizon: the motion has {} nodes, the problem's mesh {}, or they are of other phases",
+                    motion.nodes.size(), mesh.nodes.size()));
   }
 }
 
-/// Both bounds move with the duration; where the shortest one is used up, what the motion has left of the phase is allowed.
+/// Both bounds move with the duration; where the shortest one is used up, what the motion has left of the phase is
+/// allowed.
 Duration longer(const Duration& duration, double by, double planned) {
   if (duration.is_fixed()) return {planned + by, planned + by};
   return {duration.min + by > 0.0 ? duration.min + by : std::min(duration.min, planned + by), duration.max + by};
 }
 
-/// The first interval goes; what comes at the end is as long as the last one. A single phase keeps its length: what goes at its
-/// start comes back at its end.
+/// The first interval goes; what comes at the end is as long as the last one. A single phase keeps its length: what
+/// goes at its start comes back at its end.
 void shift_intervals(std::vector<Phase>& phases) {
   Steps first = steps_with(phases.front(), phases.front().intervals);
   if (phases.size() == 1) {
@@ -64,7 +66,8 @@ void shift_conditions(const MotionProblem& before, const TrajectoryPoint& start,
   }
 }
 
-/// The first stage has no states: what belongs to their bounds is not in its multipliers. Of the rest the next stage knows better.
+/// The first stage has no states: what belongs to their bounds is not in its multipliers. Of the rest the next stage
+/// knows better.
 StageMultipliers first_stage(const StageMultipliers& first, const StageMultipliers& second) {
   const auto later = [](const Eigen::VectorXd& of_first, const Eigen::VectorXd& of_second) {
     return of_first.size() == of_second.size() ? of_second : of_first;

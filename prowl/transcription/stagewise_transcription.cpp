@@ -102,7 +102,8 @@ void StagewiseTranscription::set_variables(int k) {
   stage.unit = units(k)(stage.variables);
   for (int i = 0; i < stage.size.variables(); ++i) {
     const int place = stage.variables[i];
-    if (stage.runs.empty() || place != stage.runs.back().place + stage.runs.back().length) stage.runs.push_back({i, place, 0});
+    if (stage.runs.empty() || place != stage.runs.back().place + stage.runs.back().length)
+      stage.runs.push_back({i, place, 0});
     ++stage.runs.back().length;
   }
 }
@@ -170,8 +171,7 @@ void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, VectorXd& st
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
     state(stage.variables[i]) = ux(static_cast<Index>(i)) * stage.unit(static_cast<Index>(i));
   }
-  arrival.set(flat_.charts_[k], flat_.layout_.nv(),
-              half_time(k, flat_.mesh_node(k).node - 1, state), state);
+  arrival.set(flat_.charts_[k], flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).node - 1, state), state);
 }
 
 void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
@@ -182,8 +182,8 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
   set_arrival(k, ux, work(stage).state, stage.arrival);
   const VectorXd& node = stage.node();
   if (stage.num_next() > 0) {
-    stage.departure.set(flat_.charts_[k], flat_.charts_[k + 1],
-                        flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).node, node), node);
+    stage.departure.set(flat_.charts_[k], flat_.charts_[k + 1], flat_.layout_.nv(),
+                        half_time(k, flat_.mesh_node(k).node, node), node);
   }
   flat_.set_point(k, node, stage.point);
 }
@@ -288,7 +288,8 @@ void StagewiseTranscription::gather(const Stage& stage, const MatrixXd& form, Ma
   }
 }
 
-void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) {
+void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_factor,
+                                       const StageMultipliers& multipliers) {
   move_to(k, ux);
   Stage& stage = this->stage(k);
   Work& work = this->work(stage);
@@ -308,9 +309,8 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   };
   distribute(stage.equalities, multipliers.equalities);
   distribute(stage.inequalities, multipliers.inequalities);
-  flat_.at_node(k, [&] {
-    flat_.functions(k).linearise(stage.point, cost_factor, work.on_rows, work.values, work.form);
-  });
+  flat_.at_node(k,
+                [&] { flat_.functions(k).linearise(stage.point, cost_factor, work.on_rows, work.values, work.form); });
   if (stage.num_next() > 0) {
     work.on_next.setZero(stage.node().size());
     add_on_next(stage, multipliers.next, work.on_next);
@@ -352,9 +352,7 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
   work.form.setZero(size, size);
   if (stage.num_next() > 0) {
     const VectorXd& unit = stage.next_per_unit;
-    const auto place = [&](Index i) {
-      return i < states ? i : Index{stage.carried[i - states]};
-    };
+    const auto place = [&](Index i) { return i < states ? i : Index{stage.carried[i - states]}; };
     for (Index j = 0; j < unit.size(); ++j) {
       for (Index i = 0; i < unit.size(); ++i) work.form(place(i), place(j)) = unit(i) * unit(j) * next_hessian(i, j);
     }
@@ -492,8 +490,6 @@ VectorXd StagewiseTranscription::flat(const std::vector<VectorXd>& stages) const
   return z;
 }
 
-std::string StagewiseTranscription::describe_stage(int k) const {
-  return flat_.describe_place(k);
-}
+std::string StagewiseTranscription::describe_stage(int k) const { return flat_.describe_place(k); }
 
 }  // namespace prowl

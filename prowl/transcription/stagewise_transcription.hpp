@@ -18,11 +18,11 @@ class Transcription;
 ///   states   z, w (half a step before the node's q, v), and what this node and the one before share
 ///   inputs   a, tau, forces w of dependent contacts, and what is shared from this node on (duration, places)
 ///
-/// Left out is what is fixed: the state of the first node, and inputs with equal bounds. Bounds on q and v are rows at the
-/// node; both nodes of a phase switch have the same q and v, so that the first has the rows of both.
+/// Left out is what is fixed: the state of the first node, and inputs with equal bounds. Bounds on q and v are rows at
+/// the node; both nodes of a phase switch have the same q and v, so that the first has the rows of both.
 ///
-/// Stage variables are without a unit: lengths are divided by the size l of the robot, forces by its weight m g, times by
-/// sqrt(l/g). A solver that regularises adds the same number to the curvature in each. (But w is in newtons.)
+/// Stage variables are without a unit: lengths are divided by the size l of the robot, forces by its weight m g, times
+/// by sqrt(l/g). A solver that regularises adds the same number to the curvature in each. (But w is in newtons.)
 class StagewiseTranscription : public StagewiseNlp {
  public:
   /// A view of `flat`, which must outlive it and not move.
@@ -75,14 +75,15 @@ class StagewiseTranscription : public StagewiseNlp {
     struct Run {
       int first, place, length;
     };
-    std::vector<Run> runs;       ///< the same, as ranges without a gap
-    Eigen::VectorXd unit;        ///< of each of those: variable of the node = unit * variable of the stage
-    Eigen::VectorXd fixed;       ///< all variables of the node, with the values of those that are fixed
-    std::vector<int> carried;    ///< shared variables that are states of the next stage: places among the node's
+    std::vector<Run> runs;     ///< the same, as ranges without a gap
+    Eigen::VectorXd unit;      ///< of each of those: variable of the node = unit * variable of the stage
+    Eigen::VectorXd fixed;     ///< all variables of the node, with the values of those that are fixed
+    std::vector<int> carried;  ///< shared variables that are states of the next stage: places among the node's
     // Functions: (rows of the node, as in NodeFunctions | variables of the node with bounds), the last in their units.
     int num_rows = 0;
-    std::vector<int> bounded;                   ///< variables
-    Eigen::VectorXd per_unit, next_per_unit;    ///< 1 / unit of the variables with bounds and of the states of the next stage
+    std::vector<int> bounded;  ///< variables
+    Eigen::VectorXd per_unit,
+        next_per_unit;  ///< 1 / unit of the variables with bounds and of the states of the next stage
     std::vector<int> equalities, inequalities;  ///< places among the functions
     Eigen::VectorXd level;                      ///< equalities: function = level
     Eigen::VectorXd lower, upper;

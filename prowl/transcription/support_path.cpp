@@ -14,7 +14,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kInnerPart = 0.8;  // of a support polygon, shrunk about its centre: the rest is for what the guess misses
+constexpr double kInnerPart =
+    0.8;  // of a support polygon, shrunk about its centre: the rest is for what the guess misses
 
 /// The point of the convex hull of `corners` that is nearest to p (Frank and Wolfe's method, exact enough for a guess).
 Vector2d nearest_in_hull(const std::vector<Vector2d>& corners, const Vector2d& p) {
@@ -53,7 +54,9 @@ class ShiftProblem {
   ShiftProblem(int size, double step, double pendulum) : size_(size), curvature_(pendulum / (step * step)) {}
 
   /// Rows of least squares: weight (sum of coefficient times shift) = weight value.
-  void add_zero_moment_point(int i) { add(i, 1.0, {{i - 1, -curvature_}, {i, 1.0 + 2.0 * curvature_}, {i + 1, -curvature_}}); }
+  void add_zero_moment_point(int i) {
+    add(i, 1.0, {{i - 1, -curvature_}, {i, 1.0 + 2.0 * curvature_}, {i + 1, -curvature_}});
+  }
   void add_effort(int i) { add(-1, kEffort, {{i - 1, -curvature_}, {i, 2.0 * curvature_}, {i + 1, -curvature_}}); }
   void pin(int i) { add(-1, kPin, {{i, 1.0}}); }
   void rest(int i, int j) { add(-1, kPin * curvature_, {{i, 1.0}, {j, -1.0}}); }
@@ -86,7 +89,8 @@ class ShiftProblem {
   static constexpr double kPin = 1e3;     // as good as a condition
 
   void add(int instant, double weight, std::initializer_list<std::pair<int, double>> row) {
-    for (const auto& [column, value] : row) triplets_.emplace_back(static_cast<int>(instants_.size()), column, weight * value);
+    for (const auto& [column, value] : row)
+      triplets_.emplace_back(static_cast<int>(instants_.size()), column, weight * value);
     instants_.push_back(instant);
   }
 
@@ -110,7 +114,8 @@ SupportPath::SupportPath(const MotionProblem& problem, const Mesh& mesh, const P
   const double pendulum = problem.robot.nominal_configuration()(2) / RobotModel::kGravity;
 
   std::vector<std::vector<Vector2d>> polygons;
-  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) polygons.push_back(inner_corners(contacts.held_places(p)));
+  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p)
+    polygons.push_back(inner_corners(contacts.held_places(p)));
   ShiftProblem shifts(last + 1, step, pendulum);
   Eigen::MatrixX2d com(last + 1, 2);
   const VectorXd rest = VectorXd::Zero(problem.robot.nv());
@@ -142,7 +147,8 @@ SupportPath::SupportPath(const MotionProblem& problem, const Mesh& mesh, const P
     Eigen::MatrixX2d wanted = Eigen::MatrixX2d::Zero(last + 1, 2);
     for (int i = 1; i < last; ++i) {
       const auto& polygon = polygons[phase_at[i]];
-      if (!polygon.empty()) wanted.row(i) = nearest_in_hull(polygon, zmp.row(i).transpose()).transpose() - nominal.row(i);
+      if (!polygon.empty())
+        wanted.row(i) = nearest_in_hull(polygon, zmp.row(i).transpose()).transpose() - nominal.row(i);
     }
     shift = shifts.solve(wanted);
   }
@@ -150,7 +156,8 @@ SupportPath::SupportPath(const MotionProblem& problem, const Mesh& mesh, const P
     std::vector<Waypoint> waypoints;
     for (int i = 0; i <= last; ++i) {
       const int before = std::max(i - 1, 0), after = std::min(i + 1, last);
-      waypoints.push_back({i * step, shift(i, axis), (shift(after, axis) - shift(before, axis)) / ((after - before) * step)});
+      waypoints.push_back(
+          {i * step, shift(i, axis), (shift(after, axis) - shift(before, axis)) / ((after - before) * step)});
     }
     curves_.emplace_back(waypoints);
   }

@@ -26,9 +26,8 @@ void TorqueRows::evaluate(const Vector& joints, const Vector& rates, const Vecto
   }
 }
 
-void TorqueRows::derivatives(const Vector& joints, const Vector& rates,
-                             Eigen::Ref<Eigen::MatrixXd> d_joints, Eigen::Ref<Eigen::MatrixXd> d_rates,
-                             Eigen::Ref<Eigen::MatrixXd> d_tau) const {
+void TorqueRows::derivatives(const Vector& joints, const Vector& rates, Eigen::Ref<Eigen::MatrixXd> d_joints,
+                             Eigen::Ref<Eigen::MatrixXd> d_rates, Eigen::Ref<Eigen::MatrixXd> d_tau) const {
   d_joints.setZero();
   d_rates.setZero();
   d_tau.setZero();
@@ -45,13 +44,14 @@ void TorqueRows::derivatives(const Vector& joints, const Vector& rates,
   }
 }
 
-void TorqueRows::add_hessian(const Vector& joints, const Vector& rates,
-                             const Vector& multipliers, Eigen::Ref<Eigen::VectorXd> joints_diagonal,
+void TorqueRows::add_hessian(const Vector& joints, const Vector& rates, const Vector& multipliers,
+                             Eigen::Ref<Eigen::VectorXd> joints_diagonal,
                              Eigen::Ref<Eigen::VectorXd> rates_diagonal) const {
   for (int row = 0; row < count(); ++row) {
     const RobotModel::TorqueCurve& limit = curves_[row / 2];
     const double curvature = limit.curve.curvature(argument(limit, row % 2, joints, rates));
-    (limit.over_velocity ? rates_diagonal : joints_diagonal)(limit.joint) += multipliers(row) * scale_(row / 2) * curvature;
+    (limit.over_velocity ? rates_diagonal : joints_diagonal)(limit.joint) +=
+        multipliers(row) * scale_(row / 2) * curvature;
   }
 }
 

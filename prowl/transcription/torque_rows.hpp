@@ -20,11 +20,12 @@ class TorqueRows {
   int count() const { return 2 * static_cast<int>(curves_.size()); }
   std::string describe(int row) const;
   int joint(int row) const { return curves_[row / 2].joint; }
-  double largest(int row) const { return 1.0 / scale_(row / 2); }  ///< torque of the curve's table, which rows are divided by [N m]
+  double largest(int row) const {
+    return 1.0 / scale_(row / 2);
+  }  ///< torque of the curve's table, which rows are divided by [N m]
 
   /// joints, rates, tau: nu each.
-  void evaluate(const Vector& joints, const Vector& rates, const Vector& tau,
-                Eigen::Ref<Eigen::VectorXd> values) const;
+  void evaluate(const Vector& joints, const Vector& rates, const Vector& tau, Eigen::Ref<Eigen::VectorXd> values) const;
   /// Derivatives in (joints, rates, tau). Set whole.
   void derivatives(const Vector& joints, const Vector& rates, Eigen::Ref<Eigen::MatrixXd> d_joints,
                    Eigen::Ref<Eigen::MatrixXd> d_rates, Eigen::Ref<Eigen::MatrixXd> d_tau) const;
@@ -34,8 +35,7 @@ class TorqueRows {
 
  private:
   /// Where row 0 or 1 of a curve reads it.
-  static double argument(const RobotModel::TorqueCurve& limit, int side, const Vector& joints,
-                         const Vector& rates) {
+  static double argument(const RobotModel::TorqueCurve& limit, int side, const Vector& joints, const Vector& rates) {
     return limit.over_velocity ? (side == 0 ? rates(limit.joint) : -rates(limit.joint)) : joints(limit.joint);
   }
 

@@ -172,8 +172,7 @@ void Transcription::set_point(int k, const VectorXd& node, NodePoint& point) con
 
 IntervalEnd Transcription::interval_end(const VectorXd& z, int k) const {
   const int nv = layout_.nv();
-  return {charts_[k], z.segment(layout_.q(k), nv), z.segment(layout_.v(k), nv),
-          z.segment(layout_.a(k), nv)};
+  return {charts_[k], z.segment(layout_.q(k), nv), z.segment(layout_.v(k), nv), z.segment(layout_.a(k), nv)};
 }
 
 IntervalDefects Transcription::interval(const VectorXd& z, int k) const {
@@ -228,12 +227,11 @@ void Transcription::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
 
 int Transcription::column(int k, int j) const {
   const int own = layout_.node_size(k);
-  return j < own ? layout_.node(k) + j
-                 : shared_[phase_of(k)][j - own];
+  return j < own ? layout_.node(k) + j : shared_[phase_of(k)][j - own];
 }
 
-/// Calls emit(row, col, value) for each non-zero of the Jacobian, always in the same order. Without derivatives (z empty)
-/// the values mean nothing and only the places count.
+/// Calls emit(row, col, value) for each non-zero of the Jacobian, always in the same order. Without derivatives (z
+/// empty) the values mean nothing and only the places count.
 template <class Emit>
 void Transcription::visit_jacobian(const VectorXd& z, Emit emit) const {
   const int nv = layout_.nv(), nu = layout_.nu();
@@ -305,7 +303,8 @@ void Transcription::set_patterns() {
   };
   visit_jacobian(VectorXd(), add(jacobian_pattern_));
   std::vector<MatrixXd> nodes;
-  for (int k = 0; k < layout_.num_nodes(); ++k) nodes.emplace_back(functions(k).num_columns(), functions(k).num_columns());
+  for (int k = 0; k < layout_.num_nodes(); ++k)
+    nodes.emplace_back(functions(k).num_columns(), functions(k).num_columns());
   const std::vector<Eigen::Matrix<double, 6, 6>> links(static_cast<std::size_t>(layout_.num_links()));
   const int num_shared = num_variables() - layout_.first_shared();
   visit_hessian(nodes, links, MatrixXd(num_shared, num_shared), add(hessian_pattern_));
@@ -398,8 +397,7 @@ VectorXd Transcription::pack(const Trajectory& trajectory) const {
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const TrajectoryPoint& point = trajectory.nodes[k];
     z.segment<3>(layout_.q(k)) = base_position(point.q);
-    z.segment<3>(layout_.q(k) + 3) =
-        so3::log(charts_[k].transpose() * base_rotation(point.q));
+    z.segment<3>(layout_.q(k) + 3) = so3::log(charts_[k].transpose() * base_rotation(point.q));
     z.segment(layout_.q(k) + 6, layout_.nu()) = point.q.tail(layout_.nu());
     z.segment(layout_.v(k), layout_.nv()) = point.v;
     z.segment(layout_.a(k), layout_.nv()) = point.a;
@@ -413,8 +411,7 @@ VectorXd Transcription::pack(const Trajectory& trajectory) const {
   for (int p = 0; p < static_cast<int>(problem_.phases.size()); ++p) {
     if (layout_.duration(p) < 0) continue;
     const int last = problem_.phases[p].intervals;
-    z(layout_.duration(p)) = trajectory.nodes[mesh_.index({p, last})].time -
-                             trajectory.nodes[mesh_.index({p, 0})].time;
+    z(layout_.duration(p)) = trajectory.nodes[mesh_.index({p, last})].time - trajectory.nodes[mesh_.index({p, 0})].time;
   }
   RigidBodyTerms terms(problem_.robot);
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
@@ -441,15 +438,15 @@ Trajectory Transcription::unpack(const VectorXd& z) {
     point.phase = node.phase;
     point.q = std::move(from.q);
     // Of the two quaternions of a rotation the one that goes on without a jump.
-    if (k > 0 && point.q.segment<4>(3).dot(trajectory.nodes.back().q.segment<4>(3)) < 0.0) point.q.segment<4>(3) *= -1.0;
+    if (k > 0 && point.q.segment<4>(3).dot(trajectory.nodes.back().q.segment<4>(3)) < 0.0)
+      point.q.segment<4>(3) *= -1.0;
     point.v = std::move(from.v);
     point.a = std::move(from.a);
     point.tau = std::move(from.tau);
     point.force.setZero(3 * static_cast<Index>(problem_.robot.contacts().size()));
     const std::vector<int>& contacts = functions(k).contacts();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      point.force.segment<3>(3 * contacts[i]) =
-          values_[k].forces.segment<3>(static_cast<Index>(3 * i));
+      point.force.segment<3>(3 * contacts[i]) = values_[k].forces.segment<3>(static_cast<Index>(3 * i));
     }
     trajectory.nodes.push_back(std::move(point));
   }

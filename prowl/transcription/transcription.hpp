@@ -46,8 +46,8 @@ class Transcription : public MotionNlp {
   void hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
                Eigen::Ref<Eigen::VectorXd> values) override;
 
-  /// All that a task might have otherwise, but for durations: friction, torques, positions and velocities of joints, goals,
-  /// places and clearance. The start is none, and no bound that is not there.
+  /// All that a task might have otherwise, but for durations: friction, torques, positions and velocities of joints,
+  /// goals, places and clearance. The start is none, and no bound that is not there.
   std::vector<MotionLimit> limits() const;
 
   std::string describe_constraint(int row) const override;
@@ -63,9 +63,7 @@ class Transcription : public MotionNlp {
   int phase_of(int k) const { return mesh_node(k).phase; }
   const NodeFunctions& functions(int k) const { return phases_.front()[phase_of(k)]; }
   /// Those of the calling thread.
-  NodeFunctions& functions(int k) {
-    return phases_[ThreadTeam::slot()][phase_of(k)];
-  }
+  NodeFunctions& functions(int k) { return phases_[ThreadTeam::slot()][phase_of(k)]; }
   /// Whether nodes k and k + 1 are the ends of an interval; else they are a phase switch.
   bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
   double duration(const Eigen::VectorXd& z, int phase) const;
@@ -103,13 +101,14 @@ class Transcription : public MotionNlp {
   MotionProblem problem_;
   ContactSchedule schedule_;
   Mesh mesh_;
-  std::vector<PhaseContacts> contacts_;          ///< of each phase
+  std::vector<PhaseContacts> contacts_;             ///< of each phase
   std::vector<std::vector<NodeFunctions>> phases_;  ///< what holds at a node: for each thread, one a phase
-  std::vector<std::vector<int>> shared_;         ///< decision variables that the nodes of a phase share
-  std::vector<Eigen::VectorXd> anchor_origins_;  ///< anchors of each phase's contacts where the places are zero
+  std::vector<std::vector<int>> shared_;            ///< decision variables that the nodes of a phase share
+  std::vector<Eigen::VectorXd> anchor_origins_;     ///< anchors of each phase's contacts where the places are zero
   DecisionLayout layout_;
-  std::vector<Eigen::Matrix3d> charts_;          ///< one a node
-  std::vector<std::pair<int, int>> shared_pairs_;  ///< of shared variables (row >= column, from first_shared) in one phase
+  std::vector<Eigen::Matrix3d> charts_;  ///< one a node
+  std::vector<std::pair<int, int>>
+      shared_pairs_;  ///< of shared variables (row >= column, from first_shared) in one phase
 
   // What was evaluated last, and where.
   Eigen::VectorXd evaluated_at_;

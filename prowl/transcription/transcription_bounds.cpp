@@ -40,8 +40,10 @@ void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, co
     constexpr double kRounding = 1e-9;
     if (lo > up && lo <= up + kRounding) lo = up = std::clamp(lower(i), limit_lower, limit_upper);
     if (lo > up) {
-      throw InputError(fmt::format("{}: asks for a value between {:.6g} and {:.6g}, which the robot's limits or another "
-                                   "condition at the same time exclude (entry {})", what, lower(i), upper(i), i));
+      throw InputError(
+          fmt::format("{}: asks for a value between {:.6g} and {:.6g}, which the robot's limits or another "
+                      "condition at the same time exclude (entry {})",
+                      what, lower(i), upper(i), i));
     }
   }
 }

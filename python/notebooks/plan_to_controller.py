@@ -60,9 +60,13 @@ def run(control, until: float) -> np.ndarray:
         v = v + step * dynamics.forward(q, v, control(t, q, v)).value
         tangent = step * v
         x, y, z, w = q[3:7]
-        turn = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+        turn = np.array(
+            [
+                [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+            ]
+        )
         tangent[:3] = turn @ tangent[:3]  # v is in the base frame, a displacement in the world
         q = prowl.integrate(q, tangent)
     return np.array(distance)
@@ -70,8 +74,10 @@ def run(control, until: float) -> np.ndarray:
 
 open_loop = run(lambda t, q, v: tracker.feedforward(t), until=0.6)
 closed_loop = run(tracker.torque, until=2.0)
-print(f"off by {100 * closed_loop[0]:.1f} cm at the start; after 0.6 s {100 * open_loop[-1]:.1f} cm in open loop and "
-      f"{100 * closed_loop[600]:.2f} cm in closed loop; {1000 * closed_loop[-1]:.2f} mm at the end")
+print(
+    f"off by {100 * closed_loop[0]:.1f} cm at the start; after 0.6 s {100 * open_loop[-1]:.1f} cm in open loop and "
+    f"{100 * closed_loop[600]:.2f} cm in closed loop; {1000 * closed_loop[-1]:.2f} mm at the end"
+)
 assert open_loop[-1] > 2 * open_loop[0] and closed_loop[600] < 0.2 * closed_loop[0] and closed_loop[-1] < 1e-3
 
 # %% [markdown]
@@ -101,5 +107,7 @@ np.testing.assert_array_equal(on_robot.torque(0.5, q, v), tracker.torque(0.5, q,
 begin, calls = time.perf_counter(), 2000
 for _ in range(calls):
     on_robot.torque(0.5, q, v)
-print(f"phase '{on_robot.phase(0.5)}', contacts {on_robot.contacts(0.5)}; "
-      f"{1e6 * (time.perf_counter() - begin) / calls:.1f} us a call from Python")
+print(
+    f"phase '{on_robot.phase(0.5)}', contacts {on_robot.contacts(0.5)}; "
+    f"{1e6 * (time.perf_counter() - begin) / calls:.1f} us a call from Python"
+)

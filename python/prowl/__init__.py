@@ -16,7 +16,9 @@ v has the base twist in the base frame [m/s, rad/s], then the joint rates. SI un
 import importlib.util as _util
 
 if _util.find_spec("prowl._prowl") is None:
-    raise ImportError(f"prowl: its compiled part is not in {__path__[0]}: scripts/setup builds it, or install the wheel")
+    raise ImportError(
+        f"prowl: its compiled part is not in {__path__[0]}: scripts/setup builds it, or install the wheel"
+    )
 
 from . import _notebook
 from ._files import parse_robot, parse_task, read_robot, read_task, shipped_robots, shipped_tasks
@@ -59,8 +61,42 @@ _notebook.show_as_tables()
 del _notebook
 
 __all__ = [
-    "Certificate", "Check", "Contact", "Derivatives", "Diagnosis", "Dynamics", "Error", "ErrorMeasure", "Evaluation", "FileError",
-    "InputError", "Interrupted", "JudgedPoint", "Motion", "NumericalError", "Phase", "Plan", "Program", "Progress", "Robot", "Simulation", "Task", "Tracker",
-    "__version__", "diagnose", "difference", "integrate", "parse_robot", "parse_task", "read_plan", "read_robot", "read_task",
-    "shipped_robots", "shipped_tasks", "simulate", "solve", "solver_names", "versions",
+    "Certificate",
+    "Check",
+    "Contact",
+    "Derivatives",
+    "Diagnosis",
+    "Dynamics",
+    "Error",
+    "ErrorMeasure",
+    "Evaluation",
+    "FileError",
+    "InputError",
+    "Interrupted",
+    "JudgedPoint",
+    "Motion",
+    "NumericalError",
+    "Phase",
+    "Plan",
+    "Program",
+    "Progress",
+    "Robot",
+    "Simulation",
+    "Task",
+    "Tracker",
+    "__version__",
+    "diagnose",
+    "difference",
+    "integrate",
+    "parse_robot",
+    "parse_task",
+    "read_plan",
+    "read_robot",
+    "read_task",
+    "shipped_robots",
+    "shipped_tasks",
+    "simulate",
+    "solve",
+    "solver_names",
+    "versions",
 ]

@@ -120,14 +120,14 @@ def _blocks(pattern: tuple[np.ndarray, np.ndarray], num_rows: int) -> tuple[np.n
     blocks: list[_Block] = []
     first, known = 0, np.array([], dtype=columns.dtype)
     for row in range(num_rows + 1):
-        union = np.union1d(known, columns[ends[row]:ends[row + 1]]) if row < num_rows else known
+        union = np.union1d(known, columns[ends[row] : ends[row + 1]]) if row < num_rows else known
         if row > first and (row == num_rows or union.size > _WIDEST_BLOCK):
             places = slice(ends[first], ends[row])
             at = (rows[places] - first, np.searchsorted(known, columns[places]))
             blocks.append(_Block(range(first, row), known, places, at))
             if row == num_rows:
                 break
-            first, union = row, np.unique(columns[ends[row]:ends[row + 1]])
+            first, union = row, np.unique(columns[ends[row] : ends[row + 1]])
         known = union
     return order, blocks
 
@@ -135,8 +135,13 @@ def _blocks(pattern: tuple[np.ndarray, np.ndarray], num_rows: int) -> tuple[np.n
 class _Watched:
     """The program as Drake's functions see it: evaluated once a point, when Drake tells of the whole of it."""
 
-    def __init__(self, program: Program, tolerance: float, max_seconds: float,
-                 on_evaluation: Callable[[int, float, float], None] | None) -> None:
+    def __init__(
+        self,
+        program: Program,
+        tolerance: float,
+        max_seconds: float,
+        on_evaluation: Callable[[int, float, float], None] | None,
+    ) -> None:
         self.program, self.tolerance, self.on_evaluation = program, tolerance, on_evaluation
         self.end = time.perf_counter() + max_seconds
         self.order, self.blocks = _blocks(program.pattern, program.row_lower.size)
@@ -151,7 +156,12 @@ class _Watched:
                 raise Stop("time_limit", "time limit reached")
             self.z = z.copy()
             now = self.program.evaluate(self.z)
-            self.cost, self.gradient, self.rows, self.jacobian = now.cost, now.gradient, now.rows, now.jacobian[self.order]
+            self.cost, self.gradient, self.rows, self.jacobian = (
+                now.cost,
+                now.gradient,
+                now.rows,
+                now.jacobian[self.order],
+            )
             self.count += 1
             worst = violation(self.program, z, now.rows)
             rank = (max(worst, self.tolerance), now.cost if worst <= self.tolerance else 0.0)
@@ -194,7 +204,9 @@ def _add(program: Any, z: np.ndarray, watched: _Watched) -> None:
             return InitializeAutoDiff(watched.rows[rows], gradient).ravel()
 
         bounds = watched.program
-        binding = program.AddConstraint(constraint, lb=bounds.row_lower[rows], ub=bounds.row_upper[rows], vars=z[block.columns])
+        binding = program.AddConstraint(
+            constraint, lb=bounds.row_lower[rows], ub=bounds.row_upper[rows], vars=z[block.columns]
+        )
         binding.evaluator().SetGradientSparsityPattern(list(zip(*(index.tolist() for index in block.at), strict=True)))
 
     for first in range(0, z.size, _WIDEST_BLOCK):
@@ -203,8 +215,9 @@ def _add(program: Any, z: np.ndarray, watched: _Watched) -> None:
         add_rows(block)
 
 
-def _options(program: Program, tolerance: float, max_iterations: int, print_file: str,
-             others: Mapping[str, int | float | str]) -> dict[str, int | float | str]:
+def _options(
+    program: Program, tolerance: float, max_iterations: int, print_file: str, others: Mapping[str, int | float | str]
+) -> dict[str, int | float | str]:
     return {
         # SNOPT takes a row for met within this times |z|, and Prowl's tolerance is on the row itself.
         "Major feasibility tolerance": tolerance / max(1.0, float(np.linalg.norm(program.start))),
@@ -225,9 +238,15 @@ def _iterations(summary: str) -> int:
     return int(found[1]) if found else 0
 
 
-def minimise(program: Program, *, tolerance: float, max_iterations: int, max_seconds: float,
-             options: Mapping[str, int | float | str] | None = None,
-             on_evaluation: Callable[[int, float, float], None] | None = None) -> Outcome:
+def minimise(
+    program: Program,
+    *,
+    tolerance: float,
+    max_iterations: int,
+    max_seconds: float,
+    options: Mapping[str, int | float | str] | None = None,
+    on_evaluation: Callable[[int, float, float], None] | None = None,
+) -> Outcome:
     """Raises ImportError if there is no pydrake, and what an evaluation raises, but for Stop and ArithmeticError."""
     from pydrake.solvers import MathematicalProgram, SnoptSolver, SolverOptions
 
@@ -239,9 +258,20 @@ def minimise(program: Program, *, tolerance: float, max_iterations: int, max_sec
     _add(drake, z, watched)
     drake.AddVisualizationCallback(watched.visit, z)  # called with each point before all else is evaluated there
 
-    def outcome(status: str, message: str, z: np.ndarray, info: int = 0, multipliers: np.ndarray | None = None) -> Outcome:
-        return Outcome(status, message, z, info, _iterations(summary), watched.count, time.perf_counter() - begin, summary,
-                       multipliers)
+    def outcome(
+        status: str, message: str, z: np.ndarray, info: int = 0, multipliers: np.ndarray | None = None
+    ) -> Outcome:
+        return Outcome(
+            status,
+            message,
+            z,
+            info,
+            _iterations(summary),
+            watched.count,
+            time.perf_counter() - begin,
+            summary,
+            multipliers,
+        )
 
     summary = ""
     with tempfile.TemporaryDirectory() as folder:
@@ -271,4 +301,6 @@ def minimise(program: Program, *, tolerance: float, max_iterations: int, max_sec
     message = f"{message} (SNOPT INFO {details.info})"
     if status not in ("converged", "infeasible"):
         return outcome(status, message, watched.best, details.info)
-    return outcome(status, message, result.GetSolution(z), details.info, -details.Fmul[1:])  # SNOPT's are those of f - pi . rows
+    return outcome(
+        status, message, result.GetSolution(z), details.info, -details.Fmul[1:]
+    )  # SNOPT's are those of f - pi . rows

@@ -49,7 +49,9 @@ def _remedy(path: Path) -> Iterator[None]:
     except _prowl.InputError as error:
         if _SHARE not in path.parents or "package://example-robot-data" not in str(error):
             raise
-        raise _prowl.InputError(f"{path}: the URDF of its robot comes with another package: pip install {_ROBOTS}") from error
+        raise _prowl.InputError(
+            f"{path}: the URDF of its robot comes with another package: pip install {_ROBOTS}"
+        ) from error
 
 
 def _folders(package_dirs: Sequence[str | os.PathLike[str]]) -> list[str]:
@@ -75,8 +77,12 @@ def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os
         return _prowl.read_robot(path, _folders(package_dirs))
 
 
-def parse_robot(document: str | Mapping[str, Any], *, folder: str | os.PathLike[str] = ".",
-                package_dirs: Sequence[str | os.PathLike[str]] = ()) -> _prowl.Robot:
+def parse_robot(
+    document: str | Mapping[str, Any],
+    *,
+    folder: str | os.PathLike[str] = ".",
+    package_dirs: Sequence[str | os.PathLike[str]] = (),
+) -> _prowl.Robot:
     """A robot from the text of a robot file, or from a dict of the same keys. Paths in it are relative to `folder`.
 
     Messages call it FOLDER/robot.toml, with the lines of the text; of a dict, of the text that it makes: look at the key.
@@ -84,9 +90,15 @@ def parse_robot(document: str | Mapping[str, Any], *, folder: str | os.PathLike[
     return _prowl.parse_robot(_toml(document), Path(folder) / "robot.toml", _folders(package_dirs))
 
 
-def read_task(task: str | os.PathLike[str], *, package_dirs: Sequence[str | os.PathLike[str]] = (),
-              intervals: int | None = None, max_iterations: int | None = None, max_time: float | None = None,
-              tolerance: float | None = None) -> _prowl.Task:
+def read_task(
+    task: str | os.PathLike[str],
+    *,
+    package_dirs: Sequence[str | os.PathLike[str]] = (),
+    intervals: int | None = None,
+    max_iterations: int | None = None,
+    max_time: float | None = None,
+    tolerance: float | None = None,
+) -> _prowl.Task:
     """Reads a task file (docs/task-file.md), or a task that comes with Prowl by its name: read_task("hyq/crouch").
 
     intervals, max_iterations, max_time [s] and tolerance take the place of the file's; intervals are those of all phases
@@ -95,19 +107,38 @@ def read_task(task: str | os.PathLike[str], *, package_dirs: Sequence[str | os.P
     """
     path = _find(task, shipped_tasks(), "tasks")
     with _remedy(path):
-        return _prowl.read_task(path, package_dirs=_folders(package_dirs), intervals=intervals,
-                                max_iterations=max_iterations, max_time=max_time, tolerance=tolerance)
+        return _prowl.read_task(
+            path,
+            package_dirs=_folders(package_dirs),
+            intervals=intervals,
+            max_iterations=max_iterations,
+            max_time=max_time,
+            tolerance=tolerance,
+        )
 
 
-def parse_task(document: str | Mapping[str, Any], *, folder: str | os.PathLike[str] = ".",
-               package_dirs: Sequence[str | os.PathLike[str]] = (), intervals: int | None = None,
-               max_iterations: int | None = None, max_time: float | None = None,
-               tolerance: float | None = None) -> _prowl.Task:
+def parse_task(
+    document: str | Mapping[str, Any],
+    *,
+    folder: str | os.PathLike[str] = ".",
+    package_dirs: Sequence[str | os.PathLike[str]] = (),
+    intervals: int | None = None,
+    max_iterations: int | None = None,
+    max_time: float | None = None,
+    tolerance: float | None = None,
+) -> _prowl.Task:
     """A task from the text of a task file, or from a dict of the same keys, as tomllib.loads(task.text) gives it.
 
     The robot file that it names is relative to `folder`: task.path.parent for a task that was changed. The other
     arguments are those of read_task(). Messages call it FOLDER/task.toml, with the lines of the text; of a dict, of the
     text that it makes: look at the key.
     """
-    return _prowl.parse_task(_toml(document), Path(folder) / "task.toml", package_dirs=_folders(package_dirs),
-                             intervals=intervals, max_iterations=max_iterations, max_time=max_time, tolerance=tolerance)
+    return _prowl.parse_task(
+        _toml(document),
+        Path(folder) / "task.toml",
+        package_dirs=_folders(package_dirs),
+        intervals=intervals,
+        max_iterations=max_iterations,
+        max_time=max_time,
+        tolerance=tolerance,
+    )

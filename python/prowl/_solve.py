@@ -19,7 +19,9 @@ class _Bar:
 
     def __call__(self, progress: _prowl.Progress) -> None:
         self._bar.set_description(f"{self._name}, {progress.intervals} intervals", refresh=False)
-        self._bar.set_postfix_str(f"cost {progress.cost:.4g}, violation {progress.constraint_violation:.1e}", refresh=False)
+        self._bar.set_postfix_str(
+            f"cost {progress.cost:.4g}, violation {progress.constraint_violation:.1e}", refresh=False
+        )
         self._bar.update()
 
     def close(self) -> None:
@@ -37,9 +39,17 @@ def _can_show() -> bool:
     return True
 
 
-def solve(task: _prowl.Task, *, solver: str = "riccati", threads: int = 1, coarse_first: bool = True,
-          start_from: _prowl.Plan | None = None, gains: bool = True, progress: bool | None = None,
-          on_iteration: Callable[[_prowl.Progress], object] | None = None) -> _prowl.Plan:
+def solve(
+    task: _prowl.Task,
+    *,
+    solver: str = "riccati",
+    threads: int = 1,
+    coarse_first: bool = True,
+    start_from: _prowl.Plan | None = None,
+    gains: bool = True,
+    progress: bool | None = None,
+    on_iteration: Callable[[_prowl.Progress], object] | None = None,
+) -> _prowl.Plan:
     """Plans the motion of a task and checks it.
 
     solver: one of solver_names(). threads: that evaluate the problem; the result is the same. coarse_first: coarser
@@ -52,8 +62,15 @@ def solve(task: _prowl.Task, *, solver: str = "riccati", threads: int = 1, coars
     """
     show = _can_show() if progress is None else progress
     if not show:
-        return _prowl.solve(task, solver=solver, threads=threads, coarse_first=coarse_first, start_from=start_from,
-                            gains=gains, on_iteration=on_iteration)
+        return _prowl.solve(
+            task,
+            solver=solver,
+            threads=threads,
+            coarse_first=coarse_first,
+            start_from=start_from,
+            gains=gains,
+            on_iteration=on_iteration,
+        )
     try:
         bar = _Bar(task.name)
     except ImportError as error:
@@ -65,7 +82,14 @@ def solve(task: _prowl.Task, *, solver: str = "riccati", threads: int = 1, coars
             on_iteration(iteration)
 
     try:
-        return _prowl.solve(task, solver=solver, threads=threads, coarse_first=coarse_first, start_from=start_from,
-                            gains=gains, on_iteration=both)
+        return _prowl.solve(
+            task,
+            solver=solver,
+            threads=threads,
+            coarse_first=coarse_first,
+            start_from=start_from,
+            gains=gains,
+            on_iteration=both,
+        )
     finally:
         bar.close()

@@ -29,12 +29,21 @@ class Result:
     evaluations: int  #: of the program with its derivatives
     seconds: float
     summary: str  #: what SNOPT prints: one line a major iteration
-    multipliers: np.ndarray | None  #: of the constraints, in cost + multipliers . constraints; None unless SNOPT finished
+    multipliers: (
+        np.ndarray | None
+    )  #: of the constraints, in cost + multipliers . constraints; None unless SNOPT finished
 
 
-def solve(program: _prowl.Program, *, start: np.ndarray | None = None, tolerance: float = 1e-6, max_iterations: int = 1000,
-          max_seconds: float = 300.0, options: Mapping[str, int | float | str] | None = None,
-          on_evaluation: Callable[[int, float, float], object] | None = None) -> Result:
+def solve(
+    program: _prowl.Program,
+    *,
+    start: np.ndarray | None = None,
+    tolerance: float = 1e-6,
+    max_iterations: int = 1000,
+    max_seconds: float = 300.0,
+    options: Mapping[str, int | float | str] | None = None,
+    on_evaluation: Callable[[int, float, float], object] | None = None,
+) -> Result:
     """Solves a program with exact, sparse first derivatives.
 
     start: program.start if None. tolerance: on optimality, as SNOPT measures it, and on constraint violation. max_iterations:
@@ -52,18 +61,44 @@ def solve(program: _prowl.Program, *, start: np.ndarray | None = None, tolerance
         raise _prowl.InputError(f"tolerance: {tolerance} is not allowed; need a number between 0 and 1")
 
     def evaluate(z: np.ndarray) -> _drake_snopt.Evaluation:
-        return _drake_snopt.Evaluation(program.cost(z), program.cost_gradient(z), program.constraints(z), program.jacobian(z))
+        return _drake_snopt.Evaluation(
+            program.cost(z), program.cost_gradient(z), program.constraints(z), program.jacobian(z)
+        )
 
-    problem = _drake_snopt.Program(z, program.variable_lower, program.variable_upper, program.constraint_lower,
-                                   program.constraint_upper, program.jacobian_pattern, evaluate)
+    problem = _drake_snopt.Program(
+        z,
+        program.variable_lower,
+        program.variable_upper,
+        program.constraint_lower,
+        program.constraint_upper,
+        program.jacobian_pattern,
+        evaluate,
+    )
     try:
-        found = _drake_snopt.minimise(problem, tolerance=tolerance, max_iterations=max_iterations, max_seconds=max_seconds,
-                                      options=options, on_evaluation=on_evaluation)
+        found = _drake_snopt.minimise(
+            problem,
+            tolerance=tolerance,
+            max_iterations=max_iterations,
+            max_seconds=max_seconds,
+            options=options,
+            on_evaluation=on_evaluation,
+        )
     except ModuleNotFoundError as error:
         if error.name is None or not error.name.startswith("pydrake"):
             raise
-        raise _prowl.InputError(f"SNOPT comes with Drake, which is not installed: pip install {_drake_snopt.DRAKE}") from error
+        raise _prowl.InputError(
+            f"SNOPT comes with Drake, which is not installed: pip install {_drake_snopt.DRAKE}"
+        ) from error
     if found.status == "converged" and not program.judge(found.z).constraint_violation <= tolerance:
         found.status, found.message = "solver_failed", f"{found.message}, but a constraint is not within tolerance"
-    return Result(found.z, found.status, found.message, found.info, found.iterations, found.evaluations, found.seconds,
-                  found.summary, found.multipliers)
+    return Result(
+        found.z,
+        found.status,
+        found.message,
+        found.info,
+        found.iterations,
+        found.evaluations,
+        found.seconds,
+        found.summary,
+        found.multipliers,
+    )

@@ -41,10 +41,11 @@ inline Block contacts_view(const RowMatrix& rows, nb::handle owner) {
 
 /// The vector of every point, as rows.
 template <class Point>
-RowMatrix rows_of(const std::vector<Point>& points, Eigen::VectorXd Point::*vector) {
+RowMatrix rows_of(const std::vector<Point>& points, Eigen::VectorXd Point::* vector) {
   if (points.empty()) return {};
   RowMatrix rows(static_cast<Eigen::Index>(points.size()), (points.front().*vector).size());
-  for (std::size_t k = 0; k < points.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = (points[k].*vector).transpose();
+  for (std::size_t k = 0; k < points.size(); ++k)
+    rows.row(static_cast<Eigen::Index>(k)) = (points[k].*vector).transpose();
   return rows;
 }
 

@@ -17,10 +17,12 @@ using Argument = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 class Batch {
  public:
   Batch(const Argument& array, Eigen::Index width, const char* name)
-      : single_(array.ndim() == 1), rows_(array.ndim() == 2 ? static_cast<Eigen::Index>(array.shape(0)) : 1), width_(width),
+      : single_(array.ndim() == 1),
+        rows_(array.ndim() == 2 ? static_cast<Eigen::Index>(array.shape(0)) : 1),
+        width_(width),
         data_(array.data()) {
-    const bool fits = (array.ndim() == 1 || array.ndim() == 2) &&
-                      static_cast<Eigen::Index>(array.shape(array.ndim() - 1)) == width;
+    const bool fits =
+        (array.ndim() == 1 || array.ndim() == 2) && static_cast<Eigen::Index>(array.shape(array.ndim() - 1)) == width;
     if (fits) return;
     std::string shape;
     for (std::size_t i = 0; i < array.ndim(); ++i) shape += fmt::format("{}{}", i ? ", " : "", array.shape(i));

@@ -14,7 +14,8 @@ namespace nb = nanobind;
 void bind_certificate(nb::module_& module) {
   nb::class_<CertificateCheck>(module, "Check", "One thing that has to hold, at its worst moment.")
       .def_ro("name", &CertificateCheck::name, "\"contact drift\", \"friction cone\", \"joint torque\", ...")
-      .def_ro("worst", &CertificateCheck::worst, "Largest value, in `unit`; below zero it is what is left to the bound.")
+      .def_ro("worst", &CertificateCheck::worst,
+              "Largest value, in `unit`; below zero it is what is left to the bound.")
       .def_ro("limit", &CertificateCheck::limit, "It passes if worst <= limit.")
       .def_ro("certified_limit", &CertificateCheck::certified_limit, "What grade \"certified\" asks for.")
       .def_ro("unit", &CertificateCheck::unit)
@@ -22,21 +23,24 @@ void bind_certificate(nb::module_& module) {
       .def_ro("where", &CertificateCheck::where, "Contact, joint or coordinate; \"\" if none.")
       .def_ro("passed", &CertificateCheck::passed)
       .def("__repr__", [](const CertificateCheck& check) {
-        return fmt::format("<prowl.Check {}: {:.3g}, limit {:.3g} {}, {}>", check.name, check.worst, check.limit, check.unit,
-                           check.passed ? "passed" : "FAILED");
+        return fmt::format("<prowl.Check {}: {:.3g}, limit {:.3g} {}, {}>", check.name, check.worst, check.limit,
+                           check.unit, check.passed ? "passed" : "FAILED");
       });
-  nb::class_<Certificate>(module, "Certificate",
-                          "Whether a finished motion is what was asked for, by code that shares nothing with the planner\n"
-                          "(docs/verification.md). print() shows it as a table, and so does a notebook.")
+  nb::class_<Certificate>(
+      module, "Certificate",
+      "Whether a finished motion is what was asked for, by code that shares nothing with the planner\n"
+      "(docs/verification.md). print() shows it as a table, and so does a notebook.")
       .def_ro("passed", &Certificate::passed)
-      .def_prop_ro("grade", [](const Certificate& certificate) { return to_string(certificate.grade); },
-                   "\"failed\", \"draft\" or \"certified\".")
+      .def_prop_ro(
+          "grade", [](const Certificate& certificate) { return to_string(certificate.grade); },
+          "\"failed\", \"draft\" or \"certified\".")
       .def_ro("checks", &Certificate::checks, nb::rv_policy::reference_internal)
       .def_ro("redundant_contacts", &Certificate::redundant_contacts,
               "Contacts whose forces are one choice of many; those of all others follow from the motion.")
       .def("__str__", &certificate_summary)
       .def("__repr__", [](const Certificate& certificate) {
-        return fmt::format("<prowl.Certificate {}, {} checks>", to_string(certificate.grade), certificate.checks.size());
+        return fmt::format("<prowl.Certificate {}, {} checks>", to_string(certificate.grade),
+                           certificate.checks.size());
       });
 }
 

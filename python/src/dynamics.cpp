@@ -76,8 +76,8 @@ class Dynamics {
     return {std::move(a).array(), std::move(f).array(), arrays(da, false), arrays(df, false)};
   }
 
-  Evaluation residual(const Argument& q_array, const Argument& v_array, const Argument& a_array, const Argument& tau_array,
-                      bool derivatives) {
+  Evaluation residual(const Argument& q_array, const Argument& v_array, const Argument& a_array,
+                      const Argument& tau_array, bool derivatives) {
     const Batch q(q_array, robot_.nq(), "q"), v(v_array, robot_.nv(), "v"), a(a_array, robot_.nv(), "a"),
         tau(tau_array, robot_.nu(), "tau");
     check_same_rows(q, {{"v", &v}, {"a", &a}, {"tau", &tau}});
@@ -158,7 +158,9 @@ class Dynamics {
   /// Derivatives of a quantity of the given shape for all rows of a batch.
   struct Jacobians {
     Jacobians(const Dynamics& d, const Batch& batch, const std::vector<std::size_t>& shape)
-        : q(batch, with(shape, d.nv())), v(batch, with(shape, d.nv())), a(batch, with(shape, d.nv())),
+        : q(batch, with(shape, d.nv())),
+          v(batch, with(shape, d.nv())),
+          a(batch, with(shape, d.nv())),
           tau(batch, with(shape, d.nv() - 6)) {}
     static std::vector<std::size_t> with(std::vector<std::size_t> shape, std::size_t columns) {
       shape.push_back(columns);
@@ -206,7 +208,8 @@ class Dynamics {
     constexpr Eigen::Index kRows = 4096;  // between two looks for Ctrl-C
     for (Eigen::Index first = 0; first < rows; first += kRows) {
       if (first > 0) check_signals();
-      team_.for_each(static_cast<int>(std::min(kRows, rows - first)), [&](int i) { function(static_cast<int>(first) + i); });
+      team_.for_each(static_cast<int>(std::min(kRows, rows - first)),
+                     [&](int i) { function(static_cast<int>(first) + i); });
     }
   }
 
@@ -221,7 +224,8 @@ class Dynamics {
 
 Array integrate_rows(const Argument& q_array, const Argument& tangent_array) {
   const auto nv = static_cast<Eigen::Index>(tangent_array.ndim() ? tangent_array.shape(tangent_array.ndim() - 1) : 0);
-  const Batch tangent(tangent_array, std::max<Eigen::Index>(nv, 6), "tangent"), q(q_array, std::max<Eigen::Index>(nv, 6) + 1, "q");
+  const Batch tangent(tangent_array, std::max<Eigen::Index>(nv, 6), "tangent"),
+      q(q_array, std::max<Eigen::Index>(nv, 6) + 1, "q");
   check_same_rows(q, {{"tangent", &tangent}});
   check_configurations(q, "q");
   Results sum(q, {static_cast<std::size_t>(nv) + 1});
@@ -244,41 +248,48 @@ Array difference_rows(const Argument& from_array, const Argument& to_array) {
 
 void bind_dynamics(nb::module_& module) {
   constexpr auto kKept = nb::rv_policy::reference;  // arrays keep their memory themselves
-  nb::class_<Derivatives>(module, "Derivatives",
-                          "First derivatives of one quantity, of its shape with one more axis at the end. In q they are with respect to\n"
-                          "the tangent of integrate(): displacement of the base in the WORLD, rotation vector in the base frame, joints.")
+  nb::class_<Derivatives>(
+      module, "Derivatives",
+      "First derivatives of one quantity, of its shape with one more axis at the end. In q they are with respect to\n"
+      "the tangent of integrate(): displacement of the base in the WORLD, rotation vector in the base frame, joints.")
       .def_ro("q", &Derivatives::q, kKept, "(..., nv)")
       .def_ro("v", &Derivatives::v, kKept, "(..., nv)")
       .def_ro("a", &Derivatives::a, kKept, "(..., nv); None where there is no such argument.")
       .def_ro("tau", &Derivatives::tau, kKept, "(..., nu)");
-  nb::class_<Evaluation>(module, "Evaluation", "What Dynamics gives at one state, or at N of them: then with a first axis of N.")
+  nb::class_<Evaluation>(module, "Evaluation",
+                         "What Dynamics gives at one state, or at N of them: then with a first axis of N.")
       .def_ro("value", &Evaluation::value, kKept, "The acceleration or the residual, (nv).")
       .def_ro("force", &Evaluation::force, kKept, "Contact forces on the robot, (contacts, 3), world axes [N].")
       .def_ro("value_derivatives", &Evaluation::value_derivatives, "None unless asked for.")
       .def_ro("force_derivatives", &Evaluation::force_derivatives, "None unless asked for.");
-  nb::class_<Dynamics>(module, "Dynamics",
-                       "Projected dynamics of a robot whose contacts hold (docs/theory.md), for one state or for many: q (nq) or (N, nq),\n"
-                       "v and a (nv) or (N, nv), tau (nu) or (N, nu). Conventions are those of Robot. The GIL is released; one object\n"
-                       "serves one call at a time.\n\n"
-                       "contacts: names, any set, also none or redundant ones (then forces are the choice of least norm); None: all\n"
-                       "of the robot's. threads: that share out the rows; results do not depend on it.")
+  nb::class_<Dynamics>(
+      module, "Dynamics",
+      "Projected dynamics of a robot whose contacts hold (docs/theory.md), for one state or for many: q (nq) or (N, "
+      "nq),\n"
+      "v and a (nv) or (N, nv), tau (nu) or (N, nu). Conventions are those of Robot. The GIL is released; one object\n"
+      "serves one call at a time.\n\n"
+      "contacts: names, any set, also none or redundant ones (then forces are the choice of least norm); None: all\n"
+      "of the robot's. threads: that share out the rows; results do not depend on it.")
       .def(nb::init<const RobotModel&, const std::optional<std::vector<std::string>>&, int>(), nb::arg("robot"),
            nb::arg("contacts").none() = nb::none(), nb::arg("threads") = 1)
       .def_prop_ro("contact_names", &Dynamics::contact_names, "In the order of the forces.")
       .def("forward", &Dynamics::forward, nb::arg("q"), nb::arg("v"), nb::arg("tau"), nb::arg("derivatives") = false,
-           "Accelerations and contact forces that torques cause: value is a (nv), rates of the numbers in v [m/s^2, rad/s^2].")
+           "Accelerations and contact forces that torques cause: value is a (nv), rates of the numbers in v [m/s^2, "
+           "rad/s^2].")
       .def("residual", &Dynamics::residual, nb::arg("q"), nb::arg("v"), nb::arg("a"), nb::arg("tau"),
            nb::arg("derivatives") = false,
-           "Inverse form: value is c (nv) [N, N m], zero if and only if (q, v, a, tau) obeys the dynamics with these contacts.")
+           "Inverse form: value is c (nv) [N, N m], zero if and only if (q, v, a, tau) obeys the dynamics with these "
+           "contacts.")
       .def("mass_matrix", &Dynamics::mass_matrix, nb::arg("q"), "M(q), (nv, nv) [kg, kg m, kg m^2].")
       .def("bias", &Dynamics::bias, nb::arg("q"), nb::arg("v"),
            "h(q, v), (nv) [N, N m]: Coriolis, centrifugal and gravity forces; M a + h = S' tau + J' f.")
       .def("contact_positions", &Dynamics::contact_positions, nb::arg("q"), "In the world, (contacts, 3) [m].")
       .def("contact_jacobian", &Dynamics::contact_jacobian, nb::arg("q"),
            "J, (contacts, 3, nv): velocity of the contact points in the world is J v [m/s].");
-  module.def("integrate", &integrate_rows, nb::arg("q"), nb::arg("tangent"),
-             "q moved by a tangent (nv): displacement of the base in the WORLD [m], rotation vector in the base frame [rad],\n"
-             "joints. One of each, or N rows.");
+  module.def(
+      "integrate", &integrate_rows, nb::arg("q"), nb::arg("tangent"),
+      "q moved by a tangent (nv): displacement of the base in the WORLD [m], rotation vector in the base frame [rad],\n"
+      "joints. One of each, or N rows.");
   module.def("difference", &difference_rows, nb::arg("q"), nb::arg("q_to"),
              "The tangent (nv) that moves q to q_to, see integrate(). One of each, or N rows.");
 }

@@ -1,9 +1,8 @@
-#include "prowl/error.hpp"
-
 #include <nanobind/stl/string.h>
 
 #include "bindings.hpp"
 #include "interrupted.hpp"
+#include "prowl/error.hpp"
 #include "prowl/tracker/tracker.hpp"
 
 namespace prowl::python {
@@ -30,9 +29,11 @@ void raise_interrupted(nb::handle plan) {
 /// The hierarchy of prowl/error.hpp, each also of the kind that Python's own functions raise in such a case.
 void bind_errors(nb::module_& module) {
   const nb::exception<Error> error(module, "Error", PyExc_RuntimeError);
-  document(error, "Base of all that Prowl raises on purpose. The message says what is wrong, where, and what would be right.");
+  document(error,
+           "Base of all that Prowl raises on purpose. The message says what is wrong, where, and what would be right.");
   const nb::exception<InputError> input(module, "InputError", also(error, PyExc_ValueError));
-  document(input, "The caller or a file asks for something that cannot be: unknown name, wrong shape, value out of range.");
+  document(input,
+           "The caller or a file asks for something that cannot be: unknown name, wrong shape, value out of range.");
   const nb::exception<FileError> file(module, "FileError", also(error, PyExc_OSError));
   document(file, "A file or a folder cannot be read or written.");
   const nb::exception<NumericalError> numerical(module, "NumericalError", also(error, PyExc_ArithmeticError));
@@ -41,7 +42,8 @@ void bind_errors(nb::module_& module) {
       [](const std::exception_ptr& thrown, void* type) {
         try {
           std::rethrow_exception(thrown);
-        } catch (const TrackerError& tracker_error) {  // not of the hierarchy: it goes on robots without the rest of Prowl
+        } catch (
+            const TrackerError& tracker_error) {  // not of the hierarchy: it goes on robots without the rest of Prowl
           PyErr_SetString(static_cast<PyObject*>(type), tracker_error.what());
         }
       },
@@ -50,7 +52,8 @@ void bind_errors(nb::module_& module) {
   const std::string name = nb::cast<std::string>(module.attr("__name__")) + ".Interrupted";
   const nb::object interrupted = nb::steal(PyErr_NewException(name.c_str(), PyExc_KeyboardInterrupt, nullptr));
   document(interrupted,
-           "Ctrl-C, or the stop button of a notebook, while solve() ran: a KeyboardInterrupt. Its attribute `plan` is the best\n"
+           "Ctrl-C, or the stop button of a notebook, while solve() ran: a KeyboardInterrupt. Its attribute `plan` is "
+           "the best\n"
            "motion so far, with status \"interrupted\".");
   module.attr("Interrupted") = interrupted;
   interrupted_type = interrupted.ptr();

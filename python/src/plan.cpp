@@ -17,7 +17,8 @@
 namespace prowl::python {
 namespace {
 
-std::shared_ptr<const Tracker> make_tracker(const PlanRecord& record, const std::optional<std::filesystem::path>& directory) {
+std::shared_ptr<const Tracker> make_tracker(const PlanRecord& record,
+                                            const std::optional<std::filesystem::path>& directory) {
   if (record.feedback) return std::make_shared<Tracker>(make_tracking_plan(record.task.problem, *record.feedback));
   if (!directory || !std::filesystem::exists(*directory / "tracker.bin")) return nullptr;
   return std::make_shared<Tracker>(Tracker::read((*directory / "tracker.bin").string()));
@@ -29,7 +30,8 @@ std::shared_ptr<PlanObject> read(const std::filesystem::path& directory, const s
 
 void write(const PlanObject& plan, const std::filesystem::path& directory, std::optional<double> step) {
   if (plan.read_from) {
-    throw InputError(fmt::format("this plan was read from {}, which has all of it: copy that folder", plan.read_from->string()));
+    throw InputError(
+        fmt::format("this plan was read from {}, which has all of it: copy that folder", plan.read_from->string()));
   }
   if (step && !(*step > 0.0)) throw InputError(fmt::format("step: {} is not allowed; need a number > 0 [s]", *step));
   const nb::gil_scoped_release others_may_run;
@@ -64,53 +66,83 @@ PlanObject::PlanObject(PlanRecord plan_record, std::optional<std::filesystem::pa
 
 void bind_plan(nb::module_& module) {
   const auto plan = [](nb::handle self) -> const PlanObject& { return nb::cast<const PlanObject&>(self); };
-  nb::class_<PlanObject>(module, "Plan",
-                         "A motion, how it was found, and whether it is any good: `good` is True if the solver converged and the\n"
-                         "certificate passed. Arrays are at the N nodes of the mesh (at a change of contacts two nodes have one time),\n"
-                         "read-only, and views of one piece of memory each.")
-      .def_prop_ro("t", [=](nb::handle self) { return view(plan(self).motion.t, self); }, "Times (N) [s].")
-      .def_prop_ro("phase", [=](nb::handle self) { return view(plan(self).motion.phase, self); },
-                   "Index of the phase (N), from 0.")
-      .def_prop_ro("q", [=](nb::handle self) { return view(plan(self).motion.q, self); },
-                   "Configurations (N, nq): base position [m], quaternion x y z w, joints [rad or m].")
-      .def_prop_ro("v", [=](nb::handle self) { return view(plan(self).motion.v, self); },
-                   "Velocities (N, nv): base twist in the base frame [m/s, rad/s], joint rates.")
-      .def_prop_ro("a", [=](nb::handle self) { return view(plan(self).motion.a, self); },
-                   "Accelerations (N, nv): rates of the numbers in v [m/s^2, rad/s^2].")
-      .def_prop_ro("tau", [=](nb::handle self) { return view(plan(self).motion.tau, self); }, "Torques (N, nu) [N m or N].")
-      .def_prop_ro("f", [=](nb::handle self) { return contacts_view(plan(self).motion.f, self); },
-                   "Contact forces on the robot (N, contacts, 3), world axes [N]; zero where a contact is in the air.")
-      .def_prop_ro("duration", [](const PlanObject& p) { return p.record.plan.trajectory.duration(); }, "[s]")
-      .def_prop_ro("good", [](const PlanObject& p) { return is_good(p.record.plan); }, "Whether the plan may be used.")
-      .def_prop_ro("status", [](const PlanObject& p) { return to_string(p.record.plan.result.status); },
-                   "Why the solver stopped: \"converged\", \"infeasible\", \"iteration_limit\", \"time_limit\", \"interrupted\",\n"
-                   "\"evaluation_failed\" or \"solver_failed\".")
-      .def_prop_ro("message", [](const PlanObject& p) { return p.record.plan.result.message; }, "The solver's own words.")
-      .def_prop_ro("reasons", [](const PlanObject& p) { return p.record.plan.reasons; },
-                   "Why there is no such motion, proven before the solve; empty if nothing is.")
-      .def_prop_ro("hints", [](const PlanObject& p) { return p.record.plan.hints; },
-                   "What may be the matter, after a solve that did not converge.")
+  nb::class_<PlanObject>(
+      module, "Plan",
+      "A motion, how it was found, and whether it is any good: `good` is True if the solver converged and the\n"
+      "certificate passed. Arrays are at the N nodes of the mesh (at a change of contacts two nodes have one time),\n"
+      "read-only, and views of one piece of memory each.")
+      .def_prop_ro(
+          "t", [=](nb::handle self) { return view(plan(self).motion.t, self); }, "Times (N) [s].")
+      .def_prop_ro(
+          "phase", [=](nb::handle self) { return view(plan(self).motion.phase, self); },
+          "Index of the phase (N), from 0.")
+      .def_prop_ro(
+          "q", [=](nb::handle self) { return view(plan(self).motion.q, self); },
+          "Configurations (N, nq): base position [m], quaternion x y z w, joints [rad or m].")
+      .def_prop_ro(
+          "v", [=](nb::handle self) { return view(plan(self).motion.v, self); },
+          "Velocities (N, nv): base twist in the base frame [m/s, rad/s], joint rates.")
+      .def_prop_ro(
+          "a", [=](nb::handle self) { return view(plan(self).motion.a, self); },
+          "Accelerations (N, nv): rates of the numbers in v [m/s^2, rad/s^2].")
+      .def_prop_ro(
+          "tau", [=](nb::handle self) { return view(plan(self).motion.tau, self); }, "Torques (N, nu) [N m or N].")
+      .def_prop_ro(
+          "f", [=](nb::handle self) { return contacts_view(plan(self).motion.f, self); },
+          "Contact forces on the robot (N, contacts, 3), world axes [N]; zero where a contact is in the air.")
+      .def_prop_ro(
+          "duration", [](const PlanObject& p) { return p.record.plan.trajectory.duration(); }, "[s]")
+      .def_prop_ro(
+          "good", [](const PlanObject& p) { return is_good(p.record.plan); }, "Whether the plan may be used.")
+      .def_prop_ro(
+          "status", [](const PlanObject& p) { return to_string(p.record.plan.result.status); },
+          "Why the solver stopped: \"converged\", \"infeasible\", \"iteration_limit\", \"time_limit\", "
+          "\"interrupted\",\n"
+          "\"evaluation_failed\" or \"solver_failed\".")
+      .def_prop_ro(
+          "message", [](const PlanObject& p) { return p.record.plan.result.message; }, "The solver's own words.")
+      .def_prop_ro(
+          "reasons", [](const PlanObject& p) { return p.record.plan.reasons; },
+          "Why there is no such motion, proven before the solve; empty if nothing is.")
+      .def_prop_ro(
+          "hints", [](const PlanObject& p) { return p.record.plan.hints; },
+          "What may be the matter, after a solve that did not converge.")
       .def_prop_ro("cost", [](const PlanObject& p) { return p.record.plan.result.cost; })
-      .def_prop_ro("iterations", [](const PlanObject& p) { return p.record.plan.result.iterations; }, "On all meshes together.")
-      .def_prop_ro("seconds", [](const PlanObject& p) { return p.record.plan.result.seconds; }, "That the solver took [s].")
-      .def_prop_ro("solver", [](const PlanObject& p) { return p.record.plan.solver; }, "Its name.")
-      .def_prop_ro("versions", [](const PlanObject& p) { return p.record.versions; }, "Of Prowl and of what it used.")
-      .def_prop_ro("certificate", [](const PlanObject& p) -> const Certificate& { return p.record.plan.certificate; },
-                   nb::rv_policy::reference_internal)
-      .def_prop_ro("task", [](const PlanObject& p) -> const Task& { return p.asked ? *p.asked : p.record.task; }, nb::rv_policy::reference_internal)
-      .def_prop_ro("robot", [](const PlanObject& p) -> const RobotModel& { return p.problem().robot; },
-                   nb::rv_policy::reference_internal)
-      .def_prop_ro("tracker", [](const PlanObject& p) { return p.tracker; }, nb::sig("def tracker(self) -> Tracker | None"),
-                   "Reference and feedback gains on a fine grid, and the control law; None if there are no gains.")
-      .def("sample", &sampled, nb::arg("step"), "The motion every `step` seconds and at its end, interpolated as transcribed.")
-      .def("at", &at_times, nb::arg("times"), "The motion at these times [s]; at a change of contacts, that of the later phase.")
-      .def("summary", [](const PlanObject& p) { return plan_report(p.record); }, "What `prowl plan` prints of it.")
-      .def("to_json", [](const PlanObject& p) { return plan_report_json(p.record, p.read_from.value_or("")); },
-           "plan.json (docs/plan-directory.md) but for the texts of task, robot and URDF.")
+      .def_prop_ro(
+          "iterations", [](const PlanObject& p) { return p.record.plan.result.iterations; }, "On all meshes together.")
+      .def_prop_ro(
+          "seconds", [](const PlanObject& p) { return p.record.plan.result.seconds; }, "That the solver took [s].")
+      .def_prop_ro(
+          "solver", [](const PlanObject& p) { return p.record.plan.solver; }, "Its name.")
+      .def_prop_ro(
+          "versions", [](const PlanObject& p) { return p.record.versions; }, "Of Prowl and of what it used.")
+      .def_prop_ro(
+          "certificate", [](const PlanObject& p) -> const Certificate& { return p.record.plan.certificate; },
+          nb::rv_policy::reference_internal)
+      .def_prop_ro(
+          "task", [](const PlanObject& p) -> const Task& { return p.asked ? *p.asked : p.record.task; },
+          nb::rv_policy::reference_internal)
+      .def_prop_ro(
+          "robot", [](const PlanObject& p) -> const RobotModel& { return p.problem().robot; },
+          nb::rv_policy::reference_internal)
+      .def_prop_ro(
+          "tracker", [](const PlanObject& p) { return p.tracker; }, nb::sig("def tracker(self) -> Tracker | None"),
+          "Reference and feedback gains on a fine grid, and the control law; None if there are no gains.")
+      .def("sample", &sampled, nb::arg("step"),
+           "The motion every `step` seconds and at its end, interpolated as transcribed.")
+      .def("at", &at_times, nb::arg("times"),
+           "The motion at these times [s]; at a change of contacts, that of the later phase.")
+      .def(
+          "summary", [](const PlanObject& p) { return plan_report(p.record); }, "What `prowl plan` prints of it.")
+      .def(
+          "to_json", [](const PlanObject& p) { return plan_report_json(p.record, p.read_from.value_or("")); },
+          "plan.json (docs/plan-directory.md) but for the texts of task, robot and URDF.")
       .def("write", &write, nb::arg("directory"), nb::arg("step") = nb::none(),
-           "Writes the folder that `prowl plan` writes (docs/plan-directory.md), whole or not at all; with `step` [s] also\n"
+           "Writes the folder that `prowl plan` writes (docs/plan-directory.md), whole or not at all; with `step` [s] "
+           "also\n"
            "trajectory_uniform.csv.")
-      .def("__len__", [](const PlanObject& p) { return p.motion.t.size(); }, "Nodes, N.")
+      .def(
+          "__len__", [](const PlanObject& p) { return p.motion.t.size(); }, "Nodes, N.")
       .def("__repr__", [](const PlanObject& p) {
         const Plan& found = p.record.plan;
         return fmt::format("<prowl.Plan {}: {}, certificate {}, {} nodes, {:.3g} s>", p.problem().name,

@@ -27,8 +27,8 @@ struct JudgedPoint {
   Motion motion;
 };
 
-/// prowl.Program: one motion problem as a nonlinear program. The functions of an Nlp share work space, so that calls wait for
-/// each other; the GIL is released meanwhile.
+/// prowl.Program: one motion problem as a nonlinear program. The functions of an Nlp share work space, so that calls
+/// wait for each other; the GIL is released meanwhile.
 class Program {
  public:
   Program(const Task& task, const Formulation& formulation, const std::string& guess_name)
@@ -136,18 +136,22 @@ const Program& program(nb::handle self) { return nb::cast<const Program&>(self);
 void bind_judged_point(nb::module_& module) {
   nb::class_<JudgedPoint>(module, "JudgedPoint", "What a point of a Program is worth.")
       .def_prop_ro("cost", [](const JudgedPoint& p) { return p.run.result.cost; })
-      .def_prop_ro("constraint_violation", [](const JudgedPoint& p) { return p.run.result.constraint_violation; },
-                   "Largest, of the program's rows and bounds, unscaled.")
-      .def_prop_ro("certificate", [](const JudgedPoint& p) -> const Certificate& { return p.run.certificate; },
-                   nb::rv_policy::reference_internal, "Of the motion, by code that shares nothing with the program.")
+      .def_prop_ro(
+          "constraint_violation", [](const JudgedPoint& p) { return p.run.result.constraint_violation; },
+          "Largest, of the program's rows and bounds, unscaled.")
+      .def_prop_ro(
+          "certificate", [](const JudgedPoint& p) -> const Certificate& { return p.run.certificate; },
+          nb::rv_policy::reference_internal, "Of the motion, by code that shares nothing with the program.")
       .def_ro("motion", &JudgedPoint::motion, nb::rv_policy::reference_internal,
               "The motion that the program means by this point, at its nodes.")
-      .def("check", [](const JudgedPoint& p, const std::string& name) { return p.run.certificate.find(name); }, nb::arg("name"),
-           nb::rv_policy::reference_internal, nb::sig("def check(self, name: str) -> Check | None"),
-           "One check of the certificate by its name, such as \"contact drift\"; None if the motion has nothing for it.")
-      .def_prop_ro("worst_check", [](const JudgedPoint& p) { return p.run.worst_check(); }, nb::rv_policy::reference_internal,
-                   nb::sig("def worst_check(self) -> Check | None"),
-                   "The check that is furthest beyond its limit, or nearest to it.")
+      .def(
+          "check", [](const JudgedPoint& p, const std::string& name) { return p.run.certificate.find(name); },
+          nb::arg("name"), nb::rv_policy::reference_internal, nb::sig("def check(self, name: str) -> Check | None"),
+          "One check of the certificate by its name, such as \"contact drift\"; None if the motion has nothing for it.")
+      .def_prop_ro(
+          "worst_check", [](const JudgedPoint& p) { return p.run.worst_check(); }, nb::rv_policy::reference_internal,
+          nb::sig("def worst_check(self) -> Check | None"),
+          "The check that is furthest beyond its limit, or nearest to it.")
       .def("__repr__", [](const JudgedPoint& p) {
         return fmt::format("<prowl.JudgedPoint cost {:.6g}, violation {:.2e}, certificate {}>", p.run.result.cost,
                            p.run.result.constraint_violation, to_string(p.run.certificate.grade));
@@ -158,21 +162,24 @@ void bind_judged_point(nb::module_& module) {
 
 void bind_program(nb::module_& module) {
   bind_judged_point(module);
-  nb::class_<Program>(module, "Program",
-                      "A task as a nonlinear program (docs/formulations.md): minimise cost(z), variable_lower <= z <= variable_upper,\n"
-                      "constraint_lower <= constraints(z) <= constraint_upper, with exact derivatives, for a solver of one's own.\n"
-                      "Bounds are +-inf where there is none. Sparse matrices have fixed places, (rows, columns), and values in their\n"
-                      "order. Functions may raise NumericalError. They release the GIL and wait for each other.\n\n"
-                      "guess: \"smooth\", what `prowl plan` starts from, or \"straight\", straight lines from posture to posture with the\n"
-                      "torques of standing.")
-      .def("__init__",
-           [](Program* self, const Task& task, const std::string& dynamics, const std::string& transcription,
-              const std::string& contact, const std::string& orientation, const std::string& guess) {
-             new (self) Program(task, {dynamics, transcription, contact, orientation}, guess);
-           },
-           nb::arg("task"), nb::kw_only(), nb::arg("dynamics") = dynamics_names().front(),
-           nb::arg("transcription") = transcription_names().front(), nb::arg("contact") = contact_names().front(),
-           nb::arg("orientation") = orientation_names().front(), nb::arg("guess") = guess_names().front())
+  nb::class_<Program>(
+      module, "Program",
+      "A task as a nonlinear program (docs/formulations.md): minimise cost(z), variable_lower <= z <= variable_upper,\n"
+      "constraint_lower <= constraints(z) <= constraint_upper, with exact derivatives, for a solver of one's own.\n"
+      "Bounds are +-inf where there is none. Sparse matrices have fixed places, (rows, columns), and values in their\n"
+      "order. Functions may raise NumericalError. They release the GIL and wait for each other.\n\n"
+      "guess: \"smooth\", what `prowl plan` starts from, or \"straight\", straight lines from posture to posture with "
+      "the\n"
+      "torques of standing.")
+      .def(
+          "__init__",
+          [](Program* self, const Task& task, const std::string& dynamics, const std::string& transcription,
+             const std::string& contact, const std::string& orientation, const std::string& guess) {
+            new (self) Program(task, {dynamics, transcription, contact, orientation}, guess);
+          },
+          nb::arg("task"), nb::kw_only(), nb::arg("dynamics") = dynamics_names().front(),
+          nb::arg("transcription") = transcription_names().front(), nb::arg("contact") = contact_names().front(),
+          nb::arg("orientation") = orientation_names().front(), nb::arg("guess") = guess_names().front())
       .def_prop_ro("task", &Program::task, nb::rv_policy::reference_internal)
       .def_prop_ro("dynamics", [](const Program& p) { return p.formulation().dynamics; })
       .def_prop_ro("transcription", [](const Program& p) { return p.formulation().transcription; })
@@ -181,15 +188,22 @@ void bind_program(nb::module_& module) {
       .def_prop_ro("nodes", &Program::nodes, "Of the mesh.")
       .def_prop_ro("num_variables", [](const Program& p) { return p.nlp().num_variables(); })
       .def_prop_ro("num_constraints", [](const Program& p) { return p.nlp().num_constraints(); })
-      .def_prop_ro("start", [](nb::handle self) { return numbers(self, program(self).start()); }, "The guess, z.")
-      .def_prop_ro("variable_lower", [](nb::handle self) { return numbers(self, program(self).nlp().variable_lower()); })
-      .def_prop_ro("variable_upper", [](nb::handle self) { return numbers(self, program(self).nlp().variable_upper()); })
-      .def_prop_ro("constraint_lower", [](nb::handle self) { return numbers(self, program(self).nlp().constraint_lower()); })
-      .def_prop_ro("constraint_upper", [](nb::handle self) { return numbers(self, program(self).nlp().constraint_upper()); })
-      .def_prop_ro("jacobian_pattern", [](nb::handle self) { return places(self, program(self).nlp().jacobian_pattern()); },
-                   "(rows, columns); no place twice.")
-      .def_prop_ro("hessian_pattern", [](nb::handle self) { return places(self, program(self).nlp().hessian_pattern()); },
-                   "(rows, columns) of the lower triangle.")
+      .def_prop_ro(
+          "start", [](nb::handle self) { return numbers(self, program(self).start()); }, "The guess, z.")
+      .def_prop_ro("variable_lower",
+                   [](nb::handle self) { return numbers(self, program(self).nlp().variable_lower()); })
+      .def_prop_ro("variable_upper",
+                   [](nb::handle self) { return numbers(self, program(self).nlp().variable_upper()); })
+      .def_prop_ro("constraint_lower",
+                   [](nb::handle self) { return numbers(self, program(self).nlp().constraint_lower()); })
+      .def_prop_ro("constraint_upper",
+                   [](nb::handle self) { return numbers(self, program(self).nlp().constraint_upper()); })
+      .def_prop_ro(
+          "jacobian_pattern", [](nb::handle self) { return places(self, program(self).nlp().jacobian_pattern()); },
+          "(rows, columns); no place twice.")
+      .def_prop_ro(
+          "hessian_pattern", [](nb::handle self) { return places(self, program(self).nlp().hessian_pattern()); },
+          "(rows, columns) of the lower triangle.")
       .def("cost", &Program::cost, nb::arg("z"))
       .def("cost_gradient", &Program::cost_gradient, nb::arg("z"), "(num_variables)")
       .def("constraints", &Program::constraints, nb::arg("z"), "(num_constraints)")
@@ -197,11 +211,13 @@ void bind_program(nb::module_& module) {
       .def("hessian", &Program::hessian, nb::arg("z"), nb::arg("cost_factor"), nb::arg("multipliers"),
            "Of cost_factor cost + multipliers . constraints, at the places of hessian_pattern.")
       .def("dual_violation", &Program::dual_violation, nb::arg("z"), nb::arg("multipliers"),
-           "How far a z within its bounds is from stationary: |clip(z - gradient, lower, upper) - z| at its largest, of the gradient of\n"
+           "How far a z within its bounds is from stationary: |clip(z - gradient, lower, upper) - z| at its largest, "
+           "of the gradient of\n"
            "cost + multipliers . constraints.")
       .def("describe_variable", &Program::describe_variable, nb::arg("index"), "In the words of the task.")
       .def("describe_constraint", &Program::describe_constraint, nb::arg("row"), "In the words of the task.")
-      .def("judge", &Program::judge, nb::arg("z"), "Cost, violation, motion and certificate of a point, whoever found it.")
+      .def("judge", &Program::judge, nb::arg("z"),
+           "Cost, violation, motion and certificate of a point, whoever found it.")
       .def("__repr__", [](const Program& p) {
         return fmt::format("<prowl.Program {}: {}, {}, {}, {}: {} variables, {} constraints>", p.task().problem.name,
                            p.formulation().dynamics, p.formulation().transcription, p.formulation().contact,

@@ -8,8 +8,8 @@
 
 namespace prowl::python {
 
-/// Lets Python look whether there was a Ctrl-C, from code that runs without the GIL. Throws nanobind::python_error if so
-/// (that is, whatever the handler of the signal raised). Only Python's main thread handles signals.
+/// Lets Python look whether there was a Ctrl-C, from code that runs without the GIL. Throws nanobind::python_error if
+/// so (that is, whatever the handler of the signal raised). Only Python's main thread handles signals.
 inline void check_signals() {
   const nanobind::gil_scoped_acquire in_python;
   if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
@@ -27,8 +27,8 @@ class SignalCheck {
   int every_, calls_ = 0;
 };
 
-/// Between C++ that runs without the GIL and Python: Ctrl-C and a callback's exceptions set stop(), and wait here until C++ has
-/// returned, for they must not pass through foreign code.
+/// Between C++ that runs without the GIL and Python: Ctrl-C and a callback's exceptions set stop(), and wait here until
+/// C++ has returned, for they must not pass through foreign code.
 class Stop {
  public:
   /// Calls `callback`, with the GIL, unless it is stopped already.

@@ -56,7 +56,8 @@ std::shared_ptr<SimulationObject> run(std::shared_ptr<const PlanObject> plan, bo
                                       double noise, double delay, double bandwidth, double control_rate, double mass,
                                       std::optional<double> friction, const std::vector<PushArgument>& pushes,
                                       double push_duration, double step, std::uint64_t seed, double record_rate) {
-  if (!plan->tracker) throw InputError("this plan has no gains to simulate it with: solve(gains=True) makes them for one that is good");
+  if (!plan->tracker)
+    throw InputError("this plan has no gains to simulate it with: solve(gains=True) makes them for one that is good");
   SimulationOptions options;
   options.open_loop = open_loop;
   options.perfect_state = perfect_state;
@@ -64,10 +65,13 @@ std::shared_ptr<SimulationObject> run(std::shared_ptr<const PlanObject> plan, bo
   options.delay = delay;
   options.bandwidth = bandwidth;
   options.control_rate = control_rate;
-  options.physics = {.step = step, .mass_scale = mass, .friction = friction ? friction : plan->record.task.simulated_friction};
-  if (!(push_duration > 0.0)) throw InputError(fmt::format("push_duration: {} is not allowed; need > 0 s", push_duration));
+  options.physics = {
+      .step = step, .mass_scale = mass, .friction = friction ? friction : plan->record.task.simulated_friction};
+  if (!(push_duration > 0.0))
+    throw InputError(fmt::format("push_duration: {} is not allowed; need > 0 s", push_duration));
   if (!(record_rate > 0.0)) throw InputError(fmt::format("record_rate: {} is not allowed; need > 0 Hz", record_rate));
-  for (const auto& [time, impulse] : pushes) options.pushes.push_back({{impulse[0], impulse[1], impulse[2]}, time, push_duration});
+  for (const auto& [time, impulse] : pushes)
+    options.pushes.push_back({{impulse[0], impulse[1], impulse[2]}, time, push_duration});
   options.seed = seed;
   options.record_rate = record_rate;
   constexpr int kTicks = 50;
@@ -92,7 +96,7 @@ void write(const SimulationObject& simulation, const std::filesystem::path& dire
   write_simulation(directory, simulation.plan->record, simulation.record);
 }
 
-template <RowMatrix SimulationObject::*rows>
+template <RowMatrix SimulationObject::* rows>
 Matrix rows_view(nb::handle self) {
   return view(nb::cast<const SimulationObject&>(self).*rows, self);
 }
@@ -108,53 +112,77 @@ void bind_simulation(nb::module_& module) {
       .def("__repr__", [](const ErrorMeasure& e) {
         return fmt::format("<prowl.ErrorMeasure largest {:.3g}, rms {:.3g}, at rest {:.3g}>", e.largest, e.rms, e.rest);
       });
-  nb::class_<SimulationObject>(module, "Simulation",
-                               "A plan and its gains in MuJoCo (docs/simulation.md), at S samples. Arrays are read-only.")
-      .def_prop_ro("success", [=](const SimulationObject& s) { return result(s).success(); }, "By the criteria of the task.")
-      .def_prop_ro("failures", [=](const SimulationObject& s) { return result(s).failures; }, "Of the criteria, in words.")
+  nb::class_<SimulationObject>(
+      module, "Simulation", "A plan and its gains in MuJoCo (docs/simulation.md), at S samples. Arrays are read-only.")
+      .def_prop_ro(
+          "success", [=](const SimulationObject& s) { return result(s).success(); }, "By the criteria of the task.")
+      .def_prop_ro(
+          "failures", [=](const SimulationObject& s) { return result(s).failures; }, "Of the criteria, in words.")
       .def_prop_ro("end", &end_name, "\"finished\", \"fell\" or \"diverged\".")
-      .def_prop_ro("end_time", [=](const SimulationObject& s) { return result(s).end_time; }, "[s]")
-      .def_prop_ro("base_position_error", [=](const SimulationObject& s) { return result(s).base_position; }, "From the plan's base [m].")
-      .def_prop_ro("base_angle_error", [=](const SimulationObject& s) { return result(s).base_angle; }, "[rad]")
-      .def_prop_ro("joint_error", [=](const SimulationObject& s) { return result(s).joints; }, "Of the worst joint; rms of all [rad].")
-      .def_prop_ro("slip", [=](const SimulationObject& s) { return result(s).slip; },
-                   "One a contact: farthest from where it began to stand [m].")
-      .def_prop_ro("largest_torque_share", [=](const SimulationObject& s) { return result(s).largest_torque_share; }, "Of the limit.")
-      .def_prop_ro("plan", [](const SimulationObject& s) { return std::const_pointer_cast<PlanObject>(s.plan); },
-                   nb::sig("def plan(self) -> Plan"))
-      .def_prop_ro("t", [](nb::handle self) { return view(nb::cast<const SimulationObject&>(self).t, self); }, "Times (S) [s].")
+      .def_prop_ro(
+          "end_time", [=](const SimulationObject& s) { return result(s).end_time; }, "[s]")
+      .def_prop_ro(
+          "base_position_error", [=](const SimulationObject& s) { return result(s).base_position; },
+          "From the plan's base [m].")
+      .def_prop_ro(
+          "base_angle_error", [=](const SimulationObject& s) { return result(s).base_angle; }, "[rad]")
+      .def_prop_ro(
+          "joint_error", [=](const SimulationObject& s) { return result(s).joints; },
+          "Of the worst joint; rms of all [rad].")
+      .def_prop_ro(
+          "slip", [=](const SimulationObject& s) { return result(s).slip; },
+          "One a contact: farthest from where it began to stand [m].")
+      .def_prop_ro(
+          "largest_torque_share", [=](const SimulationObject& s) { return result(s).largest_torque_share; },
+          "Of the limit.")
+      .def_prop_ro(
+          "plan", [](const SimulationObject& s) { return std::const_pointer_cast<PlanObject>(s.plan); },
+          nb::sig("def plan(self) -> Plan"))
+      .def_prop_ro(
+          "t", [](nb::handle self) { return view(nb::cast<const SimulationObject&>(self).t, self); }, "Times (S) [s].")
       .def_prop_ro("q", &rows_view<&SimulationObject::q>, "True configurations (S, nq).")
       .def_prop_ro("v", &rows_view<&SimulationObject::v>, "True velocities (S, nv).")
       .def_prop_ro("q_ref", &rows_view<&SimulationObject::q_ref>, "Planned configurations (S, nq).")
       .def_prop_ro("v_ref", &rows_view<&SimulationObject::v_ref>, "Planned velocities (S, nv).")
-      .def_prop_ro("q_seen", &rows_view<&SimulationObject::q_seen>, "Configurations that the controller was given (S, nq).")
+      .def_prop_ro("q_seen", &rows_view<&SimulationObject::q_seen>,
+                   "Configurations that the controller was given (S, nq).")
       .def_prop_ro("v_seen", &rows_view<&SimulationObject::v_seen>, "Velocities that the controller was given (S, nv).")
-      .def_prop_ro("feedforward", &rows_view<&SimulationObject::feedforward>, "Commanded feedforward torques (S, nu) [N m].")
+      .def_prop_ro("feedforward", &rows_view<&SimulationObject::feedforward>,
+                   "Commanded feedforward torques (S, nu) [N m].")
       .def_prop_ro("feedback", &rows_view<&SimulationObject::feedback>, "Commanded feedback torques (S, nu) [N m].")
       .def_prop_ro("tau", &rows_view<&SimulationObject::tau>, "Torques at the joints (S, nu) [N m].")
-      .def_prop_ro("f", [](nb::handle self) { return contacts_view(nb::cast<const SimulationObject&>(self).f, self); },
-                   "Contact forces on the robot (S, contacts, 3), world axes [N].")
-      .def("summary", [](const SimulationObject& s) { return simulation_summary(s.plan->record, s.record); },
-           "What `prowl simulate` prints of it.")
+      .def_prop_ro(
+          "f", [](nb::handle self) { return contacts_view(nb::cast<const SimulationObject&>(self).f, self); },
+          "Contact forces on the robot (S, contacts, 3), world axes [N].")
+      .def(
+          "summary", [](const SimulationObject& s) { return simulation_summary(s.plan->record, s.record); },
+          "What `prowl simulate` prints of it.")
       .def("write", &write, nb::arg("directory"), "Writes simulate.json and simulate.csv into the folder of the plan.")
-      .def("__len__", [](const SimulationObject& s) { return s.t.size(); }, "Samples, S.")
+      .def(
+          "__len__", [](const SimulationObject& s) { return s.t.size(); }, "Samples, S.")
       .def("__repr__", [](const SimulationObject& s) {
         return fmt::format("<prowl.Simulation {}: {}, {} at {:.3g} s>", s.plan->problem().name,
                            s.record.result.success() ? "success" : "no success", end_name(s), s.record.result.end_time);
       });
   const SimulationOptions defaults;
-  module.def("simulate", &run, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false, nb::arg("perfect_state") = false,
-             nb::arg("noise") = defaults.noise_scale, nb::arg("delay") = defaults.delay,
-             nb::arg("bandwidth") = defaults.bandwidth, nb::arg("control_rate") = defaults.control_rate,
-             nb::arg("mass") = defaults.physics.mass_scale, nb::arg("friction") = nb::none(),
-             nb::arg("pushes") = std::vector<PushArgument>{}, nb::arg("push_duration") = Push{}.duration,
-             nb::arg("step") = defaults.physics.step, nb::arg("seed") = defaults.seed, nb::arg("record_rate") = 200.0,
-             "Runs a plan with its gains in MuJoCo, with sensors, estimator and delay, as `prowl simulate` does. The same arguments\n"
+  module.def("simulate", &run, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false,
+             nb::arg("perfect_state") = false, nb::arg("noise") = defaults.noise_scale,
+             nb::arg("delay") = defaults.delay, nb::arg("bandwidth") = defaults.bandwidth,
+             nb::arg("control_rate") = defaults.control_rate, nb::arg("mass") = defaults.physics.mass_scale,
+             nb::arg("friction") = nb::none(), nb::arg("pushes") = std::vector<PushArgument>{},
+             nb::arg("push_duration") = Push{}.duration, nb::arg("step") = defaults.physics.step,
+             nb::arg("seed") = defaults.seed, nb::arg("record_rate") = 200.0,
+             "Runs a plan with its gains in MuJoCo, with sensors, estimator and delay, as `prowl simulate` does. The "
+             "same arguments\n"
              "give the same result.\n\n"
-             "open_loop: feedforward torques only. perfect_state: the controller sees the true state. noise: factor on that of the\n"
-             "sensors. delay: from sensors to torque [s]. bandwidth: of the actuators [Hz], 0: they follow at once. control_rate\n"
-             "[Hz]. mass: factor on all masses and inertias. friction: of all surfaces, in place of the task's. pushes: (time [s],\n"
-             "impulse [N s] in world x, y, z) on the base, each push_duration [s] long. step: of the physics [s]. record_rate: of\n"
+             "open_loop: feedforward torques only. perfect_state: the controller sees the true state. noise: factor on "
+             "that of the\n"
+             "sensors. delay: from sensors to torque [s]. bandwidth: of the actuators [Hz], 0: they follow at once. "
+             "control_rate\n"
+             "[Hz]. mass: factor on all masses and inertias. friction: of all surfaces, in place of the task's. "
+             "pushes: (time [s],\n"
+             "impulse [N s] in world x, y, z) on the base, each push_duration [s] long. step: of the physics [s]. "
+             "record_rate: of\n"
              "the samples that are kept [Hz].");
 }
 

@@ -70,7 +70,8 @@ std::string add_feedback(PlanRecord& record, Observer& observer) {
 nb::object solve(const Task& task, const std::string& solver_name, int threads, bool coarse_first,
                  const PlanObject* start_from, bool gains, nb::object on_iteration) {
   constexpr int kMostThreads = 256;
-  if (threads < 1 || threads > kMostThreads) throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", threads, kMostThreads));
+  if (threads < 1 || threads > kMostThreads)
+    throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", threads, kMostThreads));
   if (solver_name == "fatrop" && threads > 1) {
     throw InputError("threads: Fatrop evaluates one stage at a time; need 1, or another solver");
   }
@@ -91,10 +92,14 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
     const nb::gil_scoped_release others_may_run;
     if (start_from) {
       options.start_from = warm_start(start_from->record, task.problem);
-      options.resume = start_from->record.plan.result.status != SolveStatus::converged;  // an iterate is no solution to stay near
+      options.resume =
+          start_from->record.plan.result.status != SolveStatus::converged;  // an iterate is no solution to stay near
     }
     Plan found = make_plan(task.problem, *solver, options);
-    PlanRecord record{.task = task, .plan = std::move(found), .versions = cli::versions(), .feedback = {},
+    PlanRecord record{.task = task,
+                      .plan = std::move(found),
+                      .versions = cli::versions(),
+                      .feedback = {},
                       .iterations = observer.iterations(),
                       .warm_start = start_from && start_from->read_from ? start_from->read_from->string() : ""};
     record.task.problem = mesh_of(task.problem, record.plan);
@@ -107,7 +112,8 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
     if (error->matches(PyExc_KeyboardInterrupt)) raise_interrupted(result);
     throw std::move(*error);
   }
-  if (!note.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, ("no gains: " + note).c_str(), 2) != 0) throw nb::python_error();
+  if (!note.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, ("no gains: " + note).c_str(), 2) != 0)
+    throw nb::python_error();
   return result;
 }
 
@@ -116,11 +122,14 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
 void bind_solve(nb::module_& module) {
   nb::class_<Progress>(module, "Progress", "One iteration of a solver.")
       .def_ro("intervals", &Progress::intervals, "Of the mesh that is being solved: coarse ones come first.")
-      .def_prop_ro("iteration", [](const Progress& p) { return p.solve.iteration; }, "On this mesh, from 0.")
+      .def_prop_ro(
+          "iteration", [](const Progress& p) { return p.solve.iteration; }, "On this mesh, from 0.")
       .def_prop_ro("cost", [](const Progress& p) { return p.solve.cost; })
-      .def_prop_ro("constraint_violation", [](const Progress& p) { return p.solve.constraint_violation; }, "Largest, unscaled.")
+      .def_prop_ro(
+          "constraint_violation", [](const Progress& p) { return p.solve.constraint_violation; }, "Largest, unscaled.")
       .def_prop_ro("dual_violation", [](const Progress& p) { return p.solve.dual_violation; })
-      .def_prop_ro("seconds", [](const Progress& p) { return p.solve.elapsed_seconds; }, "On this mesh [s].")
+      .def_prop_ro(
+          "seconds", [](const Progress& p) { return p.solve.elapsed_seconds; }, "On this mesh [s].")
       .def("__repr__", [](const Progress& p) {
         return fmt::format("<prowl.Progress {} intervals, iteration {}: cost {:.6g}, violation {:.2e}>", p.intervals,
                            p.solve.iteration, p.solve.cost, p.solve.constraint_violation);

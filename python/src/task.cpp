@@ -24,7 +24,8 @@ struct PhaseView {
 std::vector<PhaseView> phases(const Task& task) {
   std::vector<PhaseView> all;
   for (const Phase& phase : task.problem.phases) {
-    PhaseView& view = all.emplace_back(PhaseView{phase.name, {}, phase.duration.min, phase.duration.max, phase.intervals});
+    PhaseView& view =
+        all.emplace_back(PhaseView{phase.name, {}, phase.duration.min, phase.duration.max, phase.intervals});
     for (const PhaseContact& contact : phase.contacts) {
       view.contacts.push_back(task.problem.robot.contacts()[contact.contact].name);
     }
@@ -56,32 +57,43 @@ void bind_task(nb::module_& module) {
       .def_ro("longest", &PhaseView::longest, "Longest duration [s].")
       .def_ro("intervals", &PhaseView::intervals, "Mesh intervals.")
       .def("__repr__", [](const PhaseView& phase) {
-        return fmt::format("<prowl.Phase {}: {} contacts, {} intervals>", phase.name, phase.contacts.size(), phase.intervals);
+        return fmt::format("<prowl.Phase {}: {} contacts, {} intervals>", phase.name, phase.contacts.size(),
+                           phase.intervals);
       });
-  nb::class_<Task>(module, "Task",
-                   "A motion that is asked for: robot, surfaces, phases, goals and costs, as a task file says. Immutable; for\n"
-                   "another goal, change the text and parse it again.")
+  nb::class_<Task>(
+      module, "Task",
+      "A motion that is asked for: robot, surfaces, phases, goals and costs, as a task file says. Immutable; for\n"
+      "another goal, change the text and parse it again.")
       .def_prop_ro("name", [](const Task& task) { return task.problem.name; })
-      .def_prop_ro("robot", [](const Task& task) -> const RobotModel& { return task.problem.robot; },
-                   nb::rv_policy::reference_internal)
+      .def_prop_ro(
+          "robot", [](const Task& task) -> const RobotModel& { return task.problem.robot; },
+          nb::rv_policy::reference_internal)
       .def_prop_ro("phases", &phases)
-      .def_prop_ro("path", [](const Task& task) { return task.task_file.path; }, "The file that it came from.")
-      .def_prop_ro("text", [](const Task& task) { return task.task_file.text; }, "Text of the task file.")
-      .def_prop_ro("robot_text", [](const Task& task) { return task.robot_file.text; }, "Text of the robot file.")
-      .def_prop_ro("start", [](nb::handle self) { return view(nb::cast<const Task&>(self).problem.start_configuration(), self); },
-                   "Configuration at the start, q (nq).")
-      .def("phase_table", [](const Task& task) { return phase_table(task.problem); }, "The phases as a table to print.")
+      .def_prop_ro(
+          "path", [](const Task& task) { return task.task_file.path; }, "The file that it came from.")
+      .def_prop_ro(
+          "text", [](const Task& task) { return task.task_file.text; }, "Text of the task file.")
+      .def_prop_ro(
+          "robot_text", [](const Task& task) { return task.robot_file.text; }, "Text of the robot file.")
+      .def_prop_ro(
+          "start",
+          [](nb::handle self) { return view(nb::cast<const Task&>(self).problem.start_configuration(), self); },
+          "Configuration at the start, q (nq).")
+      .def(
+          "phase_table", [](const Task& task) { return phase_table(task.problem); }, "The phases as a table to print.")
       .def("__repr__", [](const Task& task) {
         return fmt::format("<prowl.Task {}: {}, {} phase{}>", task.problem.name, task.problem.robot.name(),
                            task.problem.phases.size(), task.problem.phases.size() == 1 ? "" : "s");
       });
   module.def("read_task", &read_task, nb::arg("path"), nb::kw_only(), nb::arg("package_dirs") = Folders{},
-             nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(), nb::arg("max_time") = nb::none(),
-             nb::arg("tolerance") = nb::none(), "Reads a task file, docs/task-file.md.");
-  module.def("parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
-             nb::arg("package_dirs") = Folders{}, nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
+             nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
              nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
-             "Reads the text of a task file; what it names is relative to the folder of `path`, where no file needs to be.");
+             "Reads a task file, docs/task-file.md.");
+  module.def(
+      "parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
+      nb::arg("package_dirs") = Folders{}, nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
+      nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
+      "Reads the text of a task file; what it names is relative to the folder of `path`, where no file needs to be.");
 }
 
 }  // namespace prowl::python

@@ -53,7 +53,8 @@ Array gains(const Tracker& tracker, double t) {
   Eigen::MatrixXd K(nu, nx);
   tracker.gains(t, K);
   const RowMatrix rows = K;
-  return new_array({rows.data(), rows.data() + rows.size()}, {static_cast<std::size_t>(nu), static_cast<std::size_t>(nx)});
+  return new_array({rows.data(), rows.data() + rows.size()},
+                   {static_cast<std::size_t>(nu), static_cast<std::size_t>(nx)});
 }
 
 /// Times of all samples: equal steps within each segment.
@@ -71,7 +72,9 @@ Array times(const Tracker& tracker) {
 Block all_gains(const TrackingPlan& plan, nb::handle owner) {
   const auto nu = static_cast<std::size_t>(plan.nu()), nx = 2 * static_cast<std::size_t>(plan.nv());
   const auto stride = static_cast<std::int64_t>(nu);
-  return {plan.gains.data(), {static_cast<std::size_t>(plan.num_samples()), nu, nx}, owner,
+  return {plan.gains.data(),
+          {static_cast<std::size_t>(plan.num_samples()), nu, nx},
+          owner,
           {stride * static_cast<std::int64_t>(nx), 1, stride}};
 }
 
@@ -89,23 +92,30 @@ std::vector<std::string> contacts(const Tracker& tracker, double t) {
 
 void bind_tracker(nb::module_& module) {
   const auto plan = [](nb::handle self) -> const TrackingPlan& { return nb::cast<const Tracker&>(self).plan(); };
-  nb::class_<Tracker>(module, "Tracker",
-                      "Torques that keep a robot on its plan (docs/tracking.md):\n\n"
-                      "    tau = tau*(t) + K(t) (x* - x),  within the torque limits\n\n"
-                      "x* - x, 2 nv numbers: way of the base to the reference in the world [m], its rotation vector in the base\n"
-                      "frame [rad], joints, then the difference of v. S samples, 2 ms apart unless the task says otherwise.\n"
-                      "A robot takes the same along in C++ without Python: prowl/tracker and tracker.bin.")
-      .def_static("read", [](const std::filesystem::path& path) { return Tracker::read(path.string()); }, nb::arg("path"),
-                  "Reads tracker.bin.")
-      .def_prop_ro("t", &times, nb::rv_policy::reference, "Times of the samples (S) [s]; at a change of contacts two samples have one time.")
-      .def_prop_ro("q", [=](nb::handle self) { return transposed_view(plan(self).q, self); },
-                   "Reference configurations (S, nq), a read-only view.")
-      .def_prop_ro("v", [=](nb::handle self) { return transposed_view(plan(self).v, self); },
-                   "Reference velocities (S, nv), a read-only view.")
-      .def_prop_ro("tau", [=](nb::handle self) { return transposed_view(plan(self).tau, self); },
-                   "Feedforward torques (S, nu) [N m], a read-only view.")
-      .def_prop_ro("K", [=](nb::handle self) { return all_gains(plan(self), self); },
-                   "Gains (S, nu, 2 nv) [N m per m, rad, m/s, rad/s], a read-only view; each K lies column by column.")
+  nb::class_<Tracker>(
+      module, "Tracker",
+      "Torques that keep a robot on its plan (docs/tracking.md):\n\n"
+      "    tau = tau*(t) + K(t) (x* - x),  within the torque limits\n\n"
+      "x* - x, 2 nv numbers: way of the base to the reference in the world [m], its rotation vector in the base\n"
+      "frame [rad], joints, then the difference of v. S samples, 2 ms apart unless the task says otherwise.\n"
+      "A robot takes the same along in C++ without Python: prowl/tracker and tracker.bin.")
+      .def_static(
+          "read", [](const std::filesystem::path& path) { return Tracker::read(path.string()); }, nb::arg("path"),
+          "Reads tracker.bin.")
+      .def_prop_ro("t", &times, nb::rv_policy::reference,
+                   "Times of the samples (S) [s]; at a change of contacts two samples have one time.")
+      .def_prop_ro(
+          "q", [=](nb::handle self) { return transposed_view(plan(self).q, self); },
+          "Reference configurations (S, nq), a read-only view.")
+      .def_prop_ro(
+          "v", [=](nb::handle self) { return transposed_view(plan(self).v, self); },
+          "Reference velocities (S, nv), a read-only view.")
+      .def_prop_ro(
+          "tau", [=](nb::handle self) { return transposed_view(plan(self).tau, self); },
+          "Feedforward torques (S, nu) [N m], a read-only view.")
+      .def_prop_ro(
+          "K", [=](nb::handle self) { return all_gains(plan(self), self); },
+          "Gains (S, nu, 2 nv) [N m per m, rad, m/s, rad/s], a read-only view; each K lies column by column.")
       .def_prop_ro("start", &Tracker::start, "[s]")
       .def_prop_ro("end", &Tracker::end, "[s]; after it, the last sample holds.")
       .def_prop_ro("joint_names", [](const Tracker& tracker) { return tracker.plan().joint_names; })
@@ -116,12 +126,15 @@ void bind_tracker(nb::module_& module) {
       .def("feedback", &feedback, nb::arg("t"), nb::arg("q"), nb::arg("v"), "K(t) (x* - x) (nu) [N m], not limited.")
       .def("reference", &reference, nb::arg("t"), "(q, v) of the plan at time t [s].")
       .def("gains", &gains, nb::arg("t"), "K(t) (nu, 2 nv).")
-      .def("phase", [](const Tracker& tracker, double t) { return tracker.segment(t).name; }, nb::arg("t"), "Name of the phase at time t [s].")
+      .def(
+          "phase", [](const Tracker& tracker, double t) { return tracker.segment(t).name; }, nb::arg("t"),
+          "Name of the phase at time t [s].")
       .def("contacts", &contacts, nb::arg("t"), "Names of the contacts that hold at time t [s].")
-      .def("__len__", [](const Tracker& tracker) { return tracker.plan().num_samples(); }, "Samples, S.")
+      .def(
+          "__len__", [](const Tracker& tracker) { return tracker.plan().num_samples(); }, "Samples, S.")
       .def("__repr__", [](const Tracker& tracker) {
-        return fmt::format("<prowl.Tracker {} samples, {:.3g} to {:.3g} s>", tracker.plan().num_samples(), tracker.start(),
-                           tracker.end());
+        return fmt::format("<prowl.Tracker {} samples, {:.3g} to {:.3g} s>", tracker.plan().num_samples(),
+                           tracker.start(), tracker.end());
       });
 }
 

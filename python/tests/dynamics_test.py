@@ -75,7 +75,11 @@ def test_in_contact_accelerations_and_forces_solve_pinocchios_equations(robot, m
     """Also Talos' flat feet, 24 forces of rank 12: the least-squares solution of least norm has the same forces."""
     q, v, tau = states(robot, 5)
     dynamics = prowl.Dynamics(robot)
-    found, positions, jacobians = dynamics.forward(q, v, tau), dynamics.contact_positions(q), dynamics.contact_jacobian(q)
+    found, positions, jacobians = (
+        dynamics.forward(q, v, tau),
+        dynamics.contact_positions(q),
+        dynamics.contact_jacobian(q),
+    )
     for i in range(5):
         p, J, drift = contact_kinematics(robot, model, q[i], v[i])
         np.testing.assert_allclose(positions[i], p, atol=1e-12)
@@ -106,7 +110,9 @@ def central_difference(function, argument: np.ndarray, move) -> np.ndarray:
     """Derivative of function(argument) in directions of move(argument, direction), as a further axis at the end."""
     step = 1e-6
     size = argument.size - (1 if move is prowl.integrate else 0)
-    columns = [(function(move(argument, step * e)) - function(move(argument, -step * e))) / (2 * step) for e in np.eye(size)]
+    columns = [
+        (function(move(argument, step * e)) - function(move(argument, -step * e))) / (2 * step) for e in np.eye(size)
+    ]
     return np.stack(columns, axis=-1)
 
 
@@ -116,12 +122,15 @@ def test_derivatives_are_those_of_differences(hyq, quantity):
     a = G.standard_normal(hyq.nv)
     dynamics = prowl.Dynamics(hyq, contacts=["lf_foot", "rh_foot", "lh_foot"])
     add = np.add
-    for name, exact, arguments in (("forward", dynamics.forward(q, v, tau, derivatives=True), [q, v, tau]),
-                                   ("residual", dynamics.residual(q, v, a, tau, derivatives=True), [q, v, a, tau])):
+    for name, exact, arguments in (
+        ("forward", dynamics.forward(q, v, tau, derivatives=True), [q, v, tau]),
+        ("residual", dynamics.residual(q, v, a, tau, derivatives=True), [q, v, a, tau]),
+    ):
         derivatives = getattr(exact, f"{quantity}_derivatives")
         for i, key in enumerate(["q", "v", "tau"] if name == "forward" else ["q", "v", "a", "tau"]):
+
             def function(x, i=i, name=name, arguments=arguments):
-                return getattr(getattr(dynamics, name)(*arguments[:i], x, *arguments[i + 1:]), quantity)
+                return getattr(getattr(dynamics, name)(*arguments[:i], x, *arguments[i + 1 :]), quantity)
 
             numeric = central_difference(function, arguments[i], prowl.integrate if key == "q" else add)
             found = getattr(derivatives, key)
@@ -163,7 +172,9 @@ def test_a_plan_obeys_the_dynamics_that_pinocchio_has(crouch):
     model = pin.buildModelFromUrdf(str(robot.urdf), pin.JointModelFreeFlyer())
     data = model.createData()
     for k in range(0, len(crouch), 8):
-        wrench = pin.rnea(model, data, crouch.q[k], crouch.v[k], crouch.a[k]) - np.concatenate([np.zeros(6), crouch.tau[k]])
+        wrench = pin.rnea(model, data, crouch.q[k], crouch.v[k], crouch.a[k]) - np.concatenate(
+            [np.zeros(6), crouch.tau[k]]
+        )
         pin.computeJointJacobians(model, data, crouch.q[k])
         pin.updateFramePlacements(model, data)
         for name, force in zip(robot.contact_names, crouch.f[k], strict=True):

@@ -13,7 +13,11 @@ import prowl
 
 
 def test_the_hierarchy_is_that_of_the_library():
-    for kind, builtin in ((prowl.InputError, ValueError), (prowl.FileError, OSError), (prowl.NumericalError, ArithmeticError)):
+    for kind, builtin in (
+        (prowl.InputError, ValueError),
+        (prowl.FileError, OSError),
+        (prowl.NumericalError, ArithmeticError),
+    ):
         assert issubclass(kind, prowl.Error) and issubclass(kind, builtin)
     assert issubclass(prowl.Error, RuntimeError) and issubclass(prowl.Interrupted, KeyboardInterrupt)
 

@@ -40,7 +40,9 @@ def test_arrays_hold_what_the_file_holds(crouch, tmp_path):
     file = tmp_path / "plan/trajectory.csv"
     assert crouch.t.shape == (len(crouch),) and len(crouch) == 81
     np.testing.assert_array_equal(columns(file, "time_s")[:, 0], crouch.t)
-    np.testing.assert_array_equal(np.hstack([columns(file, "base_p"), columns(file, "base_q"), columns(file, "q_")]), crouch.q)
+    np.testing.assert_array_equal(
+        np.hstack([columns(file, "base_p"), columns(file, "base_q"), columns(file, "q_")]), crouch.q
+    )
     np.testing.assert_array_equal(columns(file, "v_"), crouch.v[:, 6:])
     np.testing.assert_array_equal(columns(file, "a_"), crouch.a[:, 6:])
     np.testing.assert_array_equal(columns(file, "tau_"), crouch.tau)
@@ -102,7 +104,9 @@ def test_the_certificate_tells_good_from_bad(crouch):
     coarse = prowl.solve(prowl.read_task("hyq/crouch", intervals=20))
     assert coarse.status == "converged" and not coarse.good and coarse.tracker is None
     failed = [check.name for check in coarse.certificate.checks if not check.passed]
-    assert "local integration error" in failed and all("integration" in name for name in failed), "the mesh is too coarse"
+    assert "local integration error" in failed and all("integration" in name for name in failed), (
+        "the mesh is too coarse"
+    )
     assert "FAIL" in coarse.certificate._repr_html_()
 
 
@@ -143,7 +147,9 @@ def test_what_comes_with_prowl(tmp_path):
 
 def test_progress_tells_every_iteration(crouch, capsys):
     seen = []
-    plan = prowl.solve(crouch.task, progress=True, on_iteration=lambda p: seen.append((p.intervals, p.iteration, p.cost)))
+    plan = prowl.solve(
+        crouch.task, progress=True, on_iteration=lambda p: seen.append((p.intervals, p.iteration, p.cost))
+    )
     assert {intervals for intervals, _, _ in seen} == {20, 80}
     assert len(seen) == plan.iterations
     assert seen[-1][2] == pytest.approx(plan.cost, rel=1e-6)

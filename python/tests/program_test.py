@@ -29,14 +29,27 @@ def directional(function, z: np.ndarray, direction: np.ndarray) -> np.ndarray:
 
 
 def test_sizes_and_bounds_belong_together(program):
-    assert (program.dynamics, program.transcription, program.contact, program.orientation) == ("inverse", "trapezoid", "stabilised", "se3")
+    assert (program.dynamics, program.transcription, program.contact, program.orientation) == (
+        "inverse",
+        "trapezoid",
+        "stabilised",
+        "se3",
+    )
     assert program.nodes == 6
-    assert program.start.shape == program.variable_lower.shape == program.variable_upper.shape == (program.num_variables,)
+    assert (
+        program.start.shape == program.variable_lower.shape == program.variable_upper.shape == (program.num_variables,)
+    )
     assert program.constraint_lower.shape == program.constraint_upper.shape == (program.num_constraints,)
-    assert np.all(program.variable_lower <= program.variable_upper) and np.all(program.constraint_lower <= program.constraint_upper)
-    assert np.all(program.start >= program.variable_lower - 1e-9) and np.all(program.start <= program.variable_upper + 1e-9)
-    for (rows, columns), shape in ((program.jacobian_pattern, (program.num_constraints, program.num_variables)),
-                                   (program.hessian_pattern, (program.num_variables, program.num_variables))):
+    assert np.all(program.variable_lower <= program.variable_upper) and np.all(
+        program.constraint_lower <= program.constraint_upper
+    )
+    assert np.all(program.start >= program.variable_lower - 1e-9) and np.all(
+        program.start <= program.variable_upper + 1e-9
+    )
+    for (rows, columns), shape in (
+        (program.jacobian_pattern, (program.num_constraints, program.num_variables)),
+        (program.hessian_pattern, (program.num_variables, program.num_variables)),
+    ):
         assert rows.shape == columns.shape and rows.min() >= 0 and columns.min() >= 0
         assert rows.max() < shape[0] and columns.max() < shape[1]
         assert len(set(zip(rows.tolist(), columns.tolist(), strict=True))) == rows.size
@@ -52,7 +65,9 @@ def test_first_derivatives_are_those_of_differences(program):
     assert np.abs(jacobian).max() > 0.1
     for _ in range(5):
         direction = G.standard_normal(z.size)
-        np.testing.assert_allclose(program.cost_gradient(z) @ direction, directional(program.cost, z, direction), rtol=1e-6)
+        np.testing.assert_allclose(
+            program.cost_gradient(z) @ direction, directional(program.cost, z, direction), rtol=1e-6
+        )
         found, numeric = jacobian @ direction, directional(program.constraints, z, direction)
         np.testing.assert_allclose(found, numeric, atol=1e-6 * np.abs(numeric).max())
 
@@ -64,7 +79,9 @@ def test_the_hessian_is_that_of_differences_of_the_gradient(program):
     hessian = lower + np.tril(lower, -1).T
 
     def gradient(at: np.ndarray) -> np.ndarray:
-        jacobian = dense(program.jacobian_pattern, program.jacobian(at), (program.num_constraints, program.num_variables))
+        jacobian = dense(
+            program.jacobian_pattern, program.jacobian(at), (program.num_constraints, program.num_variables)
+        )
         return factor * program.cost_gradient(at) + multipliers @ jacobian
 
     for _ in range(3):
@@ -113,9 +130,14 @@ def test_a_straight_guess_is_straight_and_stands(program):
 
 
 def test_what_makes_no_sense_is_refused(program):
-    for choice in ({"dynamics": "backward"}, {"transcription": "euler"}, {"contact": "magnetic"}, {"orientation": "north"},
-                   {"guess": "wild"}):
-        (name, value), = choice.items()
+    for choice in (
+        {"dynamics": "backward"},
+        {"transcription": "euler"},
+        {"contact": "magnetic"},
+        {"orientation": "north"},
+        {"guess": "wild"},
+    ):
+        ((name, value),) = choice.items()
         with pytest.raises(prowl.InputError, match=f'{name}: "{value}" is not allowed; need one of'):
             prowl.Program(program.task, **choice)
     with pytest.raises(prowl.InputError, match=rf"z: shape \(3\) is not allowed; need \({program.num_variables}\)"):

@@ -16,8 +16,11 @@ COMMAND = os.environ["PROWL_COMMAND"]
 def test_the_command_simulates_the_same(crouch, tmp_path):
     for folder in ("command", "python"):
         crouch.write(tmp_path / folder)
-    subprocess.run([COMMAND, "simulate", tmp_path / "command", "--push", "0.5", "0", "10", "0", "--delay", "3", "--seed", "4"],
-                   check=True, capture_output=True)
+    subprocess.run(
+        [COMMAND, "simulate", tmp_path / "command", "--push", "0.5", "0", "10", "0", "--delay", "3", "--seed", "4"],
+        check=True,
+        capture_output=True,
+    )
     simulation = prowl.simulate(crouch, pushes=[(0.5, (0.0, 10.0, 0.0))], delay=3e-3, seed=4)
     simulation.write(tmp_path / "python")
     for name in ("simulate.json", "simulate.csv"):

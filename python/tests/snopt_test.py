@@ -20,7 +20,9 @@ def test_without_drake_the_error_says_what_to_install(monkeypatch):
 
 
 def test_prowl_itself_does_not_import_drake():
-    subprocess.run([sys.executable, "-c", "import sys, prowl, prowl.snopt; sys.exit('pydrake' in sys.modules)"], check=True)
+    subprocess.run(
+        [sys.executable, "-c", "import sys, prowl, prowl.snopt; sys.exit('pydrake' in sys.modules)"], check=True
+    )
 
 
 def test_what_makes_no_sense_is_refused():

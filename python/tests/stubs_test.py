@@ -21,5 +21,8 @@ def test_every_public_name_is_in_the_stub_with_its_type_and_words():
         if isinstance(node, ast.FunctionDef):
             assert node.returns is not None, node.name
             for argument in node.args.args[1:] + node.args.kwonlyargs:
-                assert argument.annotation is not None and ast.unparse(argument.annotation) != "object", (node.name, argument.arg)
+                assert argument.annotation is not None and ast.unparse(argument.annotation) != "object", (
+                    node.name,
+                    argument.arg,
+                )
     assert "std::" not in (PACKAGE / "_prowl.pyi").read_text(), "a type that Python does not know"

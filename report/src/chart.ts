@@ -41,7 +41,10 @@ function aligned(lines: Line[]): uPlot.AlignedData {
     for (let i = x.length - 2; i >= 0; --i) if (x[i] >= x[i + 1]) x[i] = x[i + 1] - 1e-9;
     return data;
   };
-  return uPlot.join(lines.map((line) => apart(one(line))), lines.map(() => [2]));
+  return uPlot.join(
+    lines.map((line) => apart(one(line))),
+    lines.map(() => [2]),
+  );
 }
 
 /// A small chart over time: a click seeks, the time of the clock is a line, the values at that time are in its heading.
@@ -60,7 +63,13 @@ export class Chart {
     this.element = el(
       "figure",
       { class: "chart" },
-      el("figcaption", {}, el("span", { class: "title", title: options.title }, options.title), this.values, el("span", { class: "unit" }, options.unit === "-" ? "" : options.unit)),
+      el(
+        "figcaption",
+        {},
+        el("span", { class: "title", title: options.title }, options.title),
+        this.values,
+        el("span", { class: "unit" }, options.unit === "-" ? "" : options.unit),
+      ),
       this.box,
     );
   }
@@ -81,10 +90,27 @@ export class Chart {
         pxAlign: 0, // whole pixels would make steps of slow changes
         legend: { show: false },
         cursor: { sync: { key: options.group }, drag: { x: true, y: false }, points: { size: 5 } },
-        scales: { x: { time: false }, y: options.logarithmic ? { distr: 3 } : { range: (_u, low, high) => padded(low, high) } },
+        scales: {
+          x: { time: false },
+          y: options.logarithmic ? { distr: 3 } : { range: (_u, low, high) => padded(low, high) },
+        },
         axes: [
-          { ...axis, size: 22, gap: 2, space: 38, values: (_u, ticks) => ticks.map((tick) => (options.xLabel ? String(tick) : `${short(tick, 4)} s`)) },
-          { ...axis, grid: options.logarithmic ? { ...grid, filter: powersOfTen } : grid, ticks: { show: false }, size: 42, gap: 3, space: 22, values: (_u, ticks) => ticks.map((tick) => (tick == null ? "" : short(tick, 4))) },
+          {
+            ...axis,
+            size: 22,
+            gap: 2,
+            space: 38,
+            values: (_u, ticks) => ticks.map((tick) => (options.xLabel ? String(tick) : `${short(tick, 4)} s`)),
+          },
+          {
+            ...axis,
+            grid: options.logarithmic ? { ...grid, filter: powersOfTen } : grid,
+            ticks: { show: false },
+            size: 42,
+            gap: 3,
+            space: 22,
+            values: (_u, ticks) => ticks.map((tick) => (tick == null ? "" : short(tick, 4))),
+          },
         ],
         series: [
           {},

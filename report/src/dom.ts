@@ -17,12 +17,17 @@ export function el<K extends keyof HTMLElementTagNameMap>(
 }
 
 /// Colour of the theme by the name of its CSS variable.
-export const colour = (name: string): string => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+export const colour = (name: string): string =>
+  getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 /// A number as short as it can be with so many digits; "–" for what is none.
 export function short(value: number | null | undefined, digits = 3): string {
   if (value == null || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-3 || size >= 1e5)) return value.toExponential(digits - 1).replace(/\.?0*e\+?/, "e").replaceAll("-", "−");
+  if (size !== 0 && (size < 1e-3 || size >= 1e5))
+    return value
+      .toExponential(digits - 1)
+      .replace(/\.?0*e\+?/, "e")
+      .replaceAll("-", "−");
   return Number(value.toPrecision(digits)).toString().replaceAll("-", "−");
 }

@@ -1,6 +1,18 @@
 import {
-  BufferGeometry, type Color, ConeGeometry, CylinderGeometry, DoubleSide, EdgesGeometry, Group, Line, LineBasicMaterial, LineSegments,
-  Mesh, MeshBasicMaterial, Quaternion, Vector3,
+  BufferGeometry,
+  type Color,
+  ConeGeometry,
+  CylinderGeometry,
+  DoubleSide,
+  EdgesGeometry,
+  Group,
+  Line,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  Quaternion,
+  Vector3,
 } from "three";
 import type { ReportData, Phase } from "./data";
 import type { Motion } from "./motion";
@@ -31,7 +43,12 @@ export class Forces {
   readonly cones = new Group();
   private readonly contacts: Contact[];
   private readonly arrowMaterial = new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.95 });
-  private readonly coneMaterial = new MeshBasicMaterial({ transparent: true, opacity: 0.16, side: DoubleSide, depthWrite: false });
+  private readonly coneMaterial = new MeshBasicMaterial({
+    transparent: true,
+    opacity: 0.16,
+    side: DoubleSide,
+    depthWrite: false,
+  });
   private readonly rimMaterial = new LineBasicMaterial({ transparent: true, opacity: 0.7 });
   private readonly perNewton: number; // [m/N]
   private readonly thickness: number; // [m]
@@ -95,15 +112,27 @@ export class Forces {
 
   private make(): Contact {
     const arrow = new Group();
-    const shaft = new Mesh(new CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5), this.arrowMaterial);
+    const shaft = new Mesh(
+      new CylinderGeometry(1, 1, 1, 16).rotateX(Math.PI / 2).translate(0, 0, 0.5),
+      this.arrowMaterial,
+    );
     const head = new Mesh(new ConeGeometry(1, 1, 24).rotateX(Math.PI / 2).translate(0, 0, 0.5), this.arrowMaterial);
     shaft.renderOrder = head.renderOrder = 3;
     arrow.add(shaft, head);
     const cone = new Group();
     // Apex at the origin, mouth of radius 1 at z = 1: scaled to the friction coefficient.
-    const side = new Mesh(new ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5), this.coneMaterial);
+    const side = new Mesh(
+      new ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5),
+      this.coneMaterial,
+    );
     side.renderOrder = 2;
-    cone.add(side, new LineSegments(new EdgesGeometry(new ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5), 30), this.rimMaterial));
+    cone.add(
+      side,
+      new LineSegments(
+        new EdgesGeometry(new ConeGeometry(1, 1, 48, 1, true).rotateX(-Math.PI / 2).translate(0, 0, 0.5), 30),
+        this.rimMaterial,
+      ),
+    );
     this.arrows.add(arrow);
     this.cones.add(cone);
     return { arrow, shaft, head, cone };

@@ -1,6 +1,18 @@
 import {
-  BufferGeometry, type Color, Group, LineBasicMaterial, LineLoop, LineSegments, Mesh, MeshStandardMaterial, PlaneGeometry,
-  Quaternion, ShapeGeometry, Shape, Vector2, Vector3,
+  BufferGeometry,
+  type Color,
+  Group,
+  LineBasicMaterial,
+  LineLoop,
+  LineSegments,
+  Mesh,
+  MeshStandardMaterial,
+  PlaneGeometry,
+  Quaternion,
+  ShapeGeometry,
+  Shape,
+  Vector2,
+  Vector3,
 } from "three";
 import type { Surface } from "./data";
 
@@ -12,7 +24,8 @@ export class Ground {
 
   /// `centre` and `reach` [m]: what of a plane is to be seen.
   constructor(surfaces: Surface[], centre: Vector3, reach: number) {
-    for (const surface of surfaces) this.group.add(surface.patch.length > 0 ? this.patch(surface) : this.plane(surface, centre, reach));
+    for (const surface of surfaces)
+      this.group.add(surface.patch.length > 0 ? this.patch(surface) : this.plane(surface, centre, reach));
   }
 
   setColours(face: Color, line: Color): void {
@@ -22,7 +35,12 @@ export class Ground {
 
   private face(opacity: number): MeshStandardMaterial {
     const material = new MeshStandardMaterial({
-      roughness: 1, transparent: opacity < 1, opacity, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+      roughness: 1,
+      transparent: opacity < 1,
+      opacity,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
     });
     this.faces.push(material);
     return material;
@@ -43,7 +61,12 @@ export class Ground {
     const step = 0.25;
     const points: Vector3[] = [];
     for (let x = -size / 2; x <= size / 2 + 1e-9; x += step) {
-      points.push(new Vector3(x, -size / 2, 0), new Vector3(x, size / 2, 0), new Vector3(-size / 2, x, 0), new Vector3(size / 2, x, 0));
+      points.push(
+        new Vector3(x, -size / 2, 0),
+        new Vector3(x, size / 2, 0),
+        new Vector3(-size / 2, x, 0),
+        new Vector3(size / 2, x, 0),
+      );
     }
     plane.add(face, new LineSegments(new BufferGeometry().setFromPoints(points), this.line()));
     plane.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), normal));
@@ -57,7 +80,9 @@ export class Ground {
     const normal = new Vector3(...surface.normal);
     const turn = new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), normal);
     const origin = new Vector3(...surface.patch[0]);
-    const flat = surface.patch.map((corner) => new Vector3(...corner).sub(origin).applyQuaternion(turn.clone().invert()));
+    const flat = surface.patch.map((corner) =>
+      new Vector3(...corner).sub(origin).applyQuaternion(turn.clone().invert()),
+    );
     const patch = new Group();
     const face = new Mesh(new ShapeGeometry(new Shape(flat.map((p) => new Vector2(p.x, p.y)))), this.face(0.85));
     face.receiveShadow = true;

@@ -17,7 +17,13 @@ export const kKeys: [string, string][] = [
 const kLayers: Record<string, keyof Layers> = { f: "forces", c: "cones", g: "ghost", t: "trails" };
 
 /// Keys of the whole page; those of a field that has the focus go first.
-export function keyboard(clock: Clock, timeline: Timeline, view: View | null, data: ReportData, help: () => void): void {
+export function keyboard(
+  clock: Clock,
+  timeline: Timeline,
+  view: View | null,
+  data: ReportData,
+  help: () => void,
+): void {
   const starts = () => [...data.phases.map((phase) => phase.start), data.phases[data.phases.length - 1]?.end ?? 0];
   const actions: Record<string, (event: KeyboardEvent) => void> = {
     " ": () => clock.toggle(),

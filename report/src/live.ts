@@ -10,18 +10,33 @@ export class Live {
   readonly element: HTMLElement;
   private readonly result: Shown | null;
   private readonly iterates: Iterate[] = [];
-  private readonly slider = el("input", { type: "range", min: "0", max: "0", step: "1", value: "0", "aria-label": "Iterate of the solver" });
+  private readonly slider = el("input", {
+    type: "range",
+    min: "0",
+    max: "0",
+    step: "1",
+    value: "0",
+    "aria-label": "Iterate of the solver",
+  });
   private readonly readout = el("output", { class: "iterate" });
   private follows = true;
   private waiting = false;
 
-  constructor(data: ReportData, private readonly show: (shown: Shown) => void) {
+  constructor(
+    data: ReportData,
+    private readonly show: (shown: Shown) => void,
+  ) {
     this.result = data.live?.solved ? { phases: data.phases, plan: data.plan, charts: data.charts } : null;
     this.slider.addEventListener("input", () => {
       this.follows = Number(this.slider.value) === this.last();
       this.draw();
     });
-    this.element = el("section", { class: "live", "aria-label": "Iterates" }, el("label", {}, "Iterate ", this.slider), this.readout);
+    this.element = el(
+      "section",
+      { class: "live", "aria-label": "Iterates" },
+      el("label", {}, "Iterate ", this.slider),
+      this.readout,
+    );
     this.describe();
     this.listen();
   }
@@ -69,7 +84,9 @@ export class Live {
     const count = this.iterates.length;
     const text = at
       ? `mesh ${at.level + 1}, ${at.intervals} intervals: iteration ${at.iteration} · cost ${short(at.cost)} · constraints ${short(at.constraint_violation, 2)} · optimality ${short(at.dual_violation, 2)}`
-      : this.result ? `result, after ${count} iterates` : "initial guess";
+      : this.result
+        ? `result, after ${count} iterates`
+        : "initial guess";
     this.readout.textContent = this.element?.classList.contains("ended") ? `${text} · the server has ended` : text;
     this.slider.setAttribute("aria-valuetext", text);
   }

@@ -27,10 +27,21 @@ function header(data: ReportData, theme: ThemeSwitch, help: () => void): HTMLEle
   const helpButton = el("button", { type: "button", "aria-label": "Keys" }, "?");
   helpButton.addEventListener("click", help);
   return el(
-    "header", {},
+    "header",
+    {},
     el("h1", {}, el("span", { class: "robot" }, data.robot), " ", name),
-    data.live?.solved === false ? el("span", { class: "badge" }, "… solving") : el("span", { class: good ? "badge good" : "badge bad" }, good ? `✓ passed · ${found.grade}` : `✗ not good · ${data.plan_json.status}`),
-    el("span", { class: "summary" }, `${short(duration)} s · ${data.phases.length} ${data.phases.length === 1 ? "phase" : "phases"} · ${intervals} intervals · ${solved.name}${data.live?.solved === false ? "" : `, ${solved.iterations} iterations, ${short(solved.seconds)} s`}`),
+    data.live?.solved === false
+      ? el("span", { class: "badge" }, "… solving")
+      : el(
+          "span",
+          { class: good ? "badge good" : "badge bad" },
+          good ? `✓ passed · ${found.grade}` : `✗ not good · ${data.plan_json.status}`,
+        ),
+    el(
+      "span",
+      { class: "summary" },
+      `${short(duration)} s · ${data.phases.length} ${data.phases.length === 1 ? "phase" : "phases"} · ${intervals} intervals · ${solved.name}${data.live?.solved === false ? "" : `, ${solved.iterations} iterations, ${short(solved.seconds)} s`}`,
+    ),
     el("span", { class: "spacer" }),
     helpButton,
     theme.button,
@@ -45,11 +56,13 @@ function layerSwitches(view: View): HTMLElement {
     ["trails", "paths", true],
     ["follow", "follow", true],
   ];
-  const boxes = names.filter(([, , there]) => there).map(([name, text]) => {
-    const box = el("input", { type: "checkbox", "data-layer": name, checked: view.layers[name] });
-    box.addEventListener("change", () => view.setLayer(name, box.checked));
-    return el("label", { class: `layer ${name}` }, box, text);
-  });
+  const boxes = names
+    .filter(([, , there]) => there)
+    .map(([name, text]) => {
+      const box = el("input", { type: "checkbox", "data-layer": name, checked: view.layers[name] });
+      box.addEventListener("change", () => view.setLayer(name, box.checked));
+      return el("label", { class: `layer ${name}` }, box, text);
+    });
   const reset = el("button", { type: "button" }, "reset view");
   reset.addEventListener("click", () => view.resetCamera());
   return el("div", { class: "layers" }, ...boxes, reset);
@@ -58,10 +71,15 @@ function layerSwitches(view: View): HTMLElement {
 function helpDialog(): HTMLDialogElement {
   const close = el("button", { type: "button" }, "Close");
   const dialog = el(
-    "dialog", { "aria-labelledby": "help-title" },
+    "dialog",
+    { "aria-labelledby": "help-title" },
     el("h2", { id: "help-title" }, "Keys"),
     el("dl", { class: "facts" }, ...kKeys.flatMap(([keys, text]) => [el("dt", {}, keys), el("dd", {}, text)])),
-    el("p", { class: "hint" }, "In the view: drag to turn, right drag or two fingers to move, wheel or pinch to come nearer."),
+    el(
+      "p",
+      { class: "hint" },
+      "In the view: drag to turn, right drag or two fingers to move, wheel or pinch to come nearer.",
+    ),
     close,
   );
   close.addEventListener("click", () => dialog.close());
@@ -75,7 +93,13 @@ function makeView(container: HTMLElement, data: ReportData, clock: Clock): View 
     container.append(layerSwitches(view));
     return view;
   } catch (error) {
-    container.append(el("p", { class: "no-view" }, `No 3D view: this browser gives no WebGL (${error instanceof Error ? error.message : String(error)}). Plots and tables work without.`));
+    container.append(
+      el(
+        "p",
+        { class: "no-view" },
+        `No 3D view: this browser gives no WebGL (${error instanceof Error ? error.message : String(error)}). Plots and tables work without.`,
+      ),
+    );
     return null;
   }
 }
@@ -98,17 +122,38 @@ function start(): void {
     clock.seek(time);
   };
   const isSolving = data.live?.solved === false;
-  const later = el("section", { class: "card" }, el("p", { class: "hint" }, "Certificate, solver and sources are here when it is solved."));
+  const later = el(
+    "section",
+    { class: "card" },
+    el("p", { class: "hint" }, "Certificate, solver and sources are here when it is solved."),
+  );
   const judged = isSolving ? { element: later, draw: () => undefined } : certificate(data, clock, goTo);
   const solved = isSolving ? null : solver(data, clock);
-  const warnings = data.warnings.length > 0
-    ? el("section", { class: "card warnings", "aria-label": "Warnings" }, ...data.warnings.map((text) => el("p", {}, `⚠ ${text}`)))
-    : null;
+  const warnings =
+    data.warnings.length > 0
+      ? el(
+          "section",
+          { class: "card warnings", "aria-label": "Warnings" },
+          ...data.warnings.map((text) => el("p", {}, `⚠ ${text}`)),
+        )
+      : null;
   document.body.append(
     header(data, theme, () => help.showModal()),
-    el("main", {},
+    el(
+      "main",
+      {},
       el("div", { class: "stage" }, container, timeline.element),
-      el("div", { class: "details" }, warnings, plots.element, judged.element, simulation(data), solved?.element, isSolving ? null : reproduce(data))),
+      el(
+        "div",
+        { class: "details" },
+        warnings,
+        plots.element,
+        judged.element,
+        simulation(data),
+        solved?.element,
+        isSolving ? null : reproduce(data),
+      ),
+    ),
     help,
   );
 

@@ -27,11 +27,18 @@ export class Plots {
   private charts: Chart[] = [];
   private chosen = 0;
 
-  constructor(private readonly data: ReportData, private readonly clock: Clock) {
+  constructor(
+    private readonly data: ReportData,
+    private readonly clock: Clock,
+  ) {
     this.times = this.timesOfData();
     this.tabs = this.tabsOfData();
     this.buttons = this.tabs.map((tab, i) => {
-      const button = el("button", { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": "plots-panel" }, tab.name);
+      const button = el(
+        "button",
+        { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": "plots-panel" },
+        tab.name,
+      );
       button.addEventListener("click", () => this.choose(i));
       button.addEventListener("keydown", (event) => this.move(event, i));
       return button;
@@ -44,7 +51,12 @@ export class Plots {
       "section",
       { class: "card plots", "aria-label": "Plots" },
       el("div", { class: "tabs", role: "tablist", "aria-label": "Plots" }, ...this.buttons),
-      el("div", { class: "bar-under" }, this.legend, el("label", { class: "limits", for: "plots-limits" }, this.limits, " limits")),
+      el(
+        "div",
+        { class: "bar-under" },
+        this.legend,
+        el("label", { class: "limits", for: "plots-limits" }, this.limits, " limits"),
+      ),
       this.panel,
       el("p", { class: "hint" }, "Time in seconds. Click to go there, drag to zoom, double click to see all."),
     );
@@ -63,7 +75,9 @@ export class Plots {
     this.limits.checked = tab.limits;
     this.limits.parentElement!.hidden = !tab.legend.some(([text]) => text === "limit");
     this.panel.classList.toggle("two", tab.wide === true);
-    this.legend.replaceChildren(...tab.legend.map(([text, name, dashed]) => el("span", { class: `key ${name}${dashed ? " dashed" : ""}` }, text)));
+    this.legend.replaceChildren(
+      ...tab.legend.map(([text, name, dashed]) => el("span", { class: `key ${name}${dashed ? " dashed" : ""}` }, text)),
+    );
     this.charts = tab.charts({ limits: tab.limits, group: tab.name });
     this.panel.replaceChildren(...(tab.head ? [tab.head] : []), ...this.charts.map((chart) => chart.element));
     this.draw();
@@ -107,22 +121,32 @@ export class Plots {
     if (styles.has("limit")) legend.push(["limit", "limit", true]);
     const lines = (all: SeriesData[]): Line[] => {
       const order = { limit: 0, simulation: 1, plan: 2 };
-      return [...all].sort((a, b) => order[a.style] - order[b.style]).map((series) => ({
-        label: series.label,
-        time: this.times[series.time],
-        values: floats(series.values),
-        colour: series.style,
-        dash: series.style === "limit" ? [4, 3] : undefined,
-        width: series.style === "limit" ? 1 : 1.5,
-        limit: series.style === "limit",
-      }));
+      return [...all]
+        .sort((a, b) => order[a.style] - order[b.style])
+        .map((series) => ({
+          label: series.label,
+          time: this.times[series.time],
+          values: floats(series.values),
+          colour: series.style,
+          dash: series.style === "limit" ? [4, 3] : undefined,
+          width: series.style === "limit" ? 1 : 1.5,
+          limit: series.style === "limit",
+        }));
     };
     return {
       name: tab.name,
       legend,
       wide: tab.name === "Margins",
       limits: tab.name !== "Rates",
-      charts: (options) => tab.charts.map((chart) => new Chart({ ...options, title: chart.title, unit: chart.unit, lines: lines(chart.series) }, this.clock, this.data.phases)),
+      charts: (options) =>
+        tab.charts.map(
+          (chart) =>
+            new Chart(
+              { ...options, title: chart.title, unit: chart.unit, lines: lines(chart.series) },
+              this.clock,
+              this.data.phases,
+            ),
+        ),
     };
   }
 
@@ -132,7 +156,11 @@ export class Plots {
     const { joints } = this.data;
     const nv = 6 + joints.length;
     const row = 2 * nv;
-    const select = el("select", { id: "gains-joint" }, ...joints.map((name, j) => el("option", { value: String(j) }, name)));
+    const select = el(
+      "select",
+      { id: "gains-joint" },
+      ...joints.map((name, j) => el("option", { value: String(j) }, name)),
+    );
     const knee = joints.findIndex((name) => /kfe|knee|calf/i.test(name));
     select.value = String(Math.max(knee, 0));
     select.addEventListener("change", () => this.choose(this.chosen));
@@ -145,7 +173,9 @@ export class Plots {
     });
     const axes = (first: number) => kAxes.map((axis, i) => line(first + i, axis, kAxisColours[i]));
     const own = (first: number): Line[] =>
-      joints.map((name, j) => (j === Number(select.value) ? line(first + j, name, "head") : { ...line(first + j, name, "other"), quiet: true }));
+      joints.map((name, j) =>
+        j === Number(select.value) ? line(first + j, name, "head") : { ...line(first + j, name, "other"), quiet: true },
+      );
     const groups = (): [string, string, Line[]][] => [
       ["on base position", "N m/m", axes(0)],
       ["on base orientation", "N m/rad", axes(3)],
@@ -158,9 +188,28 @@ export class Plots {
       name: "Gains",
       wide: true,
       limits: false,
-      legend: [["x", "axis-x", false], ["y", "axis-y", false], ["z", "axis-z", false], ["the joint itself", "head", false], ["other joints", "other", false]],
+      legend: [
+        ["x", "axis-x", false],
+        ["y", "axis-y", false],
+        ["z", "axis-z", false],
+        ["the joint itself", "head", false],
+        ["other joints", "other", false],
+      ],
       head: el("label", { class: "choice", for: "gains-joint" }, "Feedback on the torque of ", select),
-      charts: (options) => groups().map(([title, unit, lines]) => new Chart({ ...options, title, unit, lines: [...lines].sort((a, b) => Number(b.quiet ?? false) - Number(a.quiet ?? false)) }, this.clock, this.data.phases)),
+      charts: (options) =>
+        groups().map(
+          ([title, unit, lines]) =>
+            new Chart(
+              {
+                ...options,
+                title,
+                unit,
+                lines: [...lines].sort((a, b) => Number(b.quiet ?? false) - Number(a.quiet ?? false)),
+              },
+              this.clock,
+              this.data.phases,
+            ),
+        ),
     };
   }
 }

@@ -1,6 +1,19 @@
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, CapsuleGeometry, Color, CylinderGeometry, Group, type Material, Matrix4, Mesh,
-  MeshStandardMaterial, Quaternion, SphereGeometry, SRGBColorSpace, Vector3,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  CapsuleGeometry,
+  Color,
+  CylinderGeometry,
+  Group,
+  type Material,
+  Matrix4,
+  Mesh,
+  MeshStandardMaterial,
+  Quaternion,
+  SphereGeometry,
+  SRGBColorSpace,
+  Vector3,
 } from "three";
 import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { floats, integers, type Scene, type Triple, type Visual } from "./data";
@@ -25,17 +38,29 @@ export class Shapes {
   parts(visual: Visual): { geometry: BufferGeometry; colour: Triple | null; matrix: Matrix4 }[] {
     const [a, b, c] = visual.size;
     const p = visual.placement;
-    const matrix = new Matrix4().compose(new Vector3(p[0], p[1], p[2]), new Quaternion(p[3], p[4], p[5], p[6]), new Vector3(1, 1, 1));
+    const matrix = new Matrix4().compose(
+      new Vector3(p[0], p[1], p[2]),
+      new Quaternion(p[3], p[4], p[5], p[6]),
+      new Vector3(1, 1, 1),
+    );
     const one = (geometry: BufferGeometry) => [{ geometry, colour: visual.colour, matrix }];
     const alongZ = (geometry: BufferGeometry) => one(geometry.rotateX(Math.PI / 2));
     switch (visual.kind) {
-      case "box": return one(new BoxGeometry(a, b, c));
-      case "sphere": return one(new SphereGeometry(a, 32, 20));
-      case "cylinder": return alongZ(new CylinderGeometry(a, a, c, 32));
-      case "capsule": return alongZ(new CapsuleGeometry(a, c, 12, 24));
+      case "box":
+        return one(new BoxGeometry(a, b, c));
+      case "sphere":
+        return one(new SphereGeometry(a, 32, 20));
+      case "cylinder":
+        return alongZ(new CylinderGeometry(a, a, c, 32));
+      case "capsule":
+        return alongZ(new CapsuleGeometry(a, c, 12, 24));
       case "mesh":
         matrix.scale(new Vector3(a, b, c));
-        return visual.meshes.map((m) => ({ geometry: this.meshes[m], colour: visual.colour ?? this.scene.meshes[m].colour, matrix }));
+        return visual.meshes.map((m) => ({
+          geometry: this.meshes[m],
+          colour: visual.colour ?? this.scene.meshes[m].colour,
+          matrix,
+        }));
     }
   }
 }

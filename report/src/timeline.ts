@@ -30,11 +30,20 @@ export class Timeline {
   private rows: HTMLElement;
   private shown: boolean | null = null;
 
-  constructor(private readonly data: ReportData, private readonly clock: Clock) {
+  constructor(
+    private readonly data: ReportData,
+    private readonly clock: Clock,
+  ) {
     this.slider = el("input", {
-      type: "range", min: "0", max: String(clock.end), step: "any", value: "0", "aria-label": "Time in seconds",
+      type: "range",
+      min: "0",
+      max: String(clock.end),
+      step: "any",
+      value: "0",
+      "aria-label": "Time in seconds",
     });
-    for (const value of kSpeeds) this.speed.append(el("option", { value: String(value), selected: value === 1 }, `${value}×`));
+    for (const value of kSpeeds)
+      this.speed.append(el("option", { value: String(value), selected: value === 1 }, `${value}×`));
     this.play.addEventListener("click", () => clock.toggle());
     this.slider.addEventListener("input", () => {
       if (clock.playing) clock.pause();
@@ -45,7 +54,14 @@ export class Timeline {
     this.element = el(
       "section",
       { class: "timeline", "aria-label": "Time line" },
-      el("div", { class: "transport" }, this.play, this.readout, this.phase, el("label", { class: "speed" }, "Speed ", this.speed)),
+      el(
+        "div",
+        { class: "transport" },
+        this.play,
+        this.readout,
+        this.phase,
+        el("label", { class: "speed" }, "Speed ", this.speed),
+      ),
       (this.rows = this.tracks()),
     );
     clock.onChange(() => this.update());
@@ -86,7 +102,12 @@ export class Timeline {
       return element;
     };
     const row = (label: string, bars: HTMLElement[], name: string) =>
-      el("div", { class: `row ${name}` }, el("span", { class: "label", title: label }, label), el("div", { class: "track" }, ...bars));
+      el(
+        "div",
+        { class: `row ${name}` },
+        el("span", { class: "label", title: label }, label),
+        el("div", { class: "track" }, ...bars),
+      );
     const phaseBars = phases.map((phase, i) => bar(phase.start, phase.end, i % 2 ? "bar odd" : "bar", phase.name));
     if (end > last + 1e-6) phaseBars.push(bar(last, end, "bar rest", "stands on"));
     const rows = [row("phase", phaseBars, "phases")];

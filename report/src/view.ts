@@ -1,6 +1,16 @@
 import {
-  Color, DirectionalLight, Fog, Group, HemisphereLight, MeshStandardMaterial, PCFShadowMap, PerspectiveCamera, Quaternion,
-  Scene as ThreeScene, Vector3, WebGLRenderer,
+  Color,
+  DirectionalLight,
+  Fog,
+  Group,
+  HemisphereLight,
+  MeshStandardMaterial,
+  PCFShadowMap,
+  PerspectiveCamera,
+  Quaternion,
+  Scene as ThreeScene,
+  Vector3,
+  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { Clock } from "./clock";
@@ -36,9 +46,13 @@ export class View {
   private readonly robot: Robot;
   private readonly ghost: Robot | null = null;
   private readonly ghostMaterial = new MeshStandardMaterial({
-    transparent: true, opacity: 0.5, roughness: 0.8,
+    transparent: true,
+    opacity: 0.5,
+    roughness: 0.8,
     // Where both are in one place, the plan is seen alone.
-    polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 40,
+    polygonOffset: true,
+    polygonOffsetFactor: 2,
+    polygonOffsetUnits: 40,
   });
   private readonly ground: Ground;
   private readonly forces: Forces;
@@ -75,7 +89,14 @@ export class View {
     const light = new Group();
     light.add(new HemisphereLight(0xffffff, 0x8a8f98, 1.6), this.sun, this.sun.target);
     this.setUpShadow(data.size_m);
-    this.scene.add(light, this.ground.group, this.robot.group, this.forces.cones, this.forces.arrows, this.trails.group);
+    this.scene.add(
+      light,
+      this.ground.group,
+      this.robot.group,
+      this.forces.cones,
+      this.forces.arrows,
+      this.trails.group,
+    );
     if (this.ghost) this.scene.add(this.ghost.group);
 
     this.camera.up.set(0, 0, 1);
@@ -131,7 +152,9 @@ export class View {
     const distance = 3.4 * this.data.size_m + (this.layers.follow ? 0 : 1.2 * this.reach);
     const target = this.layers.follow ? this.base.clone() : this.centre.clone();
     this.controls.target.copy(target.setZ(target.z - 0.25 * this.data.size_m));
-    this.camera.position.copy(this.controls.target).add(new Vector3(0.78, -1, 0.42).normalize().multiplyScalar(distance));
+    this.camera.position
+      .copy(this.controls.target)
+      .add(new Vector3(0.78, -1, 0.42).normalize().multiplyScalar(distance));
     this.controls.update();
     this.ask();
   }
@@ -148,7 +171,8 @@ export class View {
       this.waiting = false;
       // The ground ends in haze, wherever it is looked at from.
       const distance = this.camera.position.distanceTo(this.controls.target);
-      if (this.scene.fog instanceof Fog) [this.scene.fog.near, this.scene.fog.far] = [1.3 * distance, 2.8 * distance + this.reach];
+      if (this.scene.fog instanceof Fog)
+        [this.scene.fog.near, this.scene.fog.far] = [1.3 * distance, 2.8 * distance + this.reach];
       this.renderer.render(this.scene, this.camera);
     });
   }
@@ -156,7 +180,8 @@ export class View {
   private drawTrails(): void {
     this.trails.clear();
     this.trails.add(this.plan.path(0, new Vector3()));
-    for (const contact of this.data.scene.contacts) this.trails.add(this.plan.path(contact.body, new Vector3(...contact.point)));
+    for (const contact of this.data.scene.contacts)
+      this.trails.add(this.plan.path(contact.body, new Vector3(...contact.point)));
   }
   private reach = 0;
   /// Sets the middle of the base's path; returns how far it is from it at most [m].
@@ -209,7 +234,10 @@ export class View {
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
     // What is in sight is set by the shorter side.
-    this.camera.fov = this.camera.aspect >= 1 ? 35 : Math.min(60, (2 * Math.atan(Math.tan((17.5 * Math.PI) / 180) / this.camera.aspect) * 180) / Math.PI);
+    this.camera.fov =
+      this.camera.aspect >= 1
+        ? 35
+        : Math.min(60, (2 * Math.atan(Math.tan((17.5 * Math.PI) / 180) / this.camera.aspect) * 180) / Math.PI);
     this.camera.updateProjectionMatrix();
     this.ask();
   }

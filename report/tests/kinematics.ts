@@ -28,14 +28,29 @@ declare global {
 }
 
 /// Placement of a link (x y z, quaternion x y z w) at a row of the plan's trajectory.csv, in a page of its own.
-export async function linkPlacement(page: Page, report: string, nodes: Table, row: number, link: string): Promise<number[]> {
-  const built = buildSync({ stdin: { contents: kScript, resolveDir: path.join(root, "report") }, bundle: true, write: false, format: "iife" });
+export async function linkPlacement(
+  page: Page,
+  report: string,
+  nodes: Table,
+  row: number,
+  link: string,
+): Promise<number[]> {
+  const built = buildSync({
+    stdin: { contents: kScript, resolveDir: path.join(root, "report") },
+    bundle: true,
+    write: false,
+    format: "iife",
+  });
   const plan = JSON.parse(readFileSync(path.join(folder(report), "plan.json"), "utf8"));
   const joints = Object.fromEntries(plan.problem.joints.map((name: string) => [name, nodes[`q_${name}_rad`][row]]));
   await page.goto("about:blank");
   await page.addScriptTag({ content: built.outputFiles[0].text });
-  return page.evaluate(([urdf, base, values, name]) => window.linkPlacement(urdf, base, values, name),
-    [plan.urdf.text, basePlacement(nodes, row), joints, link] as const);
+  return page.evaluate(([urdf, base, values, name]) => window.linkPlacement(urdf, base, values, name), [
+    plan.urdf.text,
+    basePlacement(nodes, row),
+    joints,
+    link,
+  ] as const);
 }
 
 export const basePlacement = (table: Table, row: number, prefix = ""): number[] =>

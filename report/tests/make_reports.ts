@@ -10,7 +10,8 @@ export const kOddText = `<!-- "quoted" & 'odd' </script><script>window.hacked = 
 
 function prowl(...parameters: string[]): void {
   const found = spawnSync(command, parameters, { cwd: root, encoding: "utf8" });
-  if (found.status !== 0) throw new Error(`prowl ${parameters.join(" ")}: status ${found.status}\n${found.stdout}${found.stderr}`);
+  if (found.status !== 0)
+    throw new Error(`prowl ${parameters.join(" ")}: status ${found.status}\n${found.stdout}${found.stderr}`);
 }
 
 function make(name: string, task: string, simulated: boolean, ...options: string[]): void {
@@ -23,7 +24,10 @@ function make(name: string, task: string, simulated: boolean, ...options: string
 function makeOdd(): void {
   const quoted = JSON.stringify(kOddName); // a basic string of TOML, too
   const from = path.join(work, `odd "task" & 'more'`);
-  const robot = readFileSync(path.join(root, "robots/hyq.toml"), "utf8").replace(/^name = .*$/m, () => `name = ${quoted}`);
+  const robot = readFileSync(path.join(root, "robots/hyq.toml"), "utf8").replace(
+    /^name = .*$/m,
+    () => `name = ${quoted}`,
+  );
   const task = readFileSync(path.join(root, "tasks/hyq/stand.toml"), "utf8")
     .replace(/^name = .*$/m, () => `# ${kOddText}\nname = ${quoted}`)
     .replace(/^robot = .*$/m, () => `robot = "robot.toml"`)

@@ -5,7 +5,8 @@ import { expect, test, type Page } from "@playwright/test";
 import { folder, open, readTable, root, seek, timeOf } from "./reports";
 
 const number = (text: string) => Number(text.replaceAll("−", "-"));
-const chart = (page: Page, title: string) => page.locator("figure.chart", { has: page.locator(".title", { hasText: new RegExp(`^${title}$`) }) });
+const chart = (page: Page, title: string) =>
+  page.locator("figure.chart", { has: page.locator(".title", { hasText: new RegExp(`^${title}$`) }) });
 const tab = (page: Page, name: string) => page.getByRole("tab", { name }).click();
 
 /// What the heading of a chart says of plan and simulation at the time of the clock.
@@ -57,7 +58,15 @@ test("every tab draws all of its charts, and says in which unit", async ({ page 
   const { errors } = await open(page, "squat");
   const joints = await page.evaluate(() => window.prowl!.data.joints.length);
   const contacts = await page.evaluate(() => window.prowl!.data.scene.contacts.length);
-  const expected = { Torques: joints, Base: 12, Joints: joints, Rates: joints, Forces: 3 * contacts, Margins: 3 + contacts, Gains: 6 };
+  const expected = {
+    Torques: joints,
+    Base: 12,
+    Joints: joints,
+    Rates: joints,
+    Forces: 3 * contacts,
+    Margins: 3 + contacts,
+    Gains: 6,
+  };
   for (const [name, count] of Object.entries(expected)) {
     await tab(page, name);
     await expect(page.locator(".plots figure.chart canvas")).toHaveCount(count);
@@ -82,7 +91,9 @@ test("gains are those of the tracker, as prowl figures reads them", async ({ pag
 test("arrows are the planned forces, inside the cones of their surfaces", async ({ page }) => {
   await open(page, "walk");
   const nodes = readTable(`${folder("walk")}/trajectory.csv`);
-  const friction = Number(/^friction = ([\d.]+)/m.exec(readFileSync(path.join(root, "tasks/hyq/walk.toml"), "utf8"))![1]);
+  const friction = Number(
+    /^friction = ([\d.]+)/m.exec(readFileSync(path.join(root, "tasks/hyq/walk.toml"), "utf8"))![1],
+  );
   const weight = await page.evaluate(() => window.prowl!.data.weight_N);
   let drawn = 0;
   for (const share of [0.1, 0.45, 0.8]) {

@@ -52,7 +52,9 @@ for (const name of ["crouch", "step", "walk", "squat"]) {
             return view!.contactPoint(contact).toArray();
           });
           for (const place of places) {
-            const height = place.reduce((sum, value, i) => sum + (value - point[i]) * normal[i], 0) - data.scene.contacts[contact].radius;
+            const height =
+              place.reduce((sum, value, i) => sum + (value - point[i]) * normal[i], 0) -
+              data.scene.contacts[contact].radius;
             found.push({ height, slid: Math.hypot(...place.map((value, i) => value - places[0][i])) });
           }
         }

@@ -13,7 +13,9 @@ for (const name of kAll) {
     await seek(page, 0.5);
     await page.waitForTimeout(300);
     expect(errors).toEqual([]);
-    expect(requests.filter((url) => !url.startsWith("file:") && !url.startsWith("blob:") && !url.startsWith("data:"))).toEqual([]);
+    expect(
+      requests.filter((url) => !url.startsWith("file:") && !url.startsWith("blob:") && !url.startsWith("data:")),
+    ).toEqual([]);
     expect(requests.filter((url) => url.startsWith("file:"))).toHaveLength(1);
     expect(statSync(report(name)).size).toBeLessThan(8e6);
   });
@@ -89,13 +91,18 @@ test("the whole page can be reached by the keyboard alone", async ({ page }) => 
   const reached = new Set<string>();
   for (let i = 0; i < 80; ++i) {
     await page.keyboard.press("Tab");
-    reached.add(await page.evaluate(() => {
-      const focus = document.activeElement!;
-      return focus.getAttribute("role") ?? focus.className.split(" ")[0] ?? focus.tagName;
-    }));
+    reached.add(
+      await page.evaluate(() => {
+        const focus = document.activeElement!;
+        return focus.getAttribute("role") ?? focus.className.split(" ")[0] ?? focus.tagName;
+      }),
+    );
   }
   for (const needed of ["theme", "play", "tab", "seek"]) expect([...reached]).toContain(needed);
-  await page.locator("button.seek", { hasNotText: /^0.000/ }).first().focus();
+  await page
+    .locator("button.seek", { hasNotText: /^0.000/ })
+    .first()
+    .focus();
   await page.keyboard.press("Enter");
   expect(await timeOf(page)).toBeGreaterThan(0);
 });
@@ -145,7 +152,7 @@ test("names are text, whatever they look like", async ({ page }) => {
   expect(await page.locator("script").count()).toBe(2); // the data and the bundle
   expect(errors).toEqual([]);
   const html = readFileSync(report("odd"), "utf8");
-  expect(html.split("id=\"prowl-data\">")[1].split("</script>")[0]).not.toContain("<");
+  expect(html.split('id="prowl-data">')[1].split("</script>")[0]).not.toContain("<");
 });
 
 test("a script that gets into the page is refused", async ({ page }) => {

@@ -14,7 +14,10 @@ export const report = (name: string): string => path.join(folder(name), "report.
 export type Table = Record<string, number[]>;
 
 export function readTable(file: string): Table {
-  const [heading, ...rows] = readFileSync(file, "utf8").trimEnd().split("\n").map((line) => line.split(","));
+  const [heading, ...rows] = readFileSync(file, "utf8")
+    .trimEnd()
+    .split("\n")
+    .map((line) => line.split(","));
   return Object.fromEntries(heading.map((name, i) => [name, rows.map((row) => Number(row[i]))]));
 }
 
@@ -23,7 +26,8 @@ export function watch(page: Page): { errors: string[]; requests: string[] } {
   const errors: string[] = [];
   const requests: string[] = [];
   page.on("console", (message) => {
-    if (message.type() === "error" || (message.type() === "warning" && !message.text().includes("GL Driver Message"))) errors.push(message.text());
+    if (message.type() === "error" || (message.type() === "warning" && !message.text().includes("GL Driver Message")))
+      errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => requests.push(request.url()));
@@ -38,5 +42,6 @@ export async function open(page: Page, name: string): Promise<{ errors: string[]
   return seen;
 }
 
-export const seek = (page: Page, time: number): Promise<void> => page.evaluate((t) => window.prowl!.clock.seek(t), time);
+export const seek = (page: Page, time: number): Promise<void> =>
+  page.evaluate((t) => window.prowl!.clock.seek(t), time);
 export const timeOf = (page: Page): Promise<number> => page.evaluate(() => window.prowl!.clock.time);

@@ -28,15 +28,17 @@ function ended(): Promise<number | null> {
 test.afterEach(() => server.kill("SIGKILL"));
 
 const slider = (page: Page) => page.getByRole("slider", { name: "Iterate of the solver" });
-const pick = (page: Page, value: number) => slider(page).evaluate((input: HTMLInputElement, to) => {
-  input.value = String(to);
-  input.dispatchEvent(new Event("input", { bubbles: true }));
-}, value);
-const base = (page: Page, time: number) => page.evaluate((t) => {
-  const { clock, view } = window.prowl!;
-  clock.seek(t);
-  return view!.bodyPlacement("base");
-}, time);
+const pick = (page: Page, value: number) =>
+  slider(page).evaluate((input: HTMLInputElement, to) => {
+    input.value = String(to);
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  }, value);
+const base = (page: Page, time: number) =>
+  page.evaluate((t) => {
+    const { clock, view } = window.prowl!;
+    clock.seek(t);
+    return view!.bodyPlacement("base");
+  }, time);
 
 test("a task: every iterate on a slider, the certified result at its end", async ({ page }) => {
   const url = await serve(path.join(root, "tasks/hyq/step.toml"));
@@ -61,7 +63,11 @@ test("a task: every iterate on a slider, the certified result at its end", async
   expect(await base(page, time)).toEqual(result);
 
   expect(errors).toEqual([]);
-  expect(requests.filter((request) => !request.startsWith(url) && !request.startsWith("blob:") && !request.startsWith("data:"))).toEqual([]);
+  expect(
+    requests.filter(
+      (request) => !request.startsWith(url) && !request.startsWith("blob:") && !request.startsWith("data:"),
+    ),
+  ).toEqual([]);
   expect(await ended()).toBe(0);
   expect(messages).toContain("certificate: passed");
   await expect(page.locator(".iterate")).toContainText("the server has ended");
@@ -84,12 +90,15 @@ test("a folder: its report, and nothing else for nobody else", async ({ page }) 
   await expect(page.locator(".badge")).toContainText("passed");
   await expect(slider(page)).toHaveCount(0);
 
-  const status = (target: string, headers: Record<string, string> = {}, method = "GET") => new Promise<number>((resolve) => {
-    http.request(new URL(target, url), { method, headers }, (answer) => {
-      answer.resume();
-      resolve(answer.statusCode!);
-    }).end();
-  });
+  const status = (target: string, headers: Record<string, string> = {}, method = "GET") =>
+    new Promise<number>((resolve) => {
+      http
+        .request(new URL(target, url), { method, headers }, (answer) => {
+          answer.resume();
+          resolve(answer.statusCode!);
+        })
+        .end();
+    });
   expect(await status("/")).toBe(200);
   expect(await status("/", { Host: "robots.example" })).toBe(403);
   expect(await status("/../plan.json")).toBe(404);

@@ -1,5 +1,6 @@
 """Equations are set while the site is built, by KaTeX (site/set_equations.mjs): pages need no script for them, and one that
 does not parse ends the build."""
+
 import html
 import json
 import pathlib
@@ -12,10 +13,14 @@ EQUATION = re.compile(r'<(div|span) class="arithmatex">\\(\[|\()(.*?)\\(?:\]|\))
 
 
 def on_page_content(content, page, config, files):
-    equations = [{"tex": html.unescape(match[3]).strip(), "display": match[2] == "["} for match in EQUATION.finditer(content)]
+    equations = [
+        {"tex": html.unescape(match[3]).strip(), "display": match[2] == "["} for match in EQUATION.finditer(content)
+    ]
     if not equations:
         return content
-    run = subprocess.run([NODE, SITE / "set_equations.mjs"], input=json.dumps(equations), capture_output=True, text=True)
+    run = subprocess.run(
+        [NODE, SITE / "set_equations.mjs"], input=json.dumps(equations), capture_output=True, text=True
+    )
     if run.returncode != 0:
         raise SystemExit(f"{page.file.src_uri}: {run.stderr.strip()}")
     done = iter(json.loads(run.stdout))

@@ -1,5 +1,6 @@
 """Pictures made from plans (site/pictures) become part of the page, so that their text takes the page's colour, light or dark.
 They are in the folder that PROWL_SITE_PICTURES names."""
+
 import html
 import os
 import pathlib
@@ -19,8 +20,10 @@ def on_files(files, config):
 def on_page_content(content, page, config, files):
     def replace(match):
         svg = (_folder() / f"{match['name']}.svg").read_text(encoding="utf-8")
-        svg = svg[svg.index("<svg"):]
-        return svg.replace("<svg", f'<svg role="img" aria-label="{html.escape(html.unescape(match["alt"]))}" class="picture"', 1)
+        svg = svg[svg.index("<svg") :]
+        return svg.replace(
+            "<svg", f'<svg role="img" aria-label="{html.escape(html.unescape(match["alt"]))}" class="picture"', 1
+        )
 
     return IMAGE.sub(replace, content)
 

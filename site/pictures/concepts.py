@@ -1,4 +1,5 @@
 """Pictures of docs/concepts.md."""
+
 import matplotlib.pyplot as plt
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -20,8 +21,11 @@ def projection(planner) -> plt.Figure:
         if "kfe" in name:
             wanted[6 + k] = 4.0 * np.sign(start[1][name])  # knees bend, nothing else moves [rad/s]
     figure, panels = plt.subplots(1, 2, figsize=(7.6, 3.1), sharey=True)
-    for axes, title, allow in zip(panels, ("v: the knees bend, nothing else moves", "P v: what the contacts allow of it"),
-                                  (lambda J, v: v, lambda J, v: v - np.linalg.pinv(J) @ (J @ v))):
+    for axes, title, allow in zip(
+        panels,
+        ("v: the knees bend, nothing else moves", "P v: what the contacts allow of it"),
+        (lambda J, v: v, lambda J, v: v - np.linalg.pinv(J) @ (J @ v)),
+    ):
         first = robot.jacobian(FEET, *start)
         rates = (first @ allow(first, wanted)).reshape(-1, 3)
         axes.axhline(0, color=GREY, linewidth=1)
@@ -30,7 +34,12 @@ def projection(planner) -> plt.Figure:
         for foot, rate in zip(FEET[:2], rates):
             at = robot.points(foot, *start)[0][-1]
             if np.linalg.norm(rate) > 1e-6:
-                axes.annotate("", (at + 0.1 * rate)[[0, 2]], at[[0, 2]], arrowprops={"arrowstyle": "-|>", "color": VERMILLION, "linewidth": 2})
+                axes.annotate(
+                    "",
+                    (at + 0.1 * rate)[[0, 2]],
+                    at[[0, 2]],
+                    arrowprops={"arrowstyle": "-|>", "color": VERMILLION, "linewidth": 2},
+                )
         axes.set_title(f"{title}\nfeet at {max(np.linalg.norm(rates, axis=1)):.2f} m/s")
         axes.set_aspect("equal")
         axes.set_axis_off()
@@ -58,9 +67,13 @@ def phases(planner) -> plt.Figure:
         for phase in np.unique(table["phase"]):
             span = times[(table["phase"] == phase) & standing]
             if len(span):
-                panels[0].broken_barh([(span[0], span[-1] - span[0])], (-k - 0.38, 0.76), color=[SKY, ORANGE, PURPLE, GREEN][k])
+                panels[0].broken_barh(
+                    [(span[0], span[-1] - span[0])], (-k - 0.38, 0.76), color=[SKY, ORANGE, PURPLE, GREEN][k]
+                )
         force = table[f"f_{name}_z_N"]
-        panels[1 + k].fill_between(times[shown], force[shown], color=[SKY, ORANGE, PURPLE, GREEN][k], alpha=0.6, linewidth=0)
+        panels[1 + k].fill_between(
+            times[shown], force[shown], color=[SKY, ORANGE, PURPLE, GREEN][k], alpha=0.6, linewidth=0
+        )
         panels[1 + k].set_ylabel(f"{name[:2]} [N]", rotation=0, ha="right", va="center")
         panels[1 + k].set_ylim(0, 800)
         panels[1 + k].set_yticks([0, 800])
@@ -81,12 +94,24 @@ def mesh(planner) -> plt.Figure:
         plan = planner.plan("hyq/crouch", "--no-gains", "--intervals", str(intervals), good=False)
         certificate = plan.json["certificate"]
         errors = certificate["integration_errors"]
-        axes.stairs([entry["error"] for entry in errors], [errors[0]["start_s"], *(entry["end_s"] for entry in errors)], color=colour,
-                    baseline=None, linewidth=1.6, label=f"{intervals} intervals: {certificate['grade']}")
+        axes.stairs(
+            [entry["error"] for entry in errors],
+            [errors[0]["start_s"], *(entry["end_s"] for entry in errors)],
+            color=colour,
+            baseline=None,
+            linewidth=1.6,
+            label=f"{intervals} intervals: {certificate['grade']}",
+        )
     for limit, name in ((1e-4, "limit: draft"), (1e-6, "limit: certified")):
         axes.axhline(limit, color=GREY, linewidth=1, linestyle=(0, (4, 2)))
         axes.text(2.02, limit, name, va="center")
-    axes.set(yscale="log", xlim=(0, 2), ylim=(3e-8, 2e-3), xlabel="time [s]", title="local integration error of each mesh interval")
+    axes.set(
+        yscale="log",
+        xlim=(0, 2),
+        ylim=(3e-8, 2e-3),
+        xlabel="time [s]",
+        title="local integration error of each mesh interval",
+    )
     axes.legend(loc="upper center", ncols=3, handlelength=1.2)
     return figure
 

@@ -1,7 +1,8 @@
 """Draws the pictures of the documentation from plans that it makes.
 
-    draw.py PROWL FOLDER [--package-dir DIR ...]
+draw.py PROWL FOLDER [--package-dir DIR ...]
 """
+
 import argparse
 import pathlib
 import tempfile
@@ -14,8 +15,16 @@ import formulations  # noqa: E402
 import how_to  # noqa: E402
 from plans import Planner  # noqa: E402
 
-PICTURES = {"projection": concepts.projection, "phases": concepts.phases, "mesh": concepts.mesh, "margins": concepts.margins,
-            "slope": how_to.slope, "wall": how_to.wall, "gains": how_to.gains, "orders": formulations.orders}
+PICTURES = {
+    "projection": concepts.projection,
+    "phases": concepts.phases,
+    "mesh": concepts.mesh,
+    "margins": concepts.margins,
+    "slope": how_to.slope,
+    "wall": how_to.wall,
+    "gains": how_to.gains,
+    "orders": formulations.orders,
+}
 
 
 def main() -> None:

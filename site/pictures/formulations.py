@@ -1,4 +1,5 @@
 """Pictures of docs/formulations.md."""
+
 import csv
 
 import matplotlib.pyplot as plt

@@ -1,4 +1,5 @@
 """Pictures of the how-tos."""
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -24,9 +25,25 @@ def _side_view(plan, moments, ground) -> plt.Figure:
         row = int(np.argmin(abs(times - moment)))
         last = k == len(moments) - 1
         draw(axes, robot, FEET[2:], *pose(plan.trajectory, row), [GREY] * 2, linewidth=1.5, alpha=0.8 if last else 0.3)
-        draw(axes, robot, FEET[:2], *pose(plan.trajectory, row), [SKY if last else GREY] * 2, linewidth=2.4, alpha=1 if last else 0.45)
+        draw(
+            axes,
+            robot,
+            FEET[:2],
+            *pose(plan.trajectory, row),
+            [SKY if last else GREY] * 2,
+            linewidth=2.4,
+            alpha=1 if last else 0.45,
+        )
     axes.set_aspect("equal")
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1), title="paths of", alignment="left", ncols=4, fontsize=9, handlelength=1.2)
+    axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        title="paths of",
+        alignment="left",
+        ncols=4,
+        fontsize=9,
+        handlelength=1.2,
+    )
     axes.set(xlabel="x [m]", ylabel="z [m]")
     return figure
 
@@ -46,11 +63,27 @@ def gains(planner) -> plt.Figure:
     """HyQ's crouch from a base 2 cm forward and 1 cm up, in its own dynamics, with the gains and without."""
     plan = planner.plan("hyq/crouch")
     figure, axes = plt.subplots(figsize=(7.6, 3.0))
-    for label, options, colour in (("planned torques and gains", [], GREEN), ("planned torques alone", ["--open-loop"], VERMILLION)):
-        planner.run("simulate", plan.folder, "--engine", "rollout", "--base-offset-m", "0.02", "0", "0.01", *options, allowed=(0, 8))
+    for label, options, colour in (
+        ("planned torques and gains", [], GREEN),
+        ("planned torques alone", ["--open-loop"], VERMILLION),
+    ):
+        planner.run(
+            "simulate",
+            plan.folder,
+            "--engine",
+            "rollout",
+            "--base-offset-m",
+            "0.02",
+            "0",
+            "0.01",
+            *options,
+            allowed=(0, 8),
+        )
         table = Table(plan.folder / "simulate.csv")
         names = ["base_px_m", "base_py_m", "base_pz_m"]
-        error = np.linalg.norm(table.columns(*("true_" + n for n in names)) - table.columns(*("ref_" + n for n in names)), axis=1)
+        error = np.linalg.norm(
+            table.columns(*("true_" + n for n in names)) - table.columns(*("ref_" + n for n in names)), axis=1
+        )
         axes.plot(table["time_s"], 100 * error, color=colour, label=label)
     axes.set(xlabel="time [s]", ylabel="base off the plan [cm]", ylim=(0, 12), xlim=(0, 2.5))
     axes.legend(loc="upper right")

@@ -1,4 +1,5 @@
 """Plans for the pictures, made by the prowl command that is there."""
+
 import csv
 import json
 import pathlib
@@ -47,14 +48,16 @@ class Planner:
 
     def plan_shown(self, page: str, title: str, *options: str) -> Plan:
         """The task that a page of docs/ shows under this title."""
-        block, = (block for block in blocks(ROOT / "docs" / page) if block.title == title)
+        (block,) = (block for block in blocks(ROOT / "docs" / page) if block.title == title)
         path = self._work / pathlib.Path(title).name
         path.write_text(block.text.replace('"../robots/', f'"{ROOT}/robots/'), encoding="utf-8")
         return self._plan(path, options, good=True)
 
     def output_of(self, program: str) -> str:
         """Of a program of the build that prowl is in."""
-        return subprocess.run([self._prowl.resolve().parents[1] / program], capture_output=True, text=True, check=True).stdout
+        return subprocess.run(
+            [self._prowl.resolve().parents[1] / program], capture_output=True, text=True, check=True
+        ).stdout
 
     def _plan(self, task: pathlib.Path, options: tuple, good: bool) -> Plan:
         folder = self._work / "-".join([task.parent.name, task.stem, *(option.strip("-") for option in options)])

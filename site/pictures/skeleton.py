@@ -1,4 +1,5 @@
 """A robot as lines between its joints, from its URDF and the columns of trajectory.csv."""
+
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -52,8 +53,10 @@ class Skeleton:
 
 def pose(table, row: int):
     """Base and joint angles of one row of a trajectory."""
-    base = (table.columns("base_px_m", "base_py_m", "base_pz_m")[row],
-            Rotation.from_quat(table.columns("base_qx", "base_qy", "base_qz", "base_qw")[row]))
+    base = (
+        table.columns("base_px_m", "base_py_m", "base_pz_m")[row],
+        Rotation.from_quat(table.columns("base_qx", "base_qy", "base_qz", "base_qw")[row]),
+    )
     angles = {name[2:-4]: table[name][row] for name in table.names if name.startswith("q_")}
     return base, angles
 
@@ -66,13 +69,27 @@ def draw(axes, skeleton: Skeleton, feet: list[str], base, angles, colours, **sty
         axes.plot(points[:, 0], points[:, 2], "-o", color=colour, markersize=2.5, solid_capstyle="round", **style)
         roots.append(points[0])
     roots = np.array(roots)
-    axes.plot(roots[[0, 1], 0], roots[[0, 1], 2], color=colours[0], linewidth=style.get("linewidth", 2) * 2.2,
-              solid_capstyle="round", alpha=style.get("alpha", 1.0))
+    axes.plot(
+        roots[[0, 1], 0],
+        roots[[0, 1], 2],
+        color=colours[0],
+        linewidth=style.get("linewidth", 2) * 2.2,
+        solid_capstyle="round",
+        alpha=style.get("alpha", 1.0),
+    )
 
 
 def _joint(element) -> dict:
     origin = element.find("origin")
-    vector = lambda node, key, default: np.array((node.get(key, default) if node is not None else default).split(), float)  # noqa: E731
-    return {"name": element.get("name"), "parent": element.find("parent").get("link"), "child": element.find("child").get("link"),
-            "moves": element.get("type") in ("revolute", "continuous"), "xyz": vector(origin, "xyz", "0 0 0"),
-            "rpy": Rotation.from_euler("xyz", vector(origin, "rpy", "0 0 0")), "axis": vector(element.find("axis"), "xyz", "1 0 0")}
+    vector = lambda node, key, default: np.array(
+        (node.get(key, default) if node is not None else default).split(), float
+    )  # noqa: E731
+    return {
+        "name": element.get("name"),
+        "parent": element.find("parent").get("link"),
+        "child": element.find("child").get("link"),
+        "moves": element.get("type") in ("revolute", "continuous"),
+        "xyz": vector(origin, "xyz", "0 0 0"),
+        "rpy": Rotation.from_euler("xyz", vector(origin, "rpy", "0 0 0")),
+        "axis": vector(element.find("axis"), "xyz", "1 0 0"),
+    }

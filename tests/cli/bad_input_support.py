@@ -2,6 +2,7 @@
 
 A case is what to change of a sound folder (a small robot, a task, a plan), what to run in it and what the message must hold.
 """
+
 import dataclasses
 import os
 import pathlib
@@ -14,11 +15,11 @@ import sys
 import tempfile
 
 PROWL = pathlib.Path(sys.argv[1]).resolve()
-MOST_SECONDS = 1.0      # of processor time: a machine with other work to do must not fail the test
-MOST_BYTES = 500e6      # resident
-MOST_MESSAGE = 4000     # bytes: a screen or so
+MOST_SECONDS = 1.0  # of processor time: a machine with other work to do must not fail the test
+MOST_BYTES = 500e6  # resident
+MOST_MESSAGE = 4000  # bytes: a screen or so
 UNEXPECTED = 1
-WALL_SECONDS = 20       # whatever takes longer hangs
+WALL_SECONDS = 20  # whatever takes longer hangs
 # What is not to be seen on a terminal: control characters but tab and line end, of 7 and 8 bits, and marks that turn text round.
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]")
 
@@ -65,6 +66,7 @@ SOUND = {"robot.urdf": URDF, "robot.toml": ROBOT, "task.toml": TASK}
 @dataclasses.dataclass
 class Case:
     """`files`: name to text, bytes or what makes something else at that path; `says`: in the message, all of them."""
+
     name: str
     files: dict
     command: tuple
@@ -104,15 +106,24 @@ def limit():
 
 def run(command, folder):
     with open(folder / ".out", "wb") as out, open(folder / ".err", "wb") as err:
-        process = subprocess.Popen([PROWL, *command], cwd=folder, stdout=out, stderr=err, stdin=subprocess.DEVNULL,
-                                   preexec_fn=limit, env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+        process = subprocess.Popen(
+            [PROWL, *command],
+            cwd=folder,
+            stdout=out,
+            stderr=err,
+            stdin=subprocess.DEVNULL,
+            preexec_fn=limit,
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+        )
         signal.signal(signal.SIGALRM, lambda *_: process.kill())
         signal.alarm(WALL_SECONDS)
         _, status, used = os.wait4(process.pid, 0)
         hung = signal.alarm(0) == 0
         process.returncode = os.waitstatus_to_exitcode(status)
     decode = lambda name: (folder / name).read_bytes().decode("utf-8", "surrogateescape")  # noqa: E731
-    return Answer(process.returncode, decode(".out"), decode(".err"), used.ru_utime + used.ru_stime, 1024.0 * used.ru_maxrss, hung)
+    return Answer(
+        process.returncode, decode(".out"), decode(".err"), used.ru_utime + used.ru_stime, 1024.0 * used.ru_maxrss, hung
+    )
 
 
 def faults(case, answer):
@@ -136,7 +147,7 @@ def faults(case, answer):
         if said not in text:
             found.append(f"does not say {said!r}: {text[:300]!r}")
     if control := CONTROL.search(text) or re.search("[\udc80-\udcff]", text):
-        found.append(f"a control character at {text[max(0, control.start() - 30):control.end()]!r}")
+        found.append(f"a control character at {text[max(0, control.start() - 30) : control.end()]!r}")
     if len(text.encode("utf-8", "surrogateescape")) > MOST_MESSAGE and refused:
         found.append(f"{len(text)} characters: {text[:100]!r}")
     if answer.seconds > MOST_SECONDS and refused:

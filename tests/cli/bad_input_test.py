@@ -1,7 +1,8 @@
 """Malicious files, each given to the real prowl: one clear message and exit status 2, within a second and 500 MB.
 
-    bad_input_test.py PROWL [WORDS OF A CASE'S NAME]
+bad_input_test.py PROWL [WORDS OF A CASE'S NAME]
 """
+
 import json
 import pathlib
 import sys

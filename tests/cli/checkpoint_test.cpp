@@ -48,13 +48,15 @@ class Checkpoints : public Command {
 /// Every solver tells of its iterates, so that each can be stopped and gone on from, by itself or by another.
 TEST_F(Checkpoints, KeepTheBestIterateOfEverySolver) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
-    const Outcome stopped = run("$prowl plan bow.toml $dirs --intervals 20 --solver " + solver + " --out out --max-iterations 2 --one-mesh "
+    const Outcome stopped = run("$prowl plan bow.toml $dirs --intervals 20 --solver " + solver +
+                                " --out out --max-iterations 2 --one-mesh "
                                 "--checkpoint so_far --checkpoint-every 0");
     EXPECT_EQ(stopped.status, 6) << solver << stopped.error;
     const nlohmann::json checkpoint = read_plan("so_far");
     EXPECT_EQ(checkpoint.at("status"), "interrupted") << solver;
     EXPECT_EQ(checkpoint.at("good"), false);
-    EXPECT_LT(largest_difference("so_far/trajectory.csv", "out/trajectory.csv"), 1e-9) << solver << ": both are the best of the iterates";
+    EXPECT_LT(largest_difference("so_far/trajectory.csv", "out/trajectory.csv"), 1e-9)
+        << solver << ": both are the best of the iterates";
     EXPECT_LE(checkpoint.at("solver").at("iterations").get<int>(), 2);
     const Outcome check = run("$prowl check so_far $dirs");
     EXPECT_EQ(check.status, 130) << solver << check.error;
@@ -75,8 +77,10 @@ TEST_F(Checkpoints, GoOnWithTheirMeshAndThoseAfterIt) {
   EXPECT_EQ(run(command + "--max-iterations 1 --checkpoint so_far --checkpoint-every 0").status, 6);
   EXPECT_EQ(read_plan("so_far").at("problem").at("phases").at(0).at("intervals"), 200);
   // A kill in the midst of the second mesh.
-  const Outcome killed = run(command + "--checkpoint so_far --checkpoint-every 0 2>progress & pid=$!; "
-                             "for i in $(seq 6000); do [ $(sed -n '/mesh of 50/,$p' progress | grep -c ' s$') -ge 2 ] && break; sleep 0.01; done; kill -9 $pid; wait $pid");
+  const Outcome killed = run(command +
+                             "--checkpoint so_far --checkpoint-every 0 2>progress & pid=$!; "
+                             "for i in $(seq 6000); do [ $(sed -n '/mesh of 50/,$p' progress | grep -c ' s$') -ge 2 ] "
+                             "&& break; sleep 0.01; done; kill -9 $pid; wait $pid");
   ASSERT_EQ(killed.status, 137);
   const int mesh = read_plan("so_far").at("problem").at("phases").at(0).at("intervals");
   const Outcome resumed = run(command + "--resume so_far");
@@ -84,7 +88,8 @@ TEST_F(Checkpoints, GoOnWithTheirMeshAndThoseAfterIt) {
   EXPECT_EQ(intervals(plan()).front(), mesh);
   EXPECT_EQ(intervals(plan()).back(), 200);
   EXPECT_LT(intervals(plan()).size(), 3u) << "it began anew";
-  EXPECT_NEAR(plan().at("solver").at("cost"), whole.at("solver").at("cost"), 1e-5) << "another motion than without the kill";
+  EXPECT_NEAR(plan().at("solver").at("cost"), whole.at("solver").at("cost"), 1e-5)
+      << "another motion than without the kill";
   // A plan that ran out of iterations serves as well, and so does a checkpoint to refine.
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --intervals 40 --max-iterations 2 --out short").status, 6);
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --intervals 40 --resume short --out out").status, 7) << "a coarse mesh";
@@ -94,7 +99,8 @@ TEST_F(Checkpoints, GoOnWithTheirMeshAndThoseAfterIt) {
 
 /// What is on disk stays until there is better, and is not replaced without a word.
 TEST_F(Checkpoints, AreKeptWhereTheyAreResumed) {
-  const std::string plan = "$prowl plan bow.toml $dirs --intervals 20 --one-mesh --out out --checkpoint so_far --checkpoint-every 0 ";
+  const std::string plan =
+      "$prowl plan bow.toml $dirs --intervals 20 --one-mesh --out out --checkpoint so_far --checkpoint-every 0 ";
   ASSERT_EQ(run(plan + "--max-iterations 4").status, 6);
   const auto violation = [&] { return read_plan("so_far").at("solver").at("constraint_violation").get<double>(); };
   const double before = violation();
@@ -123,21 +129,26 @@ TEST_F(Checkpoints, StayOnTheMeshWhereTheTimeRanOut) {
 }
 
 TEST_F(Checkpoints, OfSomethingElseAreRefused) {
-  ASSERT_EQ(run("$prowl plan bow.toml $dirs --out out --max-iterations 2 --checkpoint so_far --checkpoint-every 0").status, 6);
+  ASSERT_EQ(
+      run("$prowl plan bow.toml $dirs --out out --max-iterations 2 --checkpoint so_far --checkpoint-every 0").status,
+      6);
   const auto refusal = [&](const std::string& arguments) {
     const Outcome result = run("$prowl plan " + arguments + " $dirs --out other --resume so_far");
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_THAT(result.error, Not(HasSubstr("iteration "))) << "a solve for nothing";
     return result.error;
   };
-  EXPECT_THAT(refusal("hold.toml"), HasSubstr("--resume so_far: the task file is not that of the checkpoint; --warm-start starts from it"));
-  EXPECT_THAT(refusal("bow.toml --intervals 7"), HasSubstr("the checkpoint is on another mesh, of 5 intervals; here they are of 7"));
+  EXPECT_THAT(refusal("hold.toml"),
+              HasSubstr("--resume so_far: the task file is not that of the checkpoint; --warm-start starts from it"));
+  EXPECT_THAT(refusal("bow.toml --intervals 7"),
+              HasSubstr("the checkpoint is on another mesh, of 5 intervals; here they are of 7"));
   EXPECT_THAT(refusal("bow.toml --warm-start so_far"), HasSubstr("excludes"));
   folder_.write("hyq.toml", test::kHyqFile + "# another text\n");
   EXPECT_THAT(refusal("bow.toml"), HasSubstr("the robot file is not that of the checkpoint"));
   folder_.write("hyq.toml", test::kHyqFile);
 
-  const std::string json = test::read_file(folder_.path() / "so_far/plan.json"), csv = test::read_file(folder_.path() / "so_far/trajectory.csv");
+  const std::string json = test::read_file(folder_.path() / "so_far/plan.json"),
+                    csv = test::read_file(folder_.path() / "so_far/trajectory.csv");
   folder_.write("so_far/plan.json", json.substr(0, json.size() / 2));
   EXPECT_THAT(refusal("bow.toml"), HasSubstr("so_far/plan.json:"));
   folder_.write("so_far/plan.json", json);
@@ -146,14 +157,20 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
   std::filesystem::remove(folder_.path() / "so_far/trajectory.csv");
   EXPECT_THAT(refusal("bow.toml"), HasSubstr("trajectory.csv: no such file"));
   ASSERT_EQ(run("$prowl plan hold.toml $dirs --out good").status, 0);
-  EXPECT_THAT(run("$prowl plan hold.toml $dirs --resume good").error, HasSubstr("the plan is finished, there is nothing to go on with"));
+  EXPECT_THAT(run("$prowl plan hold.toml $dirs --resume good").error,
+              HasSubstr("the plan is finished, there is nothing to go on with"));
 
-  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out good --checkpoint ./good/").error, HasSubstr("need another folder"));
-  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out new/x --checkpoint new/x/so_far").error, HasSubstr("need a folder beside it"));
-  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out new/x/plan --checkpoint new/x/").error, HasSubstr("need a folder beside it"));
+  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out good --checkpoint ./good/").error,
+              HasSubstr("need another folder"));
+  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out new/x --checkpoint new/x/so_far").error,
+              HasSubstr("need a folder beside it"));
+  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out new/x/plan --checkpoint new/x/").error,
+              HasSubstr("need a folder beside it"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "new"));
-  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out other --max-iterations 1 --checkpoint other2").status, 6) << "a beginning of a name is no folder";
-  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out other --checkpoint good").error, HasSubstr("--checkpoint good: holds a plan that passed"));
+  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out other --max-iterations 1 --checkpoint other2").status, 6)
+      << "a beginning of a name is no folder";
+  EXPECT_THAT(run("$prowl plan bow.toml $dirs --out other --checkpoint good").error,
+              HasSubstr("--checkpoint good: holds a plan that passed"));
   EXPECT_EQ(run("$prowl plan bow.toml $dirs --checkpoint-every 3").status, 2) << "of no checkpoint";
   for (const std::string option : {"--checkpoint", "--resume", "--out", "--warm-start"}) {
     const Outcome result = run("$prowl plan bow.toml $dirs " + option + " ''");
@@ -166,7 +183,9 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
 }
 
 /// So many that a dozen iterations take longer than a signal.
-std::string size_for(const std::string& solver) { return solver == "uno" ? "20" : solver.starts_with("ipopt") ? "100" : "300"; }
+std::string size_for(const std::string& solver) {
+  return solver == "uno" ? "20" : solver.starts_with("ipopt") ? "100" : "300";
+}
 
 int count(const std::string& text, const std::string& what) {
   int found = 0;
@@ -178,7 +197,8 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
     for (const std::string signal : {"INT", "TERM", "HUP"}) {
       if (signal == "HUP" && solver != "riccati") continue;  // the same to a solver
-      const Outcome result = run(": >progress; $at_terminal plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; " +
+      const Outcome result = run(": >progress; $at_terminal plan bow.toml $dirs --out out --one-mesh --intervals " +
+                                 size_for(solver) + " --solver " + solver + " 2>progress & pid=$!; " +
                                  test::until(test::kIteration) + "kill -" + signal + " $pid; wait $pid");
       EXPECT_EQ(result.status, 130) << solver << " " << signal << result.error;
       EXPECT_EQ(plan().at("status"), "interrupted") << solver;
@@ -192,9 +212,11 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
 
 /// A shell and the kernel may both tell of it.
 TEST_F(Checkpoints, ASecondHangUpIsIgnored) {
-  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; " +
-                             test::until(test::kIteration) + "kill -HUP $pid; "
-                             "for i in $(seq 6000); do grep -q 'stopping as' progress && break; sleep 0.001; done; kill -HUP $pid; wait $pid");
+  const Outcome result = run(
+      ": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; " +
+      test::until(test::kIteration) +
+      "kill -HUP $pid; "
+      "for i in $(seq 6000); do grep -q 'stopping as' progress && break; sleep 0.001; done; kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
   EXPECT_THAT(test::read_file(folder_.path() / "said"), testing::HasSubstr("interrupted")) << "it did not end at once";
@@ -202,8 +224,9 @@ TEST_F(Checkpoints, ASecondHangUpIsIgnored) {
 
 /// A terminal that is gone reads nothing; a disk that is full has lost what was to be kept.
 TEST_F(Checkpoints, AHangUpHidesNoFullDisk) {
-  const Outcome result = run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >/dev/full & pid=$!; " +
-                             test::until(test::kIteration) + "kill -HUP $pid; wait $pid");
+  const Outcome result = run(
+      ": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >/dev/full & pid=$!; " +
+      test::until(test::kIteration) + "kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 4) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
 }
@@ -217,14 +240,16 @@ TEST_F(Checkpoints, CtrlCIsIgnoredWhereItWasBefore) {
 
 /// Who starts it with nohup wants it to outlive the terminal.
 TEST_F(Checkpoints, NohupIsHeeded) {
-  const Outcome result = run(": >progress; nohup $prowl plan bow.toml $dirs --out out --intervals 300 >said 2>progress & pid=$!; " +
-                             test::until(test::kIteration) + "kill -HUP $pid; wait $pid");
+  const Outcome result =
+      run(": >progress; nohup $prowl plan bow.toml $dirs --out out --intervals 300 >said 2>progress & pid=$!; " +
+          test::until(test::kIteration) + "kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 0) << result.error;
 }
 
 TEST_F(Checkpoints, LimitsOfTimeAndIterationsHold) {
   for (const std::string solver : {"riccati", "fatrop", "ipopt", "ipopt-spral", "uno"}) {
-    const std::string command = "$prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver;
+    const std::string command =
+        "$prowl plan bow.toml $dirs --out out --one-mesh --intervals " + size_for(solver) + " --solver " + solver;
     EXPECT_EQ(run(command + " --max-iterations 2").status, 6) << solver;
     EXPECT_EQ(plan().at("status"), "iteration_limit") << solver;
     EXPECT_EQ(plan().at("solver").at("iterations"), 2) << solver;

@@ -29,7 +29,8 @@ struct Outcome {
   std::string out, error;
 };
 
-/// Shell: waits, for a minute at most, until what runs in the background has written `pattern` (of grep) to the file `progress`.
+/// Shell: waits, for a minute at most, until what runs in the background has written `pattern` (of grep) to the file
+/// `progress`.
 inline std::string until(const std::string& pattern) {
   return "for i in $(seq 6000); do grep -q '" + pattern + "' progress && break; sleep 0.01; done; ";
 }
@@ -41,11 +42,14 @@ class Command : public testing::Test {
     folder_.write("hyq.toml", kHyqFile);
     folder_.write("hold.toml", kHold);
   }
-  /// Runs a shell script in the test's folder, in which $prowl is the command and $dirs finds the robots. What a script runs in the
-  /// background ignores Ctrl-C, but for $at_terminal, which is the command as a terminal starts it.
+  /// Runs a shell script in the test's folder, in which $prowl is the command and $dirs finds the robots. What a script
+  /// runs in the background ignores Ctrl-C, but for $at_terminal, which is the command as a terminal starts it.
   Outcome run(const std::string& script) const {
-    const std::string setup = "cd '" + folder_.path().string() + "'; prowl='" PROWL_COMMAND
-                              "'; at_terminal=\"env --default-signal=INT $prowl\"; dirs='--package-dir " PROWL_ROBOTS_DATA "'; (" + script + ") >.out 2>.err";
+    const std::string setup =
+        "cd '" + folder_.path().string() +
+        "'; prowl='" PROWL_COMMAND
+        "'; at_terminal=\"env --default-signal=INT $prowl\"; dirs='--package-dir " PROWL_ROBOTS_DATA "'; (" +
+        script + ") >.out 2>.err";
     const int status = std::system(setup.c_str());
     return {WEXITSTATUS(status), read_file(folder_.path() / ".out"), read_file(folder_.path() / ".err")};
   }

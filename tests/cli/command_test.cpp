@@ -1,7 +1,8 @@
 // The command as a user meets it: the real binary, its exit status, what it prints and what it writes.
+#include "command.hpp"
+
 #include <gmock/gmock.h>
 
-#include "command.hpp"
 #include "prowl/tracker/tracker.hpp"
 
 namespace prowl {
@@ -224,8 +225,9 @@ TEST_F(Command, PrintsNothingButJsonIfAsked) {
 }
 
 TEST_F(Command, PrintsPhasesInPlaceOfPlanning) {
-  folder_.write("walk.toml", "robot = \"hyq.toml\"\n[gait]\nkind = \"walk\"\nstrides = 1\nstride_s = [2, 3]\n"
-                             "stride_length_m = 0.1\n");
+  folder_.write("walk.toml",
+                "robot = \"hyq.toml\"\n[gait]\nkind = \"walk\"\nstrides = 1\nstride_s = [2, 3]\n"
+                "stride_length_m = 0.1\n");
   const Outcome text = run("$prowl plan walk.toml $dirs --print-phases");
   EXPECT_EQ(text.status, 0) << text.error;
   EXPECT_THAT(text.out, StartsWith("HyQ walk: 9 phases, 194 intervals, 2.9 to 3.85 s\n"));
@@ -235,14 +237,16 @@ TEST_F(Command, PrintsPhasesInPlaceOfPlanning) {
   EXPECT_EQ(nlohmann::json::parse(json.out).at("phases").size(), 9u);
   EXPECT_FALSE(written());
 
-  EXPECT_THAT(run("$prowl plan hold.toml $dirs --print-phases").out, StartsWith("HyQ hold: 1 phase, 5 intervals, 2 s\n"));
+  EXPECT_THAT(run("$prowl plan hold.toml $dirs --print-phases").out,
+              StartsWith("HyQ hold: 1 phase, 5 intervals, 2 s\n"));
   EXPECT_EQ(run("$prowl plan hold.toml $dirs --print-phases --out out").status, 2) << "it writes nothing";
 }
 
 TEST_F(Command, WritesNothingOnBadInput) {
   folder_.write("bad.toml", test::replaced(kHold, "duration_s", "duration"));
-  for (const char* arguments : {"bad.toml $dirs", "missing.toml", ". $dirs", "hold.toml $dirs --dt nan",
-                                "hold.toml $dirs --max-time 0", "hold.toml $dirs --tolerance nan", "hold.toml $dirs --intervals 0", "hold.toml $dirs --dt 1e-9"}) {
+  for (const char* arguments :
+       {"bad.toml $dirs", "missing.toml", ". $dirs", "hold.toml $dirs --dt nan", "hold.toml $dirs --max-time 0",
+        "hold.toml $dirs --tolerance nan", "hold.toml $dirs --intervals 0", "hold.toml $dirs --dt 1e-9"}) {
     const Outcome result = run(std::string("$prowl plan --out out ") + arguments);
     EXPECT_EQ(result.status, 2) << arguments << result.error;
     EXPECT_FALSE(written()) << arguments;
@@ -305,8 +309,10 @@ TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
 
 /// Crouching needs steps that differ; its plan is read back with them.
 TEST_F(Command, RefinesTheMesh) {
-  folder_.write("bow.toml", test::kPhase + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.03, 0, -0.1]\n"
-                            "base_linear_velocity_mps = [0, 0, 0]\n[cost]\njoint_velocity = 0.1\njoint_acceleration = 0.01\ntorque = 1e-4\n");
+  folder_.write("bow.toml", test::kPhase +
+                                "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.03, 0, -0.1]\n"
+                                "base_linear_velocity_mps = [0, 0, 0]\n[cost]\njoint_velocity = "
+                                "0.1\njoint_acceleration = 0.01\ntorque = 1e-4\n");
   const Outcome result = run("$prowl plan bow.toml $dirs --out out --refine");
   EXPECT_EQ(result.status, 0) << result.out << result.error;
   EXPECT_THAT(result.error, HasSubstr("5 intervals, "));
@@ -317,7 +323,10 @@ TEST_F(Command, RefinesTheMesh) {
   EXPECT_EQ(phase.at("shares").size(), phase.at("intervals"));
   EXPECT_EQ(refined.at("certificate").at("grade"), "draft");
   EXPECT_EQ(run("$prowl check out $dirs").status, 0);
-  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out out2 --warm-start out --intervals 120 && $prowl simulate out $dirs --engine rollout").status, 0);
+  EXPECT_EQ(run("$prowl plan bow.toml $dirs --out out2 --warm-start out --intervals 120 && $prowl simulate out $dirs "
+                "--engine rollout")
+                .status,
+            0);
   const Outcome coarse = run("$prowl plan bow.toml $dirs --out out3 --refine 0.02 --no-gains");
   EXPECT_THAT(coarse.error, HasSubstr(" of 2.0e-02")) << "a tolerance of one's own";
   const Outcome refused = run("$prowl plan bow.toml $dirs --refine certifed");
@@ -326,7 +335,8 @@ TEST_F(Command, RefinesTheMesh) {
 }
 
 TEST_F(Command, TakesThreadsHessianAndTolerance) {
-  const Outcome result = run("$prowl plan hold.toml $dirs --out out --threads 2 --hessian gauss-newton --tolerance 1e-7");
+  const Outcome result =
+      run("$prowl plan hold.toml $dirs --out out --threads 2 --hessian gauss-newton --tolerance 1e-7");
   EXPECT_EQ(result.status, 0) << result.error;
   EXPECT_EQ(plan().at("solver").at("tolerance"), 1e-7);
   EXPECT_EQ(plan().at("solver").at("hessian"), "gauss-newton");
@@ -338,7 +348,8 @@ TEST_F(Command, TakesThreadsHessianAndTolerance) {
 
 TEST_F(Command, SaysThatATaskWithoutCostIsLeftToChance) {
   folder_.write("free.toml", kPhase);
-  EXPECT_THAT(run("$prowl plan free.toml $dirs --out out").out, HasSubstr("  note         without [cost] all motions are as good"));
+  EXPECT_THAT(run("$prowl plan free.toml $dirs --out out").out,
+              HasSubstr("  note         without [cost] all motions are as good"));
   EXPECT_THAT(run("$prowl plan hold.toml $dirs --out out").out, Not(HasSubstr("without [cost]")));
 }
 
@@ -388,9 +399,8 @@ TEST_F(Command, KeepsTheBestIterateOnInterrupt) {
   const std::string shift = "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, -0.1]\n";
   folder_.write("shift.toml", kHold + shift);
   // Ctrl-C once the first iteration is reported; 400 intervals take far longer than the signal.
-  const Outcome result = run(
-      "$at_terminal plan shift.toml $dirs --out out --intervals 400 2>progress & pid=$!; " +
-      test::until(test::kIteration) + "kill -INT $pid; wait $pid");
+  const Outcome result = run("$at_terminal plan shift.toml $dirs --out out --intervals 400 2>progress & pid=$!; " +
+                             test::until(test::kIteration) + "kill -INT $pid; wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
   ASSERT_TRUE(written());
   EXPECT_EQ(plan().at("status"), "interrupted");
@@ -402,7 +412,8 @@ TEST_F(Command, SaysWhyThereIsNoMotionWithoutTryingOne) {
   folder_.write("far.toml", kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, 1.5]\n");
   const Outcome far = run("$prowl plan far.toml $dirs --out out");
   EXPECT_EQ(far.status, 3) << far.error;
-  EXPECT_THAT(far.out, AllOf(HasSubstr("goal 1, phase 'phase 1': contact lf_foot is out of reach"), HasSubstr("written to out")));
+  EXPECT_THAT(far.out, AllOf(HasSubstr("goal 1, phase 'phase 1': contact lf_foot is out of reach"),
+                             HasSubstr("written to out")));
   EXPECT_THAT(far.out, Not(HasSubstr("certificate"))) << "of an initial guess";
   EXPECT_THAT(far.error, Not(HasSubstr("iteration"))) << "a solve for nothing";
   EXPECT_EQ(plan().at("status"), "infeasible");

@@ -18,8 +18,10 @@ class Compare : public test::Command {
  protected:
   /// The base moves by 5 cm, which its legs are to do with little change of posture.
   Compare() {
-    folder_.write("shift.toml", test::kHold +
-                                "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.05, 0.0, -0.05]\nbase_linear_velocity_mps = [0, 0, 0]\n");
+    folder_.write(
+        "shift.toml",
+        test::kHold +
+            "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.05, 0.0, -0.05]\nbase_linear_velocity_mps = [0, 0, 0]\n");
   }
   nlohmann::json table(const std::string& folder = "out") const {
     return nlohmann::json::parse(test::read_file(folder_.path() / folder / "compare.json"));
@@ -57,8 +59,9 @@ TEST_F(Compare, FindsTheSameOptimumWithTwoSolvers) {
 }
 
 TEST_F(Compare, RunsEveryCombinationOfWhatIsAskedFor) {
-  const Outcome outcome = run("$prowl compare hold.toml $dirs --solver all --intervals 4,6 --intervals 5 --formulation inverse "
-                              "--transcription trapezoid --contact stabilised --orientation se3 --json --quiet");
+  const Outcome outcome =
+      run("$prowl compare hold.toml $dirs --solver all --intervals 4,6 --intervals 5 --formulation inverse "
+          "--transcription trapezoid --contact stabilised --orientation se3 --json --quiet");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_EQ(outcome.error, "");
   const nlohmann::json result = nlohmann::json::parse(outcome.out);
@@ -68,18 +71,21 @@ TEST_F(Compare, RunsEveryCombinationOfWhatIsAskedFor) {
     EXPECT_EQ(line.at("nodes").get<int>(), line.at("intervals").get<int>() + 1);
   }
   for (const char* solver : {"riccati ", "fatrop ", "ipopt "}) {
-    for (const char* intervals : {"4", "6", "5"}) EXPECT_THAT(lines, testing::Contains(std::string(solver) + intervals));
+    for (const char* intervals : {"4", "6", "5"})
+      EXPECT_THAT(lines, testing::Contains(std::string(solver) + intervals));
   }
   EXPECT_EQ(lines.size() % 3, 0u);
   EXPECT_EQ(result.at("runs_asked"), lines.size());
-  for (const std::string path : result.at("written")) EXPECT_TRUE(std::filesystem::exists(folder_.path() / path)) << path;
+  for (const std::string path : result.at("written"))
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / path)) << path;
   EXPECT_EQ(result.at("written").size(), 3u);
 }
 
 // Whatever there is to choose from: what does not go together says why.
 TEST_F(Compare, HasALineForAllChoices) {
-  const Outcome outcome = run("$prowl compare hold.toml $dirs --formulation all --transcription all --contact all --orientation all "
-                              "--solver all --max-iterations 1 --out out");
+  const Outcome outcome =
+      run("$prowl compare hold.toml $dirs --formulation all --transcription all --contact all --orientation all "
+          "--solver all --max-iterations 1 --out out");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   const nlohmann::json compared = table();
   EXPECT_EQ(compared.at("runs").size(), compared.at("runs_asked"));
@@ -166,12 +172,14 @@ TEST_F(Compare, KeepsFinishedRunsOnInterrupt) {
   EXPECT_GE(left.at("runs").size(), 1u);
   EXPECT_LT(left.at("runs").size(), 50u);
   for (const auto& line : left.at("runs")) EXPECT_EQ(line.at("status"), "converged") << "half a run is none";
-  EXPECT_THAT(stopped.out, HasSubstr("Interrupted: " + std::to_string(left.at("runs").size()) + " of 50 runs were finished."));
+  EXPECT_THAT(stopped.out,
+              HasSubstr("Interrupted: " + std::to_string(left.at("runs").size()) + " of 50 runs were finished."));
 }
 
 TEST_F(Compare, WritesNothingIfNothingWasFinished) {
-  const Outcome stopped = run("$at_terminal compare shift.toml $dirs --out out --solver ipopt --intervals 300 --tolerance 1e-12 "
-                              "--json 2>err & pid=$!; sleep 1; kill -INT $pid; wait $pid");
+  const Outcome stopped =
+      run("$at_terminal compare shift.toml $dirs --out out --solver ipopt --intervals 300 --tolerance 1e-12 "
+          "--json 2>err & pid=$!; sleep 1; kill -INT $pid; wait $pid");
   EXPECT_EQ(stopped.status, 130);
   EXPECT_EQ(nlohmann::json::parse(stopped.out).at("error").at("kind"), "interrupted");
   EXPECT_FALSE(written());

@@ -36,8 +36,10 @@ class Completion : public test::Command {
   Words bash(const Words& words, const std::string& command = "$prowl") const {
     std::string line;
     for (const std::string& word : words) line += " '" + word + "'";
-    const Outcome outcome = run("bash --norc -c 'set -u; source <(\"$1\" completion bash); shift; COMP_WORDS=(\"$@\"); "
-                                "COMP_CWORD=$(($# - 1)); _prowl; printf \"%s\\n\" \"${COMPREPLY[@]}\"' - " + command + line);
+    const Outcome outcome =
+        run("bash --norc -c 'set -u; source <(\"$1\" completion bash); shift; COMP_WORDS=(\"$@\"); "
+            "COMP_CWORD=$(($# - 1)); _prowl; printf \"%s\\n\" \"${COMPREPLY[@]}\"' - " +
+            command + line);
     EXPECT_EQ(outcome.status, 0) << outcome.error;
     EXPECT_EQ(outcome.error, "") << line;
     Words offered = lines_of(outcome.out);
@@ -47,13 +49,18 @@ class Completion : public test::Command {
   bool has(const std::string& shell) const { return run("command -v " + shell).status == 0; }
   Words fish(const std::string& line, const std::string& command = "$prowl") const {
     return lines_of(run("export XDG_CONFIG_HOME=$PWD XDG_DATA_HOME=$PWD; "
-                        "fish -c '$argv[1] completion fish | source; complete -C $argv[2]' " + command + " '" + line + "' | cut -f1").out);
+                        "fish -c '$argv[1] completion fish | source; complete -C $argv[2]' " +
+                        command + " '" + line + "' | cut -f1")
+                        .out);
   }
   /// What an interactive zsh runs, with the program in place of prowl, for what is typed; \t is Tab.
   std::string zsh(const std::string& typed, const std::string& command = "$prowl") const {
-    const Outcome outcome = run(command + " completion zsh >_prowl; echo 'fpath=($PWD $fpath); autoload -Uz compinit; compinit -u -D; PS1=; "
-                                "prowl() { echo \"<$*>\" }' >.zshrc; "
-                                "printf '" + typed + "\\nexit\\n' | ZDOTDIR=$PWD TERM=dumb script -qec 'zsh -i' /dev/null");
+    const Outcome outcome =
+        run(command +
+            " completion zsh >_prowl; echo 'fpath=($PWD $fpath); autoload -Uz compinit; compinit -u -D; PS1=; "
+            "prowl() { echo \"<$*>\" }' >.zshrc; "
+            "printf '" +
+            typed + "\\nexit\\n' | ZDOTDIR=$PWD TERM=dumb script -qec 'zsh -i' /dev/null");
     return outcome.out + outcome.error;
   }
 };
@@ -75,8 +82,10 @@ TEST_F(Completion, OfProwlNew) {
 TEST_F(Completion, OfOptionsAndTheirValues) {
   EXPECT_THAT(bash({"prowl", "plan", "--so"}), ElementsAre("--solver"));
   EXPECT_THAT(bash({"prowl", "plan", "--solver", ""}), ElementsAre("riccati", "fatrop", "ipopt", "ipopt-spral", "uno"));
-  EXPECT_THAT(bash({"prowl", "plan", "--solver", "=", "f"}), ElementsAre("fatrop")) << "bash splits --solver=f at the =";
-  EXPECT_THAT(bash({"prowl", "plan", "--solver", "="}), ElementsAre("riccati", "fatrop", "ipopt", "ipopt-spral", "uno"));
+  EXPECT_THAT(bash({"prowl", "plan", "--solver", "=", "f"}), ElementsAre("fatrop"))
+      << "bash splits --solver=f at the =";
+  EXPECT_THAT(bash({"prowl", "plan", "--solver", "="}),
+              ElementsAre("riccati", "fatrop", "ipopt", "ipopt-spral", "uno"));
   EXPECT_THAT(bash({"prowl", "simulate", "out", "--engine", "r"}), ElementsAre("rollout"));
   EXPECT_THAT(bash({"prowl", "check", "--so"}), ElementsAre()) << "an option of another verb";
   EXPECT_THAT(bash({"prowl", "plan", "--dt", "h"}), ElementsAre()) << "a number is no file";
@@ -85,7 +94,8 @@ TEST_F(Completion, OfOptionsAndTheirValues) {
 
 TEST_F(Completion, OfFilesAndFolders) {
   EXPECT_THAT(bash({"prowl", "plan", "h"}), testing::UnorderedElementsAre("hold.toml", "hyq.toml"));
-  EXPECT_THAT(bash({"prowl", "plan", ""}), AllOf(IsSupersetOf({"hold.toml", "out", "a b"}), Not(Contains("notes.txt"))));
+  EXPECT_THAT(bash({"prowl", "plan", ""}),
+              AllOf(IsSupersetOf({"hold.toml", "out", "a b"}), Not(Contains("notes.txt"))));
   EXPECT_THAT(bash({"prowl", "check", "out/"}), ElementsAre("out/hyq_hold"));
   EXPECT_THAT(bash({"prowl", "check", ""}), testing::UnorderedElementsAre("out", "a b"));
   EXPECT_THAT(bash({"prowl", "plan", "hold.toml", "--warm-start", "out/"}), ElementsAre("out/hyq_hold"));
@@ -122,8 +132,10 @@ TEST_F(Completion, OfVerbsOfVerbs) {
 
 TEST_F(Completion, OfATypedLine) {
   // Readline itself, in a terminal: Tab, then the line as it was completed.
-  const Outcome outcome = run("$prowl completion bash >rc; echo 'prowl() { echo \"<$*>\"; }; PS1=' >>rc; "
-                              "printf 'prowl pl\\thold\\t--so\\tfat\\t\\nexit\\n' | TERM=dumb script -qec 'bash --noprofile --rcfile rc -i' /dev/null");
+  const Outcome outcome =
+      run("$prowl completion bash >rc; echo 'prowl() { echo \"<$*>\"; }; PS1=' >>rc; "
+          "printf 'prowl pl\\thold\\t--so\\tfat\\t\\nexit\\n' | TERM=dumb script -qec 'bash --noprofile --rcfile rc "
+          "-i' /dev/null");
   EXPECT_THAT(outcome.out, testing::HasSubstr("<plan hold.toml --solver fatrop>")) << outcome.error;
 }
 

@@ -1,4 +1,5 @@
-// A command with verbs of verbs and with texts that mean something to shells, for completion_test: prowl completion SHELL.
+// A command with verbs of verbs and with texts that mean something to shells, for completion_test: prowl completion
+// SHELL.
 #include "../../cli/commands.hpp"
 
 int main(int argc, char** argv) {
@@ -11,7 +12,8 @@ int main(int argc, char** argv) {
   bool flag = false;
   robot->add_option("urdf", text, "URDF")->required()->type_name("URDF");
   robot->add_option("--feet", text, "Where [they] are: it's 'point' or \"flat\" $(touch mistake)")
-      ->check(CLI::IsMember({"point", "flat"}))->type_name("KIND");
+      ->check(CLI::IsMember({"point", "flat"}))
+      ->type_name("KIND");
   CLI::App* const task = make->add_subcommand("task", "A task");
   task->add_option("robot", text, "Robot file")->required()->type_name("ROBOT.toml");
   task->add_flag("--force", flag, "Over a file that is there");

@@ -2,6 +2,7 @@
 
 Usage: determinism_test.py PROWL PACKAGE_DIR
 """
+
 import json
 import pathlib
 import subprocess
@@ -23,7 +24,17 @@ def without_times(value):
 
 def plan(task: str, out: pathlib.Path, *options: str) -> dict[str, bytes]:
     """Files of the plan; those that a clock goes into without its words."""
-    command = [PROWL, "plan", f"tasks/{task}.toml", "--out", str(out), "--package-dir", PACKAGE_DIR, "--one-mesh", *options]
+    command = [
+        PROWL,
+        "plan",
+        f"tasks/{task}.toml",
+        "--out",
+        str(out),
+        "--package-dir",
+        PACKAGE_DIR,
+        "--one-mesh",
+        *options,
+    ]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=500)
     assert done.returncode in (0, 7), done.stderr
     files = {path.name: path.read_bytes() for path in sorted(out.iterdir())}
@@ -45,7 +56,9 @@ class Determinism(unittest.TestCase):
                         self.assertEqual(first[file], other[file], f"{file}, {name}")
                 # The comparison has something to compare: all figures are still there.
                 self.assertIn(b'"certificate"', first["plan.json"])
-                self.assertGreater(len(json.loads((folder / "first/plan.json").read_text())["certificate"]["checks"]), 10)
+                self.assertGreater(
+                    len(json.loads((folder / "first/plan.json").read_text())["certificate"]["checks"]), 10
+                )
 
     def test_another_task_has_other_bytes(self) -> None:
         with tempfile.TemporaryDirectory() as work:

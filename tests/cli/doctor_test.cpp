@@ -9,12 +9,13 @@ namespace prowl {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
 using test::Command;
 using test::Outcome;
+using testing::HasSubstr;
 
 json named(const json& checks, const std::string& name) {
-  const auto found = std::find_if(checks.begin(), checks.end(), [&](const json& check) { return check.at("name") == name; });
+  const auto found =
+      std::find_if(checks.begin(), checks.end(), [&](const json& check) { return check.at("name") == name; });
   return found == checks.end() ? json() : *found;
 }
 
@@ -25,11 +26,14 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
   EXPECT_EQ(report.at("ok"), true);
   const json& checks = report.at("checks");
   for (const char* solver : {"Riccati", "Fatrop", "Ipopt", "Ipopt-SPRAL", "Uno"}) {
-    const auto found = std::find_if(checks.begin(), checks.end(), [&](const json& check) { return check.at("area") == "solvers" && check.at("name") == solver; });
+    const auto found = std::find_if(checks.begin(), checks.end(), [&](const json& check) {
+      return check.at("area") == "solvers" && check.at("name") == solver;
+    });
     ASSERT_NE(found, checks.end()) << solver;
     EXPECT_THAT(found->at("text").get<std::string>(), HasSubstr("solves and passes")) << solver;
   }
-  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "BLASFEO", "processor", "cores", "memory", "robots", "figures", "export", "report"}) {
+  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "BLASFEO", "processor", "cores", "memory", "robots",
+                           "figures", "export", "report"}) {
     ASSERT_FALSE(named(checks, name).is_null()) << name;
     EXPECT_FALSE(named(checks, name).at("text").get<std::string>().empty()) << name;
   }
@@ -56,7 +60,8 @@ TEST_F(Command, AnotherIpoptIsNamedBeforeItIsUsed) {
 
 /// The program alone in a folder, without the files beside it and away from the .venv.
 TEST_F(Command, DoctorSaysWhatIsMissingAndHowToGetIt) {
-  const Outcome result = run("mkdir bin; cp $prowl bin/prowl; unset ROS_PACKAGE_PATH AMENT_PREFIX_PATH; bin/prowl doctor");
+  const Outcome result =
+      run("mkdir bin; cp $prowl bin/prowl; unset ROS_PACKAGE_PATH AMENT_PREFIX_PATH; bin/prowl doctor");
   EXPECT_EQ(result.status, 4) << result.out << result.error;
   EXPECT_THAT(result.out, HasSubstr("missing: robots, figures, export, report"));
   EXPECT_THAT(result.out, HasSubstr("scripts/setup"));

@@ -1,7 +1,8 @@
 """prowl export as a command: what it says, what it refuses, what it leaves alone.
 
-    export_command_test.py PROWL ROBOTS_DATA
+export_command_test.py PROWL ROBOTS_DATA
 """
+
 import json
 import pathlib
 import sys
@@ -22,19 +23,32 @@ class ExportCommand(unittest.TestCase):
 
     def test_says_what_it_wrote(self):
         done = run_or_fail("export", self.plan, "--format", "csv,json,npz,mcap,joint-trajectory,mujoco")
-        for name in ("motion.csv", "gains.csv", "motion.json", "motion.npz", "motion.mcap", "joint_trajectory.json",
-                     "mujoco_keyframes.xml", "mujoco_model.xml"):
+        for name in (
+            "motion.csv",
+            "gains.csv",
+            "motion.json",
+            "motion.npz",
+            "motion.mcap",
+            "joint_trajectory.json",
+            "mujoco_keyframes.xml",
+            "mujoco_model.xml",
+        ):
             self.assertIn(name, done.stdout)
         out = self.plan.with_name("told")
         told = json.loads(run_or_fail("export", self.plan, "--format", "csv", "--out", out, "--json").stdout)
         self.assertEqual(told["directory"], str(self.plan))
         self.assertEqual({pathlib.Path(path).parent for path in told["written"]}, {out})
-        self.assertEqual({f["name"]: f["bytes"] for f in told["files"]}, {p.name: p.stat().st_size for p in out.iterdir()})
+        self.assertEqual(
+            {f["name"]: f["bytes"] for f in told["files"]}, {p.name: p.stat().st_size for p in out.iterdir()}
+        )
         self.assertEqual(told["samples"], len(read_csv(self.plan / "trajectory.csv")["time_s"]))
 
     def test_a_plan_without_gains_that_is_not_finished(self):
         plan = self.plan.with_name("unfinished")
-        self.assertEqual(prowl("plan", ROOT / "tasks/hyq/step.toml", "--max-iterations", 2, "--one-mesh", "--out", plan).returncode, 6)
+        self.assertEqual(
+            prowl("plan", ROOT / "tasks/hyq/step.toml", "--max-iterations", 2, "--one-mesh", "--out", plan).returncode,
+            6,
+        )
         done = run_or_fail("export", plan, "--format", "csv,npz,mcap")
         self.assertIn("this plan is not good: iteration_limit", done.stderr)
         self.assertEqual({p.name for p in (plan / "exports").iterdir()}, {"motion.csv", "motion.npz", "motion.mcap"})
@@ -47,9 +61,15 @@ class ExportCommand(unittest.TestCase):
         self.assertEqual(early.returncode, 2)
         self.assertIn(f"prowl simulate {self.plan}", early.stderr)
         nowhere = self.plan.with_name("nowhere")
-        for arguments, said in ((("--format", "cvs"), "cvs"), ((), "--format"), (("--format", "csv", "--simulation"), "simulate.csv already"),
-                                (("--format", "csv", "--rate", 0), "--rate: 0"), (("--format", "csv", "--rate", "nan"), "--rate: nan"),
-                                (("--format", "csv", "--rate", 1e12), "at most"), (("--format", "npz", "--python", "/nowhere/python"), "/nowhere/python")):
+        for arguments, said in (
+            (("--format", "cvs"), "cvs"),
+            ((), "--format"),
+            (("--format", "csv", "--simulation"), "simulate.csv already"),
+            (("--format", "csv", "--rate", 0), "--rate: 0"),
+            (("--format", "csv", "--rate", "nan"), "--rate: nan"),
+            (("--format", "csv", "--rate", 1e12), "at most"),
+            (("--format", "npz", "--python", "/nowhere/python"), "/nowhere/python"),
+        ):
             with self.subTest(arguments):
                 done = prowl("export", self.plan, *arguments, "--out", nowhere)
                 self.assertEqual(done.returncode, 2, done.stderr)

@@ -1,4 +1,5 @@
 """For the tests of prowl export: readers, and forward kinematics from the URDF alone."""
+
 import csv
 import pathlib
 import subprocess
@@ -14,7 +15,9 @@ ROOT = pathlib.Path(__file__).parents[2]
 
 def prowl(*arguments) -> subprocess.CompletedProcess:
     """The command, and the folder of the robots, are the arguments of the test."""
-    return subprocess.run([sys.argv[1], *map(str, arguments), "--package-dir", sys.argv[2]], capture_output=True, text=True)
+    return subprocess.run(
+        [sys.argv[1], *map(str, arguments), "--package-dir", sys.argv[2]], capture_output=True, text=True
+    )
 
 
 def run_or_fail(*arguments) -> subprocess.CompletedProcess:
@@ -37,9 +40,13 @@ def columns(table: dict[str, np.ndarray], names) -> np.ndarray:
 def rotation(quaternion) -> np.ndarray:
     """Of x y z w."""
     x, y, z, w = quaternion
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def placement(position, turn) -> np.ndarray:
@@ -64,7 +71,9 @@ class Urdf:
     def __init__(self, text: str):
         tree = ElementTree.fromstring(text)
         self.links = [link.get("name") for link in tree.iter("link")]
-        self.joints = {joint.find("child").get("link"): joint for joint in tree.iter("joint") if joint.find("child") is not None}
+        self.joints = {
+            joint.find("child").get("link"): joint for joint in tree.iter("joint") if joint.find("child") is not None
+        }
 
     def parent(self, link: str):
         return self.joints[link].find("parent").get("link") if link in self.joints else None

@@ -3,6 +3,7 @@ against trajectory.csv, simulate.csv and the URDF.
 
     exports_test.py PROWL ROBOTS_DATA
 """
+
 import json
 import pathlib
 import sys
@@ -28,7 +29,9 @@ class Exports(unittest.TestCase):
         run_or_fail("simulate", cls.plan, "--record-rate", 200)
         run_or_fail("export", cls.plan, "--format", "csv,json,npz,mcap,joint-trajectory,mujoco")
         cls.out = cls.plan / "exports"
-        run_or_fail("export", cls.plan, "--format", "json,npz,mcap,joint-trajectory,mujoco", "--simulation", "--rate", 50)
+        run_or_fail(
+            "export", cls.plan, "--format", "json,npz,mcap,joint-trajectory,mujoco", "--simulation", "--rate", 50
+        )
         cls.json = json.loads((cls.plan / "plan.json").read_text())
         cls.joints = cls.json["problem"]["joints"]
         cls.nodes = read_csv(cls.plan / "trajectory.csv")
@@ -37,9 +40,15 @@ class Exports(unittest.TestCase):
 
     def quantities(self, table) -> dict[str, np.ndarray]:
         """q, v, a, tau, f of a table with the columns of trajectory.csv."""
-        rates = [n.replace("mps", "mps2").replace("radps", "radps2").replace("_v", "_a").replace("_w", "_dw") for n in TWIST]
-        names = {"q": POSE + [f"q_{j}_rad" for j in self.joints], "v": TWIST + [f"v_{j}_radps" for j in self.joints],
-                 "a": rates + [f"a_{j}_radps2" for j in self.joints], "tau": [f"tau_{j}_Nm" for j in self.joints]}
+        rates = [
+            n.replace("mps", "mps2").replace("radps", "radps2").replace("_v", "_a").replace("_w", "_dw") for n in TWIST
+        ]
+        names = {
+            "q": POSE + [f"q_{j}_rad" for j in self.joints],
+            "v": TWIST + [f"v_{j}_radps" for j in self.joints],
+            "a": rates + [f"a_{j}_radps2" for j in self.joints],
+            "tau": [f"tau_{j}_Nm" for j in self.joints],
+        }
         result = {name: columns(table, parts) for name, parts in names.items()}
         result["f"] = np.stack([columns(table, [f"f_{c}_{axis}_N" for axis in AXES]) for c in self.contacts], axis=1)
         return result
@@ -63,7 +72,9 @@ class Exports(unittest.TestCase):
         for phase in set(rows["phase"]):
             of_rows, of_nodes = rows["phase"] == phase, self.nodes["phase"] == phase
             for joint in self.joints:
-                expected = np.interp(rows["time_s"][of_rows], self.nodes["time_s"][of_nodes], self.nodes[f"tau_{joint}_Nm"][of_nodes])
+                expected = np.interp(
+                    rows["time_s"][of_rows], self.nodes["time_s"][of_nodes], self.nodes[f"tau_{joint}_Nm"][of_nodes]
+                )
                 np.testing.assert_allclose(rows[f"tau_{joint}_Nm"][of_rows], expected, atol=1e-9)
 
     def test_npz_is_the_trajectory(self):
@@ -74,13 +85,17 @@ class Exports(unittest.TestCase):
         np.testing.assert_array_equal(arrays["phase"], self.nodes["phase"])
         for name, values in expected.items():
             np.testing.assert_array_equal(arrays[name], values, name)
-        np.testing.assert_array_equal(arrays["in_contact"], columns(self.nodes, [f"contact_{c}" for c in self.contacts]) == 1)
+        np.testing.assert_array_equal(
+            arrays["in_contact"], columns(self.nodes, [f"contact_{c}" for c in self.contacts]) == 1
+        )
         self.assertEqual(arrays["joints"].tolist(), self.joints)
         self.assertEqual(arrays["contacts"].tolist(), self.contacts)
         self.assertEqual(arrays["phases"].tolist(), [p["name"] for p in self.json["problem"]["phases"]])
         self.assertEqual((str(arrays["robot"]), str(arrays["motion"]), bool(arrays["good"])), ("HyQ", "plan", True))
         for p, phase in enumerate(self.json["problem"]["phases"]):
-            self.assertEqual([c for c, held in zip(self.contacts, arrays["phase_contacts"][p]) if held], phase["contacts"])
+            self.assertEqual(
+                [c for c, held in zip(self.contacts, arrays["phase_contacts"][p]) if held], phase["contacts"]
+            )
         nv = 6 + len(self.joints)
         self.assertEqual(arrays["K"].shape, (len(arrays["t"]), len(self.joints), 2 * nv))
         gains = read_csv(self.out / "gains.csv")
@@ -128,10 +143,17 @@ class Exports(unittest.TestCase):
     def check_mcap(self, path, motion, times):
         topics, summary, metadata = read_mcap(path)
         types = {topic: messages[0][0] for topic, messages in topics.items()}
-        self.assertEqual(types, {"/robot_description": "std_msgs/msg/String", "/tf_static": "tf2_msgs/msg/TFMessage",
-                                 "/tf": "tf2_msgs/msg/TFMessage", "/joint_states": "sensor_msgs/msg/JointState",
-                                 "/odom": "nav_msgs/msg/Odometry",
-                                 **{f"/contacts/{c}": "geometry_msgs/msg/WrenchStamped" for c in self.contacts}})
+        self.assertEqual(
+            types,
+            {
+                "/robot_description": "std_msgs/msg/String",
+                "/tf_static": "tf2_msgs/msg/TFMessage",
+                "/tf": "tf2_msgs/msg/TFMessage",
+                "/joint_states": "sensor_msgs/msg/JointState",
+                "/odom": "nav_msgs/msg/Odometry",
+                **{f"/contacts/{c}": "geometry_msgs/msg/WrenchStamped" for c in self.contacts},
+            },
+        )
         self.assertEqual(metadata["prowl"]["robot"], "HyQ")
         self.assertEqual({c.message_encoding for c in summary.channels.values()}, {"cdr"})
         self.assertEqual(topics["/robot_description"][0][2].data, self.json["urdf"]["text"])
@@ -151,7 +173,9 @@ class Exports(unittest.TestCase):
             np.testing.assert_array_equal(state.effort, samples["tau"][i])
             pose, twist = odometry.pose.pose, odometry.twist.twist
             self.assertEqual((odometry.header.frame_id, odometry.child_frame_id), ("world", motion["links"][0]["name"]))
-            np.testing.assert_array_equal(xyz(pose.position) + xyz(pose.orientation) + [pose.orientation.w], samples["q"][i][:7])
+            np.testing.assert_array_equal(
+                xyz(pose.position) + xyz(pose.orientation) + [pose.orientation.w], samples["q"][i][:7]
+            )
             np.testing.assert_array_equal(xyz(twist.linear) + xyz(twist.angular), samples["v"][i][:6])
             for c, contact in enumerate(self.contacts):
                 wrench = topics[f"/contacts/{contact}"][k][2]
@@ -159,7 +183,9 @@ class Exports(unittest.TestCase):
                 np.testing.assert_array_equal(xyz(wrench.wrench.force), samples["force_N"][i][c])
                 self.assertEqual(xyz(wrench.wrench.torque), [0, 0, 0])
             if k % 10 == 0:
-                self.check_transforms(topics["/tf"][k][2].transforms, held, samples["q"][i], samples["contact_position_m"][i])
+                self.check_transforms(
+                    topics["/tf"][k][2].transforms, held, samples["q"][i], samples["contact_position_m"][i]
+                )
 
     def check_transforms(self, moving, held, q, contacts):
         """Along the tree from the world, every link is where the URDF puts it, and every contact frame is there with world axes."""
@@ -170,7 +196,9 @@ class Exports(unittest.TestCase):
             if frame == "world":
                 return np.eye(4)
             t = tree[frame].transform
-            return in_world(tree[frame].header.frame_id) @ of_seven(xyz(t.translation) + xyz(t.rotation) + [t.rotation.w])
+            return in_world(tree[frame].header.frame_id) @ of_seven(
+                xyz(t.translation) + xyz(t.rotation) + [t.rotation.w]
+            )
 
         for link, expected in self.links_in_world(q).items():
             np.testing.assert_allclose(in_world(link), expected, atol=1e-9, err_msg=link)

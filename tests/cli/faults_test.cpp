@@ -24,7 +24,9 @@ const std::string kFaulty = "LD_PRELOAD='" PROWL_FAULTY_FILES "' ";
 class Faults : public test::Command {
  protected:
   void SetUp() override {
-    ASSERT_EQ(run("$prowl plan hold.toml $dirs --out old && $prowl plan hold.toml $dirs --intervals 6 --out other").status, 0);
+    ASSERT_EQ(
+        run("$prowl plan hold.toml $dirs --out old && $prowl plan hold.toml $dirs --intervals 6 --out other").status,
+        0);
     ASSERT_EQ(run("cp -r old out").status, 0);
   }
   std::string plan_other() const { return "$prowl plan hold.toml $dirs --intervals 6 --out out "; }
@@ -32,7 +34,8 @@ class Faults : public test::Command {
   std::string read(const std::string& name) const { return test::read_file(path(name)); }
   static nlohmann::json without_times(const std::string& plan) {
     const auto is_no_time = [](int, nlohmann::json::parse_event_t event, const nlohmann::json& parsed) {
-      return event != nlohmann::json::parse_event_t::key || (parsed != "seconds" && parsed != "cpu_seconds" && parsed != "evaluation");
+      return event != nlohmann::json::parse_event_t::key ||
+             (parsed != "seconds" && parsed != "cpu_seconds" && parsed != "evaluation");
     };
     return nlohmann::json::parse(plan, is_no_time, false);  // what is torn is `discarded`, which equals nothing
   }
@@ -50,7 +53,8 @@ class Faults : public test::Command {
   }
   int leftovers() const {
     int count = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) count += entry.path().filename().string().starts_with(".prowl-");
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path()))
+      count += entry.path().filename().string().starts_with(".prowl-");
     return count;
   }
 };
@@ -75,7 +79,8 @@ TEST_F(Faults, ADiskThatFailsAtAnyOperationLeavesAWholePlanAndIsToldOf) {
     int failures = 0;
     for (int n = 1; n < 100; n += error == ENOSPC ? 1 : 4) {
       run("rm -rf out; cp -r old out");
-      const Outcome result = run("FAULTY_FILES='" + std::to_string(n) + " " + std::to_string(error) + "' " + kFaulty + plan_other());
+      const Outcome result =
+          run("FAULTY_FILES='" + std::to_string(n) + " " + std::to_string(error) + "' " + kFaulty + plan_other());
       if (result.status == 0) break;
       ASSERT_EQ(result.status, 4) << n << ": " << result.error;
       EXPECT_THAT(result.error, HasSubstr(std::strerror(error))) << n;
@@ -92,7 +97,8 @@ TEST_F(Faults, WhatCannotBePutInPlaceIsKept) {
   int kept = 0;
   for (int n = 1;; ++n) {
     run("rm -rf out out.prowl-*; cp -r old out");
-    const Outcome result = run("FAULTY_ONCE=1 FAULTY_FILES='" + std::to_string(n) + " " + std::to_string(EBUSY) + "' " + kFaulty + plan_other());
+    const Outcome result = run("FAULTY_ONCE=1 FAULTY_FILES='" + std::to_string(n) + " " + std::to_string(EBUSY) + "' " +
+                               kFaulty + plan_other());
     if (result.status == 0) break;
     ASSERT_EQ(result.status, 4) << n << ": " << result.error;
     EXPECT_EQ(leftovers(), 0) << n;
@@ -114,7 +120,8 @@ TEST_F(Faults, AKillBetweenTwoRenamesLosesNothing) {
   bool was_between = false;
   for (int n = 1;; ++n) {
     run("rm -rf out .prowl-* out.prowl-*; cp -r old out");
-    const Outcome result = run("FAULTY_RENAMEAT2=1 FAULTY_FILES='" + std::to_string(n) + " KILL' " + kFaulty + plan_other());
+    const Outcome result =
+        run("FAULTY_RENAMEAT2=1 FAULTY_FILES='" + std::to_string(n) + " KILL' " + kFaulty + plan_other());
     if (result.status == 0) break;
     if (!fs::exists(path("out"))) {
       was_between = true;
@@ -145,7 +152,9 @@ TEST_F(Faults, AKillAtAnyOperationOnACheckpointLeavesNoneOrAWholeOne) {
 }
 
 TEST_F(Faults, WhatAKillLeavesIsNobodyElsesIfTheOldWasPrivate) {
-  ASSERT_EQ(run("chmod 700 out; umask 022; FAULTY_PATH=plan.json FAULTY_FILES='2 KILL' " + kFaulty + plan_other()).status, kKilled);
+  ASSERT_EQ(
+      run("chmod 700 out; umask 022; FAULTY_PATH=plan.json FAULTY_FILES='2 KILL' " + kFaulty + plan_other()).status,
+      kKilled);
   EXPECT_EQ(run("stat -c %a .prowl-*.new out").out, "700\n700\n");
   EXPECT_EQ(held(), "old");
 }
@@ -177,7 +186,8 @@ TEST_F(Faults, AKillAtARandomMomentLeavesWholePlansAndCheckpoints) {
   EXPECT_EQ(killed, kills);
   EXPECT_GT(checkpoints, 0);
   RecordProperty("in_a_write", in_a_write);
-  std::cout << killed << " kills, " << in_a_write << " of them in the midst of a write, " << checkpoints << " after a checkpoint\n";
+  std::cout << killed << " kills, " << in_a_write << " of them in the midst of a write, " << checkpoints
+            << " after a checkpoint\n";
 }
 
 TEST_F(Faults, LeftoversOfAKillAreInNobodysWayAndGoInTheEnd) {
@@ -197,7 +207,8 @@ TEST_F(Faults, ExportsAreReplacedTogether) {
   ASSERT_EQ(run(command).status, 0);
   const std::string before = read("out/exports/motion.csv"), json = read("out/exports/motion.json");
   const auto with = [&](int n, const std::string& fault) {
-    return run("FAULTY_FILES='" + std::to_string(n) + " " + fault + "' FAULTY_PATH=/out/ " + kFaulty + command + "--rate 50");
+    return run("FAULTY_FILES='" + std::to_string(n) + " " + fault + "' FAULTY_PATH=/out/ " + kFaulty + command +
+               "--rate 50");
   };
   int faults = 0;
   for (int n = 1; n < 9; ++n) {
@@ -215,13 +226,15 @@ TEST_F(Faults, ExportsAreReplacedTogether) {
 
 /// The solve goes on: hours of work are worth more than a copy of them.
 TEST_F(Faults, ACheckpointThatCannotBeWrittenIsANote) {
-  const Outcome result = run("FAULTY_FILES='4 28' FAULTY_PATH=/checkpoints/ " + kFaulty + plan_other() + "--checkpoint checkpoints/so_far --checkpoint-every 0");
+  const Outcome result = run("FAULTY_FILES='4 28' FAULTY_PATH=/checkpoints/ " + kFaulty + plan_other() +
+                             "--checkpoint checkpoints/so_far --checkpoint-every 0");
   EXPECT_EQ(result.status, 0) << result.error;
   EXPECT_THAT(result.error, HasSubstr("note: no checkpoint, planning goes on: "));
   EXPECT_THAT(result.error, HasSubstr("No space left on device"));
   EXPECT_EQ(held(), "other");
   EXPECT_EQ(leftovers(), 0);
-  const Outcome early = run("FAULTY_FILES='1 30' FAULTY_PATH=/none/ " + kFaulty + plan_other() + "--checkpoint none/so_far");
+  const Outcome early =
+      run("FAULTY_FILES='1 30' FAULTY_PATH=/none/ " + kFaulty + plan_other() + "--checkpoint none/so_far");
   EXPECT_EQ(early.status, 4) << "before the solve it is an error";
   EXPECT_THAT(early.error, Not(HasSubstr("iteration")));
 }
@@ -252,11 +265,15 @@ TEST_F(Faults, ARealDiskThatIsFullOrReadOnly) {
   const Outcome mount = mounted("$prowl plan hold.toml $dirs --out disk; echo status \\$?");
   EXPECT_THAT(mount.out, HasSubstr("status 4\n"));
   EXPECT_THAT(mount.error, AllOf(HasSubstr("something is mounted there"), Not(HasSubstr("iteration"))));
-  const std::string compare = "cmp old/trajectory.csv disk/out/trajectory.csv && cmp old/tracker.bin disk/out/tracker.bin && cmp old/plan.json disk/out/plan.json";
-  const Outcome full = mounted("cp -r old disk/out && dd if=/dev/zero of=disk/rest bs=4k 2>/dev/null; " + plan + "; echo status \\$?; " + compare + " && ls -A disk");
+  const std::string compare =
+      "cmp old/trajectory.csv disk/out/trajectory.csv && cmp old/tracker.bin disk/out/tracker.bin && cmp old/plan.json "
+      "disk/out/plan.json";
+  const Outcome full = mounted("cp -r old disk/out && dd if=/dev/zero of=disk/rest bs=4k 2>/dev/null; " + plan +
+                               "; echo status \\$?; " + compare + " && ls -A disk");
   EXPECT_THAT(full.out, HasSubstr("status 4\nout\nrest\n")) << full.error;
   EXPECT_THAT(full.error, HasSubstr("No space left on device"));
-  const Outcome fixed = mounted("cp -r old disk/out && mount -o remount,ro none disk && " + plan + "; echo status \\$?; " + compare + " && ls -A disk");
+  const Outcome fixed = mounted("cp -r old disk/out && mount -o remount,ro none disk && " + plan +
+                                "; echo status \\$?; " + compare + " && ls -A disk");
   EXPECT_THAT(fixed.out, HasSubstr("status 4\nout\n")) << fixed.error;
   EXPECT_THAT(fixed.error, HasSubstr("Read-only file system"));
 }

@@ -1,7 +1,7 @@
-// For LD_PRELOAD: files that cannot be written. FAULTY_FILES="N KILL" ends the process at its Nth operation that changes files
-// (write in the middle of it, all others before they begin), FAULTY_FILES="N 28" makes that and all later ones fail with this errno. With
-// FAULTY_ONCE=1 only that one does. With FAULTY_PATH=TEXT only files with TEXT in their path count. Standard streams never do. FAULTY_RENAMEAT2=1: a file system that cannot
-// exchange folders.
+// For LD_PRELOAD: files that cannot be written. FAULTY_FILES="N KILL" ends the process at its Nth operation that
+// changes files (write in the middle of it, all others before they begin), FAULTY_FILES="N 28" makes that and all later
+// ones fail with this errno. With FAULTY_ONCE=1 only that one does. With FAULTY_PATH=TEXT only files with TEXT in their
+// path count. Standard streams never do. FAULTY_RENAMEAT2=1: a file system that cannot exchange folders.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -73,7 +73,8 @@ int open(const char* path, int flags, ...) {
 ssize_t write(int descriptor, const void* data, size_t size) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
   struct stat status;
-  if (descriptor <= STDERR_FILENO || ::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return real(descriptor, data, size);
+  if (descriptor <= STDERR_FILENO || ::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+    return real(descriptor, data, size);
   const Fault now = fault(path_of(descriptor));
   if (now == Fault::error) return -1;
   if (now == Fault::kill) {
@@ -97,6 +98,7 @@ int renameat2(int from_folder, const char* from, int to_folder, const char* to, 
     return -1;
   }
   if (fails(to)) return -1;
-  return next<int (*)(int, const char*, int, const char*, unsigned)>("renameat2")(from_folder, from, to_folder, to, flags);
+  return next<int (*)(int, const char*, int, const char*, unsigned)>("renameat2")(from_folder, from, to_folder, to,
+                                                                                  flags);
 }
 }

@@ -3,6 +3,7 @@ against being empty, its faults told in words.
 
     figures_test.py PROWL ROBOTS_DATA
 """
+
 import csv
 import importlib.machinery
 import importlib.util
@@ -19,15 +20,37 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).parents[2]
 FIGURES = ("torques", "contact_acceleration", "base_error", "joint_error", "gains", "torque_over_position")
-PALETTE = {"blue": (0, 114, 178), "vermillion": (213, 94, 0), "green": (0, 158, 115), "sky": (86, 180, 233), "black": (0, 0, 0)}
-COLOURS = {"torques": ("blue", "vermillion", "green"), "contact_acceleration": ("sky", "black"),
-           "base_error": ("blue", "vermillion", "green"), "joint_error": ("blue",),
-           "gains": ("blue", "vermillion", "green"), "torque_over_position": ("sky", "vermillion", "black")}
-CURVES = {"torques": 12 * 4, "contact_acceleration": 4 * 3 * 2, "base_error": 4 * 3, "joint_error": 12 * 2, "gains": 36,
-          "torque_over_position": 4 * (2 + 2)}
-LABELS = {"torques": ("torque [N m]", "feedback", "feedforward", "lh_kfe_joint"), "contact_acceleration": ("[m/s²]", r"$J\,a$", r"$-\dot{J}\,v$"),
-          "base_error": ("position [mm]", "orientation [deg]"), "joint_error": ("angle [deg]",),
-          "gains": ("on joint rates [N m s/rad]", "rh_kfe_joint"), "torque_over_position": ("position [rad]", "limit")}
+PALETTE = {
+    "blue": (0, 114, 178),
+    "vermillion": (213, 94, 0),
+    "green": (0, 158, 115),
+    "sky": (86, 180, 233),
+    "black": (0, 0, 0),
+}
+COLOURS = {
+    "torques": ("blue", "vermillion", "green"),
+    "contact_acceleration": ("sky", "black"),
+    "base_error": ("blue", "vermillion", "green"),
+    "joint_error": ("blue",),
+    "gains": ("blue", "vermillion", "green"),
+    "torque_over_position": ("sky", "vermillion", "black"),
+}
+CURVES = {
+    "torques": 12 * 4,
+    "contact_acceleration": 4 * 3 * 2,
+    "base_error": 4 * 3,
+    "joint_error": 12 * 2,
+    "gains": 36,
+    "torque_over_position": 4 * (2 + 2),
+}
+LABELS = {
+    "torques": ("torque [N m]", "feedback", "feedforward", "lh_kfe_joint"),
+    "contact_acceleration": ("[m/s²]", r"$J\,a$", r"$-\dot{J}\,v$"),
+    "base_error": ("position [mm]", "orientation [deg]"),
+    "joint_error": ("angle [deg]",),
+    "gains": ("on joint rates [N m s/rad]", "rh_kfe_joint"),
+    "torque_over_position": ("position [rad]", "limit"),
+}
 command = robots = None
 
 
@@ -58,10 +81,19 @@ def rotation_vector(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 def state_difference(sim, joints) -> np.ndarray:
     """x* ⊖ x of docs/tracking.md, rows."""
     quaternions = [columns(sim, [f"{kind}_base_q{c}" for c in "xyzw"]) for kind in ("true", "ref")]
-    velocities = [f"base_{c}_{unit}" for c, unit in zip(("vx", "vy", "vz", "wx", "wy", "wz"), ["mps"] * 3 + ["radps"] * 3)]
+    velocities = [
+        f"base_{c}_{unit}" for c, unit in zip(("vx", "vy", "vz", "wx", "wy", "wz"), ["mps"] * 3 + ["radps"] * 3)
+    ]
     less = lambda names: columns(sim, [f"ref_{n}" for n in names]) - columns(sim, [f"true_{n}" for n in names])  # noqa: E731
-    return np.hstack([less([f"base_p{c}_m" for c in "xyz"]), rotation_vector(*quaternions), less([f"q_{j}_rad" for j in joints]),
-                      less(velocities), less([f"v_{j}_radps" for j in joints])])
+    return np.hstack(
+        [
+            less([f"base_p{c}_m" for c in "xyz"]),
+            rotation_vector(*quaternions),
+            less([f"q_{j}_rad" for j in joints]),
+            less(velocities),
+            less([f"v_{j}_radps" for j in joints]),
+        ]
+    )
 
 
 class Figures(unittest.TestCase):
@@ -102,7 +134,11 @@ class Figures(unittest.TestCase):
                     self.assertGreater(drawn, 500, f"{colour}: lines are missing")
                 text = (self.plan / "figures" / f"{name}.svg").read_text(encoding="utf-8")
                 paths = ElementTree.fromstring(text).iter("{http://www.w3.org/2000/svg}path")
-                curves = [p for p in paths if p.get("clip-path") and "fill: none" in p.get("style", "") and p.get("d", "").count("L") > 4]
+                curves = [
+                    p
+                    for p in paths
+                    if p.get("clip-path") and "fill: none" in p.get("style", "") and p.get("d", "").count("L") > 4
+                ]
                 self.assertGreaterEqual(len(curves), CURVES[name])
                 for label in LABELS[name]:
                     self.assertIn(label, text)
@@ -116,7 +152,9 @@ class Figures(unittest.TestCase):
             np.testing.assert_array_equal(applied, self.sim[f"tau_{joint}_Nm"])
             commanded = self.sim[f"feedforward_{joint}_Nm"] + self.sim[f"feedback_{joint}_Nm"]
             np.testing.assert_allclose(applied[2:], commanded[:-2], atol=1e-5, err_msg="2 ms are two rows")
-            np.testing.assert_allclose((table[f"feedforward_{joint}_Nm"] + table[f"feedback_{joint}_Nm"])[3:], applied[3:], atol=1e-4)
+            np.testing.assert_allclose(
+                (table[f"feedforward_{joint}_Nm"] + table[f"feedback_{joint}_Nm"])[3:], applied[3:], atol=1e-4
+            )
             sums += np.abs(table[f"feedback_{joint}_Nm"]).max()
 
             during = table["time_s"] <= end
@@ -140,8 +178,10 @@ class Figures(unittest.TestCase):
 
     def test_base_error_is_that_of_the_simulation(self):
         table = self.table("base_error")
-        for name, before, after, kinds in (("error", "ref", "true", ("base_position_m", "base_angle_rad")),
-                                           ("estimate_error", "true", "seen", ("estimated_position_m", "estimated_angle_rad"))):
+        for name, before, after, kinds in (
+            ("error", "ref", "true", ("base_position_m", "base_angle_rad")),
+            ("estimate_error", "true", "seen", ("estimated_position_m", "estimated_angle_rad")),
+        ):
             p = [columns(self.sim, [f"{kind}_base_p{c}_m" for c in "xyz"]) for kind in (before, after)]
             r = rotation_vector(*(columns(self.sim, [f"{kind}_base_q{c}" for c in "xyzw"]) for kind in (before, after)))
             position = columns(table, [f"{name}_p{c}_m" for c in "xyz"])
@@ -158,8 +198,11 @@ class Figures(unittest.TestCase):
         table = self.table("joint_error")
         for joint in self.joints:
             for name, before, after in (("error", "ref", "true"), ("estimate_error", "true", "seen")):
-                np.testing.assert_allclose(table[f"{name}_{joint}_rad"],
-                                           self.sim[f"{after}_q_{joint}_rad"] - self.sim[f"{before}_q_{joint}_rad"], atol=1e-8)
+                np.testing.assert_allclose(
+                    table[f"{name}_{joint}_rad"],
+                    self.sim[f"{after}_q_{joint}_rad"] - self.sim[f"{before}_q_{joint}_rad"],
+                    atol=1e-8,
+                )
         worst = max(np.abs(table[f"error_{joint}_rad"]).max() for joint in self.joints)
         self.assertAlmostEqual(worst, self.result["joints_rad"]["largest"], delta=1e-6)
 
@@ -170,7 +213,9 @@ class Figures(unittest.TestCase):
         told.mkdir()
         for name in ("plan.json", "trajectory.csv", "tracker.bin"):
             (told / name).write_bytes((self.plan / name).read_bytes())
-        self.run_or_fail("simulate", told, "--perfect-state", "--delay", 0, "--push", 0.5, 5, 15, 0, "--record-rate", 500)
+        self.run_or_fail(
+            "simulate", told, "--perfect-state", "--delay", 0, "--push", 0.5, 5, 15, 0, "--record-rate", 500
+        )
         self.run_or_fail("figures", told, "--joint", joint, "--out", out)
         self.assertFalse((told / "figures").exists())
         gains, sim = read(out / "gains.csv"), read(told / "simulate.csv")
@@ -189,14 +234,20 @@ class Figures(unittest.TestCase):
         plan.mkdir()
         for name in ("plan.json", "trajectory.csv", "tracker.bin"):
             (plan / name).write_bytes((self.plan / name).read_bytes())
-        self.run_or_fail("simulate", plan, "--engine", "rollout", "--base-offset-m", 0, 0.02, 0.03, "--record-rate", 500)
+        self.run_or_fail(
+            "simulate", plan, "--engine", "rollout", "--base-offset-m", 0, 0.02, 0.03, "--record-rate", 500
+        )
         self.run_or_fail("figures", plan, "--joint", "lh_kfe_joint", "--out", out)
-        self.assertIn("rollout of the projected dynamics, closed loop, continuous control, base off at the start, success",
-                      (out / "torques.svg").read_text(encoding="utf-8"))
+        self.assertIn(
+            "rollout of the projected dynamics, closed loop, continuous control, base off at the start, success",
+            (out / "torques.svg").read_text(encoding="utf-8"),
+        )
         sim, gains, torques = read(plan / "simulate.csv"), read(out / "gains.csv"), read(out / "torques.csv")
         self.assertEqual(list(sim), list(self.sim), "columns of both engines")
         for joint in self.joints:
-            np.testing.assert_allclose(torques[f"feedforward_{joint}_Nm"] + torques[f"feedback_{joint}_Nm"], sim[f"tau_{joint}_Nm"], atol=1e-4)
+            np.testing.assert_allclose(
+                torques[f"feedforward_{joint}_Nm"] + torques[f"feedback_{joint}_Nm"], sim[f"tau_{joint}_Nm"], atol=1e-4
+            )
         during = sim["time_s"] < self.nodes["time_s"][-1] - 1e-9
         names = [n for n in gains if n not in ("time_s", "segment")]
         K = np.column_stack([np.interp(sim["time_s"], gains["time_s"], gains[n]) for n in names])
@@ -217,12 +268,21 @@ class Figures(unittest.TestCase):
             rows = list(csv.DictReader(file))
         for joint, points in knees.items():
             curve = plot_knee.limit_curve(points)
-            x, limit = np.array([(float(r["position_rad"]), float(r["limit_Nm"])) for r in curves if r["joint"] == joint]).T
+            x, limit = np.array(
+                [(float(r["position_rad"]), float(r["limit_Nm"])) for r in curves if r["joint"] == joint]
+            ).T
             np.testing.assert_allclose(limit, curve(x), rtol=1e-9)
             for series, source, prefix in (("plan", self.nodes, ""), ("simulation", self.sim, "true_")):
-                drawn = np.array([(float(r["position_rad"]), float(r["torque_Nm"])) for r in rows
-                                  if (r["joint"], r["series"]) == (joint, series)])
-                np.testing.assert_allclose(drawn, columns(source, [f"{prefix}q_{joint}_rad", f"tau_{joint}_Nm"]), rtol=1e-8, atol=1e-8)
+                drawn = np.array(
+                    [
+                        (float(r["position_rad"]), float(r["torque_Nm"]))
+                        for r in rows
+                        if (r["joint"], r["series"]) == (joint, series)
+                    ]
+                )
+                np.testing.assert_allclose(
+                    drawn, columns(source, [f"{prefix}q_{joint}_rad", f"tau_{joint}_Nm"]), rtol=1e-8, atol=1e-8
+                )
                 self.assertLessEqual(np.max(np.abs(drawn[:, 1]) / curve(drawn[:, 0])), 1.001, series)
 
     def test_tells_that_there_is_no_simulation(self):

@@ -2,6 +2,7 @@
 
 Usage: hang_up_test.py PROWL PACKAGE_DIR
 """
+
 import json
 import os
 import pathlib
@@ -22,8 +23,23 @@ class HangUp(unittest.TestCase):
             child, terminal = pty.fork()
             if child == 0:
                 os.chdir(ROOT)
-                os.execl(PROWL, "prowl", "plan", "tasks/hyq/stand.toml", "--one-mesh", "--intervals", "1000", "--out", str(folder / "out"),
-                         "--checkpoint", str(folder / "so_far"), "--checkpoint-every", "0", "--package-dir", PACKAGE_DIR)
+                os.execl(
+                    PROWL,
+                    "prowl",
+                    "plan",
+                    "tasks/hyq/stand.toml",
+                    "--one-mesh",
+                    "--intervals",
+                    "1000",
+                    "--out",
+                    str(folder / "out"),
+                    "--checkpoint",
+                    str(folder / "so_far"),
+                    "--checkpoint-every",
+                    "0",
+                    "--package-dir",
+                    PACKAGE_DIR,
+                )
             until = time.monotonic() + 300
             os.set_blocking(terminal, False)
             while not (folder / "so_far/plan.json").exists():  # the solve has begun

@@ -57,12 +57,15 @@ TEST_F(Help, GivesCommonFlagsTheSameWords) {
 
 // In one folder, in order, as a reader may type them. One that takes long is interrupted.
 TEST_F(Help, ShowsExamplesThatRun) {
-  const std::string setup =
-      "ln -s '" PROWL_SOURCE_DIR "/tasks' '" PROWL_SOURCE_DIR "/robots' .; export HOME=\"$PWD\" ROS_PACKAGE_PATH='" PROWL_ROBOTS_DATA "' "
-      "PATH=\"$(dirname $prowl):$PATH\"; mkdir -p ~/.local/share/bash-completion/completions ~/.zfunc ~/.config/fish/completions; ";
+  const std::string setup = "ln -s '" PROWL_SOURCE_DIR "/tasks' '" PROWL_SOURCE_DIR
+                            "/robots' .; export HOME=\"$PWD\" ROS_PACKAGE_PATH='" PROWL_ROBOTS_DATA
+                            "' "
+                            "PATH=\"$(dirname $prowl):$PATH\"; mkdir -p ~/.local/share/bash-completion/completions "
+                            "~/.zfunc ~/.config/fish/completions; ";
   const std::string text = test::kHyqFile;
   folder_.write("new.toml", text.substr(0, text.find("contact = [")) + text.substr(text.find("[nominal")));
-  const std::set<std::string> ours = {"plan", "check", "robot", "simulate", "sweep", "compare", "figures", "report", "completion"};
+  const std::set<std::string> ours = {"plan",    "check",   "robot",  "simulate",  "sweep",
+                                      "compare", "figures", "report", "completion"};
   int ran = 0;
   for (const std::string& verb : test::verbs(help(""))) {
     for (const std::string& example : examples(help(verb))) {

@@ -29,7 +29,8 @@ class JsonOutput : public test::Command {
   }
   void expect_files(const json& result, std::size_t least) const {
     EXPECT_GE(result.at("written").size(), least);
-    for (const std::string path : result.at("written")) EXPECT_TRUE(std::filesystem::exists(folder_.path() / path)) << path;
+    for (const std::string path : result.at("written"))
+      EXPECT_TRUE(std::filesystem::exists(folder_.path() / path)) << path;
   }
 };
 
@@ -45,7 +46,8 @@ TEST_F(JsonOutput, OfResults) {
   expect_files(object("plan", "hold.toml $dirs --out out --dt 0.1 --report"), 5);
   expect_files(object("simulate", "out $dirs --engine rollout"), 2);
   expect_files(object("simulate", "out $dirs --report"), 3);
-  EXPECT_EQ(run("$prowl simulate out $dirs --push 0.5 0 500 0 --json | grep -c exit_status.*8").out, "1\n") << "not a success";
+  EXPECT_EQ(run("$prowl simulate out $dirs --push 0.5 0 500 0 --json | grep -c exit_status.*8").out, "1\n")
+      << "not a success";
   expect_files(object("sweep", "out $dirs --n 2 --breakdown 0"), 1);
   const json compared = object("compare", "hold.toml $dirs --out compared");
   expect_files(compared, 3);
@@ -98,7 +100,8 @@ TEST_F(JsonOutput, OfMistakesInFiles) {
 }
 
 TEST_F(JsonOutput, OfOtherErrors) {
-  EXPECT_THAT(object("plan", "hold.toml --intervalls 3").at("error").at("message"), HasSubstr("did you mean '--intervals'?"));
+  EXPECT_THAT(object("plan", "hold.toml --intervalls 3").at("error").at("message"),
+              HasSubstr("did you mean '--intervals'?"));
   const json files = object("plan", "hold.toml $dirs --out /proc/prowl").at("error");
   EXPECT_EQ(files.at("kind"), "files");
   EXPECT_FALSE(files.contains("line"));

@@ -1,4 +1,5 @@
-// prowl new robot and new task, on the URDFs of the wheels: what they write is read, and is what a person wrote by hand.
+// prowl new robot and new task, on the URDFs of the wheels: what they write is read, and is what a person wrote by
+// hand.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
@@ -12,17 +13,17 @@ namespace prowl {
 namespace {
 
 using nlohmann::json;
-using testing::HasSubstr;
-using testing::Not;
 using test::Command;
 using test::Outcome;
+using testing::HasSubstr;
+using testing::Not;
 
 struct Urdf {
   const char* name;
   const char* path;
-  int feet;                ///< legs with a foot
+  int feet;  ///< legs with a foot
   int contacts;
-  const char* shipped;     ///< in robots/; "" if Prowl has none
+  const char* shipped;  ///< in robots/; "" if Prowl has none
 };
 
 void PrintTo(const Urdf& urdf, std::ostream* stream) { *stream << urdf.name; }
@@ -83,7 +84,8 @@ TEST_P(EachUrdf, GivesARobotThatStandsOnItsFeet) {
   EXPECT_GT(robot.at("nominal_configuration").at(2), 0.1) << "the base lies on the ground";
 }
 
-INSTANTIATE_TEST_SUITE_P(Urdfs, EachUrdf, testing::ValuesIn(kUrdfs), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Urdfs, EachUrdf, testing::ValuesIn(kUrdfs),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 Eigen::Vector3d offset_of(const json& contact) {
   const auto offset = contact.at("offset_m").get<std::vector<double>>();
@@ -101,7 +103,8 @@ TEST_P(EachShippedRobot, HasTheFeetThatWereFoundByHand) {
   const double close = GetParam().contacts > GetParam().feet ? 0.01 : 0.001;
   for (const json& contact : by_hand) {
     const bool is_there = std::any_of(found.begin(), found.end(), [&](const json& other) {
-      return other.at("frame") == contact.at("frame") && std::abs(other.at("radius_m").get<double>() - contact.at("radius_m").get<double>()) < 0.001 &&
+      return other.at("frame") == contact.at("frame") &&
+             std::abs(other.at("radius_m").get<double>() - contact.at("radius_m").get<double>()) < 0.001 &&
              (offset_of(other) - offset_of(contact)).norm() < close;
     });
     EXPECT_TRUE(is_there) << contact << " is not in " << found;
@@ -114,8 +117,9 @@ INSTANTIATE_TEST_SUITE_P(Robots, EachShippedRobot, testing::ValuesIn(std::begin(
 TEST_F(NewRobot, SaysWhatItGuessed) {
   ASSERT_EQ(make(kUrdfs[3].path, "solo.toml").status, 0);
   const std::string text = test::read_file(folder_.path() / "solo.toml");
-  for (const char* part : {"Contacts, guess", "Posture that motions start from, guess", "# guess: 0.1 to 2.6 rad from straight", "1000 N m or more is no limit",
-                           "package://example-robot-data/robots/solo_description/robots/solo12.urdf"}) {
+  for (const char* part :
+       {"Contacts, guess", "Posture that motions start from, guess", "# guess: 0.1 to 2.6 rad from straight",
+        "1000 N m or more is no limit", "package://example-robot-data/robots/solo_description/robots/solo12.urdf"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
 }
@@ -132,7 +136,8 @@ TEST_F(NewRobot, TakesNoNameForText) {
   // A robot, a mesh and a folder whose names would end a string or a comment of the file.
   std::string urdf = test::read_file(kData + kUrdfs[5].path);
   const auto replace = [&urdf](const std::string& from, const std::string& to) {
-    for (std::size_t at = 0; (at = urdf.find(from, at)) != std::string::npos; at += to.size()) urdf.replace(at, from.size(), to);
+    for (std::size_t at = 0; (at = urdf.find(from, at)) != std::string::npos; at += to.size())
+      urdf.replace(at, from.size(), to);
   };
   replace("name=\"laikago\"", "name='a \"quoted\" name'");
   replace("<sphere radius=\"0.0265\"/>", "<mesh filename=\"no&#10;[[such]]&#10;mesh.stl\"/>");
@@ -161,9 +166,10 @@ TEST_F(NewRobot, WritesNothingForWhatIsNoLeggedRobot) {
   folder_.write("empty.urdf", "");
   folder_.write("text.urdf", "not a robot");
   folder_.write("cut.urdf", test::read_file(kData + kUrdfs[0].path).substr(0, 5000));
-  const std::string arm = kData + "ur_description/urdf/ur10_robot.urdf", no_legs = kData + "alex_description/urdf/alex_nub_hands.urdf";
-  for (const std::string& urdf : {std::string("empty.urdf"), std::string("text.urdf"), std::string("cut.urdf"), std::string("missing.urdf"),
-                                  std::string("folder"), arm, no_legs}) {
+  const std::string arm = kData + "ur_description/urdf/ur10_robot.urdf",
+                    no_legs = kData + "alex_description/urdf/alex_nub_hands.urdf";
+  for (const std::string& urdf : {std::string("empty.urdf"), std::string("text.urdf"), std::string("cut.urdf"),
+                                  std::string("missing.urdf"), std::string("folder"), arm, no_legs}) {
     const Outcome made = run("$prowl new robot '" + urdf + "' --out new.toml");
     EXPECT_EQ(made.status, 2) << urdf << made.error;
     EXPECT_THAT(made.error, HasSubstr(urdf));
@@ -185,7 +191,9 @@ class NewTask : public NewRobot {
 
 TEST_F(NewTask, NamesARobotFileWhateverItIsCalled) {
   ASSERT_EQ(make(kUrdfs[5].path, "'of \"it\".toml'").status, 0);
-  const Outcome made = run("$prowl new task 'of \"it\".toml' $dirs --kind hold --out still.toml && $prowl plan still.toml $dirs --print-phases");
+  const Outcome made =
+      run("$prowl new task 'of \"it\".toml' $dirs --kind hold --out still.toml && $prowl plan still.toml $dirs "
+          "--print-phases");
   EXPECT_EQ(made.status, 0) << made.error;
 }
 
@@ -203,7 +211,8 @@ TEST_F(NewTask, CrouchGoesAsDeepAsTheRobotCan) {
   ASSERT_EQ(full.status, 0) << full.error;
   EXPECT_EQ(json::parse(full.out).at("written"), json({"full.toml"}));
   std::string text = test::read_file(folder_.path() / "new.toml");
-  for (const char* leg : {"FL", "FR", "RL", "RR"}) text += fmt::format("[limits.{}_calf_joint]\nposition_rad = [-1.6, -0.7]\n", leg);
+  for (const char* leg : {"FL", "FR", "RL", "RR"})
+    text += fmt::format("[limits.{}_calf_joint]\nposition_rad = [-1.6, -0.7]\n", leg);
   folder_.write("stiff.toml", text);
   ASSERT_EQ(run("$prowl new task stiff.toml $dirs --out small.toml").status, 0);
   EXPECT_NE(test::read_file(folder_.path() / "small.toml"), test::read_file(folder_.path() / "full.toml"));
@@ -213,13 +222,15 @@ TEST_F(NewTask, CrouchGoesAsDeepAsTheRobotCan) {
 TEST_F(NewTask, IsNoneForWhatTheRobotCannotDo) {
   ASSERT_EQ(make(kUrdfs[5].path, "new.toml").status, 0);
   std::string weak = test::read_file(folder_.path() / "new.toml");
-  for (const char* leg : {"FL", "FR", "RL", "RR"}) weak += fmt::format("[limits.{}_calf_joint]\ntorque_Nm = 7.0\n", leg);
+  for (const char* leg : {"FL", "FR", "RL", "RR"})
+    weak += fmt::format("[limits.{}_calf_joint]\ntorque_Nm = 7.0\n", leg);
   folder_.write("weak.toml", weak);
   ASSERT_EQ(make("solo_description/robots/solo.urdf", "planar.toml").status, 0);  // hip and knee: no way to the side
   ASSERT_EQ(make("bolt_description/robots/bolt.urdf", "two_points.toml").status, 0);
-  for (const auto& [arguments, reason] : {std::pair("weak.toml --kind hold", "calf_joint"), std::pair("planar.toml --kind step", "in a plane only"),
-                                          std::pair("two_points.toml --kind step", "three to be balanced"),
-                                          std::pair("two_points.toml --kind stand", "falls over")}) {
+  for (const auto& [arguments, reason] :
+       {std::pair("weak.toml --kind hold", "calf_joint"), std::pair("planar.toml --kind step", "in a plane only"),
+        std::pair("two_points.toml --kind step", "three to be balanced"),
+        std::pair("two_points.toml --kind stand", "falls over")}) {
     const Outcome task = run(std::string("$prowl new task $dirs --out task.toml ") + arguments);
     EXPECT_EQ(task.status, 2) << arguments;
     EXPECT_THAT(task.error, HasSubstr(reason));

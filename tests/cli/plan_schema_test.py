@@ -1,7 +1,8 @@
 """plan.json of all kinds of plans against schema/plan.schema.json, and the schema against what is not a plan.
 
-    plan_schema_test.py PROWL ROBOTS_DATA
+plan_schema_test.py PROWL ROBOTS_DATA
 """
+
 import copy
 import json
 import pathlib
@@ -49,11 +50,13 @@ class PlanSchema(unittest.TestCase):
         crouch = (ROOT / "tasks/hyq/crouch.toml").read_text().replace("../../robots", str(ROOT / "robots"))
         too_far.write_text(crouch.replace("[0, 0, -0.17]", "[0, 0, 1.5]"))
         cls.plans = {}
-        for name, task, options, status in (("crouch", ROOT / "tasks/hyq/crouch.toml", ["--intervals", 60], (0, 7)),
-                                            ("gait", ROOT / "tasks/hyq/trot.toml", [], (0,)),
-                                            ("unfinished", ROOT / "tasks/hyq/step.toml", ["--max-iterations", 2, "--one-mesh"], (6,)),
-                                            ("infeasible", too_far, [], (3,)),
-                                            ("refined", ROOT / "tasks/hyq/step.toml", ["--refine"], (0,))):
+        for name, task, options, status in (
+            ("crouch", ROOT / "tasks/hyq/crouch.toml", ["--intervals", 60], (0, 7)),
+            ("gait", ROOT / "tasks/hyq/trot.toml", [], (0,)),
+            ("unfinished", ROOT / "tasks/hyq/step.toml", ["--max-iterations", 2, "--one-mesh"], (6,)),
+            ("infeasible", too_far, [], (3,)),
+            ("refined", ROOT / "tasks/hyq/step.toml", ["--refine"], (0,)),
+        ):
             done = prowl("plan", task, *options, "--out", cls.work / name)
             if done.returncode not in status:
                 raise AssertionError(f"{name}: {done.returncode}\n{done.stdout}{done.stderr}")
@@ -95,9 +98,20 @@ class PlanSchema(unittest.TestCase):
         self.assertGreater(tried, 150)
 
     def test_refuses_values_of_the_wrong_kind(self):
-        for path, value in (("schema_version", 2), ("schema_version", 4), ("status", "fine"), ("good", "yes"), ("certificate.grade", "A"),
-                            ("solver.iterations", -1), ("solver.iterations", 1.5), ("solver.hessian", "none"), ("solver.cost", "0"),
-                            ("problem.joints", "lf_haa_joint"), ("versions.prowl", 1), ("overrides.intervals", "60")):
+        for path, value in (
+            ("schema_version", 2),
+            ("schema_version", 4),
+            ("status", "fine"),
+            ("good", "yes"),
+            ("certificate.grade", "A"),
+            ("solver.iterations", -1),
+            ("solver.iterations", 1.5),
+            ("solver.hessian", "none"),
+            ("solver.cost", "0"),
+            ("problem.joints", "lf_haa_joint"),
+            ("versions.prowl", 1),
+            ("overrides.intervals", "60"),
+        ):
             plan = shortened(self.plans["crouch"])
             *outer, last = path.split(".")
             at(plan, outer)[last] = value
@@ -113,7 +127,13 @@ class PlanSchema(unittest.TestCase):
                 self.assertIn(f"`{key}`", page, path)
 
     def test_the_command_reads_what_fits(self):
-        for name, status in (("crouch", (0, 7)), ("gait", (0,)), ("unfinished", (6,)), ("infeasible", (3, 7)), ("refined", (0,))):
+        for name, status in (
+            ("crouch", (0, 7)),
+            ("gait", (0,)),
+            ("unfinished", (6,)),
+            ("infeasible", (3, 7)),
+            ("refined", (0,)),
+        ):
             done = prowl("check", self.work / name)
             self.assertIn(done.returncode, status, name + done.stderr)
 
@@ -126,8 +146,13 @@ class PlanSchema(unittest.TestCase):
         folder = self.work / "other version"
         folder.mkdir()
         (folder / "trajectory.csv").write_bytes((self.work / "crouch/trajectory.csv").read_bytes())
-        for version, status, said in ((1, 0, ""), (2, 2, "cpu_seconds: missing"), (3, 2, "shares: missing"), (4, 2, "written by a newer Prowl"),
-                                      (0, 2, "plan again with prowl plan")):
+        for version, status, said in (
+            (1, 0, ""),
+            (2, 2, "cpu_seconds: missing"),
+            (3, 2, "shares: missing"),
+            (4, 2, "written by a newer Prowl"),
+            (0, 2, "plan again with prowl plan"),
+        ):
             plan["schema_version"] = version
             (folder / "plan.json").write_text(json.dumps(plan))
             done = prowl("check", folder)

@@ -16,7 +16,8 @@ class Screen : public test::Command {
     std::istringstream lines(text);
     int count = 0;
     for (std::string line; std::getline(lines, line); ++count) {
-      const bool one_word = line.find(' ', line.find_first_not_of(' ')) == std::string::npos || line.starts_with("  URDF /");
+      const bool one_word =
+          line.find(' ', line.find_first_not_of(' ')) == std::string::npos || line.starts_with("  URDF /");
       if (!one_word) EXPECT_LE(line.size(), 80u) << command << "\n" << line;
     }
     EXPECT_GT(count, 10) << command << ": nothing to look at";

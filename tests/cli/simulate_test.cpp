@@ -128,17 +128,19 @@ TEST_F(Simulate, RolloutTellsThatItsContactsPull) {
 TEST_F(Simulate, RefusesOptionsOfTheOtherEngine) {
   ASSERT_EQ(simulate("--json").status, 0);
   const std::string before = series();
-  for (const char* option : {"--noise 0", "--delay 2", "--push 0.5 0 10 0", "--push-duration 0.2", "--friction 0.5", "--mass 1",
-                             "--bandwidth 10", "--step 0.001", "--case 3", "--perfect-state", "--seed 1"}) {
+  for (const char* option : {"--noise 0", "--delay 2", "--push 0.5 0 10 0", "--push-duration 0.2", "--friction 0.5",
+                             "--mass 1", "--bandwidth 10", "--step 0.001", "--case 3", "--perfect-state", "--seed 1"}) {
     const Outcome refused = simulate(std::string("--engine rollout ") + option);
     EXPECT_EQ(refused.status, 2) << option;
-    EXPECT_THAT(refused.error, StartsWith("prowl: " + std::string(option).substr(0, std::string(option).find(' ')) + ": not with"));
+    EXPECT_THAT(refused.error,
+                StartsWith("prowl: " + std::string(option).substr(0, std::string(option).find(' ')) + ": not with"));
   }
   for (const char* option : {"--base-offset-m 0 0 0.01", "--base-offset-rad 0 0 0.01"}) {
     EXPECT_EQ(simulate(option).status, 2) << option;
     EXPECT_THAT(simulate(option).error, HasSubstr("for --engine rollout"));
   }
-  for (const char* option : {"--control-rate 1", "--control-rate nan", "--base-offset-m 0 0 1", "--base-offset-m nan 0 0", "--base-offset-rad 0 0"}) {
+  for (const char* option : {"--control-rate 1", "--control-rate nan", "--base-offset-m 0 0 1",
+                             "--base-offset-m nan 0 0", "--base-offset-rad 0 0"}) {
     EXPECT_EQ(simulate(std::string("--engine rollout ") + option).status, 2) << option;
   }
   EXPECT_EQ(simulate("--engine bullet").status, 2);

@@ -20,16 +20,19 @@ class Sweep : public test::Command {
 
   /// Ctrl-C once `text` is on stderr.
   Outcome interrupted_at(const std::string& text, const std::string& options) const {
-    return run("$at_terminal sweep out $dirs " + options + " 2>progress & pid=$!; " +
-               test::until(text) + "kill -INT $pid; wait $pid");
+    return run("$at_terminal sweep out $dirs " + options + " 2>progress & pid=$!; " + test::until(text) +
+               "kill -INT $pid; wait $pid");
   }
 };
 
 TEST_F(Sweep, RefusesWhatIsNoSize) {
-  for (const std::string option : {"--mass-spread nan", "--mass-spread 0.91", "--push-impulse nan", "--push-impulse inf", "--push-impulse-on-two-feet -1"}) {
+  for (const std::string option : {"--mass-spread nan", "--mass-spread 0.91", "--push-impulse nan",
+                                   "--push-impulse inf", "--push-impulse-on-two-feet -1"}) {
     const Outcome refused = run("$prowl sweep out $dirs --n 1 --breakdown 0 " + option);
     EXPECT_EQ(refused.status, 2) << option;
-    EXPECT_THAT(refused.error, HasSubstr(option.substr(option.find(' ') + 1) + " is not allowed; need a finite number ")) << option;
+    EXPECT_THAT(refused.error,
+                HasSubstr(option.substr(option.find(' ') + 1) + " is not allowed; need a finite number "))
+        << option;
   }
 }
 
@@ -66,14 +69,16 @@ TEST_F(Sweep, TellsEveryTenthInAPipe) {
   const Outcome sweep = run("$prowl sweep out $dirs --n 10 --breakdown 0");
   EXPECT_EQ(sweep.status, 0);
   EXPECT_EQ(std::ranges::count(sweep.error, '\n'), 10) << sweep.error;
-  EXPECT_THAT(sweep.error, AllOf(HasSubstr("2 of 10 simulations: 00:"), HasSubstr(" left\n"), HasSubstr("10 of 10 simulations: 00:")));
+  EXPECT_THAT(sweep.error, AllOf(HasSubstr("2 of 10 simulations: 00:"), HasSubstr(" left\n"),
+                                 HasSubstr("10 of 10 simulations: 00:")));
   for (const char* control : {"\r", "\b", "\x1b"}) EXPECT_THAT(sweep.error, Not(HasSubstr(control)));
 }
 
 TEST_F(Sweep, ShowsABarInATerminal) {
   const std::string sweep = "$prowl sweep out $dirs --n 4 --breakdown 0";
   const std::string wide = run("NO_COLOR=1 script -qec \"stty cols 100; " + sweep + "\" /dev/null").out;
-  EXPECT_THAT(wide, AllOf(HasSubstr("4 simulations\r\n0%   10"), HasSubstr("|----|"), HasSubstr(" left"), HasSubstr("\n4 simulations: 00:")));
+  EXPECT_THAT(wide, AllOf(HasSubstr("4 simulations\r\n0%   10"), HasSubstr("|----|"), HasSubstr(" left"),
+                          HasSubstr("\n4 simulations: 00:")));
   EXPECT_EQ(std::ranges::count(wide, '*'), 51) << "not full";
   EXPECT_THAT(wide, Not(HasSubstr("\x1b"))) << "colours";
   const std::string narrow = run("script -qec \"stty cols 60; " + sweep + "\" /dev/null").out;

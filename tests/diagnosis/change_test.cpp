@@ -23,13 +23,16 @@ MotionProblem shipped(const std::string& task) {
 }
 
 const Knob& knob(const std::vector<Knob>& knobs, const std::string& kind, int phase = -1) {
-  const auto found = std::ranges::find_if(knobs, [&](const Knob& one) { return one.kind == kind && one.phase == phase; });
+  const auto found =
+      std::ranges::find_if(knobs, [&](const Knob& one) { return one.kind == kind && one.phase == phase; });
   EXPECT_NE(found, knobs.end()) << kind << " " << phase;
   return *found;
 }
 
 const Knob& shorter_phase(const std::vector<Knob>& knobs, int phase) {
-  const auto is_shorter = [phase](const Knob& one) { return one.kind == "duration" && one.phase == phase && one.value(1.0) < one.value(0.0); };
+  const auto is_shorter = [phase](const Knob& one) {
+    return one.kind == "duration" && one.phase == phase && one.value(1.0) < one.value(0.0);
+  };
   const auto found = std::ranges::find_if(knobs, is_shorter);
   EXPECT_NE(found, knobs.end()) << phase;
   return *found;
@@ -52,7 +55,8 @@ TEST(Change, OfNothingChangesNothing) {
     EXPECT_TRUE(same.robot.velocity_limit().isApprox(step.robot.velocity_limit()));
     EXPECT_TRUE(same.boundary_conditions.back().q_ref.isApprox(step.boundary_conditions.back().q_ref));
     EXPECT_LT((*same.phases[2].contacts[0].place - *step.phases[2].contacts[0].place).norm(), 1e-12);
-    for (std::size_t p = 0; p < step.phases.size(); ++p) EXPECT_EQ(same.phases[p].duration.max, step.phases[p].duration.max);
+    for (std::size_t p = 0; p < step.phases.size(); ++p)
+      EXPECT_EQ(same.phases[p].duration.max, step.phases[p].duration.max);
   }
 }
 
@@ -95,7 +99,8 @@ TEST(Change, OfARangeTellsBothBounds) {
   ASSERT_FALSE(step.robot.description().limits.at(step.robot.joint_names()[knee]).torque_over_position.empty());
   const Knob range = joint_knob(step, LimitKind::joint_position, {knee});
   const RobotModel wider = range.problem(2.0).robot;
-  EXPECT_EQ(range.words(2.0), fmt::format("[{:.6g}, {:.6g}] rad", wider.position_lower()(knee), wider.position_upper()(knee)));
+  EXPECT_EQ(range.words(2.0),
+            fmt::format("[{:.6g}, {:.6g}] rad", wider.position_lower()(knee), wider.position_upper()(knee)));
   EXPECT_NEAR(range.value(2.0), wider.position_upper()(knee) - wider.position_lower()(knee), 1e-12);
 }
 
@@ -109,24 +114,32 @@ TEST(Change, OfJointsTellsWhatTheirTablesNeed) {
   EXPECT_EQ(knob(knobs_of(step), "torque").besides(twice), "and torque_over_position times 2");
   const Knob ranges = joint_knob(step, LimitKind::joint_position, {hip, knee});
   const RobotModel wider = ranges.problem(twice).robot;
-  const auto width = [](const RobotModel& robot, int j) { return robot.position_upper()(j) - robot.position_lower()(j); };
+  const auto width = [](const RobotModel& robot, int j) {
+    return robot.position_upper()(j) - robot.position_lower()(j);
+  };
   EXPECT_NEAR(width(wider, hip), 2.0 * width(step.robot, hip), 1e-12);
   ASSERT_LT(width(wider, knee), 1.9 * width(step.robot, knee));
-  EXPECT_EQ(ranges.besides(twice), fmt::format("but as far as torque_over_position goes {} [{:.6g}, {:.6g}] rad", step.robot.joint_names()[knee],
-                                               wider.position_lower()(knee), wider.position_upper()(knee)));
+  EXPECT_EQ(ranges.besides(twice),
+            fmt::format("but as far as torque_over_position goes {} [{:.6g}, {:.6g}] rad",
+                        step.robot.joint_names()[knee], wider.position_lower()(knee), wider.position_upper()(knee)));
   EXPECT_EQ(joint_knob(step, LimitKind::joint_position, {hip, hip + 1}).besides(twice), "");
 }
 
 TEST(Change, TurnsTheNumberThatItTellsOf) {
   const MotionProblem step = shipped("hyq/step");
   const std::vector<Knob> knobs = knobs_of(step);
-  for (const Knob& one : knobs) EXPECT_NEAR(std::abs(std::log(one.value(kAmount) / one.value(0.0))), kAmount, 1e-12) << one.kind;
+  for (const Knob& one : knobs)
+    EXPECT_NEAR(std::abs(std::log(one.value(kAmount) / one.value(0.0))), kAmount, 1e-12) << one.kind;
 
   EXPECT_NEAR(knob(knobs, "friction").problem(kAmount).surfaces[0].friction, 0.5 * kUp, 1e-12);
   EXPECT_TRUE(knob(knobs, "torque").problem(kAmount).robot.torque_limit().isApprox(kUp * step.robot.torque_limit()));
-  EXPECT_NEAR(knob(knobs, "torque").problem(kAmount).robot.torque_upper(2, -1.4, 0.0), kUp * step.robot.torque_upper(2, -1.4, 0.0), 1e-9)
+  EXPECT_NEAR(knob(knobs, "torque").problem(kAmount).robot.torque_upper(2, -1.4, 0.0),
+              kUp * step.robot.torque_upper(2, -1.4, 0.0), 1e-9)
       << "a curve over the position, too";
-  EXPECT_TRUE(knob(knobs, "joint_velocity").problem(kAmount).robot.velocity_limit().isApprox(kUp * step.robot.velocity_limit()));
+  EXPECT_TRUE(knob(knobs, "joint_velocity")
+                  .problem(kAmount)
+                  .robot.velocity_limit()
+                  .isApprox(kUp * step.robot.velocity_limit()));
   EXPECT_NEAR(knob(knobs, "clearance").problem(kAmount).swing_clearance, kDown * step.swing_clearance, 1e-12);
 
   const MotionProblem longer = knob(knobs, "duration", 1).problem(kAmount);
@@ -146,7 +159,8 @@ TEST(Change, OfAPlaceTellsItsCoordinates) {
   const MotionProblem step = shipped("hyq/step");
   const Knob place = knob(knobs_of(step), "place", 2);
   EXPECT_EQ(place.words(0.0), "[0.5708, 0.3241, 0] m (0.2 m from where it stood)");
-  EXPECT_THAT(place.words(std::log(2.0)), testing::AllOf(testing::StartsWith("[0.4707"), testing::EndsWith(", 0] m (0.1 m from where it stood)")));
+  EXPECT_THAT(place.words(std::log(2.0)),
+              testing::AllOf(testing::StartsWith("[0.4707"), testing::EndsWith(", 0] m (0.1 m from where it stood)")));
 }
 
 /// The limit itself where there is but one.
@@ -171,7 +185,8 @@ TEST(Change, OfAVelocityLimitEndsWhereACurveDoes) {
   MotionProblem step = shipped("hyq/step");
   RobotDescription robot = step.robot.description();
   const double limit = step.robot.velocity_limit()(1);
-  robot.limits[step.robot.joint_names()[1]].torque_over_velocity = {{-limit, 100.0}, {0.0, 100.0}, {0.5 * limit, 80.0}, {limit, 50.0}};
+  robot.limits[step.robot.joint_names()[1]].torque_over_velocity = {
+      {-limit, 100.0}, {0.0, 100.0}, {0.5 * limit, 80.0}, {limit, 50.0}};
   step.robot = RobotModel(robot);
   using testing::Not;
   EXPECT_THAT(turnable_joints(step.robot, LimitKind::joint_velocity), Not(Contains(1)));

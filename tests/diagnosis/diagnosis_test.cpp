@@ -43,14 +43,17 @@ torque = 1e-4
 
 class DiagnosisTest : public test::TaskTest {
  protected:
-  static Diagnosis diagnosis(const MotionProblem& problem) { return diagnose(problem, RiccatiSolver(), IpoptSolver(), {}); }
+  static Diagnosis diagnosis(const MotionProblem& problem) {
+    return diagnose(problem, RiccatiSolver(), IpoptSolver(), {});
+  }
 };
 
 TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
   std::vector<std::string> steps;
   const auto keep = [&](const std::string& what) { steps.push_back(what); };
   const Diagnosis found = diagnose(problem(kCrouch), RiccatiSolver(), IpoptSolver(), {.on_step = keep});
-  EXPECT_THAT(steps, testing::ElementsAre("solving as it is, 8 intervals", "planning as it is")) << "a small mesh is solved once";
+  EXPECT_THAT(steps, testing::ElementsAre("solving as it is, 8 intervals", "planning as it is"))
+      << "a small mesh is solved once";
   EXPECT_TRUE(found.solvable);
   EXPECT_TRUE(found.kind.empty());
   EXPECT_TRUE(found.changes.empty());
@@ -62,8 +65,9 @@ TEST_F(DiagnosisTest, OfAPlanThatFailsItsCertificateNamesTheChecks) {
   const Diagnosis found = diagnosis(coarse);
   EXPECT_TRUE(found.solvable);
   EXPECT_FALSE(found.certificate.passed);
-  EXPECT_THAT(diagnosis_headline(found, coarse), AllOf(HasSubstr("fails its certificate: local integration error ("), HasSubstr(" > 0.0001"),
-                                                       testing::EndsWith("; its mesh is too coarse: prowl plan --refine")));
+  EXPECT_THAT(diagnosis_headline(found, coarse),
+              AllOf(HasSubstr("fails its certificate: local integration error ("), HasSubstr(" > 0.0001"),
+                    testing::EndsWith("; its mesh is too coarse: prowl plan --refine")));
 }
 
 TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
@@ -81,23 +85,28 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
   EXPECT_NEAR(change.from, 0.15, 1e-12);
   EXPECT_TRUE(change.is_proved);
   EXPECT_NEAR(change.to, std::stod(fmt::format("{:.3g}", change.to)), 1e-9) << "what is printed is not what was proved";
-  EXPECT_NEAR(0.5 * (change.to - change.from), breach.amount, 0.05) << "two ways to the same: a range wider on both sides";
-  EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
-                                                      HasSubstr("rad beyond its bound; solved but for the error of its mesh (--refine) with position range of lh_kfe_joint ["),
-                                                      HasSubstr("] rad instead of [1.4, 1.55] rad")));
+  EXPECT_NEAR(0.5 * (change.to - change.from), breach.amount, 0.05)
+      << "two ways to the same: a range wider on both sides";
+  EXPECT_THAT(diagnosis_headline(found, stiff),
+              AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
+                    HasSubstr("rad beyond its bound; solved but for the error of its mesh (--refine) with position "
+                              "range of lh_kfe_joint ["),
+                    HasSubstr("] rad instead of [1.4, 1.55] rad")));
 }
 
 TEST_F(DiagnosisTest, NamesWeakJoints) {
   const MotionProblem weak = problem(kCrouch, test::kWeakHyqFile);
   const Diagnosis found = diagnosis(weak);
   EXPECT_EQ(found.kind, "torque") << diagnosis_text(found, weak);
-  EXPECT_THAT(found.subject, AllOf(HasSubstr("f_kfe_joint"), testing::Not(HasSubstr("haa")), testing::Not(HasSubstr("lh_kfe"))));
+  EXPECT_THAT(found.subject,
+              AllOf(HasSubstr("f_kfe_joint"), testing::Not(HasSubstr("haa")), testing::Not(HasSubstr("lh_kfe"))));
 }
 
 TEST_F(DiagnosisTest, OfASlopeNamesFrictionAndHowMuchIsNeeded) {
-  const MotionProblem slope = problem("robot = \"hyq.toml\"\n[[surface]]\nname = \"slope\"\nnormal = [-0.5, 0, 0.8660254]\nfriction = 0.4\n"
-                                      "[start]\non = \"slope\"\n" + test::replaced(test::replaced(kCrouch, "robot = \"hyq.toml\"\n", ""),
-                                      "base_rpy_rad = [0, 0, 0]\n", ""));
+  const MotionProblem slope = problem(
+      "robot = \"hyq.toml\"\n[[surface]]\nname = \"slope\"\nnormal = [-0.5, 0, 0.8660254]\nfriction = 0.4\n"
+      "[start]\non = \"slope\"\n" +
+      test::replaced(test::replaced(kCrouch, "robot = \"hyq.toml\"\n", ""), "base_rpy_rad = [0, 0, 0]\n", ""));
   const Diagnosis found = diagnosis(slope);
   EXPECT_EQ(found.kind, "friction");
   EXPECT_EQ(found.subject, "slope");
@@ -145,10 +154,13 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
     EXPECT_FALSE(found.out_of_time);
     EXPECT_TRUE(found.kind.empty());
     EXPECT_TRUE(found.changes.empty());
-    EXPECT_FALSE(found.needs_one_mesh) << "eight intervals have no coarser mesh, and this one was seen not to be solved";
+    EXPECT_FALSE(found.needs_one_mesh)
+        << "eight intervals have no coarser mesh, and this one was seen not to be solved";
     EXPECT_THAT(diagnosis_headline(found, crouch),
-                AllOf(testing::StartsWith("the task has a plan (its mesh was solved from the initial guess), but not as prowl plan goes about it: "),
-                      HasSubstr(status == SolveStatus::time_limit ? "the time was up after " : "optimal"), HasSubstr("local integration error")))
+                AllOf(testing::StartsWith("the task has a plan (its mesh was solved from the initial guess), but not "
+                                          "as prowl plan goes about it: "),
+                      HasSubstr(status == SolveStatus::time_limit ? "the time was up after " : "optimal"),
+                      HasSubstr("local integration error")))
         << "eight intervals are few";
     EXPECT_THAT(diagnosis_json(found, crouch), HasSubstr("\"solvable\": true"));
   }
@@ -158,11 +170,15 @@ TEST_F(DiagnosisTest, NamesOneMeshWhereThatWasSeenToDo) {
   const MotionProblem crouch = problem(test::replaced(kCrouch, "intervals = 8", "intervals = 60"));
   ASSERT_EQ(mesh_levels(crouch).size(), 2u);
   constexpr int kSearch = 2;  // solves before, on 20 and 60 intervals
-  const Diagnosis found = diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed, 2), IpoptSolver(), {});
+  const Diagnosis found =
+      diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed, 2), IpoptSolver(), {});
   EXPECT_TRUE(found.solvable);
   EXPECT_TRUE(found.needs_one_mesh);
-  EXPECT_THAT(diagnosis_headline(found, crouch), testing::StartsWith("the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes, "));
-  const Diagnosis neither = diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed), IpoptSolver(), {});
+  EXPECT_THAT(
+      diagnosis_headline(found, crouch),
+      testing::StartsWith("the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes, "));
+  const Diagnosis neither =
+      diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed), IpoptSolver(), {});
   EXPECT_TRUE(neither.solvable);
   EXPECT_FALSE(neither.needs_one_mesh);
   EXPECT_THAT(diagnosis_headline(neither, crouch), HasSubstr("but not as prowl plan goes about it: "));
@@ -173,8 +189,9 @@ TEST_F(DiagnosisTest, OfATaskThatWasCutOffIsThatItIsNotKnown) {
   const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   const Diagnosis found = diagnose(stiff, test::FailingSolver(0, SolveStatus::time_limit), IpoptSolver(), {});
   EXPECT_TRUE(found.is_undecided());
-  EXPECT_THAT(diagnosis_headline(found, stiff), AllOf(testing::StartsWith("not known whether the task has a plan, the time was up after "),
-                                                     HasSubstr("on 8 mesh intervals phase 1 'crouch', "), HasSubstr("beyond its bound")));
+  EXPECT_THAT(diagnosis_headline(found, stiff),
+              AllOf(testing::StartsWith("not known whether the task has a plan, the time was up after "),
+                    HasSubstr("on 8 mesh intervals phase 1 'crouch', "), HasSubstr("beyond its bound")));
   EXPECT_THAT(diagnosis_json(found, stiff), HasSubstr("\"solvable\": null"));
 }
 
@@ -207,7 +224,9 @@ TEST_F(DiagnosisTest, KeepsWhatWasFoundBeforeAnInterrupt) {
 /// On 20 intervals a walk is solved with feet that drift by centimetres; on its own mesh it is another motion.
 TEST(ChangeSearch, TakesNoMotionInWhichFeetDrift) {
   const auto on_20 = [](const std::string& name) {
-    return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml", test::test_search(), {.intervals = 20}).problem;
+    return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml", test::test_search(),
+                          {.intervals = 20})
+        .problem;
   };
   const RiccatiSolver solver;
   const ChangeSearch search(solver, {}, 1000.0);
@@ -222,12 +241,15 @@ TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
   const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   DiagnosisOptions options;
   options.solver.max_iterations = 2;
-  EXPECT_THAT(diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff),
-              testing::StartsWith("not known whether the task has a plan, stopped after its solver.max_iterations (2); "));
+  EXPECT_THAT(
+      diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff),
+      testing::StartsWith("not known whether the task has a plan, stopped after its solver.max_iterations (2); "));
   const Diagnosis found = diagnose(problem(kCrouch), RiccatiSolver(), IpoptSolver(), options);
   EXPECT_TRUE(found.solvable) << "the search has iterations of its own";
   EXPECT_FALSE(found.needs_one_mesh) << "it has the same limit";
-  EXPECT_THAT(diagnosis_headline(found, problem(kCrouch)), HasSubstr("not as prowl plan goes about it: stopped after its solver.max_iterations (2), but it fails its certificate: "));
+  EXPECT_THAT(diagnosis_headline(found, problem(kCrouch)),
+              HasSubstr("not as prowl plan goes about it: stopped after its solver.max_iterations (2), but it fails "
+                        "its certificate: "));
 }
 
 /// What a finer mesh has not shown is not said to be so.
@@ -237,27 +259,39 @@ TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
   found.search_intervals = 8;
   found.message = "stalled";
   const auto change = [](double to, bool passes) {
-    return Change{.kind = "clearance", .from = 1.0, .to = to, .unit = "m", .amount = 1.0, .is_proved = passes, .passes = passes};
+    return Change{
+        .kind = "clearance", .from = 1.0, .to = to, .unit = "m", .amount = 1.0, .is_proved = passes, .passes = passes};
   };
   found.changes = {change(2.0, false)};
-  EXPECT_EQ(diagnosis_headline(found, crouch), "not solved (stalled); perhaps solvable with swing clearance 2 m instead of 1 m");
+  EXPECT_EQ(diagnosis_headline(found, crouch),
+            "not solved (stalled); perhaps solvable with swing clearance 2 m instead of 1 m");
   found.changes.push_back(change(3.0, true));
   EXPECT_EQ(diagnosis_headline(found, crouch),
-            "not solved (stalled); solvable with swing clearance 3 m instead of 1 m, perhaps with swing clearance 2 m instead of 1 m");
+            "not solved (stalled); solvable with swing clearance 3 m instead of 1 m, perhaps with swing clearance 2 m "
+            "instead of 1 m");
   found.changes.back().passes = false;
-  EXPECT_THAT(diagnosis_headline(found, crouch), HasSubstr("; solved but for the error of its mesh (--refine) with swing clearance 3 m instead of 1 m, perhaps with "));
+  EXPECT_THAT(
+      diagnosis_headline(found, crouch),
+      HasSubstr(
+          "; solved but for the error of its mesh (--refine) with swing clearance 3 m instead of 1 m, perhaps with "));
   found.changes.back().passes = true;
   found.changes.front().was_tried = true;
-  EXPECT_THAT(diagnosis_text(found, crouch), HasSubstr("(solved from the initial guess, but prowl plan's motion is none that passes its certificate)")) << "8 are its own";
+  EXPECT_THAT(diagnosis_text(found, crouch),
+              HasSubstr("(solved from the initial guess, but prowl plan's motion is none that passes its certificate)"))
+      << "8 are its own";
   EXPECT_THAT(diagnosis_text(found, problem(test::replaced(kCrouch, "intervals = 8", "intervals = 60"))),
               HasSubstr("(solved on 8 mesh intervals, but not on the task's own)"));
-  EXPECT_EQ(diagnosis_headline(found, crouch), "not solved (stalled); solvable with swing clearance 3 m instead of 1 m");
+  EXPECT_EQ(diagnosis_headline(found, crouch),
+            "not solved (stalled); solvable with swing clearance 3 m instead of 1 m");
   found.changes.pop_back();
-  EXPECT_EQ(diagnosis_headline(found, crouch), "not solved (stalled); no change of one number was found that makes it solvable on its own mesh");
+  EXPECT_EQ(diagnosis_headline(found, crouch),
+            "not solved (stalled); no change of one number was found that makes it solvable on its own mesh");
   found.changes.push_back(change(3.0, true));
   found.changes.front().was_tried = false;
-  EXPECT_THAT(diagnosis_text(found, crouch), AllOf(HasSubstr("  perhaps      with swing clearance 2 m instead of 1 m (solved on 8 mesh intervals only)\n"),
-                                                   HasSubstr("  solvable     with swing clearance 3 m instead of 1 m (this plan passes its certificate)\n")));
+  EXPECT_THAT(
+      diagnosis_text(found, crouch),
+      AllOf(HasSubstr("  perhaps      with swing clearance 2 m instead of 1 m (solved on 8 mesh intervals only)\n"),
+            HasSubstr("  solvable     with swing clearance 3 m instead of 1 m (this plan passes its certificate)\n")));
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ std::function<bool(const MotionLimit&)> only(LimitKind kind) {
 }
 
 MotionProblem on_slope(double degrees, double friction) {
-  MotionProblem problem = test::with_base_goal(test::standing_problem(test::hyq(), degrees, friction), Eigen::Vector3d::Zero());
+  MotionProblem problem =
+      test::with_base_goal(test::standing_problem(test::hyq(), degrees, friction), Eigen::Vector3d::Zero());
   problem.running_cost.acceleration_weight.setOnes();
   BoundaryCondition& goal = problem.boundary_conditions.back();
   goal.velocity_lower.head<6>().setZero();
@@ -29,7 +30,8 @@ MotionProblem on_slope(double degrees, double friction) {
 /// α) is missing on average, whatever the motion. Sizes are µ W.
 TEST(ElasticSolve, FindsTheFrictionThatIsMissingOnASlope) {
   const double angle = 20.0 * kDegree, friction = 0.3;
-  const ElasticResult result = elastic_solve(on_slope(20.0, friction), IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::friction));
+  const ElasticResult result =
+      elastic_solve(on_slope(20.0, friction), IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::friction));
   ASSERT_EQ(result.status, SolveStatus::converged);
   ASSERT_FALSE(result.breaches.empty());
   double total = 0.0;
@@ -46,8 +48,8 @@ TEST(ElasticSolve, FindsTheFrictionThatIsMissingOnASlope) {
 }
 
 TEST(ElasticSolve, FindsNothingWhereNothingIsMissing) {
-  const ElasticResult result = elastic_solve(on_slope(10.0, 0.5), IpoptSolver(), {.tolerance = 1e-6},
-                                             [](const MotionLimit&) { return true; });
+  const ElasticResult result =
+      elastic_solve(on_slope(10.0, 0.5), IpoptSolver(), {.tolerance = 1e-6}, [](const MotionLimit&) { return true; });
   EXPECT_EQ(result.status, SolveStatus::converged);
   EXPECT_TRUE(result.breaches.empty());
 }

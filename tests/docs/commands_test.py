@@ -3,6 +3,7 @@ are read by prowl. What is not run is printed with its reason.
 
     commands_test.py PROWL ROBOTS_DATA [PAGE ...]
 """
+
 import concurrent.futures
 import os
 import pathlib
@@ -38,8 +39,16 @@ class Copy:
         self.environment = {**os.environ, "PATH": f"{build / 'bin'}:{os.environ['PATH']}", "NO_COLOR": "1"}
 
     def run(self, script: str) -> subprocess.CompletedProcess:
-        return subprocess.run(["bash", "-c", script], cwd=self.root, env=self.environment, stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=600)
+        return subprocess.run(
+            ["bash", "-c", script],
+            cwd=self.root,
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=600,
+        )
 
     def write(self, name: str, text: str) -> None:
         path = self.root / name
@@ -52,8 +61,10 @@ def script(block: Block) -> str:
     for line in block.text.splitlines():
         status = STATUS.match(line)
         if status:
-            line = (f"code=0\n{{ {status['command']}\n}} || code=$?\n"
-                    f"[ $code -eq {status['status']} ] || {{ echo \"ended with $code\"; exit 1; }}")
+            line = (
+                f"code=0\n{{ {status['command']}\n}} || code=$?\n"
+                f'[ $code -eq {status["status"]} ] || {{ echo "ended with $code"; exit 1; }}'
+            )
         lines.append(line)
     return "\n".join(lines)
 
@@ -78,14 +89,18 @@ def check(page: pathlib.Path) -> tuple[list[str], list[str], int, float]:
         for block in blocks(page):
             reason = block.remarked("not run")
             if block.language == "sh" and reason is not None:
-                left_out.append(f"{block.place}: {' ; '.join(block.text.strip().splitlines())}\n      {reason or 'NO REASON GIVEN'}")
+                left_out.append(
+                    f"{block.place}: {' ; '.join(block.text.strip().splitlines())}\n      {reason or 'NO REASON GIVEN'}"
+                )
                 if not reason:
                     faults.append(f"{block.place}: not run, but no reason is given")
             elif block.language == "sh":
                 result = copy.run(script(block))
                 ran += 1
                 if result.returncode != 0:
-                    faults.append(f"{block.place}: exit status {result.returncode} from\n{block.text}{result.stdout[-4000:]}")
+                    faults.append(
+                        f"{block.place}: exit status {result.returncode} from\n{block.text}{result.stdout[-4000:]}"
+                    )
             elif block.language == "toml" and block.remarked("fragment") is None:
                 fault = read_toml(copy, block)
                 ran += 1

@@ -3,6 +3,7 @@ that are built and run.
 
     pages_test.py
 """
+
 import pathlib
 import re
 import sys
@@ -28,14 +29,23 @@ def anchors(page: pathlib.Path) -> set[str]:
 
 class Pages(unittest.TestCase):
     def test_each_is_in_the_navigation(self):
-        listed = set(re.findall(r": ([\w/-]+\.md)$", (ROOT / "site" / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE))
+        listed = set(
+            re.findall(r": ([\w/-]+\.md)$", (ROOT / "site" / "mkdocs.yml").read_text(encoding="utf-8"), re.MULTILINE)
+        )
         found = {str(page.relative_to(ROOT / "docs")) for page in (ROOT / "docs").rglob("*.md")}
         self.assertGreater(len(found), 20)
         self.assertEqual(found - listed, set(), "pages that are not in nav of site/mkdocs.yml")
 
     def test_each_block_says_what_it_is(self):
-        wrong = [f"{block.place}: '{block.language}'" for page in pages() for block in blocks(page) if block.language not in LANGUAGES]
-        self.assertEqual(wrong, [], f"blocks need a language, one of {', '.join(sorted(LANGUAGES))}; sh are commands that are run")
+        wrong = [
+            f"{block.place}: '{block.language}'"
+            for page in pages()
+            for block in blocks(page)
+            if block.language not in LANGUAGES
+        ]
+        self.assertEqual(
+            wrong, [], f"blocks need a language, one of {', '.join(sorted(LANGUAGES))}; sh are commands that are run"
+        )
 
     def test_code_that_is_linked_exists(self):
         names = 0
@@ -60,7 +70,12 @@ class Pages(unittest.TestCase):
         mentions = 0
         for folder in ("prowl", "cli", "tests", "tasks", "robots", "bench", "scripts", "report/src", "site", "docs"):
             for path in sorted((ROOT / folder).rglob("*")):
-                if not path.is_file() or "node_modules" in path.parts or path.suffix in (".png", ".pyc") or path == pathlib.Path(__file__):
+                if (
+                    not path.is_file()
+                    or "node_modules" in path.parts
+                    or path.suffix in (".png", ".pyc")
+                    or path == pathlib.Path(__file__)
+                ):
                     continue
                 for match in MENTION.finditer(path.read_text(encoding="utf-8", errors="replace")):
                     mentions += 1
@@ -101,7 +116,9 @@ class Pages(unittest.TestCase):
                 if line and not line.startswith("#"):
                     package, _, version = line.partition("==")
                     self.assertTrue(version, f"{name}: {line} is not pinned exactly")
-                    self.assertEqual(pins.setdefault(package.lower().replace("_", "-"), version), version, f"{name}: {package}")
+                    self.assertEqual(
+                        pins.setdefault(package.lower().replace("_", "-"), version), version, f"{name}: {package}"
+                    )
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
 """The site builds without a warning, no link in it leads nowhere, and it asks no other computer for anything.
 
-    site_test.py PROWL ROBOTS_DATA
+site_test.py PROWL ROBOTS_DATA
 """
+
 import html.parser
 import pathlib
 import re
@@ -37,8 +38,11 @@ class Site(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.out = pathlib.Path(command).parents[1] / "site"
-        build = subprocess.run([sys.executable, ROOT / "site" / "build.py", "--prowl", command, "--out", cls.out, "--package-dir", robots],
-                               capture_output=True, text=True)
+        build = subprocess.run(
+            [sys.executable, ROOT / "site" / "build.py", "--prowl", command, "--out", cls.out, "--package-dir", robots],
+            capture_output=True,
+            text=True,
+        )
         if build.returncode != 0:
             raise AssertionError(f"the site does not build:\n{build.stdout}{build.stderr}")
         cls.pages = {path: Page(path) for path in sorted(cls.out.rglob("*.html"))}
@@ -60,7 +64,9 @@ class Site(unittest.TestCase):
                 path = (page.path.parent / urllib.parse.unquote(target.path)).resolve() if target.path else page.path
                 other = self.pages.get(path)
                 followed += 1
-                if not path.exists() or (target.fragment and other and urllib.parse.unquote(target.fragment) not in other.names | {"__top"}):
+                if not path.exists() or (
+                    target.fragment and other and urllib.parse.unquote(target.fragment) not in other.names | {"__top"}
+                ):
                     broken.append(f"{page.path.relative_to(self.out)}: {link}")
         self.assertGreater(followed, 1000)
         self.assertEqual(broken, [], f"{len(broken)} links lead nowhere")
@@ -76,7 +82,9 @@ class Site(unittest.TestCase):
                 own += 1
         self.assertGreater(own, 1000)
         for style in self.out.rglob("*.css"):
-            self.assertNotRegex(style.read_text(encoding="utf-8"), r"url\(['\"]?(https?:)?//|@import ['\"](https?:)?//", style)
+            self.assertNotRegex(
+                style.read_text(encoding="utf-8"), r"url\(['\"]?(https?:)?//|@import ['\"](https?:)?//", style
+            )
 
     def test_equations_and_pictures_are_part_of_the_pages(self):
         text = (self.out / "theory.html").read_text(encoding="utf-8")
@@ -91,7 +99,9 @@ class Site(unittest.TestCase):
     def test_in_a_browser(self):
         node = ROOT / ".venv" / "bin" / "node"
         pictures = self.out.with_name("site-pictures")
-        run = subprocess.run([node, pathlib.Path(__file__).with_name("browse.mjs"), self.out, pictures], capture_output=True, text=True)
+        run = subprocess.run(
+            [node, pathlib.Path(__file__).with_name("browse.mjs"), self.out, pictures], capture_output=True, text=True
+        )
         self.assertEqual(run.returncode, 0, f"{run.stdout}{run.stderr}")
         self.assertGreaterEqual(len(list(pictures.glob("*.png"))), 12)
 

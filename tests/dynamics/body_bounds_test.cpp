@@ -67,7 +67,8 @@ TEST(BodyBounds, AreNearlyReachedByAStraightLeg) {
     RigidBodyTerms terms(robot);
     terms.update_kinematics(q);
     const ContactReach leg = contact_reach(robot, 0);
-    const double straight = (base_rotation(q).transpose() * (terms.contact_position(0) - base_position(q)) - leg.root).norm();
+    const double straight =
+        (base_rotation(q).transpose() * (terms.contact_position(0) - base_position(q)) - leg.root).norm();
     EXPECT_GT(straight, 0.85 * leg.length);
   }
   EXPECT_LT(mass_reach(test::hyq()).radius, 0.15) << "most of HyQ's mass is in its trunk";
@@ -75,8 +76,7 @@ TEST(BodyBounds, AreNearlyReachedByAStraightLeg) {
 
 TEST(BodyBounds, NameTheFirstJointOfALeg) {
   const RobotModel robot = test::hyq();
-  EXPECT_EQ(robot.joint_names()[contact_reach(robot, robot.contact_index("rf_foot")).first_joint],
-            "rf_haa_joint");
+  EXPECT_EQ(robot.joint_names()[contact_reach(robot, robot.contact_index("rf_foot")).first_joint], "rf_haa_joint");
 }
 
 TEST(BodyBounds, OfAContactOnTheBaseAreItsPlace) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "prowl/error.hpp"
-
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
 
@@ -141,15 +140,16 @@ TEST(ProjectedResidual, VanishesExactlyOnTheProjectedEquationsAndTheContactCondi
   const RobotModel robot = test::hyq();
   const std::vector<int> contacts{0, 1, 2, 3};
   ProjectedResidual dynamics(robot, contacts);
-  EXPECT_GT(dynamics.contact_weight(), 1e-3 * robot.mass()) << "contacts would hold to no more than 1e-2 m/s^2 at tolerance 1e-6";
+  EXPECT_GT(dynamics.contact_weight(), 1e-3 * robot.mass())
+      << "contacts would hold to no more than 1e-2 m/s^2 at tolerance 1e-6";
   std::mt19937 rng(11);
   for (int i = 0; i < 20; ++i) {
     const DynamicsPoint point = test::random_point(robot, contacts, rng);
     dynamics.evaluate(point);
     // c = P r + s J+ e, so J c = s e at full rank: neither part can hide the other.
     const ContactKinematics& kinematics = dynamics.kinematics();
-    const Eigen::VectorXd e = kinematics.acceleration() +
-                              point.stabilisation.kp * (kinematics.positions() - point.anchors);
+    const Eigen::VectorXd e =
+        kinematics.acceleration() + point.stabilisation.kp * (kinematics.positions() - point.anchors);
     EXPECT_LT(test::relative_error(kinematics.jacobian() * dynamics.residual(), dynamics.contact_weight() * e), 1e-10);
     // P c = P r, with P made from the null space and r from the definition.
     const Eigen::FullPivLU<Eigen::MatrixXd> lu(kinematics.jacobian());
@@ -193,7 +193,8 @@ TEST(ProjectedResidual, HessianIsThatOfDifferencesOfTheGradient) {
         wq.col(j) = (gradient(plus, Argument::w) - gradient(minus, Argument::w)) / (2 * kStep);
         anchorq.col(j) = (gradient(plus, Argument::anchor) - gradient(minus, Argument::anchor)) / (2 * kStep);
         vv.col(j) = (gradient(test::moved(point, Argument::v, j, kStep), Argument::v) -
-                     gradient(test::moved(point, Argument::v, j, -kStep), Argument::v)) / (2 * kStep);
+                     gradient(test::moved(point, Argument::v, j, -kStep), Argument::v)) /
+                    (2 * kStep);
       }
       const auto value = [&](const Eigen::VectorXd& tangent) {
         DynamicsPoint at = point;

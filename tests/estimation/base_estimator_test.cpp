@@ -126,8 +126,8 @@ TEST(BaseEstimator, NeedsFeet) {
   EXPECT_GT(none, 0.05);
 }
 
-/// The error is as large as the covariance says: e' P⁻¹ e over runs has the mean of its dimension. The noise of standing
-/// feet, that is none here, makes the filter a little more careful than it needs to be.
+/// The error is as large as the covariance says: e' P⁻¹ e over runs has the mean of its dimension. The noise of
+/// standing feet, that is none here, makes the filter a little more careful than it needs to be.
 TEST(BaseEstimator, KnowsHowGoodItIs) {
   EstimatorNoise noise;
   noise.foot = 1e-4;

@@ -22,7 +22,8 @@ class StateEstimatorTest : public ::testing::Test {
   StateEstimator estimator_{robot_, q_, stand_, EstimatorNoise{}, 1.0};
 
   void update(const Eigen::VectorXd& encoders) {
-    estimator_.update(kStep, {encoders, Eigen::Vector3d::Zero(), RobotModel::kGravity * Eigen::Vector3d::UnitZ()}, tau_, stand_);
+    estimator_.update(kStep, {encoders, Eigen::Vector3d::Zero(), RobotModel::kGravity * Eigen::Vector3d::UnitZ()}, tau_,
+                      stand_);
   }
 };
 

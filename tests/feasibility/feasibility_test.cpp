@@ -21,8 +21,8 @@ using testing::SizeIs;
 /// HyQ stands for two seconds on a slope that falls towards -x, and ends at rest where it began.
 std::string on_a_slope(double degrees, double friction) {
   const double angle = degrees * 3.14159265358979 / 180.0;
-  return "robot = \"hyq.toml\"\n[[surface]]\nname = \"slope\"\nnormal = [" + std::to_string(-std::sin(angle)) + ", 0, " +
-         std::to_string(std::cos(angle)) + "]\nfriction = " + std::to_string(friction) + R"(
+  return "robot = \"hyq.toml\"\n[[surface]]\nname = \"slope\"\nnormal = [" + std::to_string(-std::sin(angle)) +
+         ", 0, " + std::to_string(std::cos(angle)) + "]\nfriction = " + std::to_string(friction) + R"(
 [start]
 on = "slope"
 [[phase]]
@@ -67,10 +67,12 @@ class Feasibility : public test::TaskTest {
 };
 
 TEST_F(Feasibility, OfASlopeIsAMatterOfFriction) {
-  for (const auto& [degrees, friction, needed] : {std::tuple{30.0, 0.5, "0.5 and needs 0.577"}, {15.0, 0.2, "0.2 and needs 0.268"}}) {
+  for (const auto& [degrees, friction, needed] :
+       {std::tuple{30.0, 0.5, "0.5 and needs 0.577"}, {15.0, 0.2, "0.2 and needs 0.268"}}) {
     const MotionProblem slope = problem(on_a_slope(degrees, friction));
-    EXPECT_THAT(proofs_of_infeasibility(slope),
-                ElementsAre(AllOf(HasSubstr("phase 'stand'"), HasSubstr(std::string("surface 'slope' has ") + needed))));
+    EXPECT_THAT(
+        proofs_of_infeasibility(slope),
+        ElementsAre(AllOf(HasSubstr("phase 'stand'"), HasSubstr(std::string("surface 'slope' has ") + needed))));
     const Plan plan = make_plan(slope, IpoptSolver(), {});
     EXPECT_EQ(plan.result.status, SolveStatus::infeasible);
     EXPECT_EQ(plan.result.iterations, 0);
@@ -126,7 +128,8 @@ TEST_F(Feasibility, OfWeakJointsIsDoubted) {
   const Plan plan = make_plan(stand, IpoptSolver(), {.solver = {.max_iterations = 3}});
   EXPECT_NE(plan.result.status, SolveStatus::converged);
   ASSERT_THAT(plan.hints, SizeIs(2)) << "both ends of the phase";
-  EXPECT_THAT(plan.hints[0], AllOf(HasSubstr("start of phase 'stand'"), HasSubstr("_kfe_joint needs"), HasSubstr("N m of 10")));
+  EXPECT_THAT(plan.hints[0],
+              AllOf(HasSubstr("start of phase 'stand'"), HasSubstr("_kfe_joint needs"), HasSubstr("N m of 10")));
   EXPECT_THAT(plan.hints[1], HasSubstr("goal 1, end of phase 'stand'"));
 }
 
@@ -141,13 +144,15 @@ TEST_F(Feasibility, OfAMotionThatPassesIsNotDoubted) {
 
 TEST_F(Feasibility, OfAGoalInTheMiddleOfAPhaseIsDoubtedToo) {
   const std::string wide = test::replaced(kStand, "time_s = 1.0", "time_s = 0.5");
-  const auto hints = doubts_of(problem(test::replaced(wide, "[0, 0, -0.05]", "[0.35, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]")));
+  const auto hints =
+      doubts_of(problem(test::replaced(wide, "[0, 0, -0.05]", "[0.35, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]")));
   EXPECT_THAT(hints, testing::Contains(AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("no posture found"))));
 }
 
 TEST_F(Feasibility, OfAPostureThatIsNotFoundIsDoubted) {
   // Within the length of the legs, but not within what their joints do.
-  const MotionProblem low = problem(test::replaced(kStand, "[0, 0, -0.05]", "[0.55, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]"));
+  const MotionProblem low =
+      problem(test::replaced(kStand, "[0, 0, -0.05]", "[0.55, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]"));
   EXPECT_THAT(proofs_of_infeasibility(low), IsEmpty());
   EXPECT_THAT(doubts_of(low), testing::Contains(AllOf(HasSubstr("end of phase 'stand'"), HasSubstr("no posture found"),
                                                       HasSubstr("h_foot"))));
@@ -158,7 +163,8 @@ TEST_F(Feasibility, OfTheShippedTasksIsNeverDisproven) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(PROWL_SOURCE_DIR) + "/tasks")) {
     if (entry.path().extension() != ".toml") continue;
     ++tasks;
-    EXPECT_THAT(proofs_of_infeasibility(read_task_file(entry.path(), test::test_search(), {}).problem), IsEmpty()) << entry.path();
+    EXPECT_THAT(proofs_of_infeasibility(read_task_file(entry.path(), test::test_search(), {}).problem), IsEmpty())
+        << entry.path();
   }
   EXPECT_GE(tasks, 10);
 }

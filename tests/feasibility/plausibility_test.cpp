@@ -17,7 +17,8 @@ TEST(Plausibility, SaysNothingOfWhatIsUsual) {
 }
 
 TEST(Plausibility, NamesTheSurfaceThatNoSoleSticksTo) {
-  EXPECT_THAT(implausibilities(test::standing_problem(test::hyq(), 0.0, 50.0)), ElementsAre(AllOf(HasSubstr("'slope'"), HasSubstr("friction 50;"))));
+  EXPECT_THAT(implausibilities(test::standing_problem(test::hyq(), 0.0, 50.0)),
+              ElementsAre(AllOf(HasSubstr("'slope'"), HasSubstr("friction 50;"))));
 }
 
 TEST(Plausibility, NamesThePhaseWithMillisecondsForSeconds) {

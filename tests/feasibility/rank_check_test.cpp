@@ -29,7 +29,8 @@ std::vector<int> all_contacts(const RobotModel& robot) {
 Eigen::Vector3d leg_vector(const RobotModel& robot, const Eigen::VectorXd& q, int foot) {
   RigidBodyTerms terms(robot);
   terms.update_kinematics(q);
-  return base_rotation(q).transpose() * (terms.contact_position(foot) - base_position(q)) - contact_reach(robot, foot).root;
+  return base_rotation(q).transpose() * (terms.contact_position(foot) - base_position(q)) -
+         contact_reach(robot, foot).root;
 }
 
 /// Legs stretched, each foot under the axis of its first joint, about which the leg turns sideways.
@@ -72,11 +73,13 @@ TEST(LostRank, IsOneDirectionOfFourStretchedLegs) {
 }
 
 TEST(LostRank, IsToldOfThePhaseThatStartsThere) {
-  const MotionProblem problem = test::everything(test::solo12(), {test::phase_on("three", {0, 1, 2}, 0.3, 2), test::phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  const MotionProblem problem = test::everything(
+      test::solo12(), {test::phase_on("three", {0, 1, 2}, 0.3, 2), test::phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
   Trajectory guess = initial_guess(problem, make_mesh(problem));
   EXPECT_THAT(postures_that_lose_rank(problem, guess), IsEmpty());
   for (TrajectoryPoint& point : guess.nodes) point.q = stretched(problem.robot);
-  EXPECT_THAT(postures_that_lose_rank(problem, guess), ElementsAre(AllOf(HasSubstr("start of phase 'four'"), HasSubstr("11 of the 12"))));
+  EXPECT_THAT(postures_that_lose_rank(problem, guess),
+              ElementsAre(AllOf(HasSubstr("start of phase 'four'"), HasSubstr("11 of the 12"))));
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ TEST(SlideCheck, LetsPassWhereFrictionSuffices) {
 
 TEST(SlideCheck, NamesPhaseSurfaceAndTheFrictionThatIsNeeded) {
   for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::go2(), test::solo12()}) {
-    const auto steep = why_it_slides(test::with_base_goal(test::standing_problem(robot, 30.0, 0.5), Eigen::Vector3d::Zero()));
+    const auto steep =
+        why_it_slides(test::with_base_goal(test::standing_problem(robot, 30.0, 0.5), Eigen::Vector3d::Zero()));
     ASSERT_TRUE(steep) << robot.name();
     EXPECT_THAT(*steep, AllOf(HasSubstr("phase 'stand'"), HasSubstr("surface 'slope' has 0.5 and needs 0.577")));
     const auto smooth = why_it_slides(test::standing_problem(robot, 15.0, 0.2));
@@ -48,7 +49,8 @@ TEST(SlideCheck, KnowsThatARobotInTheAirFalls) {
   ASSERT_TRUE(reason);
   EXPECT_THAT(*reason, HasSubstr("no contact holds the robot"));
   // Thrown up fast enough to be back at that time, it is where the goal wants it.
-  problem.boundary_conditions[0].velocity_lower(2) = problem.boundary_conditions[0].velocity_upper(2) = 0.5 * 0.5 * 9.81;
+  problem.boundary_conditions[0].velocity_lower(2) = problem.boundary_conditions[0].velocity_upper(2) =
+      0.5 * 0.5 * 9.81;
   EXPECT_FALSE(why_it_slides(problem));
 }
 

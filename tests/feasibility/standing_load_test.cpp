@@ -22,7 +22,8 @@ TEST(StandingLoad, IsAllOfTheWeightInTheNominalPosture) {
     }
   }
   EXPECT_NEAR(load_of(test::standing_problem(test::talos())).share, 1.0, 1e-4);
-  EXPECT_NEAR(load_of(test::standing_problem(test::talos(), 15.0)).share, 0.0, 1e-4) << "it does not lean, and falls back";
+  EXPECT_NEAR(load_of(test::standing_problem(test::talos(), 15.0)).share, 0.0, 1e-4)
+      << "it does not lean, and falls back";
 }
 
 TEST(StandingLoad, IsNothingWhereTheContactsCannotBalance) {

@@ -49,7 +49,8 @@ TEST(BaseChart, RateAndBendAreTheDerivativesOfTheRotation) {
       const auto turned = [&](double s) -> Vector3d {
         return so3::log(chart->rotation(e).transpose() * chart->rotation(e + s * u));
       };
-      const Vector3d slope = (8.0 * (turned(kStep) - turned(-kStep)) - (turned(2 * kStep) - turned(-2 * kStep))) / (12.0 * kStep);
+      const Vector3d slope =
+          (8.0 * (turned(kStep) - turned(-kStep)) - (turned(2 * kStep) - turned(-2 * kStep))) / (12.0 * kStep);
       EXPECT_LT((chart->rate(e) * u - slope).norm(), 1e-9);
       const Vector3d bend = (turned(kStep) + turned(-kStep)) / (kStep * kStep);
       EXPECT_NEAR(u.dot(chart->bend(e, lambda) * u), lambda.dot(bend), 1e-5);
@@ -60,7 +61,8 @@ TEST(BaseChart, RateAndBendAreTheDerivativesOfTheRotation) {
 TEST(BaseChart, InverseRateIsTheInverse) {
   for (const auto& chart : charts()) {
     for (const Vector3d& e : coordinates()) {
-      EXPECT_LT((chart->inverse_rate(e) * chart->rate(e) - Matrix3d::Identity()).norm(), 1e-12 * (1.0 + chart->inverse_rate(e).norm()));
+      EXPECT_LT((chart->inverse_rate(e) * chart->rate(e) - Matrix3d::Identity()).norm(),
+                1e-12 * (1.0 + chart->inverse_rate(e).norm()));
     }
   }
 }
@@ -96,8 +98,8 @@ TEST(RateFunction, DerivativesAreThoseOfDifferences) {
   }
 }
 
-/// What happens at 90 degrees of pitch: E loses rank, so that there are angular velocities that no finite rate of the angles gives,
-/// and the angles of a rotation are not unique.
+/// What happens at 90 degrees of pitch: E loses rank, so that there are angular velocities that no finite rate of the
+/// angles gives, and the angles of a rotation are not unique.
 TEST(EulerChart, IsSingularAtNinetyDegreesOfPitch) {
   const auto chart = euler_chart();
   const Vector3d upright(0.0, 0.5 * std::numbers::pi, 0.0);
@@ -111,7 +113,8 @@ TEST(EulerChart, IsSingularAtNinetyDegreesOfPitch) {
     last = largest;
   }
   const auto exponential = exponential_chart(Matrix3d::Identity());
-  EXPECT_LT(exponential->inverse_rate(exponential->coordinates(chart->rotation(upright), Vector3d::Zero())).norm(), 2.0);
+  EXPECT_LT(exponential->inverse_rate(exponential->coordinates(chart->rotation(upright), Vector3d::Zero())).norm(),
+            2.0);
 }
 
 }  // namespace

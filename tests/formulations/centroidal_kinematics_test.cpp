@@ -67,7 +67,9 @@ TEST(CentroidalKinematics, FirstDerivativesAreThoseOfDifferences) {
   constexpr double kStep = 1e-5;
   for (Eigen::Index i = 0; i < robot.nv(); ++i) {
     const VectorXd step = kStep * unit(robot.nv(), i);
-    const auto at = [&](const VectorXd& in_q, const VectorXd& in_v) { return values(kinematics, integrate(q, in_q), v + in_v); };
+    const auto at = [&](const VectorXd& in_q, const VectorXd& in_v) {
+      return values(kinematics, integrate(q, in_q), v + in_v);
+    };
     const VectorXd none = VectorXd::Zero(robot.nv());
     const VectorXd in_q = (at(step, none) - at(-step, none)) / (2 * kStep);
     const VectorXd in_v = (at(none, step) - at(none, -step)) / (2 * kStep);

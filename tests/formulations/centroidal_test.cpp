@@ -1,5 +1,3 @@
-#include "prowl/formulations/centroidal/centroidal_nlp.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 
 #include "../io/test_files.hpp"
 #include "prowl/error.hpp"
+#include "prowl/formulations/centroidal/centroidal_nlp.hpp"
 #include "prowl/formulations/inverse_dynamics_check.hpp"
 #include "prowl/formulations/run_formulation.hpp"
 #include "prowl/io/task_file.hpp"
@@ -77,7 +76,9 @@ TEST(CentroidalNlp, DerivativesHoldForFreeDurationsAndContactsThatOpenAndLand) {
                                free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)});
   problem.running_cost.time_weight = 2.3;
   problem.swing_clearance = 0.05;
-  problem.surfaces.push_back({.name = "step", .point = {0.4, 0.3, 0.1}, .normal = {0.1, 0.0, 1.0},
+  problem.surfaces.push_back({.name = "step",
+                              .point = {0.4, 0.3, 0.1},
+                              .normal = {0.1, 0.0, 1.0},
                               .patch = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}});
   problem.surfaces[1].normal.normalize();
   problem.phases[2].contacts[0].surface = 1;
@@ -88,8 +89,8 @@ TEST(CentroidalNlp, DerivativesHoldForFreeDurationsAndContactsThatOpenAndLand) {
 }
 
 TEST(CentroidalNlp, DerivativesHoldForFlatFeet) {
-  MotionProblem problem = everything(test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1),
-                                                     free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});
+  MotionProblem problem = everything(
+      test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1), free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});
   problem.running_cost.force_weight *= 0.1;  // heavier than HyQ: a cost of the same size, against rounding
   expect_derivatives(problem, 0.5);
 }
@@ -112,7 +113,8 @@ TEST(CentroidalNlp, WithoutItsRowsTheHessianIsThatOfTheCost) {
 }
 
 int sum(const std::vector<RowGroup>& groups) {
-  return std::accumulate(groups.begin(), groups.end(), 0, [](int total, const RowGroup& of) { return total + of.count; });
+  return std::accumulate(groups.begin(), groups.end(), 0,
+                         [](int total, const RowGroup& of) { return total + of.count; });
 }
 
 testing::Matcher<RowGroup> group(const std::string& name, int count) {
@@ -123,16 +125,16 @@ testing::Matcher<RowGroup> group(const std::string& name, int count) {
 TEST(CentroidalNlp, CountsOfANodeAreThoseOfThePaper) {
   CentroidalNlp nlp = make_nlp(task_problem("hyq/crouch"));
   const std::vector<RowGroup> variables = nlp.variable_groups(7), constraints = nlp.constraint_groups(7);
-  EXPECT_THAT(variables, testing::ElementsAre(group("q", 18), group("v", 18), group("r", 3), group("r'", 3), group("h", 3),
-                                              group("c", 12), group("r''", 3), group("h'", 3), group("f", 12)));
+  EXPECT_THAT(variables,
+              testing::ElementsAre(group("q", 18), group("v", 18), group("r", 3), group("r'", 3), group("h", 3),
+                                   group("c", 12), group("r''", 3), group("h'", 3), group("f", 12)));
   EXPECT_EQ(sum(variables) + 1, 76);
-  EXPECT_THAT(constraints,
-              testing::ElementsAre(group("m r'' = sum f + m g", 3), group("h' = sum (c - r) x f", 3),
-                                   group("h = A_G(q) v", 3), group("r = com(q)", 3), group("c = p(q)", 12),
-                                   group("distance of contacts to their surfaces", 4), group("friction", 4),
-                                   group("q by backward Euler", 18), group("h by backward Euler", 3),
-                                   group("r by the trapezoid", 3), group("r' by backward Euler", 3),
-                                   group("contacts do not slide", 8)));
+  EXPECT_THAT(constraints, testing::ElementsAre(group("m r'' = sum f + m g", 3), group("h' = sum (c - r) x f", 3),
+                                                group("h = A_G(q) v", 3), group("r = com(q)", 3), group("c = p(q)", 12),
+                                                group("distance of contacts to their surfaces", 4),
+                                                group("friction", 4), group("q by backward Euler", 18),
+                                                group("h by backward Euler", 3), group("r by the trapezoid", 3),
+                                                group("r' by backward Euler", 3), group("contacts do not slide", 8)));
   EXPECT_EQ(sum(constraints) - 4, 63);
 }
 
@@ -159,10 +161,11 @@ TEST(CentroidalNlp, SaysInWordsWhatRowsAndVariablesAre) {
   for (int i = 0; i < nlp.num_variables(); ++i) variables.push_back(nlp.describe_variable(i));
   EXPECT_EQ(std::set(rows.begin(), rows.end()).size(), rows.size());
   EXPECT_EQ(std::set(variables.begin(), variables.end()).size(), variables.size());
-  EXPECT_THAT(rows, testing::IsSupersetOf({"phase 1 'four', node 1, forces, z, t = 0.175 s",
-                                           "phase 1 'four', node 2, lf_foot, force before it opens, x, t = 0.350 s",
-                                           "phase 1 'four', node 1, lh_foot, sliding along axis 2 of floor, t = 0.175 s",
-                                           "phase 2 'lifted', node 0, q across the phase switch, base x, t = 0.350 s"}));
+  EXPECT_THAT(rows,
+              testing::IsSupersetOf({"phase 1 'four', node 1, forces, z, t = 0.175 s",
+                                     "phase 1 'four', node 2, lf_foot, force before it opens, x, t = 0.350 s",
+                                     "phase 1 'four', node 1, lh_foot, sliding along axis 2 of floor, t = 0.175 s",
+                                     "phase 2 'lifted', node 0, q across the phase switch, base x, t = 0.350 s"}));
   EXPECT_THAT(variables, testing::IsSupersetOf({"phase 1 'four', node 1, f z of rf_foot, t = 0.175 s",
                                                 "phase 1 'four', node 0, v lf_kfe_joint, t = 0.000 s",
                                                 "phase 1 'four', duration"}));
@@ -227,7 +230,8 @@ void expect_balance(const MotionProblem& problem, const Trajectory& motion) {
   for (std::size_t k = 2; k < at.size(); ++k) {
     const Vector3d acceleration = (at[k].com - 2.0 * at[k - 1].com + at[k - 2].com) / (dt * dt);
     if (k > 2) {
-      EXPECT_LT((problem.robot.mass() * acceleration - 0.5 * (at[k].force + at[k - 1].force)).norm(), 1e-3 * weight) << k;
+      EXPECT_LT((problem.robot.mass() * acceleration - 0.5 * (at[k].force + at[k - 1].force)).norm(), 1e-3 * weight)
+          << k;
     }
     EXPECT_LT(((at[k].momentum - at[k - 1].momentum) / dt - at[k].moment).norm(), 1e-4 * weight) << k;
   }

@@ -44,8 +44,8 @@ void expect_derivatives(const MotionProblem& problem, const Formulation& formula
   std::mt19937 rng(5);
   const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.02);
   const Eigen::VectorXd multipliers = test::random_vector(rng, nlp->num_constraints(), 2.0);
-  // The forward form solves for accelerations with a matrix of condition 1e5: gradients have lost as many digits to rounding, and
-  // their differences more. With half the step they are twice as far off (seen), as rounding is.
+  // The forward form solves for accelerations with a matrix of condition 1e5: gradients have lost as many digits to
+  // rounding, and their differences more. With half the step they are twice as far off (seen), as rounding is.
   const double tolerance = formulation.dynamics == "forward" ? 1e-5 : 1e-6;
   const DerivativeReport report = check_derivatives(*nlp, z, 1.7, multipliers, {.step = 2e-4});
   EXPECT_LT(report.worst(), tolerance) << report.summary();
@@ -161,11 +161,13 @@ TEST(Collocation, ForwardFormHasThePapersAcceleration) {
   }
 }
 
-/// HyQ on four feet, a node inside: 36 states and 12 torques, and nothing else but the step that the paper counts with them.
+/// HyQ on four feet, a node inside: 36 states and 12 torques, and nothing else but the step that the paper counts with
+/// them.
 TEST(Collocation, ForwardFormHasThePapersVariables) {
   const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 1.0, 5)});
   const Mesh mesh = make_mesh(problem);
-  const auto nlp = make_collocation({.dynamics = "forward", .contact = "distance"}, problem, mesh, initial_guess(problem, mesh));
+  const auto nlp =
+      make_collocation({.dynamics = "forward", .contact = "distance"}, problem, mesh, initial_guess(problem, mesh));
   EXPECT_EQ(nlp->num_variables(), 6 * 48);
   // Over each interval 36 defects; a node 4 cones, and each but the first 4 distances.
   EXPECT_EQ(nlp->num_constraints(), 5 * 36 + 6 * 4 + 5 * 4);
@@ -202,18 +204,20 @@ TEST(Collocation, RefusesStepsOfDifferentLength) {
 TEST(Collocation, SaysWhatRowsAndVariablesAre) {
   const MotionProblem problem = a_step();
   const Mesh mesh = make_mesh(problem);
-  const auto nlp = make_collocation({.dynamics = "kkt", .transcription = "hermite-simpson"}, problem, mesh, initial_guess(problem, mesh));
+  const auto nlp = make_collocation({.dynamics = "kkt", .transcription = "hermite-simpson"}, problem, mesh,
+                                    initial_guess(problem, mesh));
   std::vector<std::string> rows, variables;
   for (int i = 0; i < nlp->num_constraints(); ++i) rows.push_back(nlp->describe_constraint(i));
   for (int i = 0; i < nlp->num_variables(); ++i) variables.push_back(nlp->describe_variable(i));
   using testing::Contains;
   using testing::HasSubstr;
-  for (const char* what : {"phase 1 'four', node 0, t = 0.000 s, lf_foot, acceleration x", "friction cone in the interval",
-                           "phase 2 'lifted', node 1", "base x, position across the phase switch", "lh_foot, friction cone"}) {
+  for (const char* what :
+       {"phase 1 'four', node 0, t = 0.000 s, lf_foot, acceleration x", "friction cone in the interval",
+        "phase 2 'lifted', node 1", "base x, position across the phase switch", "lh_foot, friction cone"}) {
     EXPECT_THAT(rows, Contains(HasSubstr(what)));
   }
-  for (const char* what : {"phase 1 'four', duration", "place 2 of lf_foot", "in the interval after it, torque lf_haa_joint",
-                           "acceleration base z", "force 12"}) {
+  for (const char* what : {"phase 1 'four', duration", "place 2 of lf_foot",
+                           "in the interval after it, torque lf_haa_joint", "acceleration base z", "force 12"}) {
     EXPECT_THAT(variables, Contains(HasSubstr(what)));
   }
 }

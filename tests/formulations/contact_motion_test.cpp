@@ -19,7 +19,8 @@ MotionProblem two_phases() {
 }
 
 TrajectoryPoint random_node(const RobotModel& robot, int phase, test::RandomStates& random) {
-  TrajectoryPoint node{.phase = phase, .q = random.configuration(), .v = random.velocity(), .a = {}, .tau = {}, .force = {}};
+  TrajectoryPoint node{
+      .phase = phase, .q = random.configuration(), .v = random.velocity(), .a = {}, .tau = {}, .force = {}};
   node.a = 5.0 * random.vector(robot.nv());
   return node;
 }
@@ -34,7 +35,8 @@ ContactMotion by_differences(const MotionProblem& problem, const TrajectoryPoint
   ConstrainedDynamicsOracle oracle(problem.robot, {});
   constexpr double kStep = 1e-5;  // [s]
   const Eigen::Matrix3Xd velocity = velocities_after(oracle, node, 0.0);
-  const Eigen::Matrix3Xd rate = (velocities_after(oracle, node, kStep) - velocities_after(oracle, node, -kStep)) / (2.0 * kStep);
+  const Eigen::Matrix3Xd rate =
+      (velocities_after(oracle, node, kStep) - velocities_after(oracle, node, -kStep)) / (2.0 * kStep);
   ContactMotion worst;
   for (const PhaseContact& held : problem.phases[node.phase].contacts) {
     worst.velocity = std::max(worst.velocity, velocity.col(held.contact).norm());

@@ -38,7 +38,8 @@ TEST(RunFormulation, OfTheDefaultIsWhatMakePlanDoes) {
   }
   EXPECT_GT(run.contacts.velocity, 0.0);
   EXPECT_GT(run.contacts.acceleration, 0.0);
-  EXPECT_LE(run.contacts.velocity, run.certificate.find("contact velocity")->worst + 1e-12) << "which is that of the nodes, too";
+  EXPECT_LE(run.contacts.velocity, run.certificate.find("contact velocity")->worst + 1e-12)
+      << "which is that of the nodes, too";
   EXPECT_EQ(run.certificate.find("contact drift")->name, "contact drift");
   EXPECT_EQ(run.certificate.find("swing clearance missing"), nullptr) << "nothing swings";
 }
@@ -72,9 +73,11 @@ TEST(FormulationRun, KnowsItsWorstCheck) {
   ASSERT_EQ(run.certificate.checks.front().limit, 0.0) << "or the test does not have the awkward one in it";
   const CertificateCheck* const worst = run.worst_check();
   ASSERT_NE(worst, nullptr);
-  for (const CertificateCheck& check : run.certificate.checks) EXPECT_LE(share_of_limit(check), share_of_limit(*worst)) << check.name;
+  for (const CertificateCheck& check : run.certificate.checks)
+    EXPECT_LE(share_of_limit(check), share_of_limit(*worst)) << check.name;
   EXPECT_FALSE(worst->passed) << "one iteration is not enough";
-  run.certificate.checks.push_back({.name = "unknown", .worst = std::numeric_limits<double>::quiet_NaN(), .limit = 1.0});
+  run.certificate.checks.push_back(
+      {.name = "unknown", .worst = std::numeric_limits<double>::quiet_NaN(), .limit = 1.0});
   EXPECT_EQ(run.worst_check()->name, "unknown");
   run.certificate.checks.clear();
   EXPECT_EQ(run.worst_check(), nullptr);

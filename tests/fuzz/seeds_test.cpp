@@ -1,5 +1,5 @@
-// The seeds of the fuzz targets are taken, so that mutations start behind the readers' first checks; what fuzzers found (found*)
-// is taken or refused, and nothing else.
+// The seeds of the fuzz targets are taken, so that mutations start behind the readers' first checks; what fuzzers found
+// (found*) is taken or refused, and nothing else.
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -35,12 +35,16 @@ using Read = std::function<void(const SourceText&)>;
 const std::map<std::string, Read> kReaders = {
     {"urdf", read_urdf},
     {"robot", [](const SourceText& s) { load_robot(s, {}, {.needs_contacts = false, .urdf_copy = kUrdf}); }},
-    {"task", [](const SourceText& s) {
+    {"task",
+     [](const SourceText& s) {
        const bool walks = s.text.find("[gait]") != std::string::npos;
        parse_task(s, walks ? SourceText{"robot.toml", fuzz::kQuadruped} : kRobot, {}, {}, kUrdf);
      }},
     {"plan", [](const SourceText& s) { plan_from_json(s, {}); }},
-    {"trajectory", [](const SourceText& s) { trajectory_from_csv(parse_task({"task.toml", fuzz::kTask}, kRobot, {}, {}, kUrdf).problem, s); }},
+    {"trajectory",
+     [](const SourceText& s) {
+       trajectory_from_csv(parse_task({"task.toml", fuzz::kTask}, kRobot, {}, {}, kUrdf).problem, s);
+     }},
     {"tracker", [](const SourceText& s) {
        try {
          Tracker::read(s.path.string());

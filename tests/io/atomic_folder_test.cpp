@@ -1,7 +1,7 @@
 #include "prowl/io/atomic_folder.hpp"
 
-#include <gtest/gtest.h>
 #include <grp.h>
+#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,7 +24,9 @@ const std::set<std::string> kNames = {"a.txt", "b.txt", "c.txt"};
 
 class AtomicFolder : public testing::Test {
  protected:
-  std::size_t entries() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {})); }
+  std::size_t entries() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_.path()), {}));
+  }
   test::TempFolder folder_;
   const fs::path out_ = folder_.path() / "out";
 };

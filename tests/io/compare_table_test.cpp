@@ -22,9 +22,17 @@ using Rows = std::vector<std::vector<std::string>>;
 
 /// A line that came to an end, with numbers that do not fit few digits.
 ComparedRun finished() {
-  FormulationRun run{.formulation = {}, .solver = "Riccati 1", .nodes = 9, .num_variables = 594, .num_constraints = 540,
-                     .jacobian_nonzeros = 12870, .hessian_nonzeros = 13446, .result = {},
-                     .motion = {}, .certificate = {}, .contacts = {1.0 / 3.0 * 1e-3, 1e-300},
+  FormulationRun run{.formulation = {},
+                     .solver = "Riccati 1",
+                     .nodes = 9,
+                     .num_variables = 594,
+                     .num_constraints = 540,
+                     .jacobian_nonzeros = 12870,
+                     .hessian_nonzeros = 13446,
+                     .result = {},
+                     .motion = {},
+                     .certificate = {},
+                     .contacts = {1.0 / 3.0 * 1e-3, 1e-300},
                      .inverse_dynamics = {}};
   run.inverse_dynamics = {.worst_torque = 2.0 / 3.0, .worst_base_force = 1e-7 / 3.0, .cost = 1e7 / 3.0};
   run.result.status = SolveStatus::converged;
@@ -45,7 +53,12 @@ ComparedRun refused(const std::string& solver, const std::string& reason) {
 
 CompareRecord record_of(std::vector<ComparedRun> runs, const std::string& task = "stand") {
   const int asked = static_cast<int>(runs.size());
-  return {.task = task, .robot = "HyQ", .options = {}, .asked = asked, .versions = {{"prowl", "0.1.0"}}, .runs = std::move(runs)};
+  return {.task = task,
+          .robot = "HyQ",
+          .options = {},
+          .asked = asked,
+          .versions = {{"prowl", "0.1.0"}},
+          .runs = std::move(runs)};
 }
 
 /// By RFC 4180.
@@ -238,8 +251,12 @@ TEST(CompareTable, SaysOnceWhatIsTheSame) {
   finer.intervals = 16;
   finer.nodes = 17;
   const std::string text = compare_markdown(record_of({finished(), finer}));
-  EXPECT_THAT(text, HasSubstr("task stand, robot HyQ, dynamics inverse, transcription trapezoid, contact stabilised, orientation se3, "
-                              "solver riccati, version Riccati 1, hessian exact, guess smooth; tolerance 1e-06, at most 300 iterations and 300 s each."));
+  EXPECT_THAT(
+      text,
+      HasSubstr(
+          "task stand, robot HyQ, dynamics inverse, transcription trapezoid, contact stabilised, orientation se3, "
+          "solver riccati, version Riccati 1, hessian exact, guess smooth; tolerance 1e-06, at most 300 iterations and "
+          "300 s each."));
   const Rows markdown = read_markdown(text);
   EXPECT_EQ(cell(markdown, "intervals", 2), "8");
   EXPECT_EQ(cell(markdown, "intervals", 3), "16");
@@ -262,7 +279,8 @@ TEST(CompareTable, KnowsWhatIsNoNumber) {
   ComparedRun broken = finished();
   broken.run->result.cost = std::numeric_limits<double>::quiet_NaN();
   broken.run->result.iterations = 0;
-  broken.run->certificate.checks = {{.name = "finite numbers, unit quaternions", .worst = std::nan(""), .limit = 1e-6, .unit = "-"}};
+  broken.run->certificate.checks = {
+      {.name = "finite numbers, unit quaternions", .worst = std::nan(""), .limit = 1e-6, .unit = "-"}};
   const CompareRecord record = record_of({broken});
   const json line = json::parse(compare_json(record)).at("runs")[0];
   EXPECT_TRUE(line.at("cost").is_null());

@@ -20,11 +20,15 @@ TEST(CsvTable, ReadsNumbersByTheNamesOfTheirColumns) {
 }
 
 TEST(CsvTable, SaysWhereItIsWrong) {
-  const auto message = [](const std::string& text) { return test::message_of("", [&] { read_csv_table({"a.csv", text}); }); };
+  const auto message = [](const std::string& text) {
+    return test::message_of("", [&] { read_csv_table({"a.csv", text}); });
+  };
   EXPECT_THAT(message("t,x\n0,1\n0\n"), HasSubstr("a.csv:3: 1 cells; need 2"));
   EXPECT_THAT(message("t,x\n0,1m\n"), HasSubstr("a.csv:2: x: \"1m\""));
   EXPECT_THAT(message(std::string(2000000, ',') + "\n"), HasSubstr("a.csv:1: 2000001 columns; need at most 100000"));
-  EXPECT_THAT(message(std::string(50000, ',') + "\n" + std::string(50000, '\n')), HasSubstr("too short for 50001 columns and 50000 rows")) << "20 GB";
+  EXPECT_THAT(message(std::string(50000, ',') + "\n" + std::string(50000, '\n')),
+              HasSubstr("too short for 50001 columns and 50000 rows"))
+      << "20 GB";
   EXPECT_THAT(message("t,x\n0,\x1b[2J\n"), HasSubstr("a.csv:2: x: \"\\x1b[2J\" is not allowed"));
   EXPECT_THAT(message("t,x\n0,1"), HasSubstr("cut short"));
   EXPECT_THAT(message(""), HasSubstr("cut short"));

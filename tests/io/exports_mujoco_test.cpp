@@ -35,7 +35,8 @@ MotionSamples random_samples(const RobotModel& robot) {
 class Keyframes : public testing::TestWithParam<const char*> {};
 
 TEST_P(Keyframes, StandAndMoveAsThePlan) {
-  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + GetParam() + ".toml", test::test_search());
+  const Task task =
+      read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + GetParam() + ".toml", test::test_search());
   const MotionProblem& problem = task.problem;
   const RobotModel& robot = problem.robot;
   const MotionSamples samples = random_samples(robot);
@@ -44,8 +45,8 @@ TEST_P(Keyframes, StandAndMoveAsThePlan) {
   const auto file = folder.write("keys.xml", mujoco_keyframes_xml(problem, samples, "model.xml"));
 
   std::array<char, 500> error{};
-  const std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(mj_loadXML(file.c_str(), nullptr, error.data(), error.size()),
-                                                                   mj_deleteModel);
+  const std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(
+      mj_loadXML(file.c_str(), nullptr, error.data(), error.size()), mj_deleteModel);
   ASSERT_TRUE(model) << error.data();
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model.get()), mj_deleteData);
   ASSERT_EQ(model->nkey, static_cast<int>(samples.points.size()));

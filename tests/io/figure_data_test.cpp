@@ -62,7 +62,8 @@ Eigen::Vector3d velocity_product(LegKinematics& legs, int contact, const Traject
   Eigen::VectorXd rate = point.v;
   rate.head<3>() = base_rotation(point.q) * point.v.head<3>();
   const Eigen::VectorXd after = integrate(point.q, kStep * rate), before = integrate(point.q, -kStep * rate);
-  return (contact_velocity(legs, contact, after, point.v) - contact_velocity(legs, contact, before, point.v)) / (2 * kStep);
+  return (contact_velocity(legs, contact, after, point.v) - contact_velocity(legs, contact, before, point.v)) /
+         (2 * kStep);
 }
 
 TEST(FigureData, ContactAccelerationsAreThoseOfTheLegs) {
@@ -90,7 +91,8 @@ TEST(FigureData, ContactAccelerationsAreThoseOfTheLegs) {
       for (int i = 0; i < 3; ++i) {
         const std::string axis(1, "xyz"[i]);
         EXPECT_NEAR(number(row, "Ja_" + name + "_" + axis + "_mps2"), from_a(i), 1e-8) << name << " at " << time;
-        EXPECT_NEAR(number(row, "minus_Jdotv_" + name + "_" + axis + "_mps2"), from_v(i), 1e-6) << name << " at " << time;
+        EXPECT_NEAR(number(row, "minus_Jdotv_" + name + "_" + axis + "_mps2"), from_v(i), 1e-6)
+            << name << " at " << time;
         largest = std::max(largest, std::abs(from_v(i)));
         ++compared;
       }
@@ -124,7 +126,8 @@ TEST(FigureData, GainsAreThoseOfTheTracker) {
     if (number(table[k + 1], "time_s") == time) continue;  // end of a phase: the tracker gives the later one
     tracker.gains(time, K);
     for (int i = 0; i < 36; ++i) {
-      EXPECT_NEAR(number(table[k], columns[static_cast<std::size_t>(i) + 2]), K(joint, i), 1e-8 * (1.0 + K.cwiseAbs().maxCoeff()));
+      EXPECT_NEAR(number(table[k], columns[static_cast<std::size_t>(i) + 2]), K(joint, i),
+                  1e-8 * (1.0 + K.cwiseAbs().maxCoeff()));
     }
   }
   EXPECT_THROW(gains_csv(test::talos(), tracker, joint), InputError);

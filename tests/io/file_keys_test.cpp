@@ -29,7 +29,8 @@ TEST(FileKeys, DocumentationShowsAShippedTask) {
 TEST(FileKeys, AreDeclaredOnce) {
   for (const FileKeys& keys : {task_file_keys(), robot_file_keys()}) {
     std::set<std::pair<std::string, std::string>> seen;
-    for (const FileKey& key : keys) EXPECT_TRUE(seen.emplace(key.table, key.name).second) << key.table << "." << key.name;
+    for (const FileKey& key : keys)
+      EXPECT_TRUE(seen.emplace(key.table, key.name).second) << key.table << "." << key.name;
     EXPECT_GT(seen.size(), 10u);
   }
 }

@@ -37,14 +37,18 @@ const std::map<std::string, Context>& task_contexts() {
       {"surface", {task + "[[surface]]\n", {"name = \"floor\""}, ""}},
       {"start", {task + "[start]\n", {}, ""}},
       {"phase", {robot + "[[phase]]\n", {"contacts = \"all\"", "duration_s = 2", "intervals = 5"}, ""}},
-      {"phase.contacts", {robot + "[[phase]]\nduration_s = 2\nintervals = 5\n[[phase.contacts]]\n", {"contact = \"lf_foot\""}, ""}},
+      {"phase.contacts",
+       {robot + "[[phase]]\nduration_s = 2\nintervals = 5\n[[phase.contacts]]\n", {"contact = \"lf_foot\""}, ""}},
       {"gait", {robot + "[gait]\n", {"kind = \"walk\"", "strides = 1", "stride_s = 2", "stride_length_m = 0.1"}, ""}},
       {"goal", {task + "[[goal]]\n", {"phase = \"stand\"", "torque_Nm = { lf_haa_joint = 1 }"}, ""}},
       {"cost", {task + "[cost]\n", {}, ""}},
-      {"cost.contact_position", {task + "[[cost.contact_position]]\n", {"contact = \"lf_foot\"", "reference_m = [0, 0, 0]", "weight = 1"}, ""}},
+      {"cost.contact_position",
+       {task + "[[cost.contact_position]]\n", {"contact = \"lf_foot\"", "reference_m = [0, 0, 0]", "weight = 1"}, ""}},
       {"terminal_cost", {task + "[terminal_cost]\n", {}, ""}},
       {"terminal_cost.contact_position",
-       {task + "[[terminal_cost.contact_position]]\n", {"contact = \"lf_foot\"", "reference_m = [0, 0, 0]", "weight = 1"}, ""}},
+       {task + "[[terminal_cost.contact_position]]\n",
+        {"contact = \"lf_foot\"", "reference_m = [0, 0, 0]", "weight = 1"},
+        ""}},
       {"solver", {task + "[solver]\n", {}, ""}},
       {"tracking", {task + "[tracking]\n", {}, ""}},
       {"simulation", {task + "[simulation]\n", {}, ""}},
@@ -56,7 +60,10 @@ const std::map<std::string, Context>& robot_contexts() {
   static const std::string name = test::kHyqFile.substr(0, test::kHyqFile.find("contact = ["));
   static const std::string rest = test::kHyqFile.substr(test::kHyqFile.find("[nominal.joints]"));
   static const std::map<std::string, Context> contexts = {
-      {"", {"", {"name = \"HyQ\"", name.substr(name.find("urdf")), "contact = [{ name = \"a\", frame = \"lf_foot\" }]"}, ""}},
+      {"",
+       {"",
+        {"name = \"HyQ\"", name.substr(name.find("urdf")), "contact = [{ name = \"a\", frame = \"lf_foot\" }]"},
+        ""}},
       {"contact", {name + "[[contact]]\n", {"name = \"lf_foot\"", "frame = \"lf_foot\""}, rest}},
       {"nominal", {name + "contact = [{ name = \"a\", frame = \"lf_foot\" }]\n[nominal]\n", {}, ""}},
       {"limits", {test::kHyqFile + "[limits.lf_haa_joint]\n", {}, ""}},
@@ -121,9 +128,11 @@ class FileMistakes : public testing::Test {
       for (const std::string& wrong : misspellings(key.name, (7 * k) % key.name.size())) {
         if (std::find(names.begin(), names.end(), wrong) != names.end()) continue;
         const File broken = with_mistake(contexts.at(key.table), key.name, "  " + wrong + " = 1");
-        std::vector<testing::Matcher<std::string>> suggestions;  // strides and stride_s are both one letter from stride_
+        std::vector<testing::Matcher<std::string>>
+            suggestions;  // strides and stride_s are both one letter from stride_
         for (const std::string& name : names) {
-          if (letters(name) == letters(key.name)) suggestions.push_back(HasSubstr(wrong + ": unknown key; did you mean '" + name + "'?"));
+          if (letters(name) == letters(key.name))
+            suggestions.push_back(HasSubstr(wrong + ": unknown key; did you mean '" + name + "'?"));
         }
         EXPECT_THAT(message(broken.text),
                     AllOf(StartsWith(fmt::format("{}:{}:3: ", file, broken.line)), testing::AnyOfArray(suggestions)));
@@ -151,20 +160,25 @@ class FileMistakes : public testing::Test {
 };
 
 TEST_F(FileMistakes, ContextsAreRight) {
-  for (const auto& [table, context] : task_contexts()) EXPECT_EQ(task_message(with_mistake(context, "?", "").text), "") << table;
-  for (const auto& [table, context] : robot_contexts()) EXPECT_EQ(robot_message(with_mistake(context, "?", "").text), "") << table;
+  for (const auto& [table, context] : task_contexts())
+    EXPECT_EQ(task_message(with_mistake(context, "?", "").text), "") << table;
+  for (const auto& [table, context] : robot_contexts())
+    EXPECT_EQ(robot_message(with_mistake(context, "?", "").text), "") << table;
 }
 
 TEST_F(FileMistakes, MisspeltKeysOfARobot) {
-  check_misspellings("robot.toml", robot_file_keys(), robot_contexts(), [this](const auto& text) { return robot_message(text); });
+  check_misspellings("robot.toml", robot_file_keys(), robot_contexts(),
+                     [this](const auto& text) { return robot_message(text); });
 }
 
 TEST_F(FileMistakes, MisspeltKeysOfATask) {
-  check_misspellings("task.toml", task_file_keys(), task_contexts(), [this](const auto& text) { return task_message(text); });
+  check_misspellings("task.toml", task_file_keys(), task_contexts(),
+                     [this](const auto& text) { return task_message(text); });
 }
 
 TEST_F(FileMistakes, WrongTypesInARobot) {
-  check_types("robot.toml", robot_file_keys(), robot_contexts(), [this](const auto& text) { return robot_message(text); });
+  check_types("robot.toml", robot_file_keys(), robot_contexts(),
+              [this](const auto& text) { return robot_message(text); });
 }
 
 TEST_F(FileMistakes, WrongTypesInATask) {
@@ -176,7 +190,8 @@ TEST_F(FileMistakes, MisspeltTables) {
               StartsWith("task.toml:7:2: csot: unknown key; did you mean 'cost'? Known: "));
   EXPECT_THAT(task_message("robot = \"hyq.toml\"\n" + kStanding + "[[goals]]\ntime_s = 1\n"),
               StartsWith("task.toml:7:3: goals: unknown key; did you mean 'goal'? Known: "));
-  EXPECT_THAT(robot_message(test::kHyqFile + "[limit.lf_haa_joint]\n"), AllOf(HasSubstr(":2: limit: "), HasSubstr("'limits'?")));
+  EXPECT_THAT(robot_message(test::kHyqFile + "[limit.lf_haa_joint]\n"),
+              AllOf(HasSubstr(":2: limit: "), HasSubstr("'limits'?")));
 }
 
 TEST_F(FileMistakes, KeysOfAnotherTableAreSentThere) {
@@ -192,18 +207,26 @@ TEST_F(FileMistakes, MisspeltNames) {
   };
   EXPECT_THAT(robot("frame = \"lf_foot\"", "frame = \"lf_fot\""),
               AllOf(StartsWith("robot.toml:4:31: contact[0].frame: "), HasSubstr("did you mean 'lf_foot'?")));
-  EXPECT_THAT(robot("lf_haa_joint = ", " lf_haa_jont = "),
-              AllOf(StartsWith("robot.toml:10:2: nominal.joints.lf_haa_jont: "), HasSubstr("did you mean 'lf_haa_joint'?")));
+  EXPECT_THAT(
+      robot("lf_haa_joint = ", " lf_haa_jont = "),
+      AllOf(StartsWith("robot.toml:10:2: nominal.joints.lf_haa_jont: "), HasSubstr("did you mean 'lf_haa_joint'?")));
   EXPECT_THAT(robot_message(test::kHyqFile + "[limits.lf_ha_joint]\ntorque_Nm = 3\n"),
               AllOf(StartsWith("robot.toml:22:9: limits.lf_ha_joint: "), HasSubstr("did you mean 'lf_haa_joint'?")));
-  const std::string gait = "robot = \"hyq.toml\"\n[gait]\nkind = \"wlak\"\nstrides = 1\nstride_s = 2\nstride_length_m = 0.1\n";
+  const std::string gait =
+      "robot = \"hyq.toml\"\n[gait]\nkind = \"wlak\"\nstrides = 1\nstride_s = 2\nstride_length_m = 0.1\n";
   EXPECT_THAT(task_message(gait), StartsWith("task.toml:3:8: gait.kind: unknown gait \"wlak\"; did you mean 'walk'?"));
 }
 
 TEST_F(FileMistakes, SyntaxErrors) {
   const std::string start = "robot = \"hyq.toml\"\n" + kStanding;
-  for (const auto& [line, column] : std::vector<std::pair<std::string, int>>{
-           {"[cost", 6}, {"[cost]]", 7}, {"x = \"abc", 9}, {"x = [1, 2", 10}, {"x 3", 3}, {"x = 1 2", 7}, {"= 3", 1}, {"x = 1.", 7}}) {
+  for (const auto& [line, column] : std::vector<std::pair<std::string, int>>{{"[cost", 6},
+                                                                             {"[cost]]", 7},
+                                                                             {"x = \"abc", 9},
+                                                                             {"x = [1, 2", 10},
+                                                                             {"x 3", 3},
+                                                                             {"x = 1 2", 7},
+                                                                             {"= 3", 1},
+                                                                             {"x = 1.", 7}}) {
     const std::string message = task_message(start + line + "\n[solver]\n");
     EXPECT_THAT(message, testing::MatchesRegex("task.toml:[78]:[0-9]+: .*")) << line;
     EXPECT_THAT(message, testing::AnyOf(HasSubstr(fmt::format(":7:{}: ", column)), HasSubstr(":8:"))) << line;

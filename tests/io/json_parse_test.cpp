@@ -41,10 +41,13 @@ TEST(JsonParse, RefusesDepth) {
 TEST(JsonParse, RefusesTooManyKeysOfOneObject) {
   EXPECT_EQ(message("[{" + keys(kMostJsonKeys) + "}, {" + keys(kMostJsonKeys) + "}]"), "") << "each has its own";
   EXPECT_THAT(message("{" + keys(kMostJsonKeys + 1) + "}"), HasSubstr("keys more than 200"));
-  EXPECT_THAT(message("{\"x\": {" + keys(100) + "}, " + keys(kMostJsonKeys) + "}"), HasSubstr("keys more than 200")) << "those around it count on";
+  EXPECT_THAT(message("{\"x\": {" + keys(100) + "}, " + keys(kMostJsonKeys) + "}"), HasSubstr("keys more than 200"))
+      << "those around it count on";
 }
 
-TEST(JsonParse, RefusesTooManyValues) { EXPECT_THAT(message("[" + repeated("0,", kMostJsonValues) + "0]"), HasSubstr("values more than")); }
+TEST(JsonParse, RefusesTooManyValues) {
+  EXPECT_THAT(message("[" + repeated("0,", kMostJsonValues) + "0]"), HasSubstr("values more than"));
+}
 
 TEST(JsonParse, RefusesNumbersBeyondDoubles) { EXPECT_THAT(message("[1e999]"), HasSubstr("1.8e308")); }
 

@@ -71,7 +71,8 @@ TEST_F(MeshAdvice, SpeaksOfWhatIsMissingOnly) {
   EXPECT_EQ(advised(mesh_advice(record(5e-5)), "draft"), 0);
   EXPECT_GT(advised(mesh_advice(record(5e-5)), "certified"), 8);
   EXPECT_EQ(mesh_advice(record(5e-7)), "");
-  EXPECT_THAT(mesh_advice(record(1e9)), HasSubstr("for grade draft (0.0001) about more than 10000 intervals, or --refine draft\n"));
+  EXPECT_THAT(mesh_advice(record(1e9)),
+              HasSubstr("for grade draft (0.0001) about more than 10000 intervals, or --refine draft\n"));
 }
 
 /// Of a mesh of steps that differ no number of equal ones follows.
@@ -79,7 +80,10 @@ TEST_F(MeshAdvice, OfAnUnevenMeshIsToRefineIt) {
   PlanRecord plan = record(5e-5);
   Phase& phase = plan.task.problem.phases[0];
   phase.shares.assign(static_cast<std::size_t>(phase.intervals), 1.0 / phase.intervals);
-  EXPECT_THAT(mesh_advice(plan), testing::EndsWith("cubed:\nfor grade certified (1e-06) --refine certified --warm-start with the folder of this plan\n"));
+  EXPECT_THAT(
+      mesh_advice(plan),
+      testing::EndsWith(
+          "cubed:\nfor grade certified (1e-06) --refine certified --warm-start with the folder of this plan\n"));
 }
 
 TEST_F(MeshAdvice, SaysNothingOfAPlanThatDidNotConverge) {

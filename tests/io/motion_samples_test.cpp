@@ -54,7 +54,8 @@ TEST_F(Samples, AtTheNodesHaveTheGainsOfTheirOwnPhase) {
   EXPECT_GE(switches, 2);
   const std::vector<std::size_t> once = samples.one_a_time();
   EXPECT_EQ(once.size() + static_cast<std::size_t>(switches), samples.points.size());
-  for (std::size_t k = 1; k < once.size(); ++k) EXPECT_LT(samples.points[once[k - 1]].time, samples.points[once[k]].time);
+  for (std::size_t k = 1; k < once.size(); ++k)
+    EXPECT_LT(samples.points[once[k - 1]].time, samples.points[once[k]].time);
 }
 
 TEST_F(Samples, AtARateAreTheTrajectory) {

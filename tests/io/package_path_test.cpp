@@ -41,7 +41,9 @@ TEST_F(PackagePath, SaysWhichEnvironmentsItLookedInto) {
 
 TEST_F(PackagePath, TakesAFolderThatIsThePackage) {
   const auto file = folder_.write("src/dog/urdf/dog.urdf", "");
-  EXPECT_EQ(resolve_uri("package://dog/urdf/dog.urdf", "/dog.toml", {}, {.folders = {folder_.path() / "src/dog/"}, .working_directory = {}}), file);
+  EXPECT_EQ(resolve_uri("package://dog/urdf/dog.urdf", "/dog.toml", {},
+                        {.folders = {folder_.path() / "src/dog/"}, .working_directory = {}}),
+            file);
 }
 
 TEST_F(PackagePath, RefusesWhatIsNoPath) {
@@ -56,9 +58,10 @@ TEST_F(PackagePath, StaysInsideThePackage) {
   folder_.write("work/secret.urdf", "");
   folder_.write("work/dog/urdf/dog.urdf", "");
   EXPECT_NO_THROW(resolve("package://dog/urdf/../urdf/dog.urdf"));
-  for (const char* uri : {"package://dog/../secret.urdf", "package://dog/urdf/../../secret.urdf", "package://../work/secret.urdf",
-                          "package://./secret.urdf", "package://dog//etc/passwd"}) {
-    EXPECT_NE(test::message_of(folder_.path(), [&] { resolve(uri); }).find("leaves its package"), std::string::npos) << uri;
+  for (const char* uri : {"package://dog/../secret.urdf", "package://dog/urdf/../../secret.urdf",
+                          "package://../work/secret.urdf", "package://./secret.urdf", "package://dog//etc/passwd"}) {
+    EXPECT_NE(test::message_of(folder_.path(), [&] { resolve(uri); }).find("leaves its package"), std::string::npos)
+        << uri;
   }
 }
 

@@ -16,7 +16,8 @@ using testing::HasSubstr;
 
 /// Two phases of HyQ with numbers that no decimal fraction of few digits can hold.
 PlanRecord make_record(const std::filesystem::path& folder) {
-  const std::string second = "[[phase]]\nname = \"flight\"\ncontacts = [\"lf_foot\"]\nduration_s = 0.3\nintervals = 3\n[start]";
+  const std::string second =
+      "[[phase]]\nname = \"flight\"\ncontacts = [\"lf_foot\"]\nduration_s = 0.3\nintervals = 3\n[start]";
   const Task task = parse_task({folder / "task.toml", test::replaced(test::kTaskFile, "[start]", second)},
                                {folder / "hyq.toml", test::kHyqFile}, test::test_search());
   std::srand(7);  // Eigen's random vectors
@@ -218,7 +219,8 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   };
   const auto remove_new_keys = [&](auto& json) {
     remove_shares(json);
-    for (const char* key : {"hessian", "cpu_seconds", "evaluation", "convergence"}) ASSERT_EQ(json["solver"].erase(key), 1u) << key;
+    for (const char* key : {"hessian", "cpu_seconds", "evaluation", "convergence"})
+      ASSERT_EQ(json["solver"].erase(key), 1u) << key;
   };
   write_version(1, remove_new_keys);
   const PlanRecord old = read_plan(out_, test::test_search());
@@ -232,11 +234,15 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   write_version(3, remove_shares);
   EXPECT_EQ(message(), "out/plan.json: plan.problem.phases[0].shares: missing");
   write_version(4, [](auto&) {});
-  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 4, written by a newer Prowl; this one reads 1 to 3: use that Prowl, or "
-                       "plan again with this one");
+  EXPECT_EQ(
+      message(),
+      "out/plan.json: plan.schema_version: 4, written by a newer Prowl; this one reads 1 to 3: use that Prowl, or "
+      "plan again with this one");
   write_version(0, [](auto&) {});
-  EXPECT_EQ(message(), "out/plan.json: plan.schema_version: 0 is no longer read; need 1 to 3: plan again with prowl plan, task_file in "
-                       "it has the task");
+  EXPECT_EQ(
+      message(),
+      "out/plan.json: plan.schema_version: 0 is no longer read; need 1 to 3: plan again with prowl plan, task_file in "
+      "it has the task");
   write_version(3, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
 }
@@ -253,10 +259,12 @@ TEST_F(PlanDirectory, ReadsTheMeshThatAPlanWasRefinedTo) {
   write_plan(out_, record);
   const PlanRecord read = read_plan(out_, test::test_search());
   ASSERT_EQ(read.plan.trajectory.nodes.size(), 4u + 3u);
-  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(read.plan.trajectory.nodes[i].time, record.plan.trajectory.nodes[i].time);
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_EQ(read.plan.trajectory.nodes[i].time, record.plan.trajectory.nodes[i].time);
   EXPECT_NEAR(read.plan.trajectory.nodes[1].time, 2.0 / 7.0, 1e-12);
   EXPECT_EQ(read.task.problem.phases[0].intervals, 3);
-  EXPECT_THAT(read.task.problem.phases[0].shares, testing::Pointwise(testing::DoubleNear(1e-15), {1 / 7.0, 2 / 7.0, 4 / 7.0}));
+  EXPECT_THAT(read.task.problem.phases[0].shares,
+              testing::Pointwise(testing::DoubleNear(1e-15), {1 / 7.0, 2 / 7.0, 4 / 7.0}));
   EXPECT_EQ(read.task.problem.phases[1].intervals, 2);
   EXPECT_TRUE(read.task.problem.phases[1].shares.empty());
   for (std::size_t i = 0; i < read.task.problem.boundary_conditions.size(); ++i) {
@@ -276,17 +284,24 @@ TEST_F(PlanDirectory, RefusesAMeshThatIsNone) {
     folder_.write("out/plan.json", json.dump());
     return message();
   };
-  EXPECT_EQ(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.5}; }),
-            "out/plan.json: plan.problem.phases[1].shares: 2 numbers with sum 1; need 3 numbers > 0 with sum 1, or none");
-  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, nullptr, 0.5}; }), HasSubstr("need 3 numbers > 0 with sum 1, or none"));
-  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.7, -0.2}; }), HasSubstr("need 3 numbers > 0 with sum 1, or none"));
-  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 1.0, 0.5}; }), HasSubstr("3 numbers with sum 2; need"));
+  EXPECT_EQ(
+      message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.5}; }),
+      "out/plan.json: plan.problem.phases[1].shares: 2 numbers with sum 1; need 3 numbers > 0 with sum 1, or none");
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, nullptr, 0.5}; }),
+              HasSubstr("need 3 numbers > 0 with sum 1, or none"));
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 0.7, -0.2}; }),
+              HasSubstr("need 3 numbers > 0 with sum 1, or none"));
+  EXPECT_THAT(message_with([](auto& phases) { phases[1]["shares"] = {0.5, 1.0, 0.5}; }),
+              HasSubstr("3 numbers with sum 2; need"));
   EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 0; }),
             "out/plan.json: plan.problem.phases[0].intervals: 0 is not allowed; need 1 to 10000");
   EXPECT_EQ(message_with([](auto& phases) { phases[1]["intervals"] = 9996; }),
-            "out/plan.json: plan.problem.phases[1].intervals: 9996 is not allowed; need 1 to 9995") << "10,000 in all";
-  EXPECT_EQ(message_with([](auto& phases) { phases.erase(1); }), "out/plan.json: plan.problem.phases: 1 phases; the task has 2");
-  EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 7; }), "out/trajectory.csv: 10 rows; the task's mesh has 12 nodes");
+            "out/plan.json: plan.problem.phases[1].intervals: 9996 is not allowed; need 1 to 9995")
+      << "10,000 in all";
+  EXPECT_EQ(message_with([](auto& phases) { phases.erase(1); }),
+            "out/plan.json: plan.problem.phases: 1 phases; the task has 2");
+  EXPECT_EQ(message_with([](auto& phases) { phases[0]["intervals"] = 7; }),
+            "out/trajectory.csv: 10 rows; the task's mesh has 12 nodes");
 }
 
 TEST_F(PlanDirectory, IsGoodIfTheSolverConvergedAndTheCertificatePassed) {
@@ -354,9 +369,12 @@ TEST_F(PlanDirectory, RefusesATrajectoryThatDoesNotFit) {
   EXPECT_EQ(message_with(with_cell(csv, 9, 69, "0.5")),
             "out/trajectory.csv:9: contact_lf_foot: 0.5 is not allowed; need 1, as in the task");
   EXPECT_THAT(message_with(with_cell(csv, 9, 8, "2")), HasSubstr("trajectory.csv:9: norm of base_qx ... base_qw: "));
-  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,")), HasSubstr("trajectory.csv:3: 84 cells; need 85"));
-  EXPECT_THAT(message_with(test::replaced(csv, "base_px_m", "base_x_m")), HasSubstr("the columns are not those of HyQ"));
-  EXPECT_THAT(message_with(csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1)), HasSubstr("9 rows; the task's mesh has 10"));
+  EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,")),
+              HasSubstr("trajectory.csv:3: 84 cells; need 85"));
+  EXPECT_THAT(message_with(test::replaced(csv, "base_px_m", "base_x_m")),
+              HasSubstr("the columns are not those of HyQ"));
+  EXPECT_THAT(message_with(csv.substr(0, csv.rfind('\n', csv.size() - 2) + 1)),
+              HasSubstr("9 rows; the task's mesh has 10"));
   EXPECT_THAT(message_with(""), HasSubstr("the columns are not those of HyQ"));
 }
 

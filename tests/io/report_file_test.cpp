@@ -37,7 +37,8 @@ const PlanRecord& stand() {
   return record;
 }
 
-Report report_of(const PlanRecord& record, const std::string& page = kPage, const PackageSearch& search = test::test_search()) {
+Report report_of(const PlanRecord& record, const std::string& page = kPage,
+                 const PackageSearch& search = test::test_search()) {
   return make_report({.plan = record, .directory = "out/stand", .template_html = page}, search);
 }
 
@@ -98,7 +99,8 @@ TEST(ReportFile, DrawsABoxForAMeshThatCannotBeReadAndSaysSo) {
   const test::TempFolder folder;
   folder.write("bad.stl", "solid nothing\nendsolid nothing\n");
   for (const char* to : {"none.dae", "bad.stl", "package://nowhere/trunk.dae", "file:///etc/passwd"}) {
-    const PlanRecord record = with_urdf(folder, "package://example-robot-data/robots/hyq_description/meshes/trunk/trunk.dae", to);
+    const PlanRecord record =
+        with_urdf(folder, "package://example-robot-data/robots/hyq_description/meshes/trunk/trunk.dae", to);
     const Report report = report_of(record);
     ASSERT_EQ(report.warnings.size(), 1u) << to;
     EXPECT_THAT(report.warnings[0], HasSubstr("link trunk: drawn as a box of its inertia: "));
@@ -123,7 +125,8 @@ TEST(ReportFile, ShowsASimulationUpToWhereItDiverged) {
   const RobotModel& robot = stand().task.problem.robot;
   SimulationResult result;
   for (int i = 0; i < 4; ++i) {
-    const Eigen::VectorXd q = robot.nominal_configuration(), v = Eigen::VectorXd::Zero(18), tau = Eigen::VectorXd::Ones(12);
+    const Eigen::VectorXd q = robot.nominal_configuration(), v = Eigen::VectorXd::Zero(18),
+                          tau = Eigen::VectorXd::Ones(12);
     SimulationSample sample;
     sample.time = 0.02 * i;
     sample.q_ref = sample.q = sample.q_seen = q;
@@ -136,10 +139,13 @@ TEST(ReportFile, ShowsASimulationUpToWhereItDiverged) {
   }
   const std::string csv = simulation_csv(robot, result.samples);
   const auto make = [&](const std::string& text) {
-    return make_report({.plan = stand(), .directory = "d", .simulation = SourceText{"simulate.csv", text}, .template_html = kPage}, test::test_search());
+    return make_report(
+        {.plan = stand(), .directory = "d", .simulation = SourceText{"simulate.csv", text}, .template_html = kPage},
+        test::test_search());
   };
   EXPECT_EQ(data_of(make(csv).html)["simulation"]["time"], json({0.0, 0.02, 0.04}));
-  EXPECT_THAT(test::message_of("", [&] { make(test::replaced(csv, "true_q_lf_haa_joint_rad", "true_q_left_rad")); }), HasSubstr("simulate.csv:1: no column"));
+  EXPECT_THAT(test::message_of("", [&] { make(test::replaced(csv, "true_q_lf_haa_joint_rad", "true_q_left_rad")); }),
+              HasSubstr("simulate.csv:1: no column"));
 }
 
 TEST(ReportFile, RefusesAPageThatIsNotItsOwn) {

@@ -15,9 +15,8 @@ using testing::StartsWith;
 class RobotFile : public testing::Test {
  protected:
   std::string message_of(const std::string& text) {
-    return test::message_of(folder_.path(), [&] {
-      load_robot(read_text_file(folder_.write("hyq.toml", text)), test::test_search());
-    });
+    return test::message_of(folder_.path(),
+                            [&] { load_robot(read_text_file(folder_.write("hyq.toml", text)), test::test_search()); });
   }
   std::string message(const std::string& from, const std::string& to) {
     return message_of(test::replaced(kHyqFile, from, to));
@@ -28,7 +27,8 @@ class RobotFile : public testing::Test {
 
 TEST_F(RobotFile, GivesTheRobotThatItDescribes) {
   const std::string limits = "[limits.lf_haa_joint]\nposition_rad = [-0.5, 0.25]\ntorque_Nm = 80\n";
-  const std::string with_offset = test::replaced(kHyqFile, "\"rf_foot\", radius", "\"rf_foot\", offset_m = [1, 2, 3], radius");
+  const std::string with_offset =
+      test::replaced(kHyqFile, "\"rf_foot\", radius", "\"rf_foot\", offset_m = [1, 2, 3], radius");
   const RobotModel robot = load_robot({"hyq.toml", with_offset + limits}, test::test_search());
   EXPECT_EQ(robot.name(), "HyQ");
   EXPECT_EQ(robot.nu(), 12);
@@ -61,7 +61,8 @@ TEST_F(RobotFile, NamesTheNearestJoint) {
 
 /// Where the fault is, not where something was mended.
 TEST_F(RobotFile, NamesTheUrdfForWhatItDoesNotReplace) {
-  const std::string mended = kHyqFile + "[limits.lf_haa_joint]\nvelocity_radps = 5\n[limits.lf_kfe_joint]\nposition_rad = [-1, -1]\n";
+  const std::string mended =
+      kHyqFile + "[limits.lf_haa_joint]\nvelocity_radps = 5\n[limits.lf_kfe_joint]\nposition_rad = [-1, -1]\n";
   EXPECT_THAT(message_of(mended), StartsWith("hyq.toml:24:9: limits.lf_kfe_joint: "));
 }
 
@@ -86,8 +87,9 @@ TEST_F(RobotFile, RefusesWrongValues) {
 
 TEST_F(RobotFile, RefusesNamesThatBreakFiles) {
   for (const char* name : {"lf,foot", "lf\\nfoot", "lf foot ", "f\u00fc\u00df"}) {
-    EXPECT_THAT(message("{ name = \"lf_foot\"", std::string("{ name = \"") + name + "\""),
-                StartsWith("hyq.toml:4:12: contact[0].name: this name is not allowed; need at most 200 printable ASCII"))
+    EXPECT_THAT(
+        message("{ name = \"lf_foot\"", std::string("{ name = \"") + name + "\""),
+        StartsWith("hyq.toml:4:12: contact[0].name: this name is not allowed; need at most 200 printable ASCII"))
         << name;
   }
 }
@@ -130,10 +132,11 @@ TEST_F(RobotFile, ListsEveryPlaceWhereTheUrdfIsNot) {
 }
 
 TEST_F(RobotFile, FindsThePathsRelativeToItself) {
-  const auto source = std::filesystem::path(PROWL_ROBOTS_DATA) /
-                      "example-robot-data/robots/hyq_description/robots/hyq_no_sensors.urdf";
+  const auto source =
+      std::filesystem::path(PROWL_ROBOTS_DATA) / "example-robot-data/robots/hyq_description/robots/hyq_no_sensors.urdf";
   folder_.write("models/hyq.urdf", test::read_file(source));
-  const std::string text = "name = \"HyQ\"\nurdf = \"../models/hyq.urdf\"\n[[contact]]\nname = \"foot\"\nframe = \"lf_foot\"\n";
+  const std::string text =
+      "name = \"HyQ\"\nurdf = \"../models/hyq.urdf\"\n[[contact]]\nname = \"foot\"\nframe = \"lf_foot\"\n";
   const auto file = folder_.write("robots/hyq.toml", text);
   EXPECT_EQ(read_robot_file(file, {}).urdf, folder_.path() / "models/hyq.urdf");
   EXPECT_EQ(load_robot(read_text_file(file), {}).nu(), 12);

@@ -45,8 +45,8 @@ TEST_F(TaskFile, GivesTheProblemThatItDescribes) {
 
 TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
   const std::string with_steps =
-      test::replaced(test::replaced(kTaskFile, "duration_s = 2.0", "duration_s = [1.0, 2.0]\nsteps = \"free\""), "time_s = 2.0",
-                     "phase = \"stand\"");
+      test::replaced(test::replaced(kTaskFile, "duration_s = 2.0", "duration_s = [1.0, 2.0]\nsteps = \"free\""),
+                     "time_s = 2.0", "phase = \"stand\"");
   const auto goal_at = [&](const std::string& fraction) {
     return read(test::replaced(with_steps, "[start]", fraction + "\n[start]")).problem.boundary_conditions[1].at;
   };
@@ -98,15 +98,18 @@ on = "slope")";
   const Eigen::VectorXd &q = on_slope.start_configuration(), &q_level = level.start_configuration();
   const Eigen::Vector3d normal = Eigen::Vector3d(-1, 0, 2).normalized();
   EXPECT_EQ(q.tail(12), q_level.tail(12));
-  EXPECT_NEAR(on_slope.surfaces[0].distance(base_position(q)), q_level(2), 1e-12) << "as high above it as above level ground";
+  EXPECT_NEAR(on_slope.surfaces[0].distance(base_position(q)), q_level(2), 1e-12)
+      << "as high above it as above level ground";
   EXPECT_NEAR((base_rotation(q) * Eigen::Vector3d::UnitZ() - normal).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((base_rotation(q) * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-12) << "no more than that";
+  EXPECT_NEAR((base_rotation(q) * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitY()).norm(), 0.0, 1e-12)
+      << "no more than that";
   // Angles of a goal that are free are those of the start.
   const std::string goal = "base_rpy_rad = [\"free\", \"free\", 0]\n";
   const MotionProblem turned = read(test::replaced(kTaskFile, "[start]", goal + slope)).problem;
   EXPECT_NEAR((base_rotation(turned.boundary_conditions[1].q_ref) - base_rotation(q)).norm(), 0.0, 1e-12);
 
-  EXPECT_THAT(message("[start]", slope + "\nbase_position_m = [0, 0, 1]"), HasSubstr("need either on or base_position_m"));
+  EXPECT_THAT(message("[start]", slope + "\nbase_position_m = [0, 0, 1]"),
+              HasSubstr("need either on or base_position_m"));
   EXPECT_THAT(message("[start]", "[start]\non = \"slop\""), HasSubstr("surface"));
 }
 
@@ -116,7 +119,8 @@ base_angular_velocity_radps = [0, [-1, 2], "free"]
 joints = { lf_kfe_joint = [-1.6, -1.4] }
 joint_velocity_radps = { lf_kfe_joint = 0.5 }
 torque_Nm = { lf_kfe_joint = [10, 20] }
-[start])")).problem;
+[start])"))
+                                    .problem;
   const BoundaryCondition& goal = problem.boundary_conditions[1];
   EXPECT_TRUE(base_rotation(goal.q_ref).isApprox(rotation_from_rpy({0.1, 0.0, 0.3}), 1e-14));
   EXPECT_EQ(goal.configuration_upper(3), 0.0);
@@ -186,7 +190,8 @@ joint_velocity_radps = 7
 torque_share = 0.2
 landing_s = 0
 bandwidth_radps = 60
-)").tracking;
+)")
+                                       .tracking;
   EXPECT_EQ(tracking.step, 0.004);
   EXPECT_EQ(tracking.landing_time, 0.0);
   EXPECT_EQ(tracking.largest_bandwidth, 60.0);
@@ -199,15 +204,17 @@ bandwidth_radps = 60
 }
 
 TEST_F(TaskFile, RefusesTrackingThatMakesNoSense) {
-  for (const char* line : {"base_position_m = 0", "joint_position_rad = -1", "step_s = 1", "torque_share = 0", "landing_s = -1",
-                           "bandwidth_radps = 0", "stiffness = 3", "joint_position_rad = { nose = 1 }"}) {
+  for (const char* line :
+       {"base_position_m = 0", "joint_position_rad = -1", "step_s = 1", "torque_share = 0", "landing_s = -1",
+        "bandwidth_radps = 0", "stiffness = 3", "joint_position_rad = { nose = 1 }"}) {
     const std::string key = std::string(line).substr(0, std::string(line).find(' '));
     EXPECT_THAT(message_of(kTaskFile + "\n[tracking]\n" + line + "\n"), HasSubstr(key)) << line;
   }
 }
 
 TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
-  const Task task = read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5, .tolerance = 1e-9});
+  const Task task =
+      read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5, .tolerance = 1e-9});
   EXPECT_EQ(task.problem.phases[0].intervals, 40);
   EXPECT_EQ(task.problem.boundary_conditions[1].at, (NodeRef{0, 40})) << "the goal stays at its time";
   EXPECT_EQ(task.solver.max_iterations, 7);
@@ -257,8 +264,9 @@ TEST_F(TaskFile, RefusesUnknownContact) {
 }
 
 TEST_F(TaskFile, RefusesUnknownSurface) {
-  EXPECT_EQ(message("\"all\"", "[{ contact = \"lf_foot\", surface = \"flor\" }]"),
-            "task.toml:5:46: phase[0].contacts[0].surface: unknown surface \"flor\"; did you mean 'floor'? Known: floor");
+  EXPECT_EQ(
+      message("\"all\"", "[{ contact = \"lf_foot\", surface = \"flor\" }]"),
+      "task.toml:5:46: phase[0].contacts[0].surface: unknown surface \"flor\"; did you mean 'floor'? Known: floor");
 }
 
 TEST_F(TaskFile, RefusesWrongType) {
@@ -281,7 +289,8 @@ TEST_F(TaskFile, RefusesNegativeAndZeroDuration) {
 TEST_F(TaskFile, RefusesMotionsOfMoreThanTenMinutes) {
   EXPECT_EQ(message("2.0\nintervals", "2000\nintervals"),
             "task.toml:6:14: phase[0].duration_s: 2000 is not allowed; need a number from 0.001 to 600 [s]");
-  EXPECT_THAT(message("[[phase]]", "[[phase]]\nname = \"wait\"\ncontacts = \"all\"\nduration_s = 599\nintervals = 5\n\n[[phase]]"),
+  EXPECT_THAT(message("[[phase]]",
+                      "[[phase]]\nname = \"wait\"\ncontacts = \"all\"\nduration_s = 599\nintervals = 5\n\n[[phase]]"),
               HasSubstr("phases of 601 s in all are not allowed; need at most 600 s"));
 }
 
@@ -368,8 +377,9 @@ TEST_F(TaskFile, RefusesStartOutsideItsLimits) {
 }
 
 TEST_F(TaskFile, RefusesUnknownJoint) {
-  EXPECT_THAT(message("lf_haa_joint = -0.1", "lf_haa_jont = -0.1"),
-              StartsWith("task.toml:12:12: start.joints.lf_haa_jont: unknown joint; did you mean 'lf_haa_joint'? Known: "));
+  EXPECT_THAT(
+      message("lf_haa_joint = -0.1", "lf_haa_jont = -0.1"),
+      StartsWith("task.toml:12:12: start.joints.lf_haa_jont: unknown joint; did you mean 'lf_haa_joint'? Known: "));
 }
 
 TEST_F(TaskFile, RefusesDuplicateKey) {
@@ -384,7 +394,8 @@ TEST_F(TaskFile, RefusesZeroIntervals) {
 
 TEST_F(TaskFile, RefusesNoPhase) {
   EXPECT_EQ(message_of("robot = \"hyq.toml\"\n"),
-            "task.toml:1:1: phase: missing; need [[phase]], one or more, or [gait]: times with one set of contacts, in order");
+            "task.toml:1:1: phase: missing; need [[phase]], one or more, or [gait]: times with one set of contacts, in "
+            "order");
   EXPECT_EQ(message_of("robot = \"hyq.toml\"\nphase = []\n"),
             "task.toml:2:9: phase: an empty list is not allowed; need one phase or more");
 }

@@ -74,8 +74,9 @@ TEST_F(TaskGait, GoesWhereTheBaseFacesUnlessSaid) {
     return Eigen::Vector3d(base_position(problem.boundary_conditions.at(1).q_ref) -
                            base_position(problem.start_configuration()));
   };
-  EXPECT_NEAR((place("[start]\nbase_rpy_rad = [0, 0, 1.0]") - 0.6 * Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0)).norm(),
-              0.0, 1e-12);
+  EXPECT_NEAR(
+      (place("[start]\nbase_rpy_rad = [0, 0, 1.0]") - 0.6 * Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0)).norm(),
+      0.0, 1e-12);
   EXPECT_NEAR((place("heading_rad = 3.0") - 0.6 * Eigen::Vector3d(std::cos(3.0), std::sin(3.0), 0)).norm(), 0.0, 1e-12);
 }
 
@@ -85,9 +86,10 @@ TEST_F(TaskGait, ClimbsASlope) {
   const Eigen::Matrix3d turn = rotation_from_rpy({0.0, -slope, 0.0});
   const Eigen::Vector3d base = turn * base_position(read(kGaitFile).problem.start_configuration());
   const Eigen::Vector3d normal = turn.col(2);
-  const std::string scene = fmt::format("[[surface]]\nname = \"slope\"\nnormal = [{}, {}, {}]\n"
-                                        "[start]\nbase_rpy_rad = [0, {}, 0]\nbase_position_m = [{}, {}, {}]\n[cost]",
-                                        normal.x(), normal.y(), normal.z(), -slope, base.x(), base.y(), base.z());
+  const std::string scene = fmt::format(
+      "[[surface]]\nname = \"slope\"\nnormal = [{}, {}, {}]\n"
+      "[start]\nbase_rpy_rad = [0, {}, 0]\nbase_position_m = [{}, {}, {}]\n[cost]",
+      normal.x(), normal.y(), normal.z(), -slope, base.x(), base.y(), base.z());
   const MotionProblem problem = read(test::replaced(kGaitFile, "[cost]", scene)).problem;
   const BoundaryCondition& goal = problem.boundary_conditions.at(1);
   const Eigen::Vector3d moved = base_position(goal.q_ref) - base_position(problem.start_configuration());
@@ -114,7 +116,8 @@ start_s = 0.3
 settle_s = 0.7
 surface = "ground"
 intervals_per_second = 20
-)").problem;
+)")
+                                    .problem;
   ASSERT_EQ(problem.phases.size(), 6u);
   EXPECT_EQ(problem.phases[0].duration.min, 0.3);
   EXPECT_EQ(problem.phases[5].duration.max, 0.7);
@@ -141,11 +144,13 @@ TEST_F(TaskGait, RefusesPhasesBesideIt) {
 
 TEST_F(TaskGait, RefusesAGoalOfItsOwnBesideGoals) {
   const std::string goal = "[[goal]]\nphase = \"settle\"\nbase_displacement_m = [0, 0, 0]\n[cost]";
-  EXPECT_EQ(message("[cost]", goal), "task.toml:6:19: gait.stride_length_m: has no use beside [[goal]], which says where "
-                                     "to go; need one of the two");
-  EXPECT_EQ(message("stride_length_m = 0.2\n", ""),
-            "task.toml:2:1: gait.stride_length_m: missing; need number >= 0 [m]; not with [[goal]]: how far the base goes "
-            "along the surface in each");
+  EXPECT_EQ(message("[cost]", goal),
+            "task.toml:6:19: gait.stride_length_m: has no use beside [[goal]], which says where "
+            "to go; need one of the two");
+  EXPECT_EQ(
+      message("stride_length_m = 0.2\n", ""),
+      "task.toml:2:1: gait.stride_length_m: missing; need number >= 0 [m]; not with [[goal]]: how far the base goes "
+      "along the surface in each");
 }
 
 TEST_F(TaskGait, RefusesWhatIsNoGait) {
@@ -176,14 +181,16 @@ TEST_F(TaskGait, RefusesAWall) {
 TEST_F(TaskGait, RefusesARobotWithoutFourFeet) {
   folder_.write("one.toml", test::replaced(test::kHyqFile,
                                            "  { name = \"rh_foot\", frame = \"rh_foot\", radius_m = 0.02175 },\n", ""));
-  EXPECT_EQ(message("hyq.toml", "one.toml"),
-            "task.toml:2:1: gait: a gait needs four contacts, one fore left, fore right, hind left and hind right in the "
-            "nominal posture; the 3 of HyQ are not that: write the phases out as [[phase]]");
+  EXPECT_EQ(
+      message("hyq.toml", "one.toml"),
+      "task.toml:2:1: gait: a gait needs four contacts, one fore left, fore right, hind left and hind right in the "
+      "nominal posture; the 3 of HyQ are not that: write the phases out as [[phase]]");
 }
 
 TEST_F(TaskGait, IsNamedWhereItsStartIsOffTheSurface) {
   const std::string high = "[[surface]]\nname = \"step\"\npoint_m = [0, 0, -0.1]\n[cost]";
-  EXPECT_THAT(message("[cost]", high), StartsWith("task.toml:2:1: gait: contact 'lf_foot' of the first phase is 100.0 mm"));
+  EXPECT_THAT(message("[cost]", high),
+              StartsWith("task.toml:2:1: gait: contact 'lf_foot' of the first phase is 100.0 mm"));
 }
 
 }  // namespace

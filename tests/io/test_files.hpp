@@ -89,7 +89,8 @@ joints = { lf_haa_joint = -0.1, rf_haa_joint = -0.1, lh_haa_joint = -0.1, rh_haa
 torque = 1e-3
 )";
 
-/// `text` with its only occurrence of `from` replaced. Throws if there is not exactly one: the test would check nothing.
+/// `text` with its only occurrence of `from` replaced. Throws if there is not exactly one: the test would check
+/// nothing.
 inline std::string replaced(const std::string& text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   if (at == std::string::npos || text.find(from, at + 1) != std::string::npos) {

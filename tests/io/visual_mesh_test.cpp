@@ -16,7 +16,8 @@ using testing::HasSubstr;
 
 /// A triangle in a Collada file; its first corner is at (1, 2, 3) of the file's unit.
 std::string collada(const std::string& up, double metres) {
-  return fmt::format(R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+  return fmt::format(
+      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="u" meter="{}"/><up_axis>{}</up_axis></asset>
 <library_geometries><geometry id="g"><mesh>
 <source id="p"><float_array id="pa" count="9">1 2 3 5 0 0 0 7 0</float_array><technique_common><accessor source="#pa" count="3" stride="3">
@@ -24,7 +25,8 @@ std::string collada(const std::string& up, double metres) {
 <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
 <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles></mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><node id="n"><translate>0 0 10</translate><instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#s"/></scene></COLLADA>)", metres, up);
+<scene><instance_visual_scene url="#s"/></scene></COLLADA>)",
+      metres, up);
 }
 
 /// A ball of radius 1 as a Wavefront file: `rings` times twice as many corners.
@@ -63,14 +65,16 @@ TEST_F(VisualMeshFile, TakesUnitAndNodesButKeepsTheAxesOfCollada) {
       ASSERT_EQ(meshes[0].num_triangles(), 1u);
       const float* const corner = &meshes[0].positions[3 * meshes[0].triangles[0]];
       EXPECT_THAT((std::vector<float>(corner, corner + 3)),
-                  testing::Pointwise(testing::FloatNear(1e-6f), {metres * 1, metres * 2, metres * 13})) << up;
+                  testing::Pointwise(testing::FloatNear(1e-6f), {metres * 1, metres * 2, metres * 13}))
+          << up;
     }
   }
 }
 
 TEST_F(VisualMeshFile, SharesCornersAndKeepsColours) {
   folder_.write("two.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n");
-  const auto file = folder_.write("two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\nusemtl blue\nf 4 3 2\n");
+  const auto file = folder_.write(
+      "two.obj", "mtllib two.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nusemtl red\nf 1 2 3 4\nusemtl blue\nf 4 3 2\n");
   const auto meshes = read_visual_mesh(file);
   ASSERT_EQ(meshes.size(), 2u);
   std::map<std::size_t, Eigen::Vector3d> colours;  // by number of triangles
@@ -92,7 +96,9 @@ TEST_F(VisualMeshFile, ReducesABallToOneOfNearlyTheSameShape) {
   for (const std::uint32_t corner : mesh.triangles) ASSERT_LT(corner, mesh.num_vertices());
   double volume = 0.0;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
-    const auto corner = [&](std::size_t k) { return Eigen::Map<const Eigen::Vector3f>(&mesh.positions[3 * mesh.triangles[t + k]]).cast<double>().eval(); };
+    const auto corner = [&](std::size_t k) {
+      return Eigen::Map<const Eigen::Vector3f>(&mesh.positions[3 * mesh.triangles[t + k]]).cast<double>().eval();
+    };
     volume += corner(0).dot(corner(1).cross(corner(2))) / 6.0;
   }
   EXPECT_NEAR(volume, 4.0 / 3.0 * std::numbers::pi, 0.03 * volume);  // turned right way round, too
@@ -109,9 +115,12 @@ TEST_F(VisualMeshFile, RefusesWhatIsNoMesh) {
   EXPECT_THAT(refusal("part.txt", "v 0 0 0"), HasSubstr("part.txt: this kind of mesh is not read"));
   EXPECT_THAT(refusal("part.dae", "<COLLADA"), HasSubstr("part.dae: Assimp cannot read it"));
   EXPECT_THAT(refusal("part.obj", "v 0 0 0\n"), HasSubstr("part.obj: "));
-  EXPECT_THAT(refusal("part.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"),
+  EXPECT_THAT(refusal("part.stl",
+                      "solid a\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 "
+                      "0\nendloop\nendfacet\nendsolid a\n"),
               HasSubstr("part.stl: "));
-  EXPECT_THAT(test::message_of(folder_.path(), [&] { read_visual_mesh(folder_.path() / "none.stl"); }), HasSubstr("none.stl: cannot be read"));
+  EXPECT_THAT(test::message_of(folder_.path(), [&] { read_visual_mesh(folder_.path() / "none.stl"); }),
+              HasSubstr("none.stl: cannot be read"));
 }
 
 }  // namespace

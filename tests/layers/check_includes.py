@@ -5,6 +5,7 @@ Usage: check_includes.py SOURCE_DIR [INTERNAL_HEADER...]. Prints one line for ea
 status 1 if there is one. Internal headers are those that show a library of the table below, by themselves or through
 another header; they are not installed, and all of them must be named.
 """
+
 import re
 import sys
 from pathlib import Path
@@ -103,10 +104,14 @@ def headers_that_show_libraries(files, internal_headers):
         return None
 
     showing = {name: shown(name, set()) for name in files if name.endswith(".hpp")}
-    found = [f"{name}: shows {library} and is not an internal header"
-             for name, library in showing.items() if library and name not in internal_headers]
-    return found + [f"{name}: does not show a library, is no internal header"
-                    for name in internal_headers if not showing.get(name)]
+    found = [
+        f"{name}: shows {library} and is not an internal header"
+        for name, library in showing.items()
+        if library and name not in internal_headers
+    ]
+    return found + [
+        f"{name}: does not show a library, is no internal header" for name in internal_headers if not showing.get(name)
+    ]
 
 
 def solvers_in_two_files(files):

@@ -1,4 +1,5 @@
 """Puts one include at a time into a small tree and looks whether check_includes.py finds it."""
+
 import tempfile
 import unittest
 from pathlib import Path
@@ -22,17 +23,21 @@ class CheckIncludes(unittest.TestCase):
         return violations(self.root, internal)
 
     def test_accepts_the_direction_of_the_layers(self):
-        self.assertEqual([], self.found(
-            internal=["prowl/model/pinocchio_model.hpp"],
-            model__robot_hpp="<Eigen/Core>",
-            model__robot_cpp='"prowl/model/pinocchio_model.hpp"',
-            model__pinocchio_model_hpp="<pinocchio/multibody/model.hpp>",
-            dynamics__terms_cpp="<pinocchio/algorithm/rnea.hpp>",
-            motion__cost_hpp='"prowl/dynamics/terms.hpp"',
-            transcription__defects_cpp='"prowl/nlp/nlp.hpp"',
-            solvers__ipopt_solver_cpp="<IpTNLP.hpp>",
-            nlp__nlp_cpp='"prowl/error.hpp"',
-            plan_cpp='"prowl/transcription/mesh.hpp"'))
+        self.assertEqual(
+            [],
+            self.found(
+                internal=["prowl/model/pinocchio_model.hpp"],
+                model__robot_hpp="<Eigen/Core>",
+                model__robot_cpp='"prowl/model/pinocchio_model.hpp"',
+                model__pinocchio_model_hpp="<pinocchio/multibody/model.hpp>",
+                dynamics__terms_cpp="<pinocchio/algorithm/rnea.hpp>",
+                motion__cost_hpp='"prowl/dynamics/terms.hpp"',
+                transcription__defects_cpp='"prowl/nlp/nlp.hpp"',
+                solvers__ipopt_solver_cpp="<IpTNLP.hpp>",
+                nlp__nlp_cpp='"prowl/error.hpp"',
+                plan_cpp='"prowl/transcription/mesh.hpp"',
+            ),
+        )
 
     def test_refuses_each_step_against_it(self):
         for name, include in [
@@ -74,7 +79,10 @@ class CheckIncludes(unittest.TestCase):
                 self.assertEqual([], self.found(**{name: "<vector>"}))
 
     def test_refuses_public_headers_that_show_a_library_through_another(self):
-        hidden = {"model__hidden_hpp": "<pinocchio/multibody/model.hpp>", "model__hidden_cpp": '"prowl/model/hidden.hpp"'}
+        hidden = {
+            "model__hidden_hpp": "<pinocchio/multibody/model.hpp>",
+            "model__hidden_cpp": '"prowl/model/hidden.hpp"',
+        }
         internal = ["prowl/model/hidden.hpp"]
         self.assertEqual([], self.found(internal, **hidden))
         self.assertEqual(1, len(self.found(internal, **hidden, dynamics__terms_hpp='"prowl/model/hidden.hpp"')))

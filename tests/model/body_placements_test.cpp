@@ -20,8 +20,10 @@ std::vector<Eigen::Isometry3d> by_hand(const BodyTree& tree, const Eigen::Vector
     }
     const double s = q(6 + static_cast<Eigen::Index>(b));
     Eigen::Isometry3d joint = Eigen::Isometry3d::Identity();
-    if (body.prismatic) joint.translate(s * body.axis);
-    else joint.rotate(Eigen::AngleAxisd(s, body.axis));
+    if (body.prismatic)
+      joint.translate(s * body.axis);
+    else
+      joint.rotate(Eigen::AngleAxisd(s, body.axis));
     placements.push_back(placements[body.parent] * body.placement * joint);
   }
   return placements;

@@ -42,7 +42,8 @@ TEST(LimitCurve, RefusesTablesThatAreNone) {
 }
 
 TEST(Surface, CoordinatesAndPlacesAreInverse) {
-  for (const Eigen::Vector3d& normal : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.2, -0.1, 1.0), Eigen::Vector3d(-1, 0, 0)}) {
+  for (const Eigen::Vector3d& normal :
+       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.2, -0.1, 1.0), Eigen::Vector3d(-1, 0, 0)}) {
     const Surface surface{.point = {0.3, -0.2, 0.1}, .normal = normal.normalized()};
     Eigen::Matrix3d frame;
     frame << surface.axes(), surface.normal;

@@ -7,11 +7,11 @@ namespace {
 
 TEST(NearestName, IsTheOneWithTheFewestChangedLetters) {
   const std::vector<std::string> names = {"lf_foot", "lh_foot", "rf_foot", "trunk"};
-  EXPECT_EQ(nearest_name("lf_fot", names), "lf_foot");    // one missing
-  EXPECT_EQ(nearest_name("rf__foot", names), "rf_foot");  // one added
-  EXPECT_EQ(nearest_name("trumk", names), "trunk");       // one changed
+  EXPECT_EQ(nearest_name("lf_fot", names), "lf_foot");                // one missing
+  EXPECT_EQ(nearest_name("rf__foot", names), "rf_foot");              // one added
+  EXPECT_EQ(nearest_name("trumk", names), "trunk");                   // one changed
   EXPECT_EQ(nearest_name("sotp", {"step", "sofa", "stop"}), "stop");  // two swapped: one mistake
-  EXPECT_EQ(nearest_name("LH_FOOT", names), "lh_foot");   // case does not count
+  EXPECT_EQ(nearest_name("LH_FOOT", names), "lh_foot");               // case does not count
   EXPECT_EQ(nearest_name("trunk", names), "trunk");
 }
 

@@ -120,7 +120,8 @@ TEST(RobotInspection, WarnsOfMillimetresAndGrams) {
   }
   RobotDescription hyq = test::hyq_description();
   hyq.contacts[1].radius = 21.75;
-  EXPECT_THAT(texts(inspect(RobotModel(hyq)), Kind::size), Contains(AllOf(HasSubstr("'lh_foot'"), HasSubstr("radius of 21.8 m"), HasSubstr("metres?"))));
+  EXPECT_THAT(texts(inspect(RobotModel(hyq)), Kind::size),
+              Contains(AllOf(HasSubstr("'lh_foot'"), HasSubstr("radius of 21.8 m"), HasSubstr("metres?"))));
   RobotDescription grams = test::small_description("/nowhere/small.urdf");
   grams.urdf_text = test::replaced(test::small_urdf(), "mass value=\"10\"", "mass value=\"10000\"");
   EXPECT_THAT(implausible_sizes(RobotModel(grams)), ElementsAre(HasSubstr("in kilograms and metres?")));

@@ -224,7 +224,8 @@ TEST(RobotModel, RefusesFilesThatCannotBeReadOrAreNoRobot) {
   const std::filesystem::path pipe = folder.write("pipe", "");
   std::filesystem::remove(pipe);
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_THAT(message_for<FileError>(test::small_description(pipe)), HasSubstr("cannot be read")) << "nobody writes to it";
+  EXPECT_THAT(message_for<FileError>(test::small_description(pipe)), HasSubstr("cannot be read"))
+      << "nobody writes to it";
   EXPECT_THAT(message_for(test::small_description(folder.write("a.urdf", "[robot]"))), HasSubstr("not an XML file"));
   EXPECT_THAT(message_for(test::small_description(folder.write("b.urdf", "<sdf/>"))), HasSubstr("not a URDF"));
   EXPECT_EQ(message_for(test::small_description(folder.write("c.urdf", test::small_urdf()))), "accepted");

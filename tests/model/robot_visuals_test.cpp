@@ -24,7 +24,8 @@ TEST(RobotVisuals, HyqHasItsMeshesOnTheRightBodies) {
     EXPECT_THAT(joint, testing::EndsWith(behind.at(part))) << visual.link;
     EXPECT_EQ(visual.link == "trunk" ? "ba" : visual.link.substr(0, 2), joint.substr(0, 2));
   }
-  EXPECT_EQ(meshes, (std::map<std::string, int>{{"hipassembly.dae", 4}, {"upperleg.dae", 4}, {"lowerleg.dae", 4}, {"trunk.dae", 1}}));
+  EXPECT_EQ(meshes, (std::map<std::string, int>{
+                        {"hipassembly.dae", 4}, {"upperleg.dae", 4}, {"lowerleg.dae", 4}, {"trunk.dae", 1}}));
 }
 
 TEST(RobotVisuals, BallsOfTheFeetAreWhereTheContactsAre) {
@@ -55,7 +56,8 @@ TEST(RobotVisuals, AnInertiaBoxHasTheBodysInertia) {
       const Eigen::Vector3d moments = body.mass / 12.0 * (Eigen::Vector3d::Constant(squares.sum()) - squares);
       const Eigen::Matrix3d R = box->placement.linear();
       EXPECT_NEAR(R.determinant(), 1.0, 1e-12);
-      EXPECT_LT((R * moments.asDiagonal() * R.transpose() - body.inertia).norm(), 1e-9 * body.inertia.norm()) << body.name;
+      EXPECT_LT((R * moments.asDiagonal() * R.transpose() - body.inertia).norm(), 1e-9 * body.inertia.norm())
+          << body.name;
       EXPECT_EQ(box->placement.translation(), body.center);
       ++compared;
     }

@@ -31,27 +31,33 @@ TEST(UrdfCheck, AcceptsASoundRobotAndReportsItsInertias) {
 TEST(UrdfCheck, TakesShapesThatItCannotUse) {
   for (const char* shape : {"<teapot/>", "", "<mesh filename=\"package://nowhere/x.stl\" scale=\"1 -1 1\"/>",
                             "<plane normal=\"0 0 1\"/>", "<box size=\"0 0 0\"/>"}) {
-    const std::string link = std::string("<link name=\"left_foot\"><visual><geometry>") + shape + "</geometry></visual></link>";
+    const std::string link =
+        std::string("<link name=\"left_foot\"><visual><geometry>") + shape + "</geometry></visual></link>";
     EXPECT_EQ(message_for(replaced(small_urdf(), "<link name=\"left_foot\"/>", link)), "accepted") << shape;
   }
 }
 
 TEST(UrdfCheck, RefusesShapesWithoutSense) {
   const auto message = [](const std::string& visual) {
-    return message_for(replaced(small_urdf(), "<link name=\"left_foot\"/>", "<link name=\"left_foot\"><visual>" + visual + "</visual></link>"));
+    return message_for(replaced(small_urdf(), "<link name=\"left_foot\"/>",
+                                "<link name=\"left_foot\"><visual>" + visual + "</visual></link>"));
   };
-  for (const char* shape : {"<box size=\"nan 1 1\"/>", "<box size=\"1 1\"/>", "<box size=\"1 -1 1\"/>", "<box/>", "<sphere radius=\"-1\"/>",
-                            "<sphere/>", "<cylinder radius=\"1\"/>", "<capsule radius=\"1\" length=\"inf\"/>", "<mesh/>",
-                            "<mesh filename=\"x\" scale=\"1 1\"/>"}) {
-    EXPECT_THAT(message(std::string("<geometry>") + shape + "</geometry>"), testing::HasSubstr("link 'left_foot': <")) << shape;
+  for (const char* shape :
+       {"<box size=\"nan 1 1\"/>", "<box size=\"1 1\"/>", "<box size=\"1 -1 1\"/>", "<box/>", "<sphere radius=\"-1\"/>",
+        "<sphere/>", "<cylinder radius=\"1\"/>", "<capsule radius=\"1\" length=\"inf\"/>", "<mesh/>",
+        "<mesh filename=\"x\" scale=\"1 1\"/>"}) {
+    EXPECT_THAT(message(std::string("<geometry>") + shape + "</geometry>"), testing::HasSubstr("link 'left_foot': <"))
+        << shape;
   }
   EXPECT_THAT(message("<origin xyz=\"0 nan 0\"/>"), testing::HasSubstr("link 'left_foot': <origin xyz"));
-  EXPECT_THAT(message("<material name=\"m\"><color rgba=\"1 0 0\"/></material>"), testing::HasSubstr("four finite numbers"));
+  EXPECT_THAT(message("<material name=\"m\"><color rgba=\"1 0 0\"/></material>"),
+              testing::HasSubstr("four finite numbers"));
 }
 
 TEST(UrdfCheck, RefusesEntities) {
   const std::string bomb = "<!DOCTYPE r [<!ENTITY a \"aaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]>";
-  EXPECT_THAT(message_for(replaced(small_urdf(), "<robot", bomb + "<robot")), testing::HasSubstr("robot.urdf:2: entities"));
+  EXPECT_THAT(message_for(replaced(small_urdf(), "<robot", bomb + "<robot")),
+              testing::HasSubstr("robot.urdf:2: entities"));
   EXPECT_EQ(message_for(replaced(small_urdf(), "<robot", "<!DOCTYPE robot><robot")), "accepted");
 }
 
@@ -67,7 +73,8 @@ TEST(UrdfCheck, CutsWhatItQuotes) {
   };
   const std::string cut = message(std::string(1000000, '1'));
   EXPECT_LT(cut.size(), 400u);
-  EXPECT_THAT(cut, testing::AllOf(testing::HasSubstr("link 'left_leg'"), testing::HasSubstr("(1000000 bytes)"), testing::HasSubstr("finite")));
+  EXPECT_THAT(cut, testing::AllOf(testing::HasSubstr("link 'left_leg'"), testing::HasSubstr("(1000000 bytes)"),
+                                  testing::HasSubstr("finite")));
   EXPECT_THAT(message("\x1b[2J"), testing::HasSubstr("\"\\x1b[2J\""));
 }
 

@@ -19,7 +19,9 @@ TEST(ConfigurationCost, DerivativesAreThoseOfDifferences) {
     const Eigen::VectorXd q_ref = robot.nominal_configuration(), q = integrate(q_ref, tangent);
     const Eigen::VectorXd weight = Eigen::VectorXd::LinSpaced(nv, 1.0, 5.0);
     const ConfigurationCost cost = configuration_cost(q_ref, weight, q);
-    const auto value = [&](const Eigen::VectorXd& d) { return configuration_cost(q_ref, weight, integrate(q, d)).value; };
+    const auto value = [&](const Eigen::VectorXd& d) {
+      return configuration_cost(q_ref, weight, integrate(q, d)).value;
+    };
     const auto unit = [&](Eigen::Index i) -> Eigen::VectorXd { return step * Eigen::VectorXd::Unit(nv, i); };
 
     Eigen::MatrixXd hessian = cost.hessian_diagonal.asDiagonal();

@@ -44,7 +44,8 @@ TEST(FrictionLimit, PyramidIsInsideTheConeAndTouchesIt) {
     }
   }
   EXPECT_GT(accepted, 50) << "the samples never enter the pyramid, so the test checks nothing";
-  const Vector3d corner = kSlope.normal + kSlope.friction * (kSlope.axes().col(0) + kSlope.axes().col(1)) / std::sqrt(2.0);
+  const Vector3d corner =
+      kSlope.normal + kSlope.friction * (kSlope.axes().col(0) + kSlope.axes().col(1)) / std::sqrt(2.0);
   EXPECT_NEAR(limit.rows(corner).minCoeff(), 0.0, 1e-15);
 }
 

@@ -51,10 +51,11 @@ double duration(const std::vector<Phase>& phases) {
 }
 
 TEST(Gait, FindsTheFeetOfRobotsByWhereTheyAre) {
-  for (const auto& [robot, names] : {std::pair{test::hyq(), std::array{"lf_foot", "rf_foot", "lh_foot", "rh_foot"}},
-                                     std::pair{test::anymal_c(), std::array{"LF_FOOT", "RF_FOOT", "LH_FOOT", "RH_FOOT"}},
-                                     std::pair{test::go2(), std::array{"FL_foot", "FR_foot", "RL_foot", "RR_foot"}},
-                                     std::pair{test::solo12(), std::array{"FL_FOOT", "FR_FOOT", "HL_FOOT", "HR_FOOT"}}}) {
+  for (const auto& [robot, names] :
+       {std::pair{test::hyq(), std::array{"lf_foot", "rf_foot", "lh_foot", "rh_foot"}},
+        std::pair{test::anymal_c(), std::array{"LF_FOOT", "RF_FOOT", "LH_FOOT", "RH_FOOT"}},
+        std::pair{test::go2(), std::array{"FL_foot", "FR_foot", "RL_foot", "RR_foot"}},
+        std::pair{test::solo12(), std::array{"FL_FOOT", "FR_FOOT", "HL_FOOT", "HR_FOOT"}}}) {
     const auto feet = find_feet(robot);
     ASSERT_TRUE(feet) << robot.name();
     for (std::size_t i = 0; i < 4; ++i) {

@@ -144,8 +144,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"above", [](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0015; },
                 "contact 'lf_foot' of the first phase is 1.5 mm above surface 'floor'; need at most 1 mm"},
         Mistake{"inside", [](P& p) { p.boundary_conditions[0].q_ref(2) -= 0.0015; }, "1.5 mm inside surface 'floor'"},
-        Mistake{"off_the_patch", [](P& p) { p.surfaces[0].patch = {{-1.0, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {-1.0, 1.0}}; },
-                "contact 'lf_foot' of the first phase is 70.8 mm outside the patch of surface 'floor'; need at most 1 mm"},
+        Mistake{
+            "off_the_patch", [](P& p) { p.surfaces[0].patch = {{-1.0, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {-1.0, 1.0}}; },
+            "contact 'lf_foot' of the first phase is 70.8 mm outside the patch of surface 'floor'; need at most 1 mm"},
         Mistake{"under_ground", [](P& p) { p.surfaces.push_back(Surface{.name = "table", .point = {0.0, 0.0, 1.0}}); },
                 "contact 'lf_foot' starts 1000.0 mm inside surface 'table'"},
         Mistake{
@@ -167,30 +168,40 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"place", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.02); },
                 "phases[0].contacts[1].place: 20.0 mm above surface 'floor' is not allowed"},
         Mistake{"place_at_the_start", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.0); },
-                "phases[0].contacts[1].place: contact 'lh_foot' does not land in this phase, it starts where the start posture has it"},
-        Mistake{"place_held", [](P& p) {
+                "phases[0].contacts[1].place: contact 'lh_foot' does not land in this phase, it starts where the start "
+                "posture has it"},
+        Mistake{"place_held",
+                [](P& p) {
                   p.phases.push_back(p.phases[0]);
                   p.phases[1].contacts[2].place = Eigen::Vector3d(0.3, 0.3, 0.0);
-                }, "phases[1].contacts[2].place: contact 'rf_foot' does not land in this phase, it holds from the phase before"},
-        Mistake{"slides", [](P& p) {
+                },
+                "phases[1].contacts[2].place: contact 'rf_foot' does not land in this phase, it holds from the phase "
+                "before"},
+        Mistake{"slides",
+                [](P& p) {
                   p.surfaces.push_back(Surface{.name = "step", .point = {0.0, 0.0, 0.1}});
                   p.phases.push_back(p.phases[0]);
                   p.phases[1].contacts[2].surface = 1;
-                }, "goes from surface 'floor' to 'step' without opening"},
-        Mistake{"two_rotations", [](P& p) {
+                },
+                "goes from surface 'floor' to 'step' without opening"},
+        Mistake{"two_rotations",
+                [](P& p) {
                   p.phases.push_back(p.phases[0]);
                   p.boundary_conditions[1].configuration_lower.segment<3>(3).setZero();
                   p.boundary_conditions.push_back(p.boundary_conditions[1]);
                   p.boundary_conditions[2].at = {1, 0};  // the other side of the switch: the same time
-                }, "boundary_conditions[2].configuration: it binds the base's rotation at the time at which"},
+                },
+                "boundary_conditions[2].configuration: it binds the base's rotation at the time at which"},
         Mistake{"terminal", [](P& p) { p.terminal_cost.force_weight.setOnes(); },
                 "terminal_cost.force_weight: has no meaning in a terminal cost"},
         Mistake{"size", [](P& p) { p.terminal_cost.torque_weight.setZero(11); },
                 "terminal_cost.torque_weight: 11 entries are not allowed; need 12"},
         Mistake{"reference", [](P& p) { p.running_cost.tau_ref(0) = kInfinity; }, "running_cost.tau_ref[0]: inf"},
         Mistake{"force", [](P& p) { p.running_cost.force_weight.x() = -1.0; }, "running_cost.force_weight[0]: -1"},
-        Mistake{"contact", [](P& p) { p.running_cost.contact_positions = {{7, Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}}; },
-                "running_cost.contact_positions[0].contact: 7"},
+        Mistake{
+            "contact",
+            [](P& p) { p.running_cost.contact_positions = {{7, Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}}; },
+            "running_cost.contact_positions[0].contact: 7"},
         Mistake{"tolerance", [](P& p) { p.goal_tolerance.angle = 0.0; }, "goal_tolerance.angle: 0 is not allowed"}),
     [](const auto& info) { return info.param.name; });
 

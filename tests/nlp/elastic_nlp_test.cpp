@@ -18,8 +18,10 @@ constexpr double kInfinity = test::TestNlp::kInfinity;
 struct Soft {
   Soft() {
     inner.z_lower(2) = -kInfinity;
-    elastic.emplace(inner, std::vector<SoftBound>{{true, 1, 2.0, 3.0}, {false, 2, 0.5, 4.0}, {true, 0, 10.0, 5.0}, {false, 0, 1.5, 6.0}},
-                    0.7);
+    elastic.emplace(
+        inner,
+        std::vector<SoftBound>{{true, 1, 2.0, 3.0}, {false, 2, 0.5, 4.0}, {true, 0, 10.0, 5.0}, {false, 0, 1.5, 6.0}},
+        0.7);
   }
   test::Hs071 inner;
   std::optional<ElasticNlp> elastic;

@@ -1,4 +1,5 @@
 """Random tasks of scripts/load depend on the seed alone, and its report counts what the judge found."""
+
 import pathlib
 import random
 import sys
@@ -19,8 +20,15 @@ def drawn(seed: int, count: int) -> list[tuple[str, dict]]:
 
 
 def motion(seconds: float, error: float, *broken: str, good: bool = True) -> dict:
-    return {"converged": True, "good": good, "iterations": 5, "seconds": seconds, "error": error,
-            "keeps_task": not broken, "worst": {"check": broken[0] if broken else "slip"}}
+    return {
+        "converged": True,
+        "good": good,
+        "iterations": 5,
+        "seconds": seconds,
+        "error": error,
+        "keeps_task": not broken,
+        "worst": {"check": broken[0] if broken else "slip"},
+    }
 
 
 class RandomTasks(unittest.TestCase):
@@ -40,7 +48,9 @@ class RandomTasks(unittest.TestCase):
             self.assertAlmostEqual(sum(n * n for n in surface["normal"]), 1.0)
             self.assertGreaterEqual(surface["normal"][2], 0.9659)  # 15 degrees
             self.assertTrue(0.2 <= surface["friction"] <= 1.0)
-            self.assertTrue(0.8 <= phase["duration_s"] <= 3.0 and 40 <= phase["intervals"] <= 160 and phase["intervals"] % 2 == 0)
+            self.assertTrue(
+                0.8 <= phase["duration_s"] <= 3.0 and 40 <= phase["intervals"] <= 160 and phase["intervals"] % 2 == 0
+            )
             self.assertEqual([there["time_s"], back["time_s"]], [0.5 * phase["duration_s"], phase["duration_s"]])
             self.assertLessEqual(max(map(abs, there["base_displacement_m"])), reach[robot])
             self.assertEqual(back["base_displacement_m"], [0, 0, 0])
@@ -51,7 +61,12 @@ class Report(unittest.TestCase):
     def setUp(self) -> None:
         refused = {"converged": False, "good": False, "failed": "refused"}
         ours = [motion(0.1, 1e-4), motion(0.2, 2e-3, good=False), refused, motion(0.3, 1e-4)]
-        theirs = [motion(0.2, 1e-2), motion(0.4, 1e-3, "slip"), motion(0.8, 1e-3), motion(0.1, 1e-3, "friction", "slip")]
+        theirs = [
+            motion(0.2, 1e-2),
+            motion(0.4, 1e-3, "slip"),
+            motion(0.8, 1e-3),
+            motion(0.1, 1e-3, "friction", "slip"),
+        ]
         self.records = [{"solvers": {"prowl": a, "sqp:0.01": b}} for a, b in zip(ours, theirs)]
 
     def rows(self) -> dict[str, list[str]]:
@@ -75,8 +90,11 @@ class Report(unittest.TestCase):
         self.assertEqual(rows["CPU time where not [s]"][0], "-")
 
     def test_pairs(self) -> None:
-        self.assertEqual(pairs(self.records), "Prowl and SQP, 10 ms: both keep 1, Prowl alone 2, SQP, 10 ms alone 1, none 0; "
-                                              "Prowl's CPU time over its where both do: 0.50, 0.50, 0.50, 0.50")
+        self.assertEqual(
+            pairs(self.records),
+            "Prowl and SQP, 10 ms: both keep 1, Prowl alone 2, SQP, 10 ms alone 1, none 0; "
+            "Prowl's CPU time over its where both do: 0.50, 0.50, 0.50, 0.50",
+        )
 
     def test_quantiles_stay_within_the_values(self) -> None:
         self.assertEqual(quantiles([]), [])
@@ -85,19 +103,38 @@ class Report(unittest.TestCase):
         self.assertLessEqual(max(quantiles([1.0, 2.0, 4.0])), 4.0)
 
 
-def plan(status: str, *failed: str, good: bool = False, hints: tuple[str, ...] = (), message: str = "") -> types.SimpleNamespace:
-    checks = [types.SimpleNamespace(name=name, passed=name not in failed) for name in ("friction cone", "contact drift")]
-    return types.SimpleNamespace(status=status, good=good, reasons=[], hints=list(hints), message=message,
-                                 certificate=types.SimpleNamespace(checks=checks))
+def plan(
+    status: str, *failed: str, good: bool = False, hints: tuple[str, ...] = (), message: str = ""
+) -> types.SimpleNamespace:
+    checks = [
+        types.SimpleNamespace(name=name, passed=name not in failed) for name in ("friction cone", "contact drift")
+    ]
+    return types.SimpleNamespace(
+        status=status,
+        good=good,
+        reasons=[],
+        hints=list(hints),
+        message=message,
+        certificate=types.SimpleNamespace(checks=checks),
+    )
 
 
 class WhatBecameOfThem(unittest.TestCase):
     def test_a_failure_has_to_say_why(self) -> None:
         tally = Tally({"steep": "too little friction", "easy": ""}.__getitem__)
         self.assertEqual(tally.add(0, "easy", plan("converged", good=True), 0.1), "good")
-        self.assertEqual(tally.add(1, "easy", plan("converged", "friction cone"), 0.1), "converged, certificate failed: certificate: friction cone")
-        self.assertEqual(tally.add(2, "easy", plan("solver_failed", "friction cone", hints=("too weak",)), 0.1), "solver_failed: too weak")
-        self.assertEqual(tally.add(3, "easy", plan("iteration_limit", message="it passes, though"), 0.1), "iteration_limit: it passes, though")
+        self.assertEqual(
+            tally.add(1, "easy", plan("converged", "friction cone"), 0.1),
+            "converged, certificate failed: certificate: friction cone",
+        )
+        self.assertEqual(
+            tally.add(2, "easy", plan("solver_failed", "friction cone", hints=("too weak",)), 0.1),
+            "solver_failed: too weak",
+        )
+        self.assertEqual(
+            tally.add(3, "easy", plan("iteration_limit", message="it passes, though"), 0.1),
+            "iteration_limit: it passes, though",
+        )
         silent = plan("solver_failed", "friction cone", message="no step is an improvement")
         self.assertEqual(tally.add(4, "steep", silent, 0.1), "solver_failed: too little friction")
         self.assertEqual((tally.diagnosed, tally.failures()), ([4], []))

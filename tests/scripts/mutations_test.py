@@ -1,4 +1,5 @@
 """The list of scripts/mutate still fits the code: each text to change is there once, each test that is to notice it exists."""
+
 import pathlib
 import re
 import tomllib

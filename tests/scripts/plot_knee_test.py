@@ -1,4 +1,5 @@
 """scripts/plot_knee on a plan of two knees: the curve is the library's, the image is there, and faults are told in words."""
+
 import importlib.machinery
 import importlib.util
 import json
@@ -29,7 +30,8 @@ class PlotKnee(unittest.TestCase):
     def write_plan(self, robot_file: str) -> None:
         (self.plan / "plan.json").write_text(json.dumps({"robot_file": {"text": robot_file}}))
         (self.plan / "trajectory.csv").write_text(
-            "time_s,q_left_rad,q_right_rad,tau_left_Nm,tau_right_Nm\n0,0.4,0.5,20,-30\n0.1,0.6,0.7,25,-35\n")
+            "time_s,q_left_rad,q_right_rad,tau_left_Nm,tau_right_Nm\n0,0.4,0.5,20,-30\n0.1,0.6,0.7,25,-35\n"
+        )
 
     def run_script(self) -> subprocess.CompletedProcess:
         return subprocess.run([sys.executable, SCRIPT, self.plan], capture_output=True, text=True)

@@ -14,7 +14,10 @@ namespace prowl {
 namespace {
 
 std::vector<Surface> floor_and_block() {
-  Surface block{.name = "block", .point = {0.8, 0.1, 0.1}, .normal = Eigen::Vector3d(0.1, 0.0, 1.0).normalized(), .friction = 0.7};
+  Surface block{.name = "block",
+                .point = {0.8, 0.1, 0.1},
+                .normal = Eigen::Vector3d(0.1, 0.0, 1.0).normalized(),
+                .friction = 0.7};
   block.patch = {{-0.3, -0.4}, {0.3, -0.4}, {1.0 / 3.0, 0.4}, {-0.3, 0.4}};
   return {Surface{}, block};
 }
@@ -32,7 +35,8 @@ MujocoModel read(const std::string& xml) {
 template <typename Number>
 void expect_same(const char* what, const Number* a, const Number* b, int size) {
   double largest = 0.0;
-  for (int i = 0; i < size; ++i) largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+  for (int i = 0; i < size; ++i)
+    largest = std::max(largest, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
   EXPECT_LE(largest, 1e-14) << what;  // MuJoCo turns meshes to their principal axes again
 }
 

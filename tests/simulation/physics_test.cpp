@@ -40,7 +40,8 @@ TEST_P(EveryRobot, HasTheMassMatrixAndBiasOfPinocchio) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryRobot,
-                         testing::Values(Case{"HyQ", test::hyq_description}, Case{"ANYmalC", test::anymal_c_description},
+                         testing::Values(Case{"HyQ", test::hyq_description},
+                                         Case{"ANYmalC", test::anymal_c_description},
                                          Case{"Solo12", test::solo12_description}, Case{"Go2", test::go2_description},
                                          Case{"Talos", test::talos_description}),
                          [](const auto& info) { return info.param.name; });
@@ -103,7 +104,8 @@ TEST(Physics, FeetCarryTheWeight) {
   EXPECT_LT((sum - Eigen::Vector3d(0, 0, robot.weight())).norm(), 1e-3 * robot.weight());
 }
 
-/// A block on a slope slides if friction is less than the slope: the surface's coefficient counts, in both ways of a patch.
+/// A block on a slope slides if friction is less than the slope: the surface's coefficient counts, in both ways of a
+/// patch.
 TEST(Physics, FrictionIsTheSurfacesOwn) {
   const RobotModel robot = test::hyq();
   for (const bool patch : {false, true}) {

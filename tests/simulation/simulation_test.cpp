@@ -54,7 +54,8 @@ TEST_F(Standing, FallsWithoutFeedbackAndUnderAStrongPush) {
 TEST_F(Standing, IsTheSameBitForBitByItsSeed) {
   SimulationOptions options;
   options.record_rate = 100.0;
-  const SimulationResult one = simulate(problem_, tracker_, criteria_, options), two = simulate(problem_, tracker_, criteria_, options);
+  const SimulationResult one = simulate(problem_, tracker_, criteria_, options),
+                         two = simulate(problem_, tracker_, criteria_, options);
   options.seed = 2;
   const SimulationResult other = simulate(problem_, tracker_, criteria_, options);
   ASSERT_EQ(one.samples.size(), two.samples.size());
@@ -81,7 +82,8 @@ TEST_F(Standing, ForcesAreThoseOfTheProjectedDynamics) {
   }
 }
 
-/// A blow beyond all numbers: MuJoCo would start again from the nominal posture, and the rest would look like a success.
+/// A blow beyond all numbers: MuJoCo would start again from the nominal posture, and the rest would look like a
+/// success.
 TEST_F(Standing, EndsWhereTheStateIsNoNumber) {
   for (const bool perfect_state : {true, false}) {
     SimulationOptions options;

@@ -13,7 +13,8 @@ inline Tracker standing_tracker(const MotionProblem& problem, double stiffness =
   for (const ContactPoint& contact : robot.contacts()) plan.contact_names.push_back(contact.name);
   plan.joint_names = robot.joint_names();
   plan.torque_limit = robot.torque_limit();
-  plan.segments = {{"stand", 0.0, problem.phases.front().duration.min, 0, 2, std::vector<bool>(robot.contacts().size(), true)}};
+  plan.segments = {
+      {"stand", 0.0, problem.phases.front().duration.min, 0, 2, std::vector<bool>(robot.contacts().size(), true)}};
   const Eigen::VectorXd& q = problem.start_configuration();
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(robot.nu(), 2 * robot.nv());
   K.block(0, 6, robot.nu(), robot.nu()).diagonal().setConstant(stiffness);

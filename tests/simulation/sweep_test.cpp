@@ -32,7 +32,8 @@ TEST(SuccessRate, BoundsCutOffTheTails) {
 TEST(Sweep, DrawsFromItsRanges) {
   const MotionProblem problem = test::standing_problem();
   TrackingPlan plan = test::standing_tracker(problem).plan();
-  plan.segments = {{"four", 0.0, 1.0, 0, 2, {true, true, true, true}}, {"two", 1.0, 2.0, 2, 2, {true, false, false, true}}};
+  plan.segments = {{"four", 0.0, 1.0, 0, 2, {true, true, true, true}},
+                   {"two", 1.0, 2.0, 2, 2, {true, false, false, true}}};
   for (Eigen::MatrixXd* part : {&plan.q, &plan.v, &plan.tau, &plan.gains}) *part = part->replicate(1, 2).eval();
   const Tracker tracker(plan);
   const PerturbationRanges ranges;
@@ -67,10 +68,13 @@ TEST(Sweep, CasesCanBeReplayed) {
   std::vector<SimulationOptions> options;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) options.push_back(perturbed(tracker, {}, {}, seed));
   int last = -1;
-  const auto cases = run_cases(problem, tracker, criteria, options, [&](int done, int total) {
-    EXPECT_EQ(done, ++last);
-    EXPECT_EQ(total, 6);
-  }, nullptr);
+  const auto cases = run_cases(
+      problem, tracker, criteria, options,
+      [&](int done, int total) {
+        EXPECT_EQ(done, ++last);
+        EXPECT_EQ(total, 6);
+      },
+      nullptr);
   ASSERT_EQ(cases.size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
     const SimulationResult again = simulate(problem, tracker, criteria, options[i]);
@@ -101,10 +105,13 @@ TEST_F(Interrupted, KeepsTheCasesThatHadBegun) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) options.push_back(perturbed(tracker_, {}, {}, seed));
   std::atomic<bool> stop = false;
   int told = 0;
-  const auto cases = run_cases(problem_, tracker_, criteria_, options, [&](int done, int) {
-    told = done;
-    if (done >= 3) stop = true;
-  }, &stop);
+  const auto cases = run_cases(
+      problem_, tracker_, criteria_, options,
+      [&](int done, int) {
+        told = done;
+        if (done >= 3) stop = true;
+      },
+      &stop);
   EXPECT_GE(cases.size(), 3u);
   EXPECT_LT(cases.size(), 200u);
   EXPECT_EQ(static_cast<int>(cases.size()), told) << "a case that was finished is missing";
@@ -114,18 +121,22 @@ TEST_F(Interrupted, KeepsTheCasesThatHadBegun) {
 /// Progress goes up to what it said at first, whatever sizes are left out; a kind that is not found is not there.
 TEST_F(Interrupted, LeavesOutKindsThatAreNotFound) {
   int last = -1, most = 0;
-  const auto all = find_breakdowns(problem_, tracker_, criteria_, {}, 1, 1, [&](int done, int total) {
-    EXPECT_GE(done, last);
-    if (last >= 0) EXPECT_EQ(total, most);
-    last = done;
-    most = total;
-  }, nullptr);
+  const auto all = find_breakdowns(
+      problem_, tracker_, criteria_, {}, 1, 1,
+      [&](int done, int total) {
+        EXPECT_GE(done, last);
+        if (last >= 0) EXPECT_EQ(total, most);
+        last = done;
+        most = total;
+      },
+      nullptr);
   ASSERT_EQ(all.size(), 6u);
   EXPECT_EQ(last, most);
 
   for (const int after : {1, most / 2, most}) {
     std::atomic<bool> stop = false;
-    const auto some = find_breakdowns(problem_, tracker_, criteria_, {}, 1, 1, [&](int done, int) { stop = stop || done >= after; }, &stop);
+    const auto some = find_breakdowns(
+        problem_, tracker_, criteria_, {}, 1, 1, [&](int done, int) { stop = stop || done >= after; }, &stop);
     EXPECT_LT(some.size(), 6u + (after == most ? 1u : 0u));
     for (std::size_t i = 0; i < some.size(); ++i) {
       EXPECT_EQ(some[i].kind, all[i].kind);

@@ -15,11 +15,11 @@
 namespace prowl {
 namespace {
 
+using test::Cart;
+using test::CartTask;
 using ::testing::AllOf;
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
-using test::Cart;
-using test::CartTask;
 
 template <class Solver>
 class ChainSolvers : public ::testing::Test {
@@ -106,7 +106,8 @@ TYPED_TEST(ChainSolvers, ShowTheIteratesThatTheyTellOf) {
   const SolveResult result = this->solve(cart, options);
   ASSERT_EQ(static_cast<int>(iterates.size()), calls);
   EXPECT_EQ(calls, 4);
-  EXPECT_TRUE(std::find(iterates.begin(), iterates.end(), result.z) != iterates.end()) << "stopped, it gives back the best of them";
+  EXPECT_TRUE(std::find(iterates.begin(), iterates.end(), result.z) != iterates.end())
+      << "stopped, it gives back the best of them";
   EXPECT_NE(iterates.front(), iterates.back());
 }
 

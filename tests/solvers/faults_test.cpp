@@ -1,5 +1,5 @@
-// What every solver does when a function of the problem fails: gives NaN or infinity, or throws, from its first, third, ... evaluation
-// on, for good or once. It must end, say what failed where, and never call that solved.
+// What every solver does when a function of the problem fails: gives NaN or infinity, or throws, from its first, third,
+// ... evaluation on, for good or once. It must end, say what failed where, and never call that solved.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,7 +49,8 @@ class FaultyCart : public Cart {
     Cart::jacobian(z, values);
     values(60) += fault(Function::jacobian);
   }
-  void hessian(const VectorXd& z, double cost_factor, const VectorXd& multipliers, Eigen::Ref<VectorXd> values) override {
+  void hessian(const VectorXd& z, double cost_factor, const VectorXd& multipliers,
+               Eigen::Ref<VectorXd> values) override {
     Cart::hessian(z, cost_factor, multipliers, values);
     values(3 * kStage) += fault(Function::hessian);
   }
@@ -96,7 +97,8 @@ class FaultyCart : public Cart {
   Eigen::MatrixXd stage_hessian_;
 };
 
-constexpr Function kFunctions[] = {Function::cost, Function::gradient, Function::constraints, Function::jacobian, Function::hessian};
+constexpr Function kFunctions[] = {Function::cost, Function::gradient, Function::constraints, Function::jacobian,
+                                   Function::hessian};
 const char* const kNames[] = {"cost", "gradient", "constraints", "jacobian", "hessian"};
 
 std::string name_of(std::string solver) {
@@ -117,7 +119,8 @@ class Faults : public ::testing::TestWithParam<std::tuple<std::string, Function>
 INSTANTIATE_TEST_SUITE_P(All, Faults,
                          ::testing::Combine(::testing::ValuesIn(solver_names()), ::testing::ValuesIn(kFunctions)),
                          [](const auto& info) {
-                           return name_of(std::get<0>(info.param)) + "_" + kNames[static_cast<int>(std::get<1>(info.param))];
+                           return name_of(std::get<0>(info.param)) + "_" +
+                                  kNames[static_cast<int>(std::get<1>(info.param))];
                          });
 
 TEST_P(Faults, AreNamedWithTheirPlace) {
@@ -163,7 +166,8 @@ TEST_P(Faults, ThatComeLateEndTheSolve) {
       const SolveResult result = solve(cart);
       if (cart.failed == 0) continue;  // done before: Uno needs few derivatives here
       ++late;
-      EXPECT_EQ(result.status, SolveStatus::evaluation_failed) << "kind " << static_cast<int>(kind) << ", from " << first << ": " << result.message;
+      EXPECT_EQ(result.status, SolveStatus::evaluation_failed)
+          << "kind " << static_cast<int>(kind) << ", from " << first << ": " << result.message;
       EXPECT_TRUE(result.z.size() == cart.num_variables() && result.z.allFinite());
       if (by_stages()) EXPECT_THAT(result.message, HasSubstr("stage 7"));
     }

@@ -10,8 +10,8 @@ extern "C" unsigned IpoptGetAvailableLinearSolvers(int) { return 0x400; }  // IP
 namespace prowl {
 namespace {
 
-using ::testing::HasSubstr;
 using test::Hs071;
+using ::testing::HasSubstr;
 
 TEST(IpoptWithoutSpral, SaysWhatIsMissing) {
   Hs071 nlp;

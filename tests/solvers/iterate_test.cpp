@@ -9,8 +9,8 @@ constexpr double kTolerance = 1e-6;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_better(double violation_a, double cost_a, double violation_b, double cost_b) {
-  return is_better(IterateFigures{.cost = cost_a, .violation = violation_a}, IterateFigures{.cost = cost_b, .violation = violation_b},
-                   kTolerance);
+  return is_better(IterateFigures{.cost = cost_a, .violation = violation_a},
+                   IterateFigures{.cost = cost_b, .violation = violation_b}, kTolerance);
 }
 
 TEST(Iterate, IsBetterWithLessViolationThenWithLessCost) {

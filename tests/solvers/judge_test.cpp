@@ -12,8 +12,8 @@
 namespace prowl {
 namespace {
 
-using ::testing::HasSubstr;
 using test::Hs071;
+using ::testing::HasSubstr;
 
 constexpr double kTolerance = 1e-6;
 

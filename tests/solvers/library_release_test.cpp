@@ -19,8 +19,9 @@ TEST(LibraryRelease, OfOneReleaseWillDo) {
 TEST(LibraryRelease, AnotherIsNamedWithTheRemedy) {
   for (const char* loaded : {"3.11.9", "3.1", "3.15.0", "4.14.19", "3.140.0", "before 3.14", ""}) {
     const std::string reason = why_other_release("Ipopt", loaded, "3.14.19", "/old/libipopt.so.3").value_or("");
-    EXPECT_THAT(reason, AllOf(HasSubstr(std::string("/old/libipopt.so.3 is Ipopt ") + loaded), HasSubstr("built with Ipopt 3.14.19"),
-                              HasSubstr("LD_LIBRARY_PATH"), HasSubstr("scripts/setup")));
+    EXPECT_THAT(reason,
+                AllOf(HasSubstr(std::string("/old/libipopt.so.3 is Ipopt ") + loaded),
+                      HasSubstr("built with Ipopt 3.14.19"), HasSubstr("LD_LIBRARY_PATH"), HasSubstr("scripts/setup")));
   }
 }
 
@@ -28,7 +29,8 @@ TEST(LibraryRelease, InstructionsThatAProcessorLacksAreNamed) {
   EXPECT_EQ(why_missing_instructions("libblasfeo.so", "", ""), std::nullopt) << "generic kernels";
   EXPECT_EQ(why_missing_instructions("libblasfeo.so", "AVX2 FMA ", "SSE3 AVX FMA AVX2"), std::nullopt);
   const std::string reason = why_missing_instructions("libblasfeo.so", "AVX2 FMA SSE3", "SSE3 AVX").value_or("");
-  EXPECT_THAT(reason, AllOf(HasSubstr("libblasfeo.so needs a processor with AVX2, FMA, which"), Not(HasSubstr("SSE3"))));
+  EXPECT_THAT(reason,
+              AllOf(HasSubstr("libblasfeo.so needs a processor with AVX2, FMA, which"), Not(HasSubstr("SSE3"))));
 }
 
 }  // namespace

@@ -27,8 +27,10 @@ class RandomChain : public DenseStagewiseNlp {
     for (std::size_t k = 0; k < sizes.size(); ++k) {
       const StageSize& size = sizes[k];
       const int next = k + 1 < sizes.size() ? sizes[k + 1].states : 0, n = size.variables();
-      Part part{size, {random_vector(rng, n, 1.0), random_matrix(rng, next, n), random_matrix(rng, size.equalities, n),
-                       random_matrix(rng, size.inequalities, n)}, {}};
+      Part part{size,
+                {random_vector(rng, n, 1.0), random_matrix(rng, next, n), random_matrix(rng, size.equalities, n),
+                 random_matrix(rng, size.inequalities, n)},
+                {}};
       const Eigen::MatrixXd root = random_matrix(rng, n, n);
       part.hessian = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
       parts.push_back(part);
@@ -44,9 +46,7 @@ class RandomChain : public DenseStagewiseNlp {
   const Eigen::VectorXd& lower(int) const override { return nothing_; }
   const Eigen::VectorXd& upper(int) const override { return nothing_; }
   const StageValues& values(int, const Eigen::VectorXd&) override { return no_values_; }
-  const StageDerivatives& derivatives(int k, const Eigen::VectorXd&) override {
-    return parts[k].slopes;
-  }
+  const StageDerivatives& derivatives(int k, const Eigen::VectorXd&) override { return parts[k].slopes; }
   const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd&, double, const StageMultipliers&) override {
     return parts[k].hessian;
   }

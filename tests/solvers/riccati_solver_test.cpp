@@ -91,7 +91,8 @@ TEST(RiccatiSolver, TakesWholeStepsAlongCurvedConstraints) {
   }
 }
 
-/// Opposite the minimum the reduced Hessian is negative: a maximum, where Newton's method goes if nothing regularises it.
+/// Opposite the minimum the reduced Hessian is negative: a maximum, where Newton's method goes if nothing regularises
+/// it.
 TEST(RiccatiSolver, GoesAwayFromMaxima) {
   OnACircle nlp;
   const SolveResult result = RiccatiSolver().solve(nlp, Vector2d(-0.999, 0.04), {});

@@ -1,6 +1,6 @@
-// Stands in for libsnopt7 in the tests of SnoptSolver: the functions of snopt-interface with their published arguments, which check
-// what they are handed. It solves nothing: it says of the start whether it is feasible, after comparing all derivatives with
-// differences.
+// Stands in for libsnopt7 in the tests of SnoptSolver: the functions of snopt-interface with their published arguments,
+// which check what they are handed. It solves nothing: it says of the start whether it is feasible, after comparing all
+// derivatives with differences.
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -11,8 +11,8 @@ namespace {
 bool initialised = false;
 std::string options;
 
-constexpr int kOptimal = 1, kInfeasible = 13, kMajorLimit = 32, kWrongDerivatives = 52, kUndefined = 63, kStopped = 71, kNoSpace = 82,
-              kBadInput = 91;
+constexpr int kOptimal = 1, kInfeasible = 13, kMajorLimit = 32, kWrongDerivatives = 52, kUndefined = 63, kStopped = 71,
+              kNoSpace = 82, kBadInput = 91;
 constexpr int kIntegersNeeded = 700, kRealsNeeded = 900, kMajorIterations = 421;  // iw(422)
 
 bool within(double value, double lower, double upper) { return value >= lower - 1e-6 && value <= upper + 1e-6; }
@@ -21,10 +21,13 @@ bool within(double value, double lower, double upper) { return value >= lower - 
 
 extern "C" {
 
-using Function = void(int*, int*, double[], int*, int*, double[], int*, int*, double[], char[], int*, int[], int*, double[], int*);
+using Function = void(int*, int*, double[], int*, int*, double[], int*, int*, double[], char[], int*, int[], int*,
+                      double[], int*);
 
-void f_sninitx(const char* print_file, int plen, const char* summary_file, int slen, int iw[], int leniw, double rw[], int lenrw) {
-  initialised = leniw >= 500 && lenrw >= 500 && std::string(print_file, static_cast<std::size_t>(plen)) == "/dev/null" &&
+void f_sninitx(const char* print_file, int plen, const char* summary_file, int slen, int iw[], int leniw, double rw[],
+               int lenrw) {
+  initialised = leniw >= 500 && lenrw >= 500 &&
+                std::string(print_file, static_cast<std::size_t>(plen)) == "/dev/null" &&
                 std::string(summary_file, static_cast<std::size_t>(slen)) == "/dev/null";
   options.clear();
   std::memset(iw, 0, sizeof(int) * 500);
@@ -45,10 +48,11 @@ void f_snmema(int* info, int, int, int, int, int* miniw, int* minrw, int[], int,
 
 void f_snend(int[], int, double[], int) { initialised = false; }
 
-void f_snopta(int start, const char*, int nf, int n, double objadd, int objrow, Function* function, int[], int[], int neA, double[],
-              int iGfun[], int jGvar[], int neG, double xlow[], double xupp[], double flow[], double fupp[], double x[],
-              int xstate[], double xmul[], double f[], int fstate[], double fmul[], int* inform, int*, int*, double*, int*, int*,
-              int iu[], int leniu, double ru[], int lenru, int iw[], int leniw, double[], int lenrw) {
+void f_snopta(int start, const char*, int nf, int n, double objadd, int objrow, Function* function, int[], int[],
+              int neA, double[], int iGfun[], int jGvar[], int neG, double xlow[], double xupp[], double flow[],
+              double fupp[], double x[], int xstate[], double xmul[], double f[], int fstate[], double fmul[],
+              int* inform, int*, int*, double*, int*, int*, int iu[], int leniu, double ru[], int lenru, int iw[],
+              int leniw, double[], int lenrw) {
   *inform = kBadInput;
   if (!initialised || start != 0 || objadd != 0.0 || objrow != 1 || neA != 0) return;
   for (int i = 0; i < n; ++i) {
@@ -64,7 +68,8 @@ void f_snopta(int start, const char*, int nf, int n, double objadd, int objrow, 
   if (leniw < kIntegersNeeded || lenrw < kRealsNeeded) return;
   if (options.find("Total integer workspace " + std::to_string(leniw) + "\n") == std::string::npos) return;
 
-  std::vector<double> g(static_cast<std::size_t>(neG)), dense(static_cast<std::size_t>(n) * static_cast<std::size_t>(nf), 0.0);
+  std::vector<double> g(static_cast<std::size_t>(neG)),
+      dense(static_cast<std::size_t>(n) * static_cast<std::size_t>(nf), 0.0);
   char cu[8] = "";
   int lencu = 1;
   const auto evaluate = [&](double at[], double values[], double derivatives[]) {

@@ -10,8 +10,8 @@
 #include "prowl/error.hpp"
 #include "tests/nlp/test_problems.hpp"
 
-// The real library is commercial. PROWL_SNOPT_DOUBLE has its functions and checks what it is handed: indices, bounds, work
-// space, and all derivatives against differences.
+// The real library is commercial. PROWL_SNOPT_DOUBLE has its functions and checks what it is handed: indices, bounds,
+// work space, and all derivatives against differences.
 namespace prowl {
 namespace {
 
@@ -30,11 +30,13 @@ SolveResult solve(Nlp& nlp, const Eigen::VectorXd& start, const SolverOptions& o
 TEST(SnoptSolver, SaysWhatIsMissing) {
   Hs071 nlp;
   const SnoptSolver none("libsnopt7-that-nobody-has.so");
-  EXPECT_THAT(none.why_unsupported(nlp), Optional(AllOf(HasSubstr("commercial"), HasSubstr("libsnopt7-that-nobody-has.so"))));
+  EXPECT_THAT(none.why_unsupported(nlp),
+              Optional(AllOf(HasSubstr("commercial"), HasSubstr("libsnopt7-that-nobody-has.so"))));
   EXPECT_THROW(none.solve(nlp, Hs071::start(), {}), InputError);
 
   const SnoptSolver other("libm.so.6");
-  EXPECT_THAT(other.why_unsupported(nlp), Optional(AllOf(HasSubstr("libm.so.6: no function f_snset"), HasSubstr("snopt-interface"))));
+  EXPECT_THAT(other.why_unsupported(nlp),
+              Optional(AllOf(HasSubstr("libm.so.6: no function f_snset"), HasSubstr("snopt-interface"))));
 }
 
 TEST(SnoptSolver, NamesBoundsThatLeaveNothing) {

@@ -160,8 +160,12 @@ const std::vector<StageSize> kLarge = {{40, 0, 18, 60}, {40, 30, 18, 60}, {40, 3
 TEST(StageKkt, IsTheDenseSolution) {
   std::mt19937 rng(3);
   const std::vector<std::pair<std::string, std::vector<StageSize>>> cases = {
-      {"free", kFree},   {"equalities", kEqualities},      {"passed", kPassed},
-      {"large", kLarge}, {"one stage", {{3, 0, 1, 2}}}, {"states at first", {{2, 3, 1, 1}, {2, 3, 1, 2}, {0, 2, 1, 0}}}};
+      {"free", kFree},
+      {"equalities", kEqualities},
+      {"passed", kPassed},
+      {"large", kLarge},
+      {"one stage", {{3, 0, 1, 2}}},
+      {"states at first", {{2, 3, 1, 1}, {2, 3, 1, 2}, {0, 2, 1, 0}}}};
   for (const auto& [name, sizes] : cases) {
     for (int repeat = 0; repeat < (name == "large" ? 1 : 20); ++repeat) {
       RandomChain chain(rng, sizes);

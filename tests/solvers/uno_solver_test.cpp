@@ -75,7 +75,8 @@ TEST(UnoSolver, ConvergesQuadratically) {
 
 /// Interrupted from within the Hessian, which is asked for in the midst of a quadratic program.
 struct Interrupting : Hs071 {
-  void hessian(const VectorXd& x, double cost_factor, const VectorXd& multipliers, Eigen::Ref<VectorXd> values) override {
+  void hessian(const VectorXd& x, double cost_factor, const VectorXd& multipliers,
+               Eigen::Ref<VectorXd> values) override {
     Hs071::hessian(x, cost_factor, multipliers, values);
     interrupt = ++hessians == 3;
   }

@@ -1,4 +1,5 @@
-// Solvers where other libraries are loaded than Prowl was built with: this program's own functions are found before theirs.
+// Solvers where other libraries are loaded than Prowl was built with: this program's own functions are found before
+// theirs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

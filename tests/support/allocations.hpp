@@ -5,8 +5,8 @@
 
 /// Counts allocations. In one source file of a program only: it defines malloc.
 ///
-/// Every allocation of the process comes by here, those of operator new and of Eigen in Prowl's and Pinocchio's libraries
-/// too: what a program defines goes before what libraries do. glibc keeps the real ones under these names.
+/// Every allocation of the process comes by here, those of operator new and of Eigen in Prowl's and Pinocchio's
+/// libraries too: what a program defines goes before what libraries do. glibc keeps the real ones under these names.
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define PROWL_COUNTS_ALLOCATIONS
 

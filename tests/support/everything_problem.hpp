@@ -54,7 +54,8 @@ inline MotionProblem everything(RobotModel robot, const std::vector<Phase>& phas
   problem.terminal_cost.acceleration_weight.setZero();
   problem.terminal_cost.torque_weight.setZero();
   problem.terminal_cost.force_weight.setZero();
-  problem.terminal_cost.contact_positions = {{0, {0.3, 0.2, 0.1}, {7.0, 5.0, 6.0}}, {3, {0.0, 0.2, 0.1}, {1.0, 2.0, 3.0}}};
+  problem.terminal_cost.contact_positions = {{0, {0.3, 0.2, 0.1}, {7.0, 5.0, 6.0}},
+                                             {3, {0.0, 0.2, 0.1}, {1.0, 2.0, 3.0}}};
   return problem;
 }
 

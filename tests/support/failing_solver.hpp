@@ -9,7 +9,8 @@ namespace prowl::test {
 /// Solves so many programs, and says of so many after them that it has stopped.
 class FailingSolver : public NlpSolver {
  public:
-  FailingSolver(int solves, SolveStatus status, int failures = 1000) : left_(solves), failures_(failures), status_(status) {}
+  FailingSolver(int solves, SolveStatus status, int failures = 1000)
+      : left_(solves), failures_(failures), status_(status) {}
   std::string name() const override { return solver_.name(); }
   std::string version() const override { return solver_.version(); }
   std::optional<std::string> why_unsupported(Nlp& nlp) const override { return solver_.why_unsupported(nlp); }

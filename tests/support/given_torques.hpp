@@ -13,8 +13,8 @@
 #include "prowl/transcription/initial_guess.hpp"
 #include "tests/support/standing_problem.hpp"
 
-/// What a rule of integration makes of given torques: they are linear in time over all of the motion, so that every rule has them
-/// exactly, and there is no goal and no cost. A square system of equations; no limit is active.
+/// What a rule of integration makes of given torques: they are linear in time over all of the motion, so that every
+/// rule has them exactly, and there is no goal and no cost. A square system of equations; no limit is active.
 namespace prowl::test {
 
 constexpr double kGivenDuration = 0.4;  // [s]
@@ -64,9 +64,7 @@ struct GivenTorques : MotionNlp {
   Trajectory unpack(const Eigen::VectorXd& z) override { return inner->unpack(z); }
   void use_hessian(HessianKind kind) override { inner->use_hessian(kind); }
   double cost(const Eigen::VectorXd& z) override { return inner->cost(z); }
-  void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override {
-    inner->cost_gradient(z, g);
-  }
+  void cost_gradient(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override { inner->cost_gradient(z, g); }
   void constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> g) override { inner->constraints(z, g); }
   void jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> v) override { inner->jacobian(z, v); }
   void hessian(const Eigen::VectorXd& z, double f, const Eigen::VectorXd& m, Eigen::Ref<Eigen::VectorXd> v) override {
@@ -85,7 +83,8 @@ inline TrajectoryPoint end_of_given_motion(const Formulation& formulation, int i
   const Trajectory guess = initial_guess(problem, mesh);
   GivenTorques nlp(make_collocation(formulation, problem, mesh, guess), problem);
   const SolveResult result = IpoptSolver().solve(nlp, nlp.pack(guess), {.tolerance = 1e-11, .max_iterations = 60});
-  if (result.status != SolveStatus::converged) throw std::runtime_error(formulation.transcription + ": " + result.message);
+  if (result.status != SolveStatus::converged)
+    throw std::runtime_error(formulation.transcription + ": " + result.message);
   return nlp.unpack(result.z).nodes.back();
 }
 

@@ -39,9 +39,7 @@ class RandomStates {
   }
 
   /// Up to the torque limits, 100 N m where there is none.
-  Eigen::VectorXd torque() {
-    return vector(robot_.nu()).cwiseProduct(robot_.torque_limit().cwiseMin(100.0));
-  }
+  Eigen::VectorXd torque() { return vector(robot_.nu()).cwiseProduct(robot_.torque_limit().cwiseMin(100.0)); }
 
   /// Entries in [-1, 1].
   Eigen::VectorXd vector(Eigen::Index size) {

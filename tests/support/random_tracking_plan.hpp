@@ -8,8 +8,8 @@
 
 namespace prowl::test {
 
-/// Three segments with random references and gains, 4 contacts, the last joint without a torque limit, a torque curve over
-/// position and one over velocity. For `joints` >= 3.
+/// Three segments with random references and gains, 4 contacts, the last joint without a torque limit, a torque curve
+/// over position and one over velocity. For `joints` >= 3.
 inline TrackingPlan random_tracking_plan(int joints = 12, int samples_each = 11, unsigned seed = 1) {
   std::mt19937 rng(seed);
   TrackingPlan plan;
@@ -20,7 +20,11 @@ inline TrackingPlan random_tracking_plan(int joints = 12, int samples_each = 11,
   plan.torque_curves = {{0, false, -1.0, 1.0, Eigen::Vector3d(20.0, 100.0, 40.0)},
                         {1, true, -5.0, 5.0, Eigen::Vector3d(120.0, 90.0, 10.0)}};
   for (int s = 0; s < 3; ++s) {
-    plan.segments.push_back({"phase " + std::to_string(s), 0.5 * s, 0.5 * (s + 1), s * samples_each, samples_each,
+    plan.segments.push_back({"phase " + std::to_string(s),
+                             0.5 * s,
+                             0.5 * (s + 1),
+                             s * samples_each,
+                             samples_each,
                              {true, true, s != 1, true}});
   }
   const int samples = 3 * samples_each;

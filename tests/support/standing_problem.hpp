@@ -10,8 +10,8 @@
 
 namespace prowl::test {
 
-/// A robot on all its feet for two seconds, at rest at first, on a plane that falls by so many degrees towards -x and turned
-/// with it. No cost.
+/// A robot on all its feet for two seconds, at rest at first, on a plane that falls by so many degrees towards -x and
+/// turned with it. No cost.
 inline MotionProblem standing_problem(RobotModel robot = hyq(), double degrees = 0.0, double friction = 0.5) {
   const double angle = degrees * std::numbers::pi / 180.0;
   MotionProblem problem{.name = "standing", .robot = std::move(robot)};

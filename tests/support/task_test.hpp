@@ -16,7 +16,9 @@ class TaskTest : public testing::Test {
     folder_.write("hyq.toml", robot);
     return read_task_file(folder_.write("task.toml", task), test_search(), overrides);
   }
-  MotionProblem problem(const std::string& task, const std::string& robot = kHyqFile) const { return read(task, robot).problem; }
+  MotionProblem problem(const std::string& task, const std::string& robot = kHyqFile) const {
+    return read(task, robot).problem;
+  }
   std::string message_of(const std::string& task, const std::string& robot = kHyqFile) const {
     return test::message_of(folder_.path(), [&] { read(task, robot); });
   }

@@ -1,4 +1,5 @@
-// All whole-body formulations find the same motion of HyQ's crouch, each on a mesh that its rule needs to pass the certificate.
+// All whole-body formulations find the same motion of HyQ's crouch, each on a mesh that its rule needs to pass the
+// certificate.
 #include <gtest/gtest.h>
 
 #include "../io/test_files.hpp"

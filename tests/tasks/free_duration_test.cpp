@@ -17,8 +17,8 @@ constexpr double kLongest = 1e9;  // [s]
 Plan stand_up(const std::string& duration, const std::string& steps = "equal") {
   const test::TempFolder folder;
   folder.write("hyq.toml", test::kHyqFile);
-  const std::string phase = fmt::format(
-      "[[phase]]\ncontacts = \"all\"\nduration_s = {}\nintervals = 6\nsteps = \"{}\"\n", duration, steps);
+  const std::string phase =
+      fmt::format("[[phase]]\ncontacts = \"all\"\nduration_s = {}\nintervals = 6\nsteps = \"{}\"\n", duration, steps);
   folder.write("up.toml", "robot = \"hyq.toml\"\n" + phase + phase + R"([[goal]]
 phase = "phase 2"
 base_displacement_m = [0, 0, 0.06]

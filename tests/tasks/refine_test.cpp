@@ -1,4 +1,6 @@
 // Meshes that follow the measured errors, on shipped tasks.
+#include "prowl/refine.hpp"
+
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include "../io/test_files.hpp"
 #include "../support/failing_solver.hpp"
 #include "prowl/io/task_file.hpp"
-#include "prowl/refine.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
 #include "prowl/transcription/mesh_levels.hpp"
@@ -83,7 +84,8 @@ TEST(Refine, MergesWhatIsTooFine) {
   EXPECT_TRUE(refined.plan.certificate.passed);
   EXPECT_EQ(intervals.front(), 320);
   EXPECT_LT(count_intervals(refined.problem), 110);
-  EXPECT_EQ(count_intervals(refined.problem), *std::ranges::min_element(intervals)) << "the smallest that meets the tolerance";
+  EXPECT_EQ(count_intervals(refined.problem), *std::ranges::min_element(intervals))
+      << "the smallest that meets the tolerance";
   EXPECT_EQ(refined.plan.levels.size(), intervals.size());
 }
 
@@ -120,7 +122,8 @@ TEST(Refine, BooksAreOfAllMeshes) {
 /// Out of reach in two meshes: the better one, and word of it.
 TEST(Refine, TellsWhatItDidNotReach) {
   const Task task = read("step");
-  const RefinedPlan refined = refine(task, RiccatiSolver(), {}, {.tolerance = mesh_tolerance(Grade::certified), .max_rounds = 2});
+  const RefinedPlan refined =
+      refine(task, RiccatiSolver(), {}, {.tolerance = mesh_tolerance(Grade::certified), .max_rounds = 2});
   EXPECT_FALSE(refined.meets_tolerance);
   EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
   EXPECT_EQ(count_intervals(refined.problem), refined.plan.levels.back().intervals);

@@ -98,14 +98,16 @@ double lowest_base(const PlanRecord& record) {
 /// What a task is for, read off the plan, where its goals do not say it all.
 const std::map<std::string, std::function<void(const PlanRecord&)>> kPurposes{
     {"hyq/crouch", [](const PlanRecord& record) { EXPECT_LT(lowest_base(record), -0.17 + 1e-3); }},
-    {"hyq/balance", [](const PlanRecord& record) {
+    {"hyq/balance",
+     [](const PlanRecord& record) {
        double in_the_air = 0.0;
        for (const Phase& phase : record.task.problem.phases) {
          if (phase.contacts.size() == 2) in_the_air += duration(nodes_of_phase(record, phase.name));
        }
        EXPECT_GE(in_the_air, 0.5 - 1e-6);
      }},
-    {"hyq/rear", [](const PlanRecord& record) {
+    {"hyq/rear",
+     [](const PlanRecord& record) {
        double pitch = 0.0;  // of the base, nose up
        for (const auto& node : nodes_of_phase(record, "rear")) {
          pitch = std::max(pitch, std::asin(base_rotation(node.q)(2, 0)));
@@ -115,7 +117,8 @@ const std::map<std::string, std::function<void(const PlanRecord&)>> kPurposes{
     {"hyq/step", [](const PlanRecord& record) { EXPECT_NEAR(way_of(record, "lf_foot").x(), 0.2, 1e-3); }},
     {"hyq/walk", [](const PlanRecord& record) { EXPECT_NEAR(way_of_base(record).x(), 1.0, 1e-3); }},
     {"hyq/trot", [](const PlanRecord& record) { EXPECT_NEAR(way_of_base(record).x(), 1.0, 1e-3); }},
-    {"hyq/jump", [](const PlanRecord& record) {
+    {"hyq/jump",
+     [](const PlanRecord& record) {
        const auto flight = nodes_of_phase(record, "flight");
        EXPECT_GE(duration(flight), 0.2 - 1e-6);
        for (const char* foot : {"lf_foot", "lh_foot", "rf_foot", "rh_foot"}) {
@@ -123,11 +126,13 @@ const std::map<std::string, std::function<void(const PlanRecord&)>> kPurposes{
          EXPECT_GE(contact_position(record, flight[flight.size() / 2], foot).z() - ground, 0.15 - 1e-3) << foot;
        }
      }},
-    {"hyq/slope", [](const PlanRecord& record) {
+    {"hyq/slope",
+     [](const PlanRecord& record) {
        const Eigen::Vector3d way = way_of_base(record);
        EXPECT_NEAR(std::atan2(way.z(), way.x()), 15.0 * std::numbers::pi / 180.0, 1e-2);
      }},
-    {"hyq/wall", [](const PlanRecord& record) {
+    {"hyq/wall",
+     [](const PlanRecord& record) {
        for (const auto& node : nodes_of_phase(record, "lean")) {
          EXPECT_LT(node.force(0), -50.0) << "of the wall on lf_foot [N], the first contact, at " << node.time;
        }
@@ -165,10 +170,11 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedTask, testing::ValuesIn(shipped_tasks()), [
 TEST(ShippedTasks, AreThoseOfFiveRobots) {
   const std::vector<std::string> tasks = shipped_tasks();
   for (const char* task :
-       {"hyq/hold", "hyq/stand", "hyq/crouch", "hyq/balance", "hyq/step", "hyq/rear", "hyq/slope", "hyq/wall", "hyq/kneel",
-        "hyq/walk", "hyq/trot", "hyq/jump", "go2/trot", "solo12/trot",
-        "anymal_c/stand", "anymal_c/crouch", "anymal_c/step", "anymal_c/trot", "go2/stand", "go2/crouch", "go2/step",
-        "solo12/stand", "solo12/crouch", "solo12/step", "talos/squat", "talos/weight_shift", "talos/step"}) {
+       {"hyq/hold",    "hyq/stand",          "hyq/crouch",     "hyq/balance",     "hyq/step",      "hyq/rear",
+        "hyq/slope",   "hyq/wall",           "hyq/kneel",      "hyq/walk",        "hyq/trot",      "hyq/jump",
+        "go2/trot",    "solo12/trot",        "anymal_c/stand", "anymal_c/crouch", "anymal_c/step", "anymal_c/trot",
+        "go2/stand",   "go2/crouch",         "go2/step",       "solo12/stand",    "solo12/crouch", "solo12/step",
+        "talos/squat", "talos/weight_shift", "talos/step"}) {
     EXPECT_THAT(tasks, testing::Contains(task));
   }
 }

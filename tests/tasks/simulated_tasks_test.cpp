@@ -31,7 +31,8 @@ TEST_P(SimulatedTask, SucceedsAndNeedsItsGains) {
   EXPECT_EQ(run("simulate --open-loop" + out), 8);
 }
 
-INSTANTIATE_TEST_SUITE_P(HyQ, SimulatedTask, testing::Values("stand", "crouch", "rear", "balance", "step", "walk", "trot"),
+INSTANTIATE_TEST_SUITE_P(HyQ, SimulatedTask,
+                         testing::Values("stand", "crouch", "rear", "balance", "step", "walk", "trot"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

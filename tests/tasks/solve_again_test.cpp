@@ -51,7 +51,8 @@ std::vector<int> run_three_steps(const Task& task, bool with_multipliers) {
                   .start_multipliers = with_multipliers ? next.start_multipliers : std::vector<StageMultipliers>{}});
     EXPECT_EQ(plan.result.status, SolveStatus::converged) << plan.result.message;
     EXPECT_TRUE(plan.certificate.passed) << "step " << i;
-    EXPECT_LT((plan.trajectory.nodes.front().q - second.q).norm(), 1e-9) << "the motion does not go on from where it was";
+    EXPECT_LT((plan.trajectory.nodes.front().q - second.q).norm(), 1e-9)
+        << "the motion does not go on from where it was";
     iterations.push_back(plan.result.iterations);
   }
   return iterations;
@@ -140,7 +141,8 @@ TEST(ShiftHorizon, KeepsGoalsAtTheirTimes) {
   }
 }
 
-/// Steps of different length, in one phase and in several: all that stay are as long as before, and what comes is as long as the last.
+/// Steps of different length, in one phase and in several: all that stay are as long as before, and what comes is as
+/// long as the last.
 TEST(ShiftHorizon, KeepsStepsOfDifferentLength) {
   for (const char* name : {"crouch", "balance"}) {
     Task task = read(name, 30);
@@ -156,7 +158,8 @@ TEST(ShiftHorizon, KeepsStepsOfDifferentLength) {
     const Mesh before = make_mesh(problem), after = make_mesh(shifted.problem);
     ASSERT_EQ(after.size(), before.size());
     const auto step = [](const Mesh& mesh, int k) { return mesh.nodes[k].h_out; };
-    for (int k = 0; k + 2 < before.size(); ++k) EXPECT_NEAR(step(after, k), step(before, k + 1), 1e-9) << name << ", node " << k;
+    for (int k = 0; k + 2 < before.size(); ++k)
+      EXPECT_NEAR(step(after, k), step(before, k + 1), 1e-9) << name << ", node " << k;
     const bool is_single = problem.phases.size() == 1;
     EXPECT_NEAR(step(after, after.size() - 2), step(before, is_single ? 0 : before.size() - 2), 1e-9) << name;
     for (std::size_t k = 0; k < after.nodes.size(); ++k) {

@@ -31,7 +31,8 @@ void expect_agreement(const std::string& name, int intervals, const std::vector<
   task.solver.tolerance = 1e-8;
   const Plan ipopt = make_plan(task.problem, IpoptSolver(), {.solver = task.solver});
   ASSERT_EQ(ipopt.result.status, SolveStatus::converged) << ipopt.result.message;
-  for (const std::string& solver : solvers) expect_same_motion(make_plan(task.problem, *make_solver(solver), {.solver = task.solver}), ipopt);
+  for (const std::string& solver : solvers)
+    expect_same_motion(make_plan(task.problem, *make_solver(solver), {.solver = task.solver}), ipopt);
 }
 
 TEST_P(SolversAgree, OnTheMotion) { expect_agreement(GetParam(), 24, {"fatrop", "riccati", "ipopt-spral"}); }
@@ -45,7 +46,8 @@ TEST(UnoAgrees, OnFewerIntervals) {
 
 /// Iterates that differ in the last digit part ways where the Hessian is indefinite: step, with 24 intervals.
 TEST(Spral, DoesTheSameTwice) {
-  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml", test::test_search(), {.intervals = 24});
+  const Task task =
+      read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml", test::test_search(), {.intervals = 24});
   const std::unique_ptr<NlpSolver> solver = make_solver("ipopt-spral");
   const Plan first = make_plan(task.problem, *solver, {.solver = task.solver});
   const Plan second = make_plan(task.problem, *solver, {.solver = task.solver});
@@ -56,9 +58,11 @@ TEST(Spral, DoesTheSameTwice) {
 
 /// Newton's method and Gauss and Newton's have one solution; the latter takes longer to it.
 TEST(GaussNewton, FindsTheSameMotion) {
-  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml", test::test_search(), {.intervals = 24});
+  const Task task =
+      read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml", test::test_search(), {.intervals = 24});
   const Plan exact = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
-  const Plan other = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver, .hessian = HessianKind::gauss_newton});
+  const Plan other =
+      make_plan(task.problem, RiccatiSolver(), {.solver = task.solver, .hessian = HessianKind::gauss_newton});
   ASSERT_EQ(other.result.status, SolveStatus::converged) << other.result.message;
   EXPECT_NEAR(other.result.cost, exact.result.cost, 1e-6 * exact.result.cost);
   EXPECT_GT(other.result.iterations, exact.result.iterations);

@@ -22,7 +22,8 @@ class StoppedPlan : public testing::Test {
   }
   Plan plan() const { return make_plan(task_.problem, RiccatiSolver(), options_); }
 
-  Task task_ = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/balance.toml", test::test_search(), {.intervals = 120});
+  Task task_ = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/balance.toml", test::test_search(),
+                              {.intervals = 120});
   int coarsest_ = count_intervals(mesh_levels(task_.problem).front());
   PlanOptions options_;
   std::vector<int> meshes_;

@@ -1,5 +1,6 @@
-// Solo12 asked to stretch its legs, and beyond, in the middle of a motion: where they can no longer move the base, and Newton's
-// equations become singular. Every solver ends in time and says where it was, or gives a motion whose certificate tells the truth.
+// Solo12 asked to stretch its legs, and beyond, in the middle of a motion: where they can no longer move the base, and
+// Newton's equations become singular. Every solver ends in time and says where it was, or gives a motion whose
+// certificate tells the truth.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +15,8 @@ namespace {
 using testing::AnyOf;
 using testing::HasSubstr;
 
-/// Up by `rise` [m] after one second, and down again. The legs are straight at 0.0985 m, and no limit keeps them from it.
+/// Up by `rise` [m] after one second, and down again. The legs are straight at 0.0985 m, and no limit keeps them from
+/// it.
 MotionProblem stretch(double rise) {
   RobotDescription description = test::solo12_description();
   description.limits.clear();
@@ -41,8 +43,9 @@ TEST_P(Stretch, IsSolvedOrExplainedAndNeverClaimed) {
   const IpoptSolver hint_solver;
   constexpr double kMostSeconds = 5.0;
   for (const double rise : {0.05, 0.09, 0.0985, 0.105, 0.15}) {
-    const Plan plan = make_plan(stretch(rise), *make_solver(GetParam()),
-                                {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds}, .hint_solver = &hint_solver});
+    const Plan plan =
+        make_plan(stretch(rise), *make_solver(GetParam()),
+                  {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds}, .hint_solver = &hint_solver});
     const std::string words = std::to_string(rise) + " m: " + to_string(plan.result.status) + ", " + all_words(plan);
     EXPECT_LT(plan.result.seconds, 2.0 * kMostSeconds) << words;
     EXPECT_TRUE(plan.result.z.allFinite()) << words;

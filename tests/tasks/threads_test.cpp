@@ -51,7 +51,8 @@ TEST(Threads, WhatFailsIsTheSame) {
     Transcription nlp(task.problem, mesh, guess);
     Eigen::VectorXd start = nlp.pack(guess);
     for (const double place : places) {
-      start(static_cast<Eigen::Index>(place * static_cast<double>(start.size()))) = std::numeric_limits<double>::quiet_NaN();
+      start(static_cast<Eigen::Index>(place * static_cast<double>(start.size()))) =
+          std::numeric_limits<double>::quiet_NaN();
     }
     SolverOptions options = task.solver;
     options.threads = threads;

@@ -12,8 +12,8 @@
 namespace prowl {
 namespace {
 
-constexpr std::size_t kCounts = 12;    // joints, contacts, segments, curves, samples: 4 bytes each
-constexpr std::size_t kPayload = 32;   // its length, then its checksum
+constexpr std::size_t kCounts = 12;   // joints, contacts, segments, curves, samples: 4 bytes each
+constexpr std::size_t kPayload = 32;  // its length, then its checksum
 
 template <class Number>
 void put(std::string& bytes, std::size_t at, Number number) {
@@ -95,7 +95,8 @@ TEST(TrackerFile, RefusesDamage) {
   }
 }
 
-// With the checksum right: sizes that lie must not lead to large allocations, reads beyond the end or plans that are none.
+// With the checksum right: sizes that lie must not lead to large allocations, reads beyond the end or plans that are
+// none.
 TEST(TrackerFile, RefusesSizesThatLieUnderARightChecksum) {
   const test::TempFolder folder;
   const std::string good = tracker_file_bytes(test::random_tracking_plan(3, 2));

@@ -33,7 +33,8 @@ TrackingPlan without_limits(TrackingPlan plan) {
   return plan;
 }
 
-// The state difference is that of configuration.hpp, with which the gains are computed: x ⊖ x* and x* ⊖ x but for the sign.
+// The state difference is that of configuration.hpp, with which the gains are computed: x ⊖ x* and x* ⊖ x but for the
+// sign.
 TEST(Tracker, TakesTheDifferenceOfTheConfigurationSpace) {
   std::mt19937 rng(2);
   for (int i = 0; i < 1000; ++i) {
@@ -93,8 +94,8 @@ TEST(Tracker, IsLinearBetweenSamplesAndHoldsBothEnds) {
   tracker.gains(t, K);
   EXPECT_LT((K.reshaped() - 0.75 * plan.gains.col(11) - 0.25 * plan.gains.col(12)).norm(), 1e-9);
 
-  for (const auto& [time, sample] : {std::pair{-1.0, 0}, {-kInfinity, 0}, {0.0, 0}, {0.5, 11}, {1.5, 32}, {9.0, 32},
-                                     {kInfinity, 32}, {kNaN, 32}}) {
+  for (const auto& [time, sample] :
+       {std::pair{-1.0, 0}, {-kInfinity, 0}, {0.0, 0}, {0.5, 11}, {1.5, 32}, {9.0, 32}, {kInfinity, 32}, {kNaN, 32}}) {
     tracker.reference(time, q, v);
     tracker.gains(time, K);
     EXPECT_LT((v - plan.v.col(sample)).norm(), 1e-12) << time;
@@ -113,7 +114,8 @@ TEST(Tracker, StaysWithinTheTorqueLimits) {
   std::mt19937 rng(4);
   int limited = 0, unlimited = 0, braking = 0;
   for (int i = 0; i < 200; ++i) {
-    VectorXd q = random_configuration(rng, plan.nu()), v = 2.0 * test::random_vector(rng, plan.nv(), 1.0), tau(plan.nu());
+    VectorXd q = random_configuration(rng, plan.nu()), v = 2.0 * test::random_vector(rng, plan.nv(), 1.0),
+             tau(plan.nu());
     q(7) = 0.5;  // of the curve over position: 70
     v(7) = 2.5;  // of the curve over velocity: 50 upwards, 105 downwards
     tracker.torque(0.01 * i, q, v, tau);

@@ -32,8 +32,8 @@ FeedbackDesign design(const std::string& name) { return design(solved(name), sol
 
 class FeedbackOfTask : public testing::TestWithParam<std::string> {};
 
-// Independent and redundant contacts, contacts that change: deviations that the contacts do not allow get no torque, in the
-// metric of the weights: K W⁻¹ C' = 0.
+// Independent and redundant contacts, contacts that change: deviations that the contacts do not allow get no torque, in
+// the metric of the weights: K W⁻¹ C' = 0.
 TEST_P(FeedbackOfTask, HasNoGainOnWhatTheContactsForbid) {
   const test::SolvedTask& task = solved(GetParam());
   const FeedbackDesign found = design(GetParam());
@@ -79,8 +79,7 @@ TEST_P(FeedbackOfTask, KeepsItsBandwidthAndStandsOn) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FeedbackOfTask,
-                         testing::Values("hyq/stand", "hyq/balance", "hyq/kneel", "solo12/step"),
+INSTANTIATE_TEST_SUITE_P(All, FeedbackOfTask, testing::Values("hyq/stand", "hyq/balance", "hyq/kneel", "solo12/step"),
                          [](const auto& info) {
                            std::string name = info.param;
                            std::replace(name.begin(), name.end(), '/', '_');

@@ -83,7 +83,8 @@ TEST(LinearisedDynamics, AgreesWithFiniteDifferences) {
         VectorXd dx = VectorXd::Zero(2 * nv), dtau = VectorXd::Zero(nu);
         (j < 2 * nv ? dx(j) : dtau(j - 2 * nv)) = kStep;
         const VectorXd column = (deviation_rate(reference, s, deviated(s, dx, dtau)) -
-                                 deviation_rate(reference, s, deviated(s, -dx, -dtau))) / (2.0 * kStep);
+                                 deviation_rate(reference, s, deviated(s, -dx, -dtau))) /
+                                (2.0 * kStep);
         if (j < 2 * nv) {
           A.col(j) = column;
         } else {
@@ -96,7 +97,8 @@ TEST(LinearisedDynamics, AgreesWithFiniteDifferences) {
   }
 }
 
-// Contact points neither leave their places nor move: J of the deviated state times its velocity, and the way of the points.
+// Contact points neither leave their places nor move: J of the deviated state times its velocity, and the way of the
+// points.
 TEST(LinearisedDynamics, DirectionsKeepTheContacts) {
   for (Case& c : cases()) {
     LinearisedDynamics linear(c.robot, c.contacts);
@@ -107,7 +109,8 @@ TEST(LinearisedDynamics, DirectionsKeepTheContacts) {
     const Sample s = sample(random, reference);
     const int rank = reference.rank;
     linear.evaluate(s.q, s.v, s.tau);
-    const VectorXd weight = VectorXd::NullaryExpr(2 * nv, [&] { return std::pow(10.0, test::random_vector(rng, 1, 2.0)(0)); });
+    const VectorXd weight =
+        VectorXd::NullaryExpr(2 * nv, [&] { return std::pow(10.0, test::random_vector(rng, 1, 2.0)(0)); });
     const MatrixXd Z = linear.consistent_directions(weight);
     ASSERT_EQ(Z.cols(), 2 * nv - 2 * rank) << c.name;
     EXPECT_LT((Z.transpose() * weight.asDiagonal() * Z - MatrixXd::Identity(Z.cols(), Z.cols())).norm(), 1e-10);

@@ -24,14 +24,13 @@ MatrixXd random_cost(std::mt19937& rng, int n, int rank) {
   return root * root.transpose();
 }
 
-/// Unstable and stable directions, fewer inputs than states, Q of the units that robots have: G is large where Q is small.
+/// Unstable and stable directions, fewer inputs than states, Q of the units that robots have: G is large where Q is
+/// small.
 System random_system(std::mt19937& rng, int n, double input_size) {
   return {random_matrix(rng, n, n, 3.0), input_size * random_cost(rng, n, n / 2), random_cost(rng, n, n)};
 }
 
-MatrixXd riccati_rate(const System& s, const MatrixXd& S) {
-  return s.A.transpose() * S + S * s.A - S * s.G * S + s.Q;
-}
+MatrixXd riccati_rate(const System& s, const MatrixXd& S) { return s.A.transpose() * S + S * s.A - S * s.G * S + s.Q; }
 
 /// The Riccati equation itself, by many steps of the classical Runge-Kutta method.
 MatrixXd integrate_back(const System& s, MatrixXd S, double time, int steps) {
@@ -67,7 +66,8 @@ TEST(RiccatiFlow, ComposesAndCarriesTheClosedLoop) {
                       both = riccati_flow(s.A, s.G, s.Q, 0.3), composed = compose(first, second);
     EXPECT_LT(test::relative_error(composed.back(S), both.back(S)), 1e-10);
     EXPECT_LT(test::relative_error(first.back(second.back(S)), both.back(S)), 1e-10);
-    EXPECT_LT(test::relative_error(second.closed_loop(S) * first.closed_loop(second.back(S)), both.closed_loop(S)), 1e-9);
+    EXPECT_LT(test::relative_error(second.closed_loop(S) * first.closed_loop(second.back(S)), both.closed_loop(S)),
+              1e-9);
     // x' = (A - G S(t)) x, by small steps backwards in time.
     MatrixXd later = S, transition = MatrixXd::Identity(8, 8);
     constexpr int kSteps = 3000;

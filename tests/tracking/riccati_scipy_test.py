@@ -4,6 +4,7 @@ Backwards from the last sample of each phase, SciPy integrates -S' = A'S + S A -
 grid (mean of both ends of a step) by an adaptive Runge-Kutta method of order 8, and solves the algebraic equation at the end
 by Schur vectors. Both share nothing with Prowl's doubling and matrix exponentials.
 """
+
 import subprocess
 import sys
 import unittest
@@ -23,8 +24,8 @@ class Sample:
         self.step, n, nu = numbers[2], int(numbers[3]), int(numbers[4])
         rest = numbers[5:]
         self.r_inverse, rest = rest[:nu], rest[nu:]
-        self.A, rest = rest[:n * n].reshape(n, n), rest[n * n:]
-        self.B, rest = rest[:n * nu].reshape(n, nu), rest[n * nu:]
+        self.A, rest = rest[: n * n].reshape(n, n), rest[n * n :]
+        self.B, rest = rest[: n * nu].reshape(n, nu), rest[n * nu :]
         self.S = rest.reshape(n, n)
 
 

@@ -14,7 +14,8 @@ using Eigen::VectorXd;
 class RolloutMeasuresOfStanding : public testing::Test {
  protected:
   RolloutSample sample(double time) const {
-    RolloutSample at{time, problem_.start_configuration(), VectorXd::Zero(robot().nv()), VectorXd::Zero(robot().nu()), {}, 0};
+    RolloutSample at{
+        time, problem_.start_configuration(), VectorXd::Zero(robot().nv()), VectorXd::Zero(robot().nu()), {}, 0};
     at.force.resize(12);
     for (int c = 0; c < 4; ++c) at.force.segment<3>(3 * c) = 200.0 * normal();
     return at;
@@ -56,7 +57,7 @@ TEST_F(RolloutMeasuresOfStanding, TellsErrorsOnTheWayAndInRest) {
 TEST_F(RolloutMeasuresOfStanding, TellsWhenContactsPullOrSlip) {
   Rollout rollout{.samples = {sample(0.0), sample(0.5), sample(1.0)}};
   const Eigen::Vector3d along = problem_.surfaces.front().axes().col(0);
-  rollout.samples[1].force.segment<3>(0) = -5.0 * normal() + 3.0 * along;   // pulls
+  rollout.samples[1].force.segment<3>(0) = -5.0 * normal() + 3.0 * along;    // pulls
   rollout.samples[2].force.segment<3>(3) = 100.0 * normal() + 62.0 * along;  // slips at a coefficient of 0.5
   const RolloutMeasures measures = measure(rollout);
   ASSERT_EQ(measures.contacts.size(), 4u);

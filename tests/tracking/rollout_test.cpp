@@ -51,7 +51,8 @@ Error error_of(const Tracker& tracker, const RolloutSample& at) {
 
 class FourFootTask : public testing::TestWithParam<std::string> {};
 
-// 2 cm and 2 degrees, in several directions at once, feet where they were: gone at the end of the motion. Open loop falls.
+// 2 cm and 2 degrees, in several directions at once, feet where they were: gone at the end of the motion. Open loop
+// falls.
 TEST_P(FourFootTask, ReturnsFromADisplacedBase) {
   const Tracked tracked = track(GetParam());
   const VectorXd rest = VectorXd::Zero(tracked.robot().nv());
@@ -60,7 +61,8 @@ TEST_P(FourFootTask, ReturnsFromADisplacedBase) {
   Error worst{};
   for (int i = 0; i < 3; ++i) {
     VectorXd move(6);
-    move << 0.02 * test::random_vector(rng, 3, 1.0).normalized(), kAngle * test::random_vector(rng, 3, 1.0).normalized();
+    move << 0.02 * test::random_vector(rng, 3, 1.0).normalized(),
+        kAngle * test::random_vector(rng, 3, 1.0).normalized();
     const VectorXd q = moved_start(tracked, move);
     const Rollout closed = rollout(tracked.robot(), tracked.tracker, q, rest, {.control_step = 1e-3});
     ASSERT_FALSE(closed.fell);
@@ -68,7 +70,8 @@ TEST_P(FourFootTask, ReturnsFromADisplacedBase) {
     EXPECT_NEAR(start.position, 0.02, 1e-9);
     EXPECT_NEAR(start.angle, kAngle, 1e-9);
     const Error end = error_of(tracked.tracker, closed.samples.back());
-    worst = {std::max(worst.position, end.position), std::max(worst.angle, end.angle), std::max(worst.speed, end.speed)};
+    worst = {std::max(worst.position, end.position), std::max(worst.angle, end.angle),
+             std::max(worst.speed, end.speed)};
     EXPECT_LT(end.position, 2e-4);
     EXPECT_LT(end.angle, 2e-4);
     const Rollout open = rollout(tracked.robot(), tracked.tracker, q, rest, {.closed_loop = false});
@@ -93,7 +96,8 @@ TEST(Rollout, FollowsMotionsThatChangeTheirContacts) {
     const VectorXd rest = VectorXd::Zero(tracked.robot().nv());
     VectorXd move(6);
     move << 0.01, 0.01, -0.01, 0.02, -0.02, 0.02;
-    const Rollout closed = rollout(tracked.robot(), tracked.tracker, moved_start(tracked, move), rest, {.stand_on = 1.0});
+    const Rollout closed =
+        rollout(tracked.robot(), tracked.tracker, moved_start(tracked, move), rest, {.stand_on = 1.0});
     ASSERT_FALSE(closed.fell) << name;
     EXPECT_NEAR(closed.samples.back().time, tracked.tracker.end() + 1.0, 1e-9);
     const Error end = error_of(tracked.tracker, closed.samples.back());
@@ -103,8 +107,8 @@ TEST(Rollout, FollowsMotionsThatChangeTheirContacts) {
   }
 }
 
-// The report of the design: no small deviation is left larger at the end of the first phase than `worst` of it, and over many
-// directions it is `mean`.
+// The report of the design: no small deviation is left larger at the end of the first phase than `worst` of it, and
+// over many directions it is `mean`.
 TEST(Rollout, DecaysAsTheDesignSays) {
   const Tracked tracked = track("hyq/step");
   const RobotModel& robot = tracked.robot();
@@ -114,7 +118,8 @@ TEST(Rollout, DecaysAsTheDesignSays) {
   TrackingPlan first = tracked.tracker.plan();  // of the first phase alone
   first.segments.resize(1);
   const int samples = first.segments.front().samples;
-  for (Eigen::MatrixXd* matrix : {&first.q, &first.v, &first.tau, &first.gains}) *matrix = matrix->leftCols(samples).eval();
+  for (Eigen::MatrixXd* matrix : {&first.q, &first.v, &first.tau, &first.gains})
+    *matrix = matrix->leftCols(samples).eval();
   const Tracker tracker(first);
   const RolloutOptions options{.tolerance = 1e-11};
   const Rollout nominal = rollout(robot, tracker, start.q, start.v, options);
@@ -178,7 +183,8 @@ Tracker flight(const RobotModel& robot, const VectorXd& q, double duration) {
   return Tracker(plan);
 }
 
-// Tumbling in the air: the same however wide the chart gets between two samples, and its momentum changes by the weight.
+// Tumbling in the air: the same however wide the chart gets between two samples, and its momentum changes by the
+// weight.
 TEST(Rollout, Tumbles) {
   const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/stand.toml", test::test_search());
   const RobotModel& robot = task.problem.robot;

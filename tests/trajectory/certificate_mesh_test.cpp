@@ -86,7 +86,8 @@ TEST(CertificateMesh, ReintegrationTellsWhichIntervalIsOff) {
       EXPECT_LT(error, 1e-8) << i;
     }
   }
-  EXPECT_EQ(std::max(certificate.interval_errors[19].reintegration, certificate.interval_errors[20].reintegration), worst);
+  EXPECT_EQ(std::max(certificate.interval_errors[19].reintegration, certificate.interval_errors[20].reintegration),
+            worst);
 }
 
 TEST(CertificateMesh, AGoodMotionPassesWithRoomToItsTotals) {

@@ -63,8 +63,8 @@ TEST(GroundDistance, InsideItIsTheWayOutOfTheNearestFace) {
   EXPECT_DOUBLE_EQ(distance_from_ground(surface, {0.2, 0.5, -5.0}), -0.2);  // through the side, however deep
   EXPECT_DOUBLE_EQ(distance_from_ground(surface, {-0.3, 0.5, -5.0}), 0.3);
   EXPECT_DOUBLE_EQ(distance_from_ground(surface, {0.5, 0.5, 0.2}), 0.2);
-  EXPECT_DOUBLE_EQ(distance_from_ground(surface, {-0.3, 0.5, 0.4}), 0.5);   // to the edge
-  EXPECT_DOUBLE_EQ(distance_from_patch(surface, {-0.3, -0.4}), 0.5);        // to a corner
+  EXPECT_DOUBLE_EQ(distance_from_ground(surface, {-0.3, 0.5, 0.4}), 0.5);  // to the edge
+  EXPECT_DOUBLE_EQ(distance_from_patch(surface, {-0.3, -0.4}), 0.5);       // to a corner
 }
 
 TEST(GroundDistance, APlaneWithoutAnEdgeIsEverywhere) {

@@ -13,8 +13,8 @@ namespace prowl::test {
 /// The mesh is fine; the trapezoid meets every node.
 class SteppingMotion {
  public:
-  static constexpr int kFoot = 0, kKnee = 2;  // lf_foot, lf_kfe_joint
-  static constexpr int kShift = 10, kSwing = 300;  // intervals
+  static constexpr int kFoot = 0, kKnee = 2;                   // lf_foot, lf_kfe_joint
+  static constexpr int kShift = 10, kSwing = 300;              // intervals
   static constexpr double kShiftTime = 0.5, kSwingTime = 0.6;  // [s]
 
   /// The centre of mass is over the other three feet.

@@ -79,8 +79,7 @@ TEST(Interpolate, VelocityIsTheIntegralOfAcceleration) {
   const TrajectoryPoint left = random_node(rng, 0.0);
   const TrajectoryPoint right = stepped(rng, left, h);
   for (double s : {0.01, 0.07, 0.1, 0.19}) {
-    const Eigen::VectorXd rate =
-        (interpolate(left, right, s + dt).v - interpolate(left, right, s - dt).v) / (2 * dt);
+    const Eigen::VectorXd rate = (interpolate(left, right, s + dt).v - interpolate(left, right, s - dt).v) / (2 * dt);
     EXPECT_LT((rate - interpolate(left, right, s).a).cwiseAbs().maxCoeff(), 1e-9);
   }
 }
@@ -90,8 +89,7 @@ TEST(Interpolate, RateIsTheDerivativeOfTheConfiguration) {
   constexpr double h = 0.2, dt = 1e-5;
   const TrajectoryPoint left = random_node(rng, 0.0), right = stepped(rng, left, h);
   for (double s : {0.01, 0.07, 0.1, 0.19}) {
-    const Eigen::VectorXd step =
-        difference(interpolate(left, right, s - dt).q, interpolate(left, right, s + dt).q);
+    const Eigen::VectorXd step = difference(interpolate(left, right, s - dt).q, interpolate(left, right, s + dt).q);
     EXPECT_LT((step / (2 * dt) - interpolated_rate(left, right, s)).cwiseAbs().maxCoeff(), 1e-8);
   }
   EXPECT_LT((interpolated_rate(left, right, 0.0) - tangent_rate(left)).norm(), 1e-12);

@@ -54,7 +54,8 @@ TEST(BaseDefects, DerivativesOfTheRotationAreThoseOfDifferences) {
 
     Eigen::MatrixXd first(3, 12), second(12, 12);
     for (int i = 0; i < 12; ++i) {
-      first.col(i) = (8.0 * (value(unit(i)) - value(-unit(i))) - (value(2 * unit(i)) - value(-2 * unit(i)))) / (12 * step);
+      first.col(i) =
+          (8.0 * (value(unit(i)) - value(-unit(i))) - (value(2 * unit(i)) - value(-2 * unit(i)))) / (12 * step);
       for (int j = 0; j < 12; ++j) {
         const auto at = [&](double s) {
           const VectorXd plus = s * (unit(i) + unit(j)), minus = s * (unit(i) - unit(j));

@@ -1,5 +1,5 @@
-// Flat feet: eight corner points of Talos's two soles, 24 rows of rank 12. The forces of single corners are a choice, the
-// motion is not: it has to be that of six rows a foot.
+// Flat feet: eight corner points of Talos's two soles, 24 rows of rank 12. The forces of single corners are a choice,
+// the motion is not: it has to be that of six rows a foot.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -20,15 +20,16 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Talos with these points on each sole, grippers away from their limits: a limit that is just touched moves the solution of
-/// an interior-point method by the root of its tolerance.
+/// Talos with these points on each sole, grippers away from their limits: a limit that is just touched moves the
+/// solution of an interior-point method by the root of its tolerance.
 RobotModel talos(const std::vector<Eigen::Vector3d>& points) {
   RobotDescription robot = test::talos_description();
   robot.nominal_joints["gripper_left_joint"] = robot.nominal_joints["gripper_right_joint"] = -0.5;
   robot.contacts.clear();
   for (const char* side : {"left", "right"}) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      robot.contacts.push_back({side + std::string("_") + std::to_string(i), side + std::string("_sole_link"), 0.0, points[i]});
+      robot.contacts.push_back(
+          {side + std::string("_") + std::to_string(i), side + std::string("_sole_link"), 0.0, points[i]});
     }
   }
   return RobotModel(robot);
@@ -55,8 +56,9 @@ MotionProblem squat(RobotModel robot) {
   return problem;
 }
 
-/// The same program on a basis of six rows a foot: the forces of the dependent rows are zero, so that those of the other twelve
-/// are the two wrenches in other coordinates. Cones of single points have no meaning then and are left out.
+/// The same program on a basis of six rows a foot: the forces of the dependent rows are zero, so that those of the
+/// other twelve are the two wrenches in other coordinates. Cones of single points have no meaning then and are left
+/// out.
 class SixRowsAFoot : public StoredNlp {
  public:
   explicit SixRowsAFoot(Transcription& nlp) : StoredNlp(nlp), nlp_(nlp) {
@@ -144,11 +146,13 @@ TEST_F(FlatFeet, MoveAsOnSixRowsAFoot) { expect_same_motion(corners_.motion, sol
 TEST_F(FlatFeet, MoveAsOnOtherPointsOfTheSoles) {
   constexpr double kTolerance = 1e-10;  // other cones, another barrier: that of 1e-9 moves torques by 1.1e-6 N m
   const Trajectory corners = solve(problem_, false, kTolerance).motion;
-  expect_same_motion(corners, solve(squat(talos({kCorners.rbegin(), kCorners.rend()})), false, kTolerance).motion, 1e-6);
+  expect_same_motion(corners, solve(squat(talos({kCorners.rbegin(), kCorners.rend()})), false, kTolerance).motion,
+                     1e-6);
   expect_same_motion(corners, solve(squat(talos(kMiddlesOfEdges)), false, kTolerance).motion, 1e-6);
 }
 
-/// With Pinocchio's own six-row Jacobians: what the torques leave over is a wrench on each foot, and it is that of its corners.
+/// With Pinocchio's own six-row Jacobians: what the torques leave over is a wrench on each foot, and it is that of its
+/// corners.
 TEST_F(FlatFeet, ForcesOfTheCornersAreTheWrenchesOfTheFeet) {
   const pinocchio::Model& model = problem_.robot.pinocchio().model;
   pinocchio::Data data(model);

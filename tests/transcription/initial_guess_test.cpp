@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "../support/robots.hpp"
-#include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
 
 namespace prowl {
@@ -38,8 +38,8 @@ BoundaryCondition base_goal(const MotionProblem& problem, NodeRef at, const Vect
   VectorXd displacement = VectorXd::Zero(problem.robot.nv());
   displacement.head<3>() = shift;
   displacement.segment<3>(3) = turn;
-  auto goal = BoundaryCondition::unbounded(problem.robot, "goal", at,
-                                           integrate(problem.start_configuration(), displacement));
+  auto goal =
+      BoundaryCondition::unbounded(problem.robot, "goal", at, integrate(problem.start_configuration(), displacement));
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
   goal.velocity_lower.head<6>().setZero();
@@ -116,8 +116,8 @@ TEST_P(InitialGuessOf, GoesToTheGoalWithItsFeetInPlace) {
 
   for (const TrajectoryPoint& point : guess.nodes) {
     for (const PhaseContact& c : problem.phases[0].contacts) {
-      const Vector3d drift = place(problem.robot, point.q, c.contact) -
-                             place(problem.robot, problem.start_configuration(), c.contact);
+      const Vector3d drift =
+          place(problem.robot, point.q, c.contact) - place(problem.robot, problem.start_configuration(), c.contact);
       EXPECT_LT(drift.norm(), 1e-3) << problem.robot.contacts()[c.contact].name;
     }
     EXPECT_LT(equations_of_motion(problem.robot, point).norm(), 1e-9 * problem.robot.weight());
@@ -180,9 +180,9 @@ TEST(InitialGuess, GoesDownAndUpAgainForACrouchWithoutOvershoot) {
 
 TEST(InitialGuess, LetsFreeCoordinatesPassAWaypoint) {
   MotionProblem problem = standing(test::hyq_description());
-  auto halfway = BoundaryCondition::unbounded(problem.robot, "height only", {0, 20},
-                                              integrate(problem.start_configuration(),
-                                                        VectorXd::Unit(problem.robot.nv(), 2) * -0.1));
+  auto halfway = BoundaryCondition::unbounded(
+      problem.robot, "height only", {0, 20},
+      integrate(problem.start_configuration(), VectorXd::Unit(problem.robot.nv(), 2) * -0.1));
   halfway.configuration_lower(2) = halfway.configuration_upper(2) = 0.0;
   problem.boundary_conditions.push_back(halfway);
   problem.boundary_conditions.push_back(base_goal(problem, {0, 40}, Vector3d(0.08, 0.0, -0.1), Vector3d::Zero()));
@@ -233,8 +233,8 @@ TEST(InitialGuess, BringsJointsToAPrescribedPosture) {
   MotionProblem problem = standing(test::hyq_description());
   problem.phases[0].contacts.clear();
   const VectorXd change = VectorXd::Unit(problem.robot.nv(), 7) * 0.3;
-  auto posture = BoundaryCondition::unbounded(problem.robot, "posture", {0, 40},
-                                              integrate(problem.start_configuration(), change));
+  auto posture =
+      BoundaryCondition::unbounded(problem.robot, "posture", {0, 40}, integrate(problem.start_configuration(), change));
   posture.configuration_lower.tail(problem.robot.nu()).setZero();
   posture.configuration_upper.tail(problem.robot.nu()).setZero();
   problem.boundary_conditions.push_back(posture);

@@ -20,9 +20,11 @@ class Limits : public testing::Test {
  protected:
   Limits() {
     RobotDescription description = test::hyq_description();
-    description.limits["lf_kfe_joint"].torque_over_position = {{-2.5, 70.0}, {-2.0, 120.0}, {-1.4, 145.0}, {-1.0, 130.0}, {-0.3, 70.0}};
-    problem_ = test::everything(RobotModel(description), {test::phase_on("four", {0, 1, 2, 3}, 0.4, 2), test::phase_on("swing", {1, 2, 3}, 0.4, 4),
-                                                    test::phase_on("down", {0, 1, 2, 3}, 0.4, 2)});
+    description.limits["lf_kfe_joint"].torque_over_position = {
+        {-2.5, 70.0}, {-2.0, 120.0}, {-1.4, 145.0}, {-1.0, 130.0}, {-0.3, 70.0}};
+    problem_ = test::everything(RobotModel(description), {test::phase_on("four", {0, 1, 2, 3}, 0.4, 2),
+                                                          test::phase_on("swing", {1, 2, 3}, 0.4, 4),
+                                                          test::phase_on("down", {0, 1, 2, 3}, 0.4, 2)});
     Surface& surface = problem_->surfaces[0];
     surface.normal = {0.0, 0.0, 1.0};
     problem_->swing_clearance = 0.05;
@@ -48,7 +50,8 @@ TEST_F(Limits, AreEachThereOnceWithABoundAndItsName) {
     const double upper = limit.is_row ? nlp_->constraint_upper()(limit.index) : nlp_->variable_upper()(limit.index);
     EXPECT_TRUE(std::isfinite(lower) || std::isfinite(upper)) << limit.subject;
     EXPECT_TRUE(limit.size > 0.0 && std::isfinite(limit.size) && limit.si > 0.0) << limit.subject;
-    const std::string words = limit.is_row ? nlp_->describe_constraint(limit.index) : nlp_->describe_variable(limit.index);
+    const std::string words =
+        limit.is_row ? nlp_->describe_constraint(limit.index) : nlp_->describe_variable(limit.index);
     if (limit.kind != LimitKind::goal) EXPECT_THAT(words, HasSubstr(limit.subject));
     EXPECT_THAT(words, HasSubstr("phase " + std::to_string(limit.phase + 1)));
     if (limit.kind == LimitKind::friction) EXPECT_THAT(words, HasSubstr("friction cone"));
@@ -83,7 +86,8 @@ TEST_F(Limits, AreInTheirUnits) {
     } else if (limit.kind == LimitKind::torque && limit.is_row) {
       const double most = problem_->robot.torque_curves()[0].curve.value(point.q(9)), left = g(limit.index) * limit.si;
       const bool is_upper = std::abs(left - (most - point.tau(2))) < 1e-9;
-      EXPECT_TRUE(is_upper || std::abs(left - (most + point.tau(2))) < 1e-9) << left << " of " << most << " and " << point.tau(2);
+      EXPECT_TRUE(is_upper || std::abs(left - (most + point.tau(2))) < 1e-9)
+          << left << " of " << most << " and " << point.tau(2);
       ++(is_upper ? upper : lower);
     }
   }

@@ -26,7 +26,8 @@ std::vector<std::vector<int>> intervals_of_levels(const MotionProblem& problem) 
 using testing::ElementsAre;
 
 TEST(MeshLevels, GoFromCoarseToFineByFour) {
-  EXPECT_THAT(intervals_of_levels(with_intervals({400})), ElementsAre(ElementsAre(25), ElementsAre(100), ElementsAre(400)));
+  EXPECT_THAT(intervals_of_levels(with_intervals({400})),
+              ElementsAre(ElementsAre(25), ElementsAre(100), ElementsAre(400)));
 }
 
 TEST(MeshLevels, KeepFourIntervalsAPhase) {

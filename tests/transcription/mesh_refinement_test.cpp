@@ -59,7 +59,8 @@ TEST(MeshRefinement, SplitsIntoWhatTheOrderOfTheTrapezoidTakes) {
   EXPECT_THAT(steps(problem), Pointwise(DoubleNear(1e-12), expected));
 }
 
-/// With an error of K h³, the largest of any mesh that it asks for is within the tolerance, and K may differ a thousandfold.
+/// With an error of K h³, the largest of any mesh that it asks for is within the tolerance, and K may differ a
+/// thousandfold.
 TEST(MeshRefinement, MeetsTheToleranceOfASmoothMotion) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> exponent(0.0, 3.0);
@@ -70,7 +71,8 @@ TEST(MeshRefinement, MeetsTheToleranceOfASmoothMotion) {
     std::vector<double> parts;
     double time = 0.0;
     for (const double h : steps(on)) {
-      const auto from = static_cast<std::size_t>(40.0 * (time + 1e-9)), to = static_cast<std::size_t>(40.0 * (time + h - 1e-9));
+      const auto from = static_cast<std::size_t>(40.0 * (time + 1e-9)),
+                 to = static_cast<std::size_t>(40.0 * (time + h - 1e-9));
       const double k = *std::max_element(K.begin() + static_cast<long>(from), K.begin() + static_cast<long>(to) + 1);
       parts.push_back(k * h * h * h);
       time += h;
@@ -93,7 +95,8 @@ TEST(MeshRefinement, MergesWhatIsFarBelow) {
   EXPECT_THAT(steps(refined(one_phase(12), std::vector<double>(12, 0.25 / 8.1))), testing::SizeIs(6));
   EXPECT_THAT(steps(refined(one_phase(12), std::vector<double>(12, 0.25 / 27.1))), testing::SizeIs(4));
   EXPECT_THAT(steps(refined(one_phase(40), std::vector<double>(40, 0.0))), testing::SizeIs(10)) << "four at most";
-  EXPECT_THAT(steps(refined(one_phase(8), std::vector<double>(8, 0.0))), testing::SizeIs(4)) << "a quarter of the phase at most";
+  EXPECT_THAT(steps(refined(one_phase(8), std::vector<double>(8, 0.0))), testing::SizeIs(4))
+      << "a quarter of the phase at most";
   EXPECT_THAT(steps(refined(one_phase(3), std::vector<double>(3, 0.0))), testing::SizeIs(3));
 }
 
@@ -107,7 +110,8 @@ TEST(MeshRefinement, DoesNotMergeOverAGoalNorOverAPhaseSwitch) {
   MotionProblem two = one_phase(6);
   two.phases.push_back({.name = "q", .duration = {0.2, 0.5}, .intervals = 2});
   two = refined(two, {0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.9, 0.0});
-  EXPECT_THAT(steps(two, 0), Pointwise(DoubleNear(1e-12), {1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 12.0, 1 / 12.0}));
+  EXPECT_THAT(steps(two, 0),
+              Pointwise(DoubleNear(1e-12), {1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 12.0, 1 / 12.0}));
   EXPECT_THAT(steps(two, 1), Pointwise(DoubleNear(1e-12), {0.25, 0.25, 0.5}));
 }
 
@@ -145,8 +149,8 @@ TEST(ErrorParts, KeepTheSumWhereMeshesMerge) {
   EXPECT_EQ(error_parts(with_errors({0.0, 0.0}, 0.0, 0.0), tolerance)[0], 0.0);
 }
 
-/// Where only the sum is too large, intervals have to be off by less than the worst is, so that the sum of equal errors is right:
-/// n intervals of error e become n (e/c)^(1/3) of error c.
+/// Where only the sum is too large, intervals have to be off by less than the worst is, so that the sum of equal errors
+/// is right: n intervals of error e become n (e/c)^(1/3) of error c.
 TEST(ErrorParts, KeepTheSumOverASecond) {
   const MeshTolerance tolerance{.local = 1e-4, .second = 3e-3, .reintegration = 5e-4};
   const double e = 0.8e-4;

@@ -7,7 +7,7 @@
 namespace prowl {
 namespace {
 
-const std::vector<Waypoint> kWaypoints = {{0.0, 1.0, {}}, {0.5, 1.2, {}}, {2.0, 3.0, {}},
+const std::vector<Waypoint> kWaypoints = {{0.0, 1.0, {}}, {0.5, 1.2, {}},  {2.0, 3.0, {}},
                                           {2.5, 3.0, {}}, {3.0, -1.0, {}}, {4.5, 0.0, {}}};
 
 double slope(const MonotoneCubic& curve, double time) { return (curve(time + 1e-6) - curve(time - 1e-6)) / 2e-6; }

@@ -60,10 +60,17 @@ Node node_of(const Case& test, int k) {
   NodeFunctions functions(problem, schedule, test.phase,
                           phase_contacts(problem, schedule, test.phase, problem.robot.nominal_configuration()));
   std::mt19937 rng(17);
-  const DynamicsPoint at =
-      test::random_point(problem.robot, functions.contacts(), rng, functions.chosen_rows().size());
-  NodePoint point{.node = k, .q = at.q, .v = at.v, .a = at.a, .tau = at.tau, .w = at.chosen_forces,
-                  .theta = {0.3, -0.2, 0.5}, .duration = 0.3, .anchors = at.anchors, .cost_weight = 0.1,
+  const DynamicsPoint at = test::random_point(problem.robot, functions.contacts(), rng, functions.chosen_rows().size());
+  NodePoint point{.node = k,
+                  .q = at.q,
+                  .v = at.v,
+                  .a = at.a,
+                  .tau = at.tau,
+                  .w = at.chosen_forces,
+                  .theta = {0.3, -0.2, 0.5},
+                  .duration = 0.3,
+                  .anchors = at.anchors,
+                  .cost_weight = 0.1,
                   .terminal_weight = 1.0};
   const int rows = functions.num_rows(k);
   return {std::move(functions), std::move(point), test::random_vector(rng, rows, 1.0)};
@@ -103,7 +110,7 @@ TEST(NodeFunctions, HessianIsThatOfDifferencesOfTheGradient) {
       node.functions.evaluate_with_derivatives(at, values);
       return 1.7 * values.cost_gradient + values.rows_jacobian.transpose() * node.multipliers;
     };
-    const auto expect_columns = [&](Eigen::VectorXd NodePoint::*member, Eigen::Index first, double step) {
+    const auto expect_columns = [&](Eigen::VectorXd NodePoint::* member, Eigen::Index first, double step) {
       Eigen::MatrixXd expected(hessian.rows(), (node.point.*member).size());
       for (Eigen::Index i = 0; i < expected.cols(); ++i) {
         NodePoint plus = node.point, minus = node.point;
@@ -135,8 +142,9 @@ std::vector<double> random_steps(std::mt19937& rng, int count) {
 /// Gains (kd, kp) at each node of phases with these steps, half of them each.
 std::vector<Eigen::Vector2d> gains_on(const std::vector<double>& steps) {
   const auto half = static_cast<std::ptrdiff_t>(steps.size() / 2);
-  MotionProblem problem = test::everything(test::hyq(), {test::phase_on("first", {0, 1, 2, 3}, 1.0, static_cast<int>(half)),
-                                                         test::phase_on("second", {0, 1}, 1.0, static_cast<int>(half))});
+  MotionProblem problem =
+      test::everything(test::hyq(), {test::phase_on("first", {0, 1, 2, 3}, 1.0, static_cast<int>(half)),
+                                     test::phase_on("second", {0, 1}, 1.0, static_cast<int>(half))});
   std::vector<Eigen::Vector2d> gains;
   for (int p = 0; p < 2; ++p) {
     Phase& phase = problem.phases[p];
@@ -147,7 +155,8 @@ std::vector<Eigen::Vector2d> gains_on(const std::vector<double>& steps) {
   }
   const ContactSchedule schedule(problem);
   for (int p = 0; p < 2; ++p) {
-    const NodeFunctions functions(problem, schedule, p, phase_contacts(problem, schedule, p, problem.robot.nominal_configuration()));
+    const NodeFunctions functions(problem, schedule, p,
+                                  phase_contacts(problem, schedule, p, problem.robot.nominal_configuration()));
     for (int k = 0; k <= half; ++k) {
       gains.push_back(functions.gains({.node = k, .duration = problem.phases[p].duration.min}, 0));
     }
@@ -155,8 +164,8 @@ std::vector<Eigen::Vector2d> gains_on(const std::vector<double>& steps) {
   return gains;
 }
 
-/// The error x = (phi, phi_dot) of a contact goes by the trapezoid of phi_dot_dot = - kd phi_dot - kp phi. It neither grows nor is
-/// pulled in faster than the steps that it comes from could, whatever steps follow.
+/// The error x = (phi, phi_dot) of a contact goes by the trapezoid of phi_dot_dot = - kd phi_dot - kp phi. It neither
+/// grows nor is pulled in faster than the steps that it comes from could, whatever steps follow.
 TEST(NodeFunctions, GainsTakeAnErrorOfAContactDownOnAnyMesh) {
   std::mt19937 rng(23);
   const auto rate = [](const Eigen::Vector2d& gain) {
@@ -172,7 +181,8 @@ TEST(NodeFunctions, GainsTakeAnErrorOfAContactDownOnAnyMesh) {
     std::size_t node = 0;
     for (std::size_t i = 0; i < steps.size(); ++i, ++node) {
       if (i == steps.size() / 2) ++node;  // the other side of the phase switch
-      const Eigen::Matrix2d start = one + 0.5 * steps[i] * rate(gains[node]), end = one - 0.5 * steps[i] * rate(gains[node + 1]);
+      const Eigen::Matrix2d start = one + 0.5 * steps[i] * rate(gains[node]),
+                            end = one - 0.5 * steps[i] * rate(gains[node + 1]);
       x = (end.inverse() * start * x).eval();
       EXPECT_LT(std::abs(x(0)), 0.81) << "mesh " << mesh << ", interval " << i;
       EXPECT_LT(std::abs(x(1)), 0.45 / steps[0]) << "mesh " << mesh << ", interval " << i;

@@ -31,8 +31,8 @@ Trajectory smooth_motion(const MotionProblem& problem, const Mesh& mesh) {
     const Eigen::VectorXd v_start = Eigen::VectorXd::LinSpaced(nv, 0.2, 1.0) * (node.phase == 0 ? 0.0 : 0.4);
     point.v = v_start + s * point.a;
     point.v.segment<3>(3).setZero();
-    const Eigen::VectorXd before = node.phase == 0 ? Eigen::VectorXd::Zero(nv).eval()
-                                                   : (0.08 * Eigen::VectorXd::LinSpaced(nv, 0.2, 1.0)).eval();
+    const Eigen::VectorXd before =
+        node.phase == 0 ? Eigen::VectorXd::Zero(nv).eval() : (0.08 * Eigen::VectorXd::LinSpaced(nv, 0.2, 1.0)).eval();
     Eigen::VectorXd way = before + s * v_start + 0.5 * s * s * point.a;
     way.segment<3>(3).setZero();
     point.q = integrate(problem.robot.nominal_configuration(), way);
@@ -68,7 +68,8 @@ TEST(Resample, IsTheSameMotionOnUnevenMeshes) {
   const Trajectory found = resample(smooth_motion(coarse, make_mesh(coarse)), fine, mesh);
   for (std::size_t k = 0; k < expected.nodes.size(); ++k) {
     EXPECT_NEAR(found.nodes[k].time, expected.nodes[k].time, 1e-15);
-    EXPECT_LT((found.nodes[k].q - expected.nodes[k].q).norm() + (found.nodes[k].v - expected.nodes[k].v).norm(), 1e-13) << "node " << k;
+    EXPECT_LT((found.nodes[k].q - expected.nodes[k].q).norm() + (found.nodes[k].v - expected.nodes[k].v).norm(), 1e-13)
+        << "node " << k;
   }
 }
 

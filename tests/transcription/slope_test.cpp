@@ -1,6 +1,6 @@
-// A robot at rest on a slope of 15 degrees, by hand: forces straight up, each f, have f cos 15 along the tilted normal and
-// f sin 15 along the slope, 0.26795 of it. The friction cone has to be the one of that normal, for the planner and for the
-// certificate.
+// A robot at rest on a slope of 15 degrees, by hand: forces straight up, each f, have f cos 15 along the tilted normal
+// and f sin 15 along the slope, 0.26795 of it. The friction cone has to be the one of that normal, for the planner and
+// for the certificate.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -22,7 +22,10 @@ constexpr const char* kFirstRow = "base force x, equations of motion";  ///< of 
 /// A transcription near its guess, with both forms.
 struct Forms {
   explicit Forms(const MotionProblem& problem)
-      : mesh(make_mesh(problem)), guess(initial_guess(problem, mesh)), nlp(problem, mesh, guess), stages(*nlp.stagewise()) {
+      : mesh(make_mesh(problem)),
+        guess(initial_guess(problem, mesh)),
+        nlp(problem, mesh, guess),
+        stages(*nlp.stagewise()) {
     start = nlp.pack(guess);
     for (int i = 0; i < nlp.num_variables(); ++i) {  // as a solver would put what is fixed
       if (nlp.variable_lower()(i) == nlp.variable_upper()(i)) start(i) = nlp.variable_lower()(i);
@@ -48,8 +51,8 @@ std::vector<MotionProblem> problems() {
       everything(hyq, {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("flight", {}, 0.2, 1)}),
       everything(hyq, {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                        free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)}),
-      everything(test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1),
-                                 free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)}),
+      everything(test::talos(),
+                 {phase_on("left", {0, 1, 2, 3}, 0.3, 1), free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)}),
       everything(hyq, {free_phase("four", {0, 1, 2, 3}, 3), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                        free_phase("landed", {0, 1, 2, 3}, 2)})};
   all[1].running_cost.time_weight = 2.3;

@@ -32,7 +32,8 @@ void expect_derivatives(const MotionProblem& problem, double size_of_multipliers
   EXPECT_TRUE(report.pattern_faults.empty()) << report.pattern_faults.front();
 }
 
-/// A motion with every joint at its lower limits is the lower bound of the variables, one at the upper limits the upper one.
+/// A motion with every joint at its lower limits is the lower bound of the variables, one at the upper limits the upper
+/// one.
 TEST(Transcription, BoundsOfJointsAreTheRobotsLimitsOnBothSides) {
   const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 4)});
   const RobotModel& robot = problem.robot;
@@ -51,7 +52,7 @@ TEST(Transcription, BoundsOfJointsAreTheRobotsLimitsOnBothSides) {
   const Eigen::VectorXd low = nlp.pack(lowest), high = nlp.pack(highest);
   int bounded = 0;
   for (int i = 0; i < nlp.num_variables(); ++i) {
-    if (low(i) == high(i)) continue;  // not of a joint
+    if (low(i) == high(i)) continue;                                   // not of a joint
     if (nlp.variable_lower()(i) == nlp.variable_upper()(i)) continue;  // the start
     EXPECT_EQ(nlp.variable_lower()(i), low(i)) << nlp.describe_variable(i);
     EXPECT_EQ(nlp.variable_upper()(i), high(i)) << nlp.describe_variable(i);
@@ -71,8 +72,8 @@ TEST(Transcription, DerivativesHoldForASmallRobotToo) {
 }
 
 TEST(Transcription, DerivativesHoldForFreeDurations) {
-  MotionProblem problem = everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("two", {0, 3}, 0.2, 1),
-                                                   free_phase("flight", {}, 2)});
+  MotionProblem problem = everything(
+      test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("two", {0, 3}, 0.2, 1), free_phase("flight", {}, 2)});
   problem.running_cost.time_weight = 2.3;
   expect_derivatives(problem);
 }
@@ -103,7 +104,9 @@ TEST(Transcription, DerivativesHoldForAPatchThatAContactLandsIn) {
   MotionProblem problem =
       everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.2, 2), free_phase("landed", {0, 1, 2, 3}, 2)});
   problem.swing_clearance = 0.05;
-  problem.surfaces.push_back({.name = "step", .point = {0.4, 0.3, 0.1}, .normal = {0.1, 0.0, 1.0},
+  problem.surfaces.push_back({.name = "step",
+                              .point = {0.4, 0.3, 0.1},
+                              .normal = {0.1, 0.0, 1.0},
                               .patch = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}});
   problem.surfaces[1].normal.normalize();
   problem.phases[1].contacts[0].surface = 1;
@@ -114,7 +117,8 @@ TEST(Transcription, DerivativesHoldForAPatchThatAContactLandsIn) {
 TEST(Transcription, LandsInsideThePatch) {
   MotionProblem problem =
       everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.2, 2), phase_on("landed", {0, 1, 2, 3}, 0.2, 2)});
-  problem.surfaces.push_back({.name = "step", .point = {0.4, 0.3, 0.0}, .patch = {{-0.1, -0.2}, {0.1, -0.2}, {0.1, 0.2}, {-0.1, 0.2}}});
+  problem.surfaces.push_back(
+      {.name = "step", .point = {0.4, 0.3, 0.0}, .patch = {{-0.1, -0.2}, {0.1, -0.2}, {0.1, 0.2}, {-0.1, 0.2}}});
   problem.phases[1].contacts[0].surface = 1;
   const Mesh mesh = make_mesh(problem);
   const Trajectory guess = initial_guess(problem, mesh);
@@ -169,8 +173,9 @@ std::vector<double> clearances(const MotionProblem& problem) {
 
 /// Through two phases, the first a quarter of the swing: whatever the nodes, a foot has to be at a height at a time.
 TEST(Transcription, ClearanceIsAMatterOfTimeNotOfNodes) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.1, 2), phase_on("still", {1, 2, 3}, 0.3, 2),
-                                                   phase_on("landed", {0, 1, 2, 3}, 0.2, 1)});
+  MotionProblem problem =
+      everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.1, 2), phase_on("still", {1, 2, 3}, 0.3, 2),
+                               phase_on("landed", {0, 1, 2, 3}, 0.2, 1)});
   problem.swing_clearance = 0.05;
   problem.phases[0].shares = {0.8, 0.2};
   const auto at = [](double s) { return 0.05 * 16.0 * s * s * (1.0 - s) * (1.0 - s); };
@@ -180,23 +185,26 @@ TEST(Transcription, ClearanceIsAMatterOfTimeNotOfNodes) {
 TEST(Transcription, DerivativesHoldForTorqueCurves) {
   RobotDescription description = test::hyq_description();
   for (const char* joint : {"lf_kfe_joint", "rh_kfe_joint"}) {
-    description.limits[joint].torque_over_position = {{-3.0, 60.0}, {-2.0, 120.0}, {-1.0, 140.0}, {0.0, 120.0}, {1.5, 90.0}, {3.0, 50.0}};
+    description.limits[joint].torque_over_position = {{-3.0, 60.0}, {-2.0, 120.0}, {-1.0, 140.0},
+                                                      {0.0, 120.0}, {1.5, 90.0},   {3.0, 50.0}};
     description.limits[joint].torque_over_velocity = {{-20.0, 150.0}, {0.0, 140.0}, {10.0, 100.0}, {20.0, 30.0}};
   }
   expect_derivatives(everything(RobotModel(description), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)}));
 }
 
 TEST(Transcription, DerivativesHoldForThePyramid) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)});
+  MotionProblem problem =
+      everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)});
   problem.friction_model = FrictionModel::pyramid;
   expect_derivatives(problem);
 }
 
 TEST(Transcription, DerivativesHoldForFlatFeetThatStandAndLand) {
-  MotionProblem problem = everything(test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1),
-                                                     free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});
+  MotionProblem problem = everything(
+      test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1), free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});
   problem.running_cost.force_weight *= 0.1;  // heavier than HyQ: a cost of the same size, against rounding
-  expect_derivatives(problem, 0.5);  // single corners carry little: forces near the tips of their cones, where they bend
+  expect_derivatives(problem,
+                     0.5);  // single corners carry little: forces near the tips of their cones, where they bend
 }
 
 TEST(Transcription, PackAndUnpackAreInverse) {
@@ -274,7 +282,8 @@ TEST(Transcription, LimitsAndGoalsAreBounds) {
 
 /// The running cost is integrated by the trapezoid: a motion that stands still costs its rate times the time.
 TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.3, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
+  MotionProblem problem =
+      everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.3, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
   problem.boundary_conditions.resize(1);
   problem.running_cost.force_weight.setZero();
   problem.running_cost.contact_positions.clear();
@@ -292,7 +301,8 @@ TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
     const Eigen::VectorXd d = difference(cost.q_ref, problem.start_configuration());
     return 0.5 * (d.cwiseAbs2().dot(cost.configuration_weight) + 0.04 * cost.velocity_weight.sum());
   };
-  const double running = 0.7 + state_cost(problem.running_cost) + 0.5 * 0.09 * problem.running_cost.acceleration_weight.sum() +
+  const double running = 0.7 + state_cost(problem.running_cost) +
+                         0.5 * 0.09 * problem.running_cost.acceleration_weight.sum() +
                          0.5 * 4.0 * problem.running_cost.torque_weight.sum();
   Transcription nlp(problem, mesh, guess);
   const double expected = 0.7 * running + state_cost(problem.terminal_cost);
@@ -386,8 +396,8 @@ TEST(Transcription, StandingStillInBalanceSatisfiesEverything) {
 }
 
 TEST(Transcription, NamesEveryConstraintAndVariable) {
-  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2),
-                                                         phase_on("three", {0, 1, 3}, 0.2, 1)});
+  const MotionProblem problem =
+      everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)});
   const Mesh mesh = make_mesh(problem);
   Transcription nlp(problem, mesh, initial_guess(problem, mesh));
   EXPECT_EQ(nlp.describe_constraint(0), "phase 1 'four', node 0, base force x, equations of motion, t = 0.000 s");

@@ -26,9 +26,7 @@ CentroidalContacts centroidal_contacts(const MotionProblem& problem, const Conta
   constexpr int kNormal = 2;
   const auto& held = problem.phases[phase].contacts;
   const int num_contacts = static_cast<int>(held.size());
-  const auto surface_of = [&](int i) -> const Surface& {
-    return problem.surfaces[held[i].surface];
-  };
+  const auto surface_of = [&](int i) -> const Surface& { return problem.surfaces[held[i].surface]; };
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
   ContactKinematics kinematics(contact_indices(held));
@@ -62,8 +60,8 @@ CentroidalContacts centroidal_contacts(const MotionProblem& problem, const Conta
     for (const int axis : landing[i].place) {
       if (axis != kNormal && !contact.place) continue;
       const double place = axis == kNormal ? on_surface : axes.col(axis).dot(*contact.place);
-      result.landing.push_back({i, axes.col(axis), place,
-                                fmt::format("{}, landing, axis {} of {}", point.name, axis + 1, surface.name)});
+      result.landing.push_back(
+          {i, axes.col(axis), place, fmt::format("{}, landing, axis {} of {}", point.name, axis + 1, surface.name)});
     }
   }
   return result;

@@ -21,9 +21,11 @@ struct HeldDirection {
 /// at the nodes, and not sliding from node to node. Of contacts that depend on each other (flat feet) as many
 /// directions as are independent.
 struct CentroidalContacts {
-  std::vector<HeldDirection> landing;   ///< at the first node: normals of contacts that land, and where the task puts them
-  std::vector<HeldDirection> distance;  ///< at every other node: normals. From where the start has it, if it never landed
-  std::vector<HeldDirection> sliding;   ///< over every interval: axis . (c_k - c_k-1) = 0; offset has no meaning
+  std::vector<HeldDirection>
+      landing;  ///< at the first node: normals of contacts that land, and where the task puts them
+  std::vector<HeldDirection>
+      distance;  ///< at every other node: normals. From where the start has it, if it never landed
+  std::vector<HeldDirection> sliding;  ///< over every interval: axis . (c_k - c_k-1) = 0; offset has no meaning
 };
 
 /// `q` a configuration of the phase, in which it shows which contacts depend on each other.

@@ -30,7 +30,8 @@ std::vector<RowGroup> CentroidalNlp::constraint_groups(int k) const {
   const int nv = problem_.robot.nv();
   const std::vector<RowGroup> link =
       is_interval(k - 1) ? CentroidalInterval::row_groups(nv, static_cast<int>(node(k).contacts().sliding.size()))
-                         : std::vector<RowGroup>{{"q across the phase switch", nv}, {"v across the phase switch", nv},
+                         : std::vector<RowGroup>{{"q across the phase switch", nv},
+                                                 {"v across the phase switch", nv},
                                                  {"r' across the phase switch", 3}};
   groups.insert(groups.end(), link.begin(), link.end());
   return groups;
@@ -57,7 +58,8 @@ std::string CentroidalNlp::describe_constraint(int row) const {
     if (group.name == "contacts do not slide") {
       what = node(k).contacts().sliding[i].what;
     } else {
-      what = fmt::format("{}, {}", group.name, group.count == 3 ? std::string(1, "xyz"[i]) : coordinate_name(problem_.robot, i));
+      what = fmt::format("{}, {}", group.name,
+                         group.count == 3 ? std::string(1, "xyz"[i]) : coordinate_name(problem_.robot, i));
     }
   }
   return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_node(k).time);

@@ -32,7 +32,10 @@ CentroidalInterval::CentroidalInterval(const CentroidalScale& scale, const std::
 }
 
 std::vector<RowGroup> CentroidalInterval::row_groups(int nv, int sliding) {
-  return {{"q by backward Euler", nv}, {"h by backward Euler", 3}, {"r by the trapezoid", 3}, {"r' by backward Euler", 3},
+  return {{"q by backward Euler", nv},
+          {"h by backward Euler", 3},
+          {"r by the trapezoid", 3},
+          {"r' by backward Euler", 3},
           {"contacts do not slide", sliding}};
 }
 
@@ -40,12 +43,14 @@ VectorXd CentroidalInterval::rows() const {
   const CentroidalColumns &at0 = start_.columns, &at1 = end_.columns;
   VectorXd rows(num_rows(nv_, static_cast<int>(sliding_.size())));
   rows.head(nv_) = euler_.value().head(nv_);
-  rows.segment<3>(nv_) = (of(end_, at1.momentum) - of(start_, at0.momentum) -
-                          step_ * of(end_, at1.momentum_rate)) / scale_.momentum;
+  rows.segment<3>(nv_) =
+      (of(end_, at1.momentum) - of(start_, at0.momentum) - step_ * of(end_, at1.momentum_rate)) / scale_.momentum;
   rows.segment<3>(nv_ + 3) = (of(end_, at1.com) - of(start_, at0.com) -
-                              0.5 * step_ * (of(start_, at0.com_velocity) + of(end_, at1.com_velocity))) / scale_.length;
-  rows.segment<3>(nv_ + 6) = (of(end_, at1.com_velocity) - of(start_, at0.com_velocity) -
-                              step_ * of(end_, at1.com_acceleration)) / scale_.speed;
+                              0.5 * step_ * (of(start_, at0.com_velocity) + of(end_, at1.com_velocity))) /
+                             scale_.length;
+  rows.segment<3>(nv_ + 6) =
+      (of(end_, at1.com_velocity) - of(start_, at0.com_velocity) - step_ * of(end_, at1.com_acceleration)) /
+      scale_.speed;
   for (std::size_t i = 0; i < sliding_.size(); ++i) {
     const int contact = 3 * sliding_[i].contact;
     const Vector3d moved = of(end_, at1.contacts + contact) - of(start_, at0.contacts + contact);
@@ -103,8 +108,8 @@ void CentroidalInterval::add_cost_gradient(Eigen::Ref<VectorXd> start, Eigen::Re
   step -= cost() / step_;
 }
 
-CentroidalInterval::Between CentroidalInterval::add_hessian(double cost_factor, const VectorXd& multipliers, double share,
-                                                            MatrixXd& start, MatrixXd& end) const {
+CentroidalInterval::Between CentroidalInterval::add_hessian(double cost_factor, const VectorXd& multipliers,
+                                                            double share, MatrixXd& start, MatrixXd& end) const {
   const CentroidalColumns &at0 = start_.columns, &at1 = end_.columns;
   VectorXd on_q = VectorXd::Zero(2 * nv_);
   on_q.head(nv_) = multipliers.head(nv_);

@@ -24,8 +24,8 @@ class CentroidalInterval {
     Eigen::VectorXd x;
   };
   /// `weight` of accelerations, nv; the first three do not count. What is given must live as long as this.
-  CentroidalInterval(const CentroidalScale& scale, const std::vector<HeldDirection>& sliding, const Eigen::VectorXd& weight,
-                     End start, End end, double step);
+  CentroidalInterval(const CentroidalScale& scale, const std::vector<HeldDirection>& sliding,
+                     const Eigen::VectorXd& weight, End start, End end, double step);
 
   static int num_rows(int nv, int sliding) { return nv + 9 + sliding; }
   static std::vector<RowGroup> row_groups(int nv, int sliding);

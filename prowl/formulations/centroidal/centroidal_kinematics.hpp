@@ -41,10 +41,10 @@ class CentroidalKinematics {
   void update(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
   const Vector3& com() const { return com_; }
-  const Columns3& com_dq() const { return com_dq_; }                    ///< 3 x nv
+  const Columns3& com_dq() const { return com_dq_; }  ///< 3 x nv
   const SpatialVector& momentum() const { return momentum_; }
-  const SpatialColumns& momentum_dq() const { return momentum_dq_; }    ///< 6 x nv
-  const SpatialColumns& momentum_dv() const { return momentum_dv_; }    ///< A_G, 6 x nv
+  const SpatialColumns& momentum_dq() const { return momentum_dq_; }  ///< 6 x nv
+  const SpatialColumns& momentum_dv() const { return momentum_dv_; }  ///< A_G, 6 x nv
 
   /// Adds the second derivatives of  on_com . r + on_momentum . A_G v  (linear in v) to nv x nv blocks; entry (i, j) of
   /// qv is that in q_i and v_j.
@@ -64,10 +64,10 @@ class CentroidalKinematics {
   BodyTree tree_;
   BodyPlacements placements_;
   double mass_;
-  std::vector<Link> links_;   ///< one a body; the base's "joint" is what moves all
-  SpatialColumns S_, E_;      ///< motions about the base's origin, world axes
-  SpatialColumns I_S_, F_;    ///< d(P, k0)/dv, d(P, k0)/dq
-  Vector3 com_, arm_;         ///< arm: of the centre of mass from the base's origin
+  std::vector<Link> links_;  ///< one a body; the base's "joint" is what moves all
+  SpatialColumns S_, E_;     ///< motions about the base's origin, world axes
+  SpatialColumns I_S_, F_;   ///< d(P, k0)/dv, d(P, k0)/dq
+  Vector3 com_, arm_;        ///< arm: of the centre of mass from the base's origin
   Columns3 com_dq_;
   SpatialVector momentum_;
   SpatialColumns momentum_dq_, momentum_dv_;

@@ -3,8 +3,15 @@
 namespace prowl {
 
 CentroidalColumns::CentroidalColumns(int nv, int num_contacts, bool ends_interval)
-    : v(nv), com(2 * nv), com_velocity(com + 3), momentum(com + 6), contacts(com + 9), com_acceleration(-1),
-      momentum_rate(-1), forces(-1), size(contacts + 3 * num_contacts) {
+    : v(nv),
+      com(2 * nv),
+      com_velocity(com + 3),
+      momentum(com + 6),
+      contacts(com + 9),
+      com_acceleration(-1),
+      momentum_rate(-1),
+      forces(-1),
+      size(contacts + 3 * num_contacts) {
   if (!ends_interval) return;
   com_acceleration = size;
   momentum_rate = size + 3;

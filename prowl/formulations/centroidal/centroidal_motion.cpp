@@ -31,8 +31,10 @@ void refuse_torques(const MotionProblem& problem) {
     const bool binds = (condition.torque_lower.array() > -problem.robot.torque_limit().array()).any() ||
                        (condition.torque_upper.array() < problem.robot.torque_limit().array()).any();
     if (!binds) continue;
-    throw InputError(fmt::format("{}, torque: bounds are not allowed with dynamics \"centroidal\", to which torques are "
-                                 "unknown; need a goal without torques or other dynamics", condition.name));
+    throw InputError(
+        fmt::format("{}, torque: bounds are not allowed with dynamics \"centroidal\", to which torques are "
+                    "unknown; need a goal without torques or other dynamics",
+                    condition.name));
   }
 }
 
@@ -184,13 +186,15 @@ Trajectory CentroidalNlp::unpack(const VectorXd& z) {
   return motion;
 }
 
-std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
-                                           const Trajectory& guess) {
+std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const MotionProblem& problem,
+                                           const Mesh& mesh, const Trajectory& guess) {
   const Formulation own{.dynamics = formulation.dynamics};
   const auto check = [](const char* what, const std::string& name, const std::string& needed) {
     if (name == needed) return;
-    throw InputError(fmt::format("{}: \"{}\" does not go with dynamics \"centroidal\", which have a rule of their own; "
-                                 "need \"{}\"", what, name, needed));
+    throw InputError(
+        fmt::format("{}: \"{}\" does not go with dynamics \"centroidal\", which have a rule of their own; "
+                    "need \"{}\"",
+                    what, name, needed));
   };
   check("transcription", formulation.transcription, own.transcription);
   check("contact", formulation.contact, own.contact);

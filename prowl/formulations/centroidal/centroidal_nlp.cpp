@@ -12,9 +12,7 @@ using Eigen::VectorXd;
 
 }  // namespace
 
-double CentroidalNlp::share(int k) const {
-  return 1.0 / problem_.phases[phase_of(k)].intervals;
-}
+double CentroidalNlp::share(int k) const { return 1.0 / problem_.phases[phase_of(k)].intervals; }
 
 double CentroidalNlp::step(const VectorXd& z, int k) const {
   const int phase = phase_of(k), index = layout_.duration(phase);
@@ -94,7 +92,8 @@ void CentroidalNlp::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
     const int here = layout_.node(k), next = layout_.node(k + 1);
     rows.head(2 * nv) = z.segment(next, 2 * nv) - z.segment(here, 2 * nv);
     rows.tail<3>() = (z.segment<3>(next + layout_.columns(k + 1).com_velocity) -
-                      z.segment<3>(here + layout_.columns(k).com_velocity)) / scale_.speed;
+                      z.segment<3>(here + layout_.columns(k).com_velocity)) /
+                     scale_.speed;
   }
 }
 
@@ -167,10 +166,8 @@ void CentroidalNlp::hessian(const VectorXd& z, double cost_factor, const VectorX
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (!is_interval(k)) continue;
     const int row = layout_.link_row(k);
-    blocks.between[k] =
-        interval(z, k).add_hessian(cost_factor, on_rows.segment(row, layout_.link_row(k + 1) - row), share(k),
-                                   blocks.nodes[k],
-                                   blocks.nodes[k + 1]);
+    blocks.between[k] = interval(z, k).add_hessian(cost_factor, on_rows.segment(row, layout_.link_row(k + 1) - row),
+                                                   share(k), blocks.nodes[k], blocks.nodes[k + 1]);
   }
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const MatrixXd& block = blocks.nodes[k];
@@ -188,7 +185,8 @@ void CentroidalNlp::set_patterns(const Trajectory& guess) {
   fill_jacobian(pack(guess));
   for (const SparseEntries::Entry& entry : jacobian_.entries) add(jacobian_pattern_, entry.row, entry.col);
 
-  HessianBlocks blocks{{}, std::vector<CentroidalInterval::Between>(static_cast<std::size_t>(layout_.num_links())),
+  HessianBlocks blocks{{},
+                       std::vector<CentroidalInterval::Between>(static_cast<std::size_t>(layout_.num_links())),
                        VectorXd::Zero(static_cast<Index>(problem_.phases.size()))};
   for (CentroidalInterval::Between& between : blocks.between) between.v.setZero(problem_.robot.nv());
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> marks;

@@ -97,7 +97,7 @@ class CentroidalNlp : public MotionNlp {
 
 /// As make_formulation(). Rules of integration, contact and orientation are its own: throws InputError if another one
 /// than the default of the other dynamics is asked for.
-std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
-                                           const Trajectory& guess);
+std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const MotionProblem& problem,
+                                           const Mesh& mesh, const Trajectory& guess);
 
 }  // namespace prowl

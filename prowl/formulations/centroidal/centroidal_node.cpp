@@ -49,7 +49,8 @@ CentroidalNode::CentroidalNode(const MotionProblem& problem, const ContactSchedu
       terms_(problem.robot),
       points_(contact_indices_),
       tau_ref_(problem.running_cost.tau_ref),
-      places_cost_(!problem.running_cost.contact_positions.empty() || !problem.terminal_cost.contact_positions.empty()) {
+      places_cost_(!problem.running_cost.contact_positions.empty() ||
+                   !problem.terminal_cost.contact_positions.empty()) {
   const auto& held = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[i];
@@ -61,7 +62,8 @@ CentroidalNode::CentroidalNode(const MotionProblem& problem, const ContactSchedu
   for (int k = 0; k <= intervals_; ++k) {
     std::array<int, kinds + 1>& first = first_rows_.emplace_back();
     first[0] = 0;
-    for (std::size_t kind = 0; kind < kinds; ++kind) first[kind + 1] = first[kind] + count_rows(k, static_cast<Kind>(kind));
+    for (std::size_t kind = 0; kind < kinds; ++kind)
+      first[kind + 1] = first[kind] + count_rows(k, static_cast<Kind>(kind));
   }
 }
 
@@ -98,9 +100,16 @@ double CentroidalNode::upper(int k, int row) const {
 }
 
 std::vector<RowGroup> CentroidalNode::row_groups(int k) const {
-  constexpr const char* kNames[] = {"m r'' = sum f + m g", "h' = sum (c - r) x f", "h = A_G(q) v", "r = com(q)", "c = p(q)",
-                                    "distance of contacts to their surfaces", "friction", "no force before a contact opens",
-                                    "r' = velocity of com(q)", "landing and clearance of contacts"};
+  constexpr const char* kNames[] = {"m r'' = sum f + m g",
+                                    "h' = sum (c - r) x f",
+                                    "h = A_G(q) v",
+                                    "r = com(q)",
+                                    "c = p(q)",
+                                    "distance of contacts to their surfaces",
+                                    "friction",
+                                    "no force before a contact opens",
+                                    "r' = velocity of com(q)",
+                                    "landing and clearance of contacts"};
   std::vector<RowGroup> groups;
   for (int kind = 0; kind < kinds; ++kind) {
     if (count(k, kind) > 0) groups.push_back({kNames[kind], count(k, kind)});
@@ -122,8 +131,7 @@ std::string CentroidalNode::describe_row(int k, int row) const {
       if (unloads(k, contact) != (kind == unloaded)) continue;
       end += kind == unloaded ? 3 : friction_[contact].count();
       if (i >= end) continue;
-      return contact_names_[contact] +
-             (kind == friction ? ", friction cone" : ", force before it opens, " + axis(i));
+      return contact_names_[contact] + (kind == friction ? ", friction cone" : ", force before it opens, " + axis(i));
     }
   }
   constexpr const char* kWhat[] = {"forces", "moments", "angular momentum", "centre of mass"};

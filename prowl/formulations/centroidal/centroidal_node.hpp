@@ -35,10 +35,10 @@ struct CentroidalScale {
 struct CentroidalPoint {
   int node = 0;  ///< within its phase
   Eigen::VectorXd x;
-  Eigen::Matrix3d chart;        ///< R = chart exp(theta)
-  double duration = 0.0;        ///< of the phase [s]
-  double cost_weight = 0.0;     ///< of the running cost: the step before the node [s]
-  double terminal_weight = 0.0; ///< of the terminal cost: 1 at the last node
+  Eigen::Matrix3d chart;         ///< R = chart exp(theta)
+  double duration = 0.0;         ///< of the phase [s]
+  double cost_weight = 0.0;      ///< of the running cost: the step before the node [s]
+  double terminal_weight = 0.0;  ///< of the terminal cost: 1 at the last node
 };
 
 struct CentroidalValues {

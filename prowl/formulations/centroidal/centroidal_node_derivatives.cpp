@@ -143,7 +143,8 @@ void CentroidalNode::hessian(const CentroidalPoint& point, double cost_factor, c
   }
   const Vector3d on_com = -multipliers.segment<3>(first_row(k, com)) / scale_.length;
   kinematics_.add_hessian(on_com, on_momentum, qq, qv);
-  points_.add_position_hessian(multipliers.segment(first_row(k, positions), count(k, positions)), -1.0 / scale_.length, qq);
+  points_.add_position_hessian(multipliers.segment(first_row(k, positions), count(k, positions)), -1.0 / scale_.length,
+                               qq);
   placement_.add_hessian(k, multipliers.segment(first_row(k, placement), count(k, placement)), qq, qv);
 
   const Vector3d pull = cost_factor * rotation_gradient_ + rotation_.transpose() * multipliers;

@@ -30,7 +30,8 @@ class BaseChart {
                                                  const Eigen::Vector3d& lambda) const = 0;
 };
 
-/// R = R_origin exp(e), e the rotation vector [rad]: E = Jr(e). Up to 4.4 rad from the origin: beyond, derivatives lose digits.
+/// R = R_origin exp(e), e the rotation vector [rad]: E = Jr(e). Up to 4.4 rad from the origin: beyond, derivatives lose
+/// digits.
 std::unique_ptr<BaseChart> exponential_chart(const Eigen::Matrix3d& origin);
 /// R = Rx(e0) Ry(e1) Rz(e2) [rad], as Pardo et al. 2016 have it. E loses rank at e1 = ± pi/2, and a motion
 /// through it jumps: coordinates have |e1| <= pi/2.

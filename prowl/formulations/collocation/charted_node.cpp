@@ -31,7 +31,8 @@ double ChartedNode::upper(int node, int row) const {
 }
 
 std::string ChartedNode::describe_coordinate(int i) const {
-  constexpr const char* kBase[] = {"base x", "base y", "base z", "base rotation 1", "base rotation 2", "base rotation 3"};
+  constexpr const char* kBase[] = {"base x",          "base y",          "base z",
+                                   "base rotation 1", "base rotation 2", "base rotation 3"};
   return i < 6 ? kBase[i] : problem_.robot.joint_names()[i - 6];
 }
 

@@ -18,8 +18,8 @@ struct Instant {
 ///   columns   x | v | a | tau | w | shared (duration, if free | two surface coordinates of each contact that landed)
 ///   rows      those of NodeFunctions | those of ContactRows
 ///
-/// v is the velocity of the robot with the base's twist, a its rate. The work space is shared: one thread, one evaluation at a
-/// time.
+/// v is the velocity of the robot with the base's twist, a its rate. The work space is shared: one thread, one
+/// evaluation at a time.
 class ChartedNode {
  public:
   ChartedNode(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts,
@@ -40,15 +40,15 @@ class ChartedNode {
   struct Values {
     double cost = 0.0;
     Eigen::VectorXd rows;
-    Eigen::VectorXd forces;           ///< 3 per contact of the phase, world frame [N]
+    Eigen::VectorXd forces;  ///< 3 per contact of the phase, world frame [N]
     Eigen::VectorXd cost_gradient;
     Eigen::MatrixXd rows_jacobian;
   };
   void evaluate(const Instant& at, const Eigen::VectorXd& columns, Values& values);
   void evaluate_with_derivatives(const Instant& at, const Eigen::VectorXd& columns, Values& values);
   /// Of cost_factor cost + multipliers . rows, in all columns, symmetric.
-  void hessian(const Instant& at, const Eigen::VectorXd& columns, double cost_factor, const Eigen::VectorXd& multipliers,
-               Eigen::MatrixXd& result);
+  void hessian(const Instant& at, const Eigen::VectorXd& columns, double cost_factor,
+               const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
   void use_hessian(HessianKind kind) { functions_.use_hessian(kind); }
 
   /// Configuration of columns.

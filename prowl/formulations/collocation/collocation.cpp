@@ -32,13 +32,15 @@ StabilisationOfStep gains(const CollocationForm& form) {
 Collocation::Collocation(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess, CollocationForm form)
     : problem_(problem), schedule_(problem), mesh_(mesh), form_(std::move(form)) {
   if (form_.rule->is_explicit() && has_acceleration()) {
-    throw InputError("transcription: " + form_.rule->name() + " needs dynamics = \"forward\": it evaluates accelerations");
+    throw InputError("transcription: " + form_.rule->name() +
+                     " needs dynamics = \"forward\": it evaluates accelerations");
   }
   for (const Phase& phase : problem_.phases) {
     const double step = phase.duration.max / phase.intervals;
     if (!form_.contact.stabilised || step <= form_.rule->longest_stabilised_step()) continue;
-    throw InputError(fmt::format("transcription: {} cannot keep contacts over steps of {:.3g} s; need at most {} s, or another contact form",
-                                 form_.rule->name(), step, form_.rule->longest_stabilised_step()));
+    throw InputError(fmt::format(
+        "transcription: {} cannot keep contacts over steps of {:.3g} s; need at most {} s, or another contact form",
+        form_.rule->name(), step, form_.rule->longest_stabilised_step()));
   }
   const std::vector<VectorXd> origins = anchor_origins(problem_, schedule_);
   std::vector<PhaseContacts> contacts = contacts_of_phases(problem_, schedule_, mesh_, guess);
@@ -155,18 +157,20 @@ void Collocation::make_node(int k) {
   ChartedNode& charted = this->charted(k);
   std::vector<int> rows;
   for (int row = has_acceleration() ? 0 : nv; row < charted.num_rows(at.node); ++row) {
-    // Distances and velocities of contacts are settled at the first node of a phase: by the start, by the node at the end of the phase
-    // before, or where the contact lands.
+    // Distances and velocities of contacts are settled at the first node of a phase: by the start, by the node at the
+    // end of the phase before, or where the contact lands.
     const int contact_row = row - charted.functions().num_rows(at.node);
     if (at.node == 0 && contact_row >= 0 && contact_row < charted.contact_rows().first_acceleration()) continue;
     rows.push_back(row);
   }
-  const double share = (at.h_in > 0.0 ? form_.rule->right_share() : 0.0) + (at.h_out > 0.0 ? form_.rule->left_share() : 0.0);
+  const double share =
+      (at.h_in > 0.0 ? form_.rule->right_share() : 0.0) + (at.h_out > 0.0 ? form_.rule->left_share() : 0.0);
   const Instant instant{.node = at.node, .cost_share = share, .terminal_weight = k + 1 == mesh_.size() ? 1.0 : 0.0};
   PointFunction& dynamics = piece.own(form_.dynamics->at(charted, instant, std::move(rows)));
   std::vector<ProgramGraph::Vector> inputs = {point.x, point.v};
   if (has_acceleration()) inputs.push_back(point.acceleration);
-  for (const auto& input : {point.tau, point.w, piece.graph.variables(own, static_cast<int>(shared.size()))}) inputs.push_back(input);
+  for (const auto& input : {point.tau, point.w, piece.graph.variables(own, static_cast<int>(shared.size()))})
+    inputs.push_back(input);
   const ProgramGraph::Vector all = piece.graph.call(dynamics, inputs);
   node->dynamics = &dynamics;
   node->acceleration = has_acceleration() ? point.acceleration : piece.graph.slice(all, 0, nv);
@@ -174,7 +178,9 @@ void Collocation::make_node(int k) {
 
   const auto count = static_cast<Index>(dynamics.rows().size());
   ProgramPiece::Rows held{piece.graph.slice(all, dynamics.acceleration_size(), static_cast<int>(count)),
-                          VectorXd(count), VectorXd(count), {}};
+                          VectorXd(count),
+                          VectorXd(count),
+                          {}};
   for (Index i = 0; i < count; ++i) {
     const int row = dynamics.rows()[i];
     held.lower(i) = charted.lower(at.node, row);
@@ -284,7 +290,8 @@ void Collocation::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradient
   for_each_piece([&](const ProgramPiece& piece) {
     for (const ProgramGraph::Vector cost : piece.costs()) {
       const auto slope = piece.graph.derivative(cost).row(0);
-      for (std::size_t j = 0; j < piece.columns().size(); ++j) gradient(piece.columns()[j]) += slope(static_cast<Index>(j));
+      for (std::size_t j = 0; j < piece.columns().size(); ++j)
+        gradient(piece.columns()[j]) += slope(static_cast<Index>(j));
     }
   });
 }
@@ -292,7 +299,8 @@ void Collocation::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradient
 void Collocation::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   evaluate(z, false);
   for_each_piece([&](const ProgramPiece& piece) {
-    for (const ProgramPiece::Rows& rows : piece.rows()) g.segment(rows.first, rows.lower.size()) = piece.graph.value(rows.vector);
+    for (const ProgramPiece::Rows& rows : piece.rows())
+      g.segment(rows.first, rows.lower.size()) = piece.graph.value(rows.vector);
   });
   const int state = 2 * problem_.robot.nv();
   int row = first_switch_row_;
@@ -316,7 +324,8 @@ void Collocation::jacobian(const VectorXd& z, Eigen::Ref<VectorXd> values) {
   }
 }
 
-void Collocation::hessian(const VectorXd& z, double cost_factor, const VectorXd& multipliers, Eigen::Ref<VectorXd> values) {
+void Collocation::hessian(const VectorXd& z, double cost_factor, const VectorXd& multipliers,
+                          Eigen::Ref<VectorXd> values) {
   evaluate(z, true);
   const bool exact = hessian_kind_ == HessianKind::exact;
   const auto set_weights = [&](ProgramPiece& piece) {

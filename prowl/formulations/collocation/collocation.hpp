@@ -22,18 +22,20 @@ struct CollocationForm {
   std::unique_ptr<BaseChart> chart;
 };
 
-/// A motion problem by collocation in coordinates of one chart, from parts that can be exchanged: dynamics, rule, contacts and
-/// chart. Written for comparison, not for speed: Transcription is the same for one choice of them, and several times faster.
+/// A motion problem by collocation in coordinates of one chart, from parts that can be exchanged: dynamics, rule,
+/// contacts and chart. Written for comparison, not for speed: Transcription is the same for one choice of them, and
+/// several times faster.
 ///
-/// z: for each node (x | v | a, where it is a variable | tau | forces, where they are variables), after each but the last of a phase
-///    the variables in the middle of its interval, if the rule has any (x | v | a | tau | forces); at the end durations and places
-///    as in DecisionLayout.
+/// z: for each node (x | v | a, where it is a variable | tau | forces, where they are variables), after each but the
+/// last of a phase
+///    the variables in the middle of its interval, if the rule has any (x | v | a | tau | forces); at the end durations
+///    and places as in DecisionLayout.
 /// g: for each node its rows, for each interval those of the rule, for each phase switch continuity of x and v.
 class Collocation : public MotionNlp {
  public:
-  /// Throws InputError if the choices do not go together, if steps are too long for the rule's gains, if the problem binds the base's
-  /// rotation in part (a chart for all nodes has no bounds for that), or if contacts depend on each other and forces are variables or
-  /// contacts are not stabilised.
+  /// Throws InputError if the choices do not go together, if steps are too long for the rule's gains, if the problem
+  /// binds the base's rotation in part (a chart for all nodes has no bounds for that), or if contacts depend on each
+  /// other and forces are variables or contacts are not stabilised.
   Collocation(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess, CollocationForm form);
   Collocation(const Collocation&) = delete;
   Collocation& operator=(const Collocation&) = delete;

@@ -41,7 +41,8 @@ void Collocation::set_bounds(const Trajectory& guess) {
       variable_lower_.segment<3>(first + 3) = variable_upper_.segment<3>(first + 3) = e;
     } else if (lower.maxCoeff() > -std::numeric_limits<double>::infinity() ||
                upper.minCoeff() < std::numeric_limits<double>::infinity()) {
-      throw InputError(describe_place(k) + ": binds a part of the base's rotation, for which this formulation has no bounds");
+      throw InputError(describe_place(k) +
+                       ": binds a part of the base's rotation, for which this formulation has no bounds");
     }
     if (middle_first_[at] < 0) continue;
     const RobotModel& robot = problem_.robot;
@@ -159,16 +160,15 @@ VectorXd Collocation::pack(const Trajectory& trajectory) const {
   for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
     if (durations_[p] < 0) continue;
     const int phase = static_cast<int>(p), last = problem_.phases[p].intervals;
-    z(durations_[p]) = trajectory.nodes[mesh_.index({phase, last})].time -
-                       trajectory.nodes[mesh_.index({phase, 0})].time;
+    z(durations_[p]) =
+        trajectory.nodes[mesh_.index({phase, last})].time - trajectory.nodes[mesh_.index({phase, 0})].time;
   }
   RigidBodyTerms terms(problem_.robot);
   for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
     const Stance& stance = schedule_.stances()[s];
     if (!stance.lands()) continue;
     terms.update_kinematics(trajectory.nodes[mesh_.index({stance.first_phase, 0})].q);
-    z.segment<2>(places_[s]) =
-        problem_.surfaces[stance.surface].coordinates(terms.contact_position(stance.contact));
+    z.segment<2>(places_[s]) = problem_.surfaces[stance.surface].coordinates(terms.contact_position(stance.contact));
   }
   return z;
 }
@@ -191,7 +191,8 @@ Trajectory Collocation::unpack(const VectorXd& z) {
     point.phase = node.phase;
     point.q = charted(k).configuration(columns);
     // Of the two quaternions of a rotation the one that goes on without a jump.
-    if (k > 0 && point.q.segment<4>(3).dot(trajectory.nodes.back().q.segment<4>(3)) < 0.0) point.q.segment<4>(3) *= -1.0;
+    if (k > 0 && point.q.segment<4>(3).dot(trajectory.nodes.back().q.segment<4>(3)) < 0.0)
+      point.q.segment<4>(3) *= -1.0;
     point.v = columns.segment(nv, nv);
     point.a = columns.segment(2 * nv, nv);
     point.tau = columns.segment(3 * nv, nu);
@@ -210,8 +211,8 @@ Trajectory Collocation::unpack(const VectorXd& z) {
 
 std::string Collocation::describe_place(int k) const {
   const MeshNode& node = mesh_node(k);
-  return fmt::format("phase {} '{}', node {}, t = {:.3f} s", node.phase + 1,
-                     problem_.phases[node.phase].name, node.node, node.time);
+  return fmt::format("phase {} '{}', node {}, t = {:.3f} s", node.phase + 1, problem_.phases[node.phase].name,
+                     node.node, node.time);
 }
 
 std::string Collocation::describe_constraint(int row) const {

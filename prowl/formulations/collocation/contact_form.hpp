@@ -8,8 +8,8 @@ namespace prowl {
 /// How a program keeps contacts that hold where they are.
 struct ContactForm {
   std::string name;
-  /// The gains of e = J a + J̇ v + kd J v + kp (p − anchor) are those of the rule (CollocationRule::gains()); else they are 0
-  /// and the dynamics keep accelerations only, as the paper's do.
+  /// The gains of e = J a + J̇ v + kd J v + kp (p − anchor) are those of the rule (CollocationRule::gains()); else they
+  /// are 0 and the dynamics keep accelerations only, as the paper's do.
   bool stabilised = false;
   // Rows of each held contact at the nodes, but at the start, where all is fixed.
   bool distance = false;      ///< 1 row: perpendicular to the surface, f_kin of Pardo et al. 2016

@@ -59,8 +59,7 @@ void ContactRows::derivatives(const DynamicsPoint& at, Derivatives& result) {
   if (rows == 0) return;
   const MatrixXd& J = kinematics_.jacobian();
   for (int i = 0; i < distances(); ++i) {
-    result.q.row(i) = normals_[i].transpose() *
-                      kinematics_.positions_dq().middleRows<3>(3 * i) / length_;
+    result.q.row(i) = normals_[i].transpose() * kinematics_.positions_dq().middleRows<3>(3 * i) / length_;
   }
   MatrixXd slope;
   if (velocities() > 0) {

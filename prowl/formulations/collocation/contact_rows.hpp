@@ -10,7 +10,8 @@
 
 namespace prowl {
 
-/// Rows about the contacts that a phase holds, beside those of NodeFunctions, in this order, each where it is asked for:
+/// Rows about the contacts that a phase holds, beside those of NodeFunctions, in this order, each where it is asked
+/// for:
 ///
 ///   distance       n · (p − point) − radius       1 a contact, over the size of the robot
 ///   velocity       J v                            3 a contact, over √(g size)
@@ -32,7 +33,8 @@ class ContactRows {
 
   /// Where it is evaluated: `terms` at the point's q; v, a and anchors of the point, its gains.
   void evaluate(const RigidBodyTerms& terms, const DynamicsPoint& at, Eigen::Ref<Eigen::VectorXd> values);
-  /// After evaluate() there: derivatives in the tangent of q, in v, in a, in the anchors and in the gains (kd, kp). Set whole.
+  /// After evaluate() there: derivatives in the tangent of q, in v, in a, in the anchors and in the gains (kd, kp). Set
+  /// whole.
   struct Derivatives {
     Eigen::MatrixXd q, v, a, anchors, gains;
   };

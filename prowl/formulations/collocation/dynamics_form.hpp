@@ -7,7 +7,8 @@
 
 namespace prowl {
 
-/// Which quantities of the dynamics are decision variables of a collocation program, and how the others follow from them.
+/// Which quantities of the dynamics are decision variables of a collocation program, and how the others follow from
+/// them.
 class DynamicsForm {
  public:
   virtual ~DynamicsForm() = default;

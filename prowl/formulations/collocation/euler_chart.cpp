@@ -26,7 +26,8 @@ class EulerChart : public BaseChart {
   Matrix3d rotation(const Vector3d& e) const override {
     using Eigen::AngleAxisd;
     return (AngleAxisd(e.x(), Vector3d::UnitX()) * AngleAxisd(e.y(), Vector3d::UnitY()) *
-            AngleAxisd(e.z(), Vector3d::UnitZ())).toRotationMatrix();
+            AngleAxisd(e.z(), Vector3d::UnitZ()))
+        .toRotationMatrix();
   }
 
   Vector3d coordinates(const Matrix3d& R, const Vector3d& near) const override {

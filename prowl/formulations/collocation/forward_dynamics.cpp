@@ -10,10 +10,10 @@ using Eigen::VectorXd;
 
 /// The dynamics with the acceleration eliminated:  (x, v, tau, w, shared)  ->  (a, rows, cost)
 ///
-/// a is what solves the dynamics c(q, v, a, tau) = 0, which is linear in a: that of Pardo et al. 2016, with the missing P
-/// restored. Its derivatives follow from those of c: da = -c_a^-1 dc, and the Hessian of ν · a + μ · (rows, cost) is Tᵀ H T, with T
-/// the derivative of all columns in the inputs and H the Hessian of μ · (rows, cost) + λ · c, where λ is such that the gradient
-/// in a vanishes.
+/// a is what solves the dynamics c(q, v, a, tau) = 0, which is linear in a: that of Pardo et al. 2016, with the missing
+/// P restored. Its derivatives follow from those of c: da = -c_a^-1 dc, and the Hessian of ν · a + μ · (rows, cost) is
+/// Tᵀ H T, with T the derivative of all columns in the inputs and H the Hessian of μ · (rows, cost) + λ · c, where λ is
+/// such that the gradient in a vanishes.
 class EliminatingPoint : public PointFunction {
  public:
   EliminatingPoint(ChartedNode& node, const Instant& instant, std::vector<int> rows)

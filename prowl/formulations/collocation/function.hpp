@@ -21,7 +21,8 @@ class Function {
   virtual void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& y) = 0;
   /// y and dy/dx, num_outputs() x num_inputs().
   virtual void evaluate_with_derivatives(const Eigen::VectorXd& x, Eigen::VectorXd& y, Eigen::MatrixXd& dy) = 0;
-  /// Second derivative of weights . y, num_inputs() square, symmetric. At the x of the last evaluate_with_derivatives().
+  /// Second derivative of weights . y, num_inputs() square, symmetric. At the x of the last
+  /// evaluate_with_derivatives().
   virtual void hessian(const Eigen::VectorXd& x, const Eigen::VectorXd& weights, Eigen::MatrixXd& result) = 0;
 };
 

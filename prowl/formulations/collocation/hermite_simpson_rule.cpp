@@ -4,8 +4,8 @@ namespace prowl {
 
 namespace {
 
-/// Simpson's rule over a cubic through both ends, whose middle is a function of them (compressed) or variables of its own
-/// (separated). Hargraves, Paris 1987; Betts 2010, sec. 4.5 and 4.10.4:
+/// Simpson's rule over a cubic through both ends, whose middle is a function of them (compressed) or variables of its
+/// own (separated). Hargraves, Paris 1987; Betts 2010, sec. 4.5 and 4.10.4:
 ///
 ///   x_m = (x₀ + x₁)/2 + h/8 (ẋ₀ − ẋ₁),   x₁ − x₀ = h/6 (ẋ₀ + 4 ẋ_m + ẋ₁),   v with its rate likewise
 class HermiteSimpsonRule : public CollocationRule {

@@ -35,7 +35,9 @@ IntervalProgram::Point IntervalProgram::evaluated(Point point, double cost_share
 
   const auto size = static_cast<Eigen::Index>(rows.size());
   ProgramPiece::Rows held{graph.slice(all, dynamics.acceleration_size(), static_cast<int>(size)),
-                          Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), {}};
+                          Eigen::VectorXd::Zero(size),
+                          Eigen::VectorXd::Zero(size),
+                          {}};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     held.upper(static_cast<Eigen::Index>(i)) = node_.upper(0, rows[i]);
     held.names.push_back(node_.describe_row(0, rows[i]) + " in the interval");

@@ -26,8 +26,8 @@ class IntervalProgram {
 
   Vector sum(std::vector<Term> terms) { return piece_.graph.sum(std::move(terms)); }
 
-  /// Rates at a point inside, whose x, v, tau, w (and acceleration, where it is a variable) are given. The running cost there counts
-  /// with `cost_share` of the step; what holds at every instant holds there too, if `with_rows`.
+  /// Rates at a point inside, whose x, v, tau, w (and acceleration, where it is a variable) are given. The running cost
+  /// there counts with `cost_share` of the step; what holds at every instant holds there too, if `with_rows`.
   Point evaluated(Point point, double cost_share, bool with_rows);
 
   /// vector = 0; `what` for messages, e.g. "position".
@@ -40,8 +40,8 @@ class IntervalProgram {
   Vector shared_;
 };
 
-/// Rows of ChartedNode that hold at every instant, not at nodes only: dynamics (where they are rows), friction, torque limits, and
-/// accelerations of contacts.
+/// Rows of ChartedNode that hold at every instant, not at nodes only: dynamics (where they are rows), friction, torque
+/// limits, and accelerations of contacts.
 std::vector<int> rows_of_every_instant(const ChartedNode& node, bool eliminates_acceleration);
 
 }  // namespace prowl

@@ -14,10 +14,10 @@ struct StepSize {
   double share = 0.0;  ///< h = share * duration
 };
 
-/// A piece of a nonlinear program in a few local variables, as vectors that follow from each other: sums with powers of the
-/// step h, and Functions. Derivatives of all vectors in the local variables go forward with the values; the Hessian of a
-/// weighted sum of them comes back in the opposite order, as the adjoints do. So a rule of integration is a few lines that
-/// look like the rule, and has exact derivatives.
+/// A piece of a nonlinear program in a few local variables, as vectors that follow from each other: sums with powers of
+/// the step h, and Functions. Derivatives of all vectors in the local variables go forward with the values; the Hessian
+/// of a weighted sum of them comes back in the opposite order, as the adjoints do. So a rule of integration is a few
+/// lines that look like the rule, and has exact derivatives.
 class ProgramGraph {
  public:
   struct Vector {
@@ -66,7 +66,7 @@ class ProgramGraph {
     Kind kind;
     int size;
     int first = 0;
-    std::vector<Term> terms = {};         ///< of a sum; of slice and call their inputs
+    std::vector<Term> terms = {};  ///< of a sum; of slice and call their inputs
     Function* function = nullptr;
     std::vector<int> active = {};  ///< of a call: local variables that its inputs depend on
     bool is_direct = false;        ///< of a call: its inputs are those variables themselves

@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// A graph as a part of a nonlinear program: which decision variables its locals are, which of its vectors are rows and which
-/// are costs.
+/// A graph as a part of a nonlinear program: which decision variables its locals are, which of its vectors are rows and
+/// which are costs.
 class ProgramPiece {
  public:
   /// `columns`: decision variable of each local.
@@ -47,8 +47,7 @@ class ProgramPiece {
       for (int i = 0; i < pattern.rows(); ++i) {
         for (int j = 0; j < pattern.cols(); ++j) {
           if (pattern(i, j) == 0.0F) continue;
-          emit(rows.first + i, columns_[j],
-               pattern_only ? 0.0 : graph.derivative(rows.vector)(i, j));
+          emit(rows.first + i, columns_[j], pattern_only ? 0.0 : graph.derivative(rows.vector)(i, j));
         }
       }
     }

@@ -52,8 +52,8 @@ void RateFunction::hessian(const VectorXd& x, const VectorXd& weights, MatrixXd&
   // λ · R exp(θ) v = pulled · (v + θ × v + 1/2 θ × (θ × v)), then θ in e.
   const Matrix3d outer = 0.5 * (pulled * v.transpose() + v * pulled.transpose());
   const Matrix3d in_theta = outer - pulled.dot(v) * Matrix3d::Identity();
-  result.block<3, 3>(3, 3) = E.transpose() * in_theta * E + chart_.bend(e, v.cross(pulled)) +
-                             chart_.inverse_rate_curvature(e, w, on_e);
+  result.block<3, 3>(3, 3) =
+      E.transpose() * in_theta * E + chart_.bend(e, v.cross(pulled)) + chart_.inverse_rate_curvature(e, w, on_e);
   // pulled · (θ × v) = θ · (v × pulled)
   result.block<3, 3>(3, nv_) = -E.transpose() * so3::skew(pulled);
   for (int i = 0; i < 3; ++i) {

@@ -5,8 +5,8 @@
 
 namespace prowl {
 
-/// Rates of the coordinates x = (base position, rotation e, joints) from the velocity v = (base twist in the base frame, joint
-/// rates):
+/// Rates of the coordinates x = (base position, rotation e, joints) from the velocity v = (base twist in the base
+/// frame, joint rates):
 ///
 ///   ṗ = R(e) v_linear,   ė = E(e)⁻¹ ω,   joints: their rates                   [m/s, rad/s]
 ///

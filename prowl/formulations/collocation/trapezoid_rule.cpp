@@ -4,7 +4,8 @@ namespace prowl {
 
 namespace {
 
-/// x₁ − x₀ = h/2 (ẋ₀ + ẋ₁), and v with its rate likewise. In coordinates: Transcription's own takes the rotation on SO(3).
+/// x₁ − x₀ = h/2 (ẋ₀ + ẋ₁), and v with its rate likewise. In coordinates: Transcription's own takes the rotation on
+/// SO(3).
 class TrapezoidRule : public CollocationRule {
  public:
   std::string name() const override { return "trapezoid"; }
@@ -14,11 +15,13 @@ class TrapezoidRule : public CollocationRule {
 
   void add_to(IntervalProgram& interval) const override {
     const IntervalProgram::Point left = interval.left, right = interval.right;
-    interval.equal_zero(interval.sum({{1.0, 0, right.x}, {-1.0, 0, left.x}, {-0.5, 1, left.rate}, {-0.5, 1, right.rate}}),
-                        "position over the interval");
-    interval.equal_zero(interval.sum({{1.0, 0, right.v}, {-1.0, 0, left.v}, {-0.5, 1, left.acceleration},
-                                      {-0.5, 1, right.acceleration}}),
-                        "velocity over the interval");
+    interval.equal_zero(
+        interval.sum({{1.0, 0, right.x}, {-1.0, 0, left.x}, {-0.5, 1, left.rate}, {-0.5, 1, right.rate}}),
+        "position over the interval");
+    interval.equal_zero(
+        interval.sum(
+            {{1.0, 0, right.v}, {-1.0, 0, left.v}, {-0.5, 1, left.acceleration}, {-0.5, 1, right.acceleration}}),
+        "velocity over the interval");
   }
 };
 
