@@ -7,7 +7,7 @@
 #include "output.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/atomic_folder.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
 #include "shared_options.hpp"
 
 namespace prowl::cli {
@@ -39,14 +39,14 @@ std::optional<PlanRecord> resume(const CheckpointArguments& arguments, const Pac
                                  Task& task, PlanOptions& options) {
   if (arguments.resume.empty()) return std::nullopt;
   PlanRecord record = read_plan(arguments.resume, search);
-  std::vector<MotionProblem> meshes;
-  if (!is_refined) meshes = options.coarse_first ? mesh_levels(task.problem) : std::vector{task.problem};
+  std::vector<Mesh> meshes;
+  if (!is_refined) meshes = options.coarse_first ? mesh_levels(task.problem, task.mesh) : std::vector{task.mesh};
   try {
     check_resumable(record, task, meshes);
   } catch (const InputError& error) {
     throw InputError(fmt::format("--resume {}: {}", arguments.resume, error.what()));
   }
-  if (is_refined) task.problem = record.task.problem;
+  if (is_refined) task.mesh = record.plan.mesh;
   options.start_from = record.plan.trajectory;
   options.resume = true;
   return record;

@@ -19,7 +19,7 @@ struct CheckpointArguments {
 /// --checkpoint, --checkpoint-every and --resume.
 void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments);
 
-/// Sets PlanOptions::start_from to go on from the folder of --resume, if there is one, and task.problem to its mesh if
+/// Sets PlanOptions::start_from to go on from the folder of --resume, if there is one, and task.mesh to its mesh if
 /// that is refined. Gives what was there. Throws InputError that names the folder if it is of another task or mesh.
 std::optional<PlanRecord> resume(const CheckpointArguments& arguments, const PackageSearch& search, bool is_refined,
                                  Task& task, PlanOptions& options);

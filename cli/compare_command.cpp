@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -17,8 +18,6 @@
 #include "prowl/io/compare_table.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/solvers/make_solver.hpp"
-#include "prowl/transcription/mesh.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 #include "python_script.hpp"
 #include "shared_options.hpp"
 
@@ -60,10 +59,10 @@ Names chosen(const Names& asked, const Names& there_is) {
   return std::ranges::find(asked, kAll) == asked.end() ? asked : there_is;
 }
 
-/// All combinations on the mesh of the problem.
-std::vector<ComparedRun> combinations(const CompareArguments& arguments, const MotionProblem& problem) {
+/// All combinations on the mesh.
+std::vector<ComparedRun> combinations(const CompareArguments& arguments, const Mesh& mesh) {
   std::vector<ComparedRun> lines;
-  const int intervals = count_intervals(problem), nodes = make_mesh(problem).size();
+  const int intervals = mesh.num_intervals(), nodes = mesh.num_nodes();
   for (const std::string& dynamics : chosen(arguments.dynamics, dynamics_names()))
     for (const std::string& transcription : chosen(arguments.transcriptions, transcription_names()))
       for (const std::string& contact : chosen(arguments.contacts, contact_names()))
@@ -87,10 +86,10 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
 }
 
 /// A combination that cannot be run is a line of the table, too, and takes nothing from the others.
-void run(const CompareArguments& arguments, const MotionProblem& problem, const SolverOptions& options,
+void run(const CompareArguments& arguments, const DiscreteProblem& discrete, const SolverOptions& options,
          ComparedRun& line) {
   try {
-    line.run = run_formulation(problem, line.formulation, *solver_of(arguments, line.solver), options,
+    line.run = run_formulation(discrete, line.formulation, *solver_of(arguments, line.solver), options,
                                arguments.hessian, arguments.guess);
   } catch (const Error& error) {
     line.reason = error.what();
@@ -112,10 +111,12 @@ CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>
                        .guess = arguments.guess,
                        .versions = versions()};
   record.options.interrupt = &interrupted;
-  std::vector<std::pair<const MotionProblem*, ComparedRun>> lines;
+  std::deque<DiscreteProblem> problems;
+  std::vector<std::pair<const DiscreteProblem*, ComparedRun>> lines;
   for (const Task& on_mesh : tasks) {
-    for (ComparedRun& line : combinations(arguments, on_mesh.problem)) {
-      lines.emplace_back(&on_mesh.problem, std::move(line));
+    problems.emplace_back(on_mesh.problem, on_mesh.mesh);
+    for (ComparedRun& line : combinations(arguments, on_mesh.mesh)) {
+      lines.emplace_back(&problems.back(), std::move(line));
     }
   }
   record.asked = static_cast<int>(lines.size());

@@ -37,11 +37,12 @@ ExitStatus exit_status(const Diagnosis& diagnosis) {
 int run_diagnose(const DiagnoseArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs));
-  for (const std::string& line : implausibilities(task.problem)) print_note(line);
+  const DiscreteProblem discrete(task.problem, task.mesh);
+  for (const std::string& line : implausibilities(discrete)) print_note(line);
   DiagnosisOptions options{.solver = task.solver, .max_seconds = arguments.max_seconds};
   options.solver.interrupt = &interrupted;
   options.on_step = [](const std::string& what) { print_progress(what + "\n"); };
-  const Diagnosis diagnosis = diagnose(task.problem, *make_solver(solver_names().front()), IpoptSolver(), options);
+  const Diagnosis diagnosis = diagnose(discrete, *make_solver(solver_names().front()), IpoptSolver(), options);
   const int status = exit_status(diagnosis);
   if (arguments.json) {
     print_json({.verb = "diagnose", .exit_status = status, .result = diagnosis_json(diagnosis, task.problem)});

@@ -22,7 +22,6 @@
 #include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 #include "refine_option.hpp"
 #include "shared_options.hpp"
 #include "wrap.hpp"
@@ -52,10 +51,10 @@ struct PlanArguments {
 constexpr int kMostThreads = 256;
 
 /// The motion of --warm-start, once it is known to fit.
-Trajectory read_start(const PlanArguments& arguments, const MotionProblem& problem) {
+Trajectory read_start(const PlanArguments& arguments, const DiscreteProblem& asked) {
   const PlanRecord record = read_plan(arguments.warm_start, package_search(arguments.package_dirs));
   try {
-    return warm_start(record, problem);
+    return warm_start(record, asked);
   } catch (const InputError& error) {
     throw InputError(fmt::format("--warm-start {}: {}", arguments.warm_start, error.what()));
   }
@@ -80,13 +79,12 @@ void add_feedback(PlanRecord& record) {
   }
 }
 
-/// A line for each mesh on stderr. The problem is then on the last one.
-Plan make_refined(MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
+/// A line for each mesh on stderr.
+Plan make_refined(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options,
                   const MeshTolerance& tolerance, bool& was_interrupted) {
   RefineOptions refine{.tolerance = tolerance};
   refine.on_round = [&](const RefineRound& round) { print_progress(in_words(round, tolerance)); };
-  RefinedPlan refined = make_refined_plan(problem, solver, options, refine);
-  problem = std::move(refined.problem);
+  RefinedPlan refined = make_refined_plan(asked, solver, options, refine);
   was_interrupted = refined.interrupted;
   return std::move(refined.plan);
 }
@@ -105,9 +103,9 @@ int run_plan(const PlanArguments& arguments) {
   Task task = read_task_file(arguments.task, package_search(arguments.package_dirs), arguments.overrides);
   if (arguments.print_phases) {
     if (arguments.json) {
-      print_json({.verb = "plan", .result = phases_json(task.problem)});
+      print_json({.verb = "plan", .result = phases_json({task.problem, task.mesh})});
     } else {
-      print_result(phase_table(task.problem));
+      print_result(phase_table({task.problem, task.mesh}));
     }
     return kPassed;
   }
@@ -123,7 +121,7 @@ int run_plan(const PlanArguments& arguments) {
     throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *arguments.step, duration));
   }
 
-  for (const std::string& line : implausibilities(task.problem)) print_note(line);
+  for (const std::string& line : implausibilities({task.problem, task.mesh})) print_note(line);
   ProgressPrinter progress;
   PlanOptions options{.solver = task.solver};
   progress.watch(options);
@@ -134,23 +132,21 @@ int run_plan(const PlanArguments& arguments) {
   options.solver.threads = arguments.threads;
   options.hessian = arguments.hessian;
   if (!arguments.warm_start.empty()) {
-    options.start_from = read_start(arguments, task.problem);
+    options.start_from = read_start(arguments, {task.problem, task.mesh});
   }
   std::optional<PlanRecord> resumed =
       resume(arguments.checkpoint, package_search(arguments.package_dirs), arguments.refine.has_value(), task, options);
   const std::string start = arguments.warm_start + arguments.checkpoint.resume;  // one of them, or none
   PlanRecord so_far{.task = task, .plan = {}, .versions = versions(), .warm_start = start};
   if (resumed) {
-    so_far.task.problem = std::move(resumed->task.problem);
     so_far.plan = std::move(resumed->plan);
   }
   const auto checkpoints = write_checkpoints(arguments.checkpoint, out, std::move(so_far), options);
   bool was_interrupted = false;
   const auto solver = make_solver(arguments.solver);
-  Plan plan = arguments.refine ? make_refined(task.problem, *solver, options, *arguments.refine, was_interrupted)
-                               : make_plan(task.problem, *solver, options);
-  const int asked = count_intervals(task.problem);
-  if (!arguments.refine) task.problem = mesh_of(task.problem, plan);
+  const DiscreteProblem asked(task.problem, task.mesh);
+  Plan plan = arguments.refine ? make_refined(asked, *solver, options, *arguments.refine, was_interrupted)
+                               : make_plan(asked, *solver, options);
 
   PlanRecord record{.task = std::move(task),
                     .plan = std::move(plan),
@@ -165,9 +161,10 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
   const int status = was_interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   const bool may_go_on = !is_good(record.plan) && (status == kLimit || status == kInterrupted);
-  if (const int reached = count_intervals(record.task.problem); may_go_on && reached < asked) {
+  const int reached = record.plan.mesh.num_intervals(), wanted = record.task.mesh.num_intervals();
+  if (may_go_on && !arguments.refine && reached < wanted) {
     print_note(fmt::format("stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one",
-                           reached, asked));
+                           reached, wanted));
   }
   if (may_go_on)
     print_message(fmt::format("to go on from there: --resume {}{}, all else as before\n", out.string(),

@@ -13,13 +13,12 @@
 #include "json_result.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/io/plan_directory.hpp"
 #include "prowl/io/summary.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
-#include "prowl/transcription/mesh.hpp"
 #include "report_page.hpp"
 #include "shared_options.hpp"
 #include "view_server.hpp"
@@ -63,20 +62,19 @@ int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupt
 }
 
 /// Solves with every iterate sent to the server.
-void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, ViewServer& server,
-           PlanRecord& record) {
+void solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, const DiscreteProblem& asked,
+           ViewServer& server, PlanRecord& record) {
   ProgressPrinter progress;
   PlanOptions options{.solver = record.task.solver};
   options.solver.interrupt = &interrupted;
   progress.watch(options);
-  options.on_iterate = [&](const MotionProblem&, const Plan& iterate) {
-    server.publish("iterate", report_iterate(record.task.problem, iterate.trajectory, progress.iterations().back()));
+  options.on_iterate = [&](const Plan& iterate) {
+    server.publish("iterate", report_iterate(record.task.problem, iterate, progress.iterations().back()));
   };
   const IpoptSolver hint_solver;
   options.hint_solver = &hint_solver;
   options.coarse_first = !arguments.one_mesh;
-  record.plan = make_plan(record.task.problem, *make_solver(arguments.solver), options);
-  record.task.problem = mesh_of(record.task.problem, record.plan);
+  record.plan = make_plan(asked, *make_solver(arguments.solver), options);
   record.iterations = progress.iterations();
 }
 
@@ -84,10 +82,10 @@ int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupt
   const PackageSearch search = package_search(arguments.package_dirs);
   PlanRecord record{
       .task = read_task_file(arguments.target, search, arguments.overrides), .plan = {}, .versions = versions()};
-  const MotionProblem& problem = record.task.problem;
-  validate(problem);
+  const DiscreteProblem asked(record.task.problem, record.task.mesh);
   if (!arguments.out.empty()) check_plan_directory(arguments.out);
-  record.plan.trajectory = initial_guess(problem, make_mesh(problem));
+  record.plan.trajectory = initial_guess(asked);
+  record.plan.mesh = asked.mesh;
   record.plan.solver = make_solver(arguments.solver)->name();
 
   ViewServer server(arguments.port);
@@ -99,7 +97,7 @@ int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupt
   };
   show(PageState::solving);
   say_where(server, arguments.json);
-  solve(arguments, interrupted, server, record);
+  solve(arguments, interrupted, asked, server, record);
   if (!arguments.out.empty()) write_plan(arguments.out, record);
   show(PageState::solved);
   server.publish("solved", "{}");

@@ -2,9 +2,9 @@
 //     receding_horizon TASK.toml [FOLDER of robot packages]
 #include <iostream>
 #include <prowl/io/task_file.hpp>
+#include <prowl/mesh/receding_horizon.hpp>
 #include <prowl/plan.hpp>
 #include <prowl/solvers/riccati_solver.hpp>
-#include <prowl/transcription/shift_horizon.hpp>
 
 int main(int count, char** arguments) try {
   prowl::PackageSearch packages;

@@ -1,16 +1,16 @@
 #include "prowl/plan.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
 #include "prowl/feasibility/rank_check.hpp"
+#include "prowl/guess/initial_guess.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
+#include "prowl/mesh/resample.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
-#include "prowl/transcription/initial_guess.hpp"
-#include "prowl/transcription/mesh.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
-#include "prowl/transcription/resample.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
@@ -18,6 +18,20 @@ namespace prowl {
 namespace {
 
 using Eigen::VectorXd;
+
+/// The problem on the meshes to solve before its own, the coarsest first.
+std::vector<DiscreteProblem> coarser_problems(const DiscreteProblem& asked, const PlanOptions& options,
+                                              bool may_have_solution) {
+  const bool from_neighbour = !options.start_from.empty() && !options.resume;
+  if (!options.coarse_first || from_neighbour || !may_have_solution) return {};
+  std::vector<DiscreteProblem> problems;
+  const std::vector<Mesh> meshes = mesh_levels(asked.problem, asked.mesh);
+  for (std::size_t i = 0; i + 1 < meshes.size(); ++i) {
+    const bool is_behind = meshes[i].num_nodes() < static_cast<int>(options.start_from.nodes.size());
+    if (!is_behind) problems.emplace_back(asked.problem, meshes[i]);
+  }
+  return problems;
+}
 
 /// What is written of a problem that was not solved: the guess and how far it is off.
 SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
@@ -32,10 +46,11 @@ SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
   return result;
 }
 
-/// The plan if its solve, `before` and the mesh with so many intervals, were interrupted at this iterate.
-Plan interrupted_plan(const Plan& plan, const SolveResult& before, int intervals, Transcription& nlp, const VectorXd& z,
-                      const SolveProgress& progress) {
+/// The plan if its solve on this mesh were interrupted at this iterate, with what meshes before took.
+Plan interrupted_plan(const Plan& plan, const SolveResult& before, const Mesh& mesh, Transcription& nlp,
+                      const VectorXd& z, const SolveProgress& progress) {
   Plan iterate{.trajectory = nlp.unpack(z),
+               .mesh = mesh,
                .solver = plan.solver,
                .hessian = plan.hessian,
                .result = {},
@@ -52,58 +67,47 @@ Plan interrupted_plan(const Plan& plan, const SolveResult& before, int intervals
   iterate.result.dual_violation = progress.dual_violation;
   iterate.result.iterations = before.iterations + progress.iteration;
   iterate.result.seconds = before.seconds + progress.elapsed_seconds;
-  iterate.levels.push_back({intervals, SolveStatus::interrupted, progress.iteration, progress.elapsed_seconds, 0.0});
+  iterate.levels.push_back(
+      {mesh.num_intervals(), SolveStatus::interrupted, progress.iteration, progress.elapsed_seconds, 0.0});
   return iterate;
 }
 
-/// The meshes to solve, one after the other.
-std::vector<MotionProblem> meshes_of(const MotionProblem& problem, const PlanOptions& options, bool may_have_solution) {
-  const bool from_neighbour = !options.start_from.empty() && !options.resume;
-  if (!options.coarse_first || from_neighbour || !may_have_solution) return {problem};
-  std::vector<MotionProblem> levels = mesh_levels(problem);
-  if (options.start_from.empty()) return levels;
-  const int intervals = static_cast<int>(options.start_from.nodes.size()) - (options.start_from.nodes.back().phase + 1);
-  std::erase_if(levels, [&](const MotionProblem& level) { return count_intervals(level) < intervals; });
-  return levels.empty() ? std::vector{problem} : levels;
+/// What the solver is told on this level: how good its start is, the time that is left, whom to tell of iterates.
+SolverOptions options_of_level(const PlanOptions& options, const Plan& plan, bool starts_from_task) {
+  SolverOptions of_level = options.solver;
+  const bool from_elsewhere = plan.levels.empty();  // --warm-start
+  of_level.start_is_near =
+      !starts_from_task && (from_elsewhere ? !options.resume : plan.result.status == SolveStatus::converged);
+  of_level.start_multipliers = from_elsewhere ? options.start_multipliers : std::vector<StageMultipliers>{};
+  constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
+  of_level.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
+  return of_level;
 }
 
-/// Solves the problem on its mesh from plan.trajectory, or from the task alone if that is empty, and adds what comes
-/// out to the plan. A problem with reasons against it is not solved.
-void solve_level(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options, Plan& plan) {
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess =
-      plan.trajectory.empty() ? initial_guess(problem, mesh) : resample(plan.trajectory, problem, mesh);
-  Transcription nlp{problem, mesh, guess};
-  nlp.use_hessian(options.hessian);
-  if (const auto reason = solver.why_unsupported(nlp)) throw InputError(*reason);
-
-  SolverOptions level_options = options.solver;
-  const bool from_elsewhere = plan.levels.empty();  // --warm-start
-  level_options.start_is_near =
-      !plan.trajectory.empty() && (from_elsewhere ? !options.resume : plan.result.status == SolveStatus::converged);
-  level_options.start_multipliers = from_elsewhere ? options.start_multipliers : std::vector<StageMultipliers>{};
-  constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
-  level_options.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
-  if (options.on_level) options.on_level(count_intervals(problem));
-
+/// Solves the program from the guess and adds what comes out to the plan. A problem with reasons against it is not
+/// solved.
+void solve(Transcription& nlp, const Trajectory& guess, const Mesh& mesh, const NlpSolver& solver,
+           const PlanOptions& options, SolverOptions of_level, Plan& plan) {
+  if (options.on_level) options.on_level(mesh.num_intervals());
   const SolveResult before = std::move(plan.result);
   SolveProgress progress;
   if (options.on_iterate) {
-    level_options.on_iteration = [&](const SolveProgress& now) {
+    of_level.on_iteration = [&](const SolveProgress& now) {
       progress = now;
       if (options.solver.on_iteration) options.solver.on_iteration(now);
     };
-    level_options.on_iterate = [&](const VectorXd& z) {
+    of_level.on_iterate = [&](const VectorXd& z) {
       try {
-        options.on_iterate(problem, interrupted_plan(plan, before, count_intervals(problem), nlp, z, progress));
+        options.on_iterate(interrupted_plan(plan, before, mesh, nlp, z, progress));
       } catch (const NumericalError&) {  // no motion, and the solver will find out
       }
     };
   }
   const VectorXd start = nlp.pack(guess);
-  plan.result = plan.reasons.empty() ? solver.solve(nlp, start, level_options) : not_solved(nlp, start);
-  plan.levels.push_back({count_intervals(problem), plan.result.status, plan.result.iterations, plan.result.seconds,
-                         plan.result.times.cpu});
+  plan.result = plan.reasons.empty() ? solver.solve(nlp, start, of_level) : not_solved(nlp, start);
+  plan.mesh = mesh;
+  plan.levels.push_back(
+      {mesh.num_intervals(), plan.result.status, plan.result.iterations, plan.result.seconds, plan.result.times.cpu});
   plan.result.iterations += before.iterations;
   plan.result.seconds += before.seconds;
   plan.result.times += before.times;
@@ -112,8 +116,17 @@ void solve_level(const MotionProblem& problem, const NlpSolver& solver, const Pl
   plan.num_constraints = nlp.num_constraints();
 }
 
-/// By someone who will not wait, whatever mesh is next.
+/// By someone who will not wait, whatever mesh is next: what a finer one makes of it in no time is further off, and
+/// worse to resume.
 bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
+
+/// What may be the matter with a motion that fails its certificate; nothing if somebody interrupted it, who knows why.
+std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, const NlpSolver& solver) {
+  if (!plan.reasons.empty() || plan.certificate.passed || plan.result.status == SolveStatus::interrupted) return {};
+  const Trajectory guess = initial_guess(asked);
+  return plan.result.status == SolveStatus::converged ? postures_that_lose_rank(asked.problem, guess)
+                                                      : doubts(asked, guess, solver);
+}
 
 }  // namespace
 
@@ -122,39 +135,28 @@ bool is_worth_going_on_from(SolveStatus status) {
          status != SolveStatus::solver_failed;
 }
 
-MotionProblem mesh_of(const MotionProblem& problem, const Plan& plan) {
-  if (plan.levels.empty() || plan.levels.back().intervals == count_intervals(problem)) return problem;
-  for (MotionProblem& level : mesh_levels(problem)) {
-    if (count_intervals(level) == plan.levels.back().intervals) return std::move(level);
-  }
-  return problem;
-}
-
-Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options) {
-  validate(problem);
+Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
   Plan plan;
+  plan.trajectory = options.start_from;
   plan.solver = solver.name();
   plan.hessian = options.hessian;
-  plan.reasons = proofs_of_infeasibility(problem);
-  plan.trajectory = options.start_from;
-  const std::vector<MotionProblem> meshes = meshes_of(problem, options, plan.reasons.empty());
-  const MotionProblem* solved = &meshes.front();  // there is one, if only for its guess
-  for (const MotionProblem& mesh : meshes) {
-    if (&mesh != &meshes.front() && !is_worth_going_on_from(plan.result.status)) plan.trajectory = {};
-    solve_level(mesh, solver, options, plan);
-    solved = &mesh;
-    if (is_stopped(plan.result.status))
-      break;  // what a finer mesh makes of it in no time is further off, and worse to resume
-  }
-  plan.certificate = certify(*solved, plan.trajectory);
-  const bool ended_by_itself =
-      plan.result.status != SolveStatus::interrupted;  // who stops it knows why, and will not wait
-  if (plan.reasons.empty() && !plan.certificate.passed && ended_by_itself) {
-    const Trajectory guess = initial_guess(problem, make_mesh(problem));
-    plan.hints = plan.result.status == SolveStatus::converged
-                     ? postures_that_lose_rank(problem, guess)
-                     : doubts(problem, guess, options.hint_solver ? *options.hint_solver : solver);
-  }
+  plan.reasons = proofs_of_infeasibility(asked.problem, asked.schedule);
+
+  const std::vector<DiscreteProblem> coarser = coarser_problems(asked, options, plan.reasons.empty());
+  const DiscreteProblem* problem = nullptr;
+  std::size_t level = 0;
+  do {
+    problem = level < coarser.size() ? &coarser[level] : &asked;
+    const bool from_task = plan.trajectory.empty() || (level > 0 && !is_worth_going_on_from(plan.result.status));
+    const Trajectory guess = from_task ? initial_guess(*problem) : resample(plan.trajectory, *problem);
+    Transcription nlp(*problem, guess);
+    nlp.use_hessian(options.hessian);
+    if (const auto reason = solver.why_unsupported(nlp)) throw InputError(*reason);
+    solve(nlp, guess, problem->mesh, solver, options, options_of_level(options, plan, from_task), plan);
+  } while (level++ < coarser.size() && !is_stopped(plan.result.status));
+
+  plan.certificate = certify(*problem, plan.trajectory);
+  plan.hints = hints(asked, plan, options.hint_solver ? *options.hint_solver : solver);
   return plan;
 }
 

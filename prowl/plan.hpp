@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "prowl/motion/motion_problem.hpp"
+#include "prowl/certificate/certificate.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
-#include "prowl/trajectory/certificate.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
 
@@ -23,10 +23,11 @@ struct LevelResult {
 /// What comes out: a motion, how it was found, and whether it is any good.
 struct Plan {
   Trajectory trajectory;
-  std::string solver;                        ///< its name
+  Mesh mesh;           ///< of the trajectory: the one asked for, or where the solve was stopped, a coarser one
+  std::string solver;  ///< its name
   HessianKind hessian = HessianKind::exact;  ///< second derivatives that it was given
   /// Of the last level; iterations and seconds of all levels together. Where an interrupt or the time limit stopped a
-  /// coarse level, that is the last, and the motion is on its mesh (mesh_of).
+  /// coarse level, that is the last, and the motion is on its mesh.
   SolveResult result;
   std::vector<LevelResult> levels;
   Certificate certificate;
@@ -54,22 +55,19 @@ struct PlanOptions {
   /// For the small programs behind the hints after a failure, which are no chains of stages; null: that of the plan.
   const NlpSolver* hint_solver = nullptr;
   HessianKind hessian = HessianKind::exact;
-  bool coarse_first = true;                          ///< false: on the mesh of the problem at once
+  bool coarse_first = true;                          ///< false: on the mesh asked for at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
-  /// Each iterate, on its mesh, as the plan that it would be if the solve were interrupted there, but without
-  /// certificate and times of evaluations. Costs an evaluation of all values; may be empty.
-  std::function<void(const MotionProblem& on_its_mesh, Plan iterate)> on_iterate = {};
+  /// Each iterate as the plan that it would be if the solve were interrupted there, but without certificate and times
+  /// of evaluations. Costs an evaluation of all values; may be empty.
+  std::function<void(Plan iterate)> on_iterate = {};
 };
 
 /// Whether a finer mesh may start from where this solve stopped; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status);
 
-/// The problem on the mesh that its plan ended on: its own, or where the plan was stopped before, a coarser one.
-MotionProblem mesh_of(const MotionProblem& problem, const Plan& plan);
-
-/// The whole way from a problem to a certified motion. Throws InputError if the problem or the motion to start from
-/// makes no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that is too hard is
-/// a status in the result.
-Plan make_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options);
+/// The whole way from a problem to a certified motion. Throws InputError if bounds contradict each other or the motion
+/// to start from makes no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that
+/// is too hard is a status in the result.
+Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options);
 
 }  // namespace prowl

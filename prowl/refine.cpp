@@ -7,8 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "prowl/mesh/mesh_levels.hpp"
+#include "prowl/mesh/mesh_refinement.hpp"
 #include "prowl/nlp/stopwatch.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 namespace {
@@ -23,7 +24,6 @@ bool is_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
 
 /// A plan on its mesh, and how far that is off.
 struct Candidate {
-  MotionProblem problem;
   Plan plan;
   std::vector<double> parts = {};
   bool meets_tolerance = false;
@@ -51,39 +51,39 @@ struct Candidate {
 /// Solves one mesh after the other, each from the motion of the last, and keeps the books of all.
 class Meshes {
  public:
-  Meshes(const NlpSolver& solver, const PlanOptions& options)
-      : solver_(solver), options_(options), coarse_first_(options.coarse_first) {
+  Meshes(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options)
+      : problem_(problem), solver_(solver), options_(options), coarse_first_(options.coarse_first) {
     options_.coarse_first = false;
   }
 
   /// Certificates count, too: a fine mesh takes seconds of them.
   bool is_time_over() const { return seconds_left() <= 0.0; }
 
-  Candidate solve(MotionProblem problem) {
+  Candidate solve(const Mesh& mesh) {
     constexpr double kShortestSeconds = 1e-3;  // of the first mesh, whatever is asked for
     PlanOptions options = options_;
     options.solver.max_seconds = std::max(seconds_left(), kShortestSeconds);
-    Plan plan = make_plan(problem, solver_, options);
+    Plan plan = make_plan({problem_, mesh}, solver_, options);
     levels_.insert(levels_.end(), plan.levels.begin(), plan.levels.end());
     total_.iterations += plan.result.iterations;
     total_.seconds += plan.result.seconds;
     total_.times += plan.result.times;
-    return {std::move(problem), std::move(plan)};
+    return {std::move(plan)};
   }
   /// From a motion that solves a coarser mesh, or from where a solve of one stopped.
-  Candidate solve_from(const Plan& plan, MotionProblem problem) {
+  Candidate solve_from(const Plan& plan, const Mesh& mesh) {
     options_.start_from = plan.trajectory;
     options_.resume = plan.result.status != SolveStatus::converged;
     options_.start_multipliers.clear();
-    return solve(std::move(problem));
+    return solve(mesh);
   }
   /// From the coarsest mesh on, the first that converges; each goes on from the one before, as in make_plan().
-  Candidate begin(const MotionProblem& problem) {
+  Candidate begin(const Mesh& mesh) {
     const bool from_coarse = coarse_first_ && options_.start_from.empty();
     std::optional<Candidate> first;
-    for (MotionProblem& level : from_coarse ? mesh_levels(problem) : std::vector{problem}) {
+    for (const Mesh& level : from_coarse ? mesh_levels(problem_, mesh) : std::vector{mesh}) {
       const bool goes_on = first && is_worth_going_on_from(first->plan.result.status);
-      first = goes_on ? solve_from(first->plan, std::move(level)) : solve(std::move(level));
+      first = goes_on ? solve_from(first->plan, level) : solve(level);
       const SolveStatus status = first->plan.result.status;
       const bool is_end = status == SolveStatus::converged || status == SolveStatus::interrupted;
       if (is_end || status == SolveStatus::time_limit || !first->plan.reasons.empty()) break;
@@ -102,6 +102,7 @@ class Meshes {
  private:
   double seconds_left() const { return options_.solver.max_seconds - (wall_seconds() - begin_); }
 
+  const MotionProblem& problem_;
   const NlpSolver& solver_;
   PlanOptions options_;
   bool coarse_first_;
@@ -140,11 +141,11 @@ std::string hint(const Candidate& best, const std::string& stopped) {
 
 }  // namespace
 
-RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
+RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options,
                               const RefineOptions& refine) {
-  Meshes meshes(solver, options);
+  Meshes meshes(asked.problem, solver, options);
   Progress progress;
-  Candidate now = meshes.begin(problem);
+  Candidate now = meshes.begin(asked.mesh);
   std::optional<Candidate> best;
   std::string stopped;
   for (int round = 1; now.plan.result.status == SolveStatus::converged; ++round) {
@@ -155,24 +156,24 @@ RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& sol
       refine.on_round({now.intervals(), now.plan.result.iterations, mesh_errors(certificate), now.too_coarse()});
     }
     if (!best || now.is_better_than(*best)) best = now;
-    MotionProblem next = refined(now.problem, now.parts);
-    const int intervals = count_intervals(next);
+    const Mesh next = refined(asked.problem, now.plan.mesh, now.parts);
+    const int intervals = next.num_intervals();
     if (now.meets_tolerance && intervals > kWorthMerging * now.intervals()) break;
     if (progress.is_over(now)) stopped = fmt::format("no progress in {} rounds", kPatience);
     if (round >= refine.max_rounds) stopped = fmt::format("{} meshes", round);
     if (intervals > kMostIntervals) stopped = fmt::format("the next mesh would have {} intervals", intervals);
     if (meshes.is_time_over()) stopped = "the time is up";
     if (!stopped.empty()) break;
-    now = meshes.solve_from(now.plan, std::move(next));
+    now = meshes.solve_from(now.plan, next);
   }
   const SolveStatus status = now.plan.result.status;  // of the last mesh
   if (status != SolveStatus::converged) {
-    stopped = fmt::format("no solution on {} intervals ({})", count_intervals(now.problem), to_string(status));
+    stopped = fmt::format("no solution on {} intervals ({})", now.plan.mesh.num_intervals(), to_string(status));
   }
   if (!best) best = std::move(now);
   if (best->intervals() > 0 && !best->meets_tolerance) best->plan.hints.push_back(hint(*best, stopped));
   meshes.enter_books(best->plan);
-  return {std::move(best->problem), std::move(best->plan), best->meets_tolerance, status == SolveStatus::interrupted};
+  return {std::move(best->plan), best->meets_tolerance, status == SolveStatus::interrupted};
 }
 
 }  // namespace prowl

@@ -2,8 +2,8 @@
 
 #include <functional>
 
+#include "prowl/certificate/mesh_errors.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/transcription/mesh_refinement.hpp"
 
 namespace prowl {
 
@@ -21,9 +21,7 @@ struct RefineOptions {
   std::function<void(const RefineRound&)> on_round = {};  ///< after each mesh that converged; may be empty
 };
 
-/// A plan, and the problem on the mesh that it is of.
 struct RefinedPlan {
-  MotionProblem problem;
   Plan plan;
   bool meets_tolerance = false;  ///< if not, a hint of the plan tells why
   bool interrupted = false;      ///< before the refinement was at its end; the plan may be a good one all the same
@@ -37,7 +35,7 @@ struct RefinedPlan {
 /// The result is of the mesh with the fewest intervals among those that meet the tolerance, the ones that pass their
 /// certificate first, else of the one that is nearest to the tolerance. A mesh that does not converge ends it, and so
 /// does an interrupt.
-RefinedPlan make_refined_plan(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options,
+RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options,
                               const RefineOptions& refine);
 
 }  // namespace prowl

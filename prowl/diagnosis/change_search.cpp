@@ -8,11 +8,10 @@
 #include <limits>
 #include <utility>
 
+#include "prowl/certificate/certificate.hpp"
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
-#include "prowl/trajectory/certificate.hpp"
-#include "prowl/transcription/initial_guess.hpp"
-#include "prowl/transcription/mesh.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
@@ -70,14 +69,12 @@ double ChangeSearch::seconds_of_solve(double part, double most) const {
   return std::max(std::min(most, part * seconds_left()), kLeast);
 }
 
-std::optional<Trajectory> ChangeSearch::motion(const MotionProblem& problem) const {
+std::optional<Trajectory> ChangeSearch::motion(const DiscreteProblem& discrete) const {
   if (!may_go_on()) return {};
   try {
-    validate(problem);
-    if (!proofs_of_infeasibility(problem).empty()) return {};
-    const Mesh mesh = make_mesh(problem);
-    const Trajectory guess = initial_guess(problem, mesh);
-    Transcription nlp(problem, mesh, guess);
+    if (!proofs_of_infeasibility(discrete.problem, discrete.schedule).empty()) return {};
+    const Trajectory guess = initial_guess(discrete);
+    Transcription nlp(discrete, guess);
     SolverOptions options = options_;
     options.max_iterations = kMostIterations;
     options.max_seconds = seconds_of_solve();
@@ -90,32 +87,32 @@ std::optional<Trajectory> ChangeSearch::motion(const MotionProblem& problem) con
   }
 }
 
-bool ChangeSearch::solves(const MotionProblem& problem) const {
-  const std::optional<Trajectory> found = motion(problem);
+bool ChangeSearch::solves(const DiscreteProblem& discrete) const {
+  const std::optional<Trajectory> found = motion(discrete);
   if (!found) return false;
-  const Certificate certificate = certify(problem, *found);
+  const Certificate certificate = certify(discrete, *found);
   const CertificateCheck* const drift = certificate.find("contact drift");
   return !drift || drift->worst <= kMostDrift;
 }
 
-bool ChangeSearch::solves(const Knob& knob, double amount) const {
+bool ChangeSearch::solves(const Knob& knob, double amount, const Mesh& mesh) const {
   try {
-    return solves(knob.problem(amount));
+    return solves(DiscreteProblem(knob.problem(amount), mesh));
   } catch (const Error&) {
     return false;
   }
 }
 
-double ChangeSearch::bisected(const Knob& knob, double too_little, double enough) const {
+double ChangeSearch::bisected(const Knob& knob, double too_little, double enough, const Mesh& mesh) const {
   while (enough - too_little > std::max(kPrecision, 0.1 * enough) && may_go_on()) {
     const double middle = printable_amount(knob, 0.5 * (too_little + enough));
     if (middle >= enough) break;  // as it is told, there is no number between
-    (solves(knob, middle) ? enough : too_little) = middle;
+    (solves(knob, middle, mesh) ? enough : too_little) = middle;
   }
   return enough;
 }
 
-ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs,
+ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const Mesh& mesh,
                                     const std::function<void(const std::string&)>& on_step) const {
   ChangesFound result;
   std::vector<FoundChange>& found = result.found;
@@ -133,9 +130,9 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs,
       any_left = true;
       if (on_step) on_step(fmt::format("{} {} {:.3g} {}", knob.kind, knob.subject, knob.value(amount), knob.unit));
       if (before == 0.0) ++result.tried;
-      if (!solves(knob, amount)) continue;
+      if (!solves(knob, amount, mesh)) continue;
       done[i] = true;
-      found.push_back({knob, bisected(knob, too_little, amount)});
+      found.push_back({knob, bisected(knob, too_little, amount, mesh)});
       enough = std::min(enough, found.back().weighted());
     }
     if (!any_left || !may_go_on()) break;

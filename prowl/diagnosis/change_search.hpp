@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "prowl/diagnosis/change.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/trajectory/trajectory.hpp"
@@ -43,18 +44,20 @@ class ChangeSearch {
 
   /// What the solver converges to on the problem's mesh from its guess. None if it does not, if there is a proof
   /// against it, or the time is up.
-  std::optional<Trajectory> motion(const MotionProblem& problem) const;
+  std::optional<Trajectory> motion(const DiscreteProblem& discrete) const;
   /// Whether there is one in which contacts stay where they are: on a coarse mesh they may drift by centimetres in
   /// between the nodes, and what needs that has no plan.
-  bool solves(const MotionProblem& problem) const;
-  bool solves(const Knob& knob, double amount) const;
+  bool solves(const DiscreteProblem& discrete) const;
+  /// The same of the problem with a knob turned, on that mesh.
+  bool solves(const Knob& knob, double amount, const Mesh& mesh) const;
 
   /// All knobs are turned a little, then further and further, each until its problem is solved; then between the last
   /// two amounts by bisection. Ends where what is left would be no match for the smallest, or when the time is up.
-  ChangesFound smallest(const std::vector<Knob>& knobs, const std::function<void(const std::string&)>& on_step) const;
+  ChangesFound smallest(const std::vector<Knob>& knobs, const Mesh& mesh,
+                        const std::function<void(const std::string&)>& on_step) const;
 
  private:
-  double bisected(const Knob& knob, double too_little, double enough) const;
+  double bisected(const Knob& knob, double too_little, double enough, const Mesh& mesh) const;
 
   const NlpSolver& solver_;
   SolverOptions options_;

@@ -16,15 +16,15 @@ bool holds_but_for_its_mesh(const Certificate& certificate) {
   return fails_by_mesh_only(certificate) && std::ranges::all_of(certificate.checks, is_near);
 }
 
-Diagnosis diagnose(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
+Diagnosis diagnose(const DiscreteProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
                    const DiagnosisOptions& options) {
   constexpr double kOwnPart =
       0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
-  validate(problem);
   DiagnosisRun run(problem, solver, elastic_solver, options);
   TaskAsItIs as_it_is(run);
   Diagnosis& result = run.result;
-  result.reasons = proofs_of_infeasibility(problem);
+  result.task_intervals = problem.mesh.num_intervals();
+  result.reasons = proofs_of_infeasibility(problem.problem, problem.schedule);
   if (!result.reasons.empty()) {
     result.status = SolveStatus::infeasible;
     look_for_changes(run);

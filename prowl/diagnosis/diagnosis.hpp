@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "prowl/certificate/certificate.hpp"
 #include "prowl/diagnosis/elastic_solve.hpp"
-#include "prowl/motion/motion_problem.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
-#include "prowl/trajectory/certificate.hpp"
 
 namespace prowl {
 
@@ -37,6 +37,7 @@ struct Change {
 
 /// Why a task has no plan, as far as can be found out.
 struct Diagnosis {
+  int task_intervals = 0;       ///< of the mesh of the task
   bool solvable = false;        ///< the task as it is has a plan
   Certificate certificate;      ///< of that plan
   bool needs_one_mesh = false;  ///< make_plan finds that plan on the task's mesh at once (PlanOptions::coarse_first
@@ -92,8 +93,7 @@ struct DiagnosisOptions {
 /// 5. the task with each of the smallest changes on its own mesh, up to the first that passes its certificate, or fails
 /// it by that mesh alone;
 /// 6. what is left of the time for the task as it is, if the time was up for it in step 1.
-/// Throws InputError if the problem makes no sense, as make_plan does.
-Diagnosis diagnose(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
+Diagnosis diagnose(const DiscreteProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
                    const DiagnosisOptions& options);
 
 }  // namespace prowl

@@ -8,20 +8,20 @@
 
 namespace prowl {
 
-DiagnosisRun::DiagnosisRun(const MotionProblem& problem_to_solve, const NlpSolver& solver_to_use,
+DiagnosisRun::DiagnosisRun(const DiscreteProblem& problem_to_solve, const NlpSolver& solver_to_use,
                            const NlpSolver& elastic_solver, const DiagnosisOptions& diagnosis_options)
     : problem(problem_to_solve),
       solver(solver_to_use),
       elastic(elastic_solver),
       options(diagnosis_options),
       search(solver, options.solver, options.max_seconds),
-      searched(on_search_mesh(problem)) {}
+      searched(problem.problem, search_mesh(problem)) {}
 
 void DiagnosisRun::step(const std::string& what) const {
   if (options.on_step) options.on_step(what);
 }
 
-Plan DiagnosisRun::planned(const MotionProblem& of, double part, PlanOptions with, double seconds_before) const {
+Plan DiagnosisRun::planned(const DiscreteProblem& of, double part, PlanOptions with, double seconds_before) const {
   with.solver = options.solver;
   with.hint_solver = &elastic;
   with.solver.max_seconds = search.seconds_of_solve(part, options.solver.max_seconds - seconds_before);

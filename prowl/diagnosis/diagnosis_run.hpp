@@ -10,22 +10,22 @@ namespace prowl {
 
 /// What the parts of a diagnosis share. The references must outlive it.
 struct DiagnosisRun {
-  DiagnosisRun(const MotionProblem& problem, const NlpSolver& solver, const NlpSolver& elastic,
+  DiagnosisRun(const DiscreteProblem& problem, const NlpSolver& solver, const NlpSolver& elastic,
                const DiagnosisOptions& options);
 
   /// Tells who asked what is being done.
   void step(const std::string& what) const;
   /// As prowl plan does, in a part of the time that is left, of which so much was spent on it before.
-  Plan planned(const MotionProblem& of, double part, PlanOptions with = {}, double seconds_before = 0.0) const;
+  Plan planned(const DiscreteProblem& of, double part, PlanOptions with = {}, double seconds_before = 0.0) const;
   /// What stopped a plan before its end, in words; "" if nothing did.
   std::string what_stopped(const SolveResult& plan) const;
 
-  const MotionProblem& problem;
+  const DiscreteProblem& problem;
   const NlpSolver& solver;
   const NlpSolver& elastic;
   const DiagnosisOptions& options;
   ChangeSearch search;
-  MotionProblem searched;  ///< the problem on the mesh of the search
+  DiscreteProblem searched;  ///< the problem on the mesh of the search
   Diagnosis result;
 };
 

@@ -5,9 +5,9 @@
 #include <map>
 #include <tuple>
 
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/nlp/elastic_nlp.hpp"
-#include "prowl/transcription/initial_guess.hpp"
-#include "prowl/transcription/mesh.hpp"
+#include "prowl/transcription/motion_limits.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
@@ -22,10 +22,10 @@ constexpr double kSeen = 1e-3;  // of a limit's size: less is the tolerance of a
 constexpr double kOwnCost = 1e-3;
 
 /// Part of the motion's time that a node stands for; one moment counts in full.
-double share(const MotionLimit& limit, const Mesh& mesh) {
+double share(const MotionLimit& limit, const DiscreteProblem& discrete) {
   if (limit.kind == LimitKind::goal || limit.kind == LimitKind::place) return 1.0;
-  const MeshNode& node = mesh.nodes[limit.node];
-  return 0.5 * (node.h_in + node.h_out) / mesh.nodes.back().time;
+  const MeshNode& node = discrete.nodes[limit.node];
+  return 0.5 * (node.h_in + node.h_out) / discrete.nodes.back().time;
 }
 
 std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vector<SoftBound>& soft,
@@ -50,16 +50,15 @@ std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vect
 
 }  // namespace
 
-ElasticResult elastic_solve(const MotionProblem& problem, const NlpSolver& solver, const SolverOptions& options,
+ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& solver, const SolverOptions& options,
                             const std::function<bool(const MotionLimit&)>& gives_way) {
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Transcription hard(problem, mesh, guess);
+  const Trajectory guess = initial_guess(discrete);
+  Transcription hard(discrete, guess);
   std::vector<MotionLimit> limits;
   std::vector<SoftBound> soft;
-  for (MotionLimit& limit : hard.limits()) {
+  for (MotionLimit& limit : motion_limits(hard.nodes())) {
     if (!gives_way(limit)) continue;
-    soft.push_back({limit.is_row, limit.index, limit.size / limit.si, std::max(share(limit, mesh), 1e-3)});
+    soft.push_back({limit.is_row, limit.index, limit.size / limit.si, std::max(share(limit, discrete), 1e-3)});
     limits.push_back(std::move(limit));
   }
   const Eigen::VectorXd start = hard.pack(guess);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "prowl/motion/motion_problem.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/transcription/motion_limit.hpp"
 
@@ -32,7 +32,7 @@ struct ElasticResult {
 /// hard, and the limits for which `gives_way` says so have slacks. What holds at every node costs in proportion to its
 /// part of the motion's time, so that the answer does not depend on the mesh. The task's own cost counts for little: of
 /// all motions that breach least, a smooth one.
-ElasticResult elastic_solve(const MotionProblem& problem, const NlpSolver& solver, const SolverOptions& options,
+ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& solver, const SolverOptions& options,
                             const std::function<bool(const MotionLimit&)>& gives_way);
 
 }  // namespace prowl

@@ -11,12 +11,9 @@
 
 #include "prowl/diagnosis/elastic_solve.hpp"
 #include "prowl/diagnosis/joint_knobs.hpp"
-#include "prowl/diagnosis/search_mesh.hpp"
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
-#include "prowl/transcription/initial_guess.hpp"
-#include "prowl/transcription/mesh.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
+#include "prowl/guess/initial_guess.hpp"
 
 namespace prowl {
 
@@ -60,15 +57,14 @@ class HelpfulChanges {
   explicit HelpfulChanges(DiagnosisRun& run) : run_(run) {}
 
   void run() {
-    run_.result.search_intervals = count_intervals(run_.searched);
+    run_.result.search_intervals = run_.searched.mesh.num_intervals();
     if (!run_.result.reasons.empty() && run_.search.may_go_on()) {  // else the plan has told
       run_.step("postures of the initial guess");
-      run_.result.hints = doubts(run_.problem, initial_guess(run_.problem, make_mesh(run_.problem)), run_.elastic);
+      run_.result.hints = doubts(run_.problem, initial_guess(run_.problem), run_.elastic);
     }
-    ChangesFound changes =
-        run_.search.within(kSearchPart).smallest(knobs_of(run_.searched), [&](const std::string& what) {
-          run_.step("trying " + what);
-        });
+    ChangesFound changes = run_.search.within(kSearchPart)
+                               .smallest(knobs_of(run_.searched.problem), run_.searched.mesh,
+                                         [&](const std::string& what) { run_.step("trying " + what); });
     std::vector<FoundChange>& found = changes.found;
     run_.result.tried = changes.tried;
     name(found);
@@ -129,7 +125,7 @@ class HelpfulChanges {
   void narrow_down(std::vector<FoundChange>& found) {
     if (found.empty()) return;
     FoundChange& smallest = found.front();
-    const std::vector<std::string>& names = run_.searched.robot.joint_names();
+    const std::vector<std::string>& names = run_.searched.problem.robot.joint_names();
     LimitKind kind = LimitKind::friction;
     std::set<int> joints;
     std::vector<int> turnable;
@@ -138,15 +134,15 @@ class HelpfulChanges {
       if (!is_of_joints(breach.kind) || to_string(breach.kind) != smallest.knob.kind) continue;
       kind = breach.kind;
       const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
-      if (turnable.empty()) turnable = turnable_joints(run_.searched.robot, kind);
+      if (turnable.empty()) turnable = turnable_joints(run_.searched.problem.robot, kind);
       if (std::ranges::find(turnable, joint) == turnable.end()) return;  // these alone cannot do
       joints.insert(joint);
       const double sides = breach.kind == LimitKind::joint_position ? 2.0 : 1.0;  // on which the limit yields
-      needed =
-          std::max(needed, std::log1p(sides * breach.amount / value_of_limit(run_.searched.robot, breach.kind, joint)));
+      needed = std::max(
+          needed, std::log1p(sides * breach.amount / value_of_limit(run_.searched.problem.robot, breach.kind, joint)));
     }
-    if (joints.empty() || static_cast<int>(joints.size()) == run_.searched.robot.nu()) return;
-    const Knob some = joint_knob(run_.searched, kind, {joints.begin(), joints.end()});
+    if (joints.empty() || static_cast<int>(joints.size()) == run_.searched.problem.robot.nu()) return;
+    const Knob some = joint_knob(run_.searched.problem, kind, {joints.begin(), joints.end()});
     constexpr double kALittleMore = 0.1;  // a solution has room, an elastic one none
     run_.step("trying " + some.subject);
     double last = 0.0;
@@ -154,7 +150,7 @@ class HelpfulChanges {
       const double turned = printable_amount(some, std::clamp(amount, smallest.amount, some.most));
       if (turned == last) continue;
       last = turned;
-      if (!run_.search.solves(some, turned)) continue;
+      if (!run_.search.solves(some, turned, run_.searched.mesh)) continue;
       smallest = {some, turned};
       run_.result.subject = some.subject;
       // Of fewer joints more may be needed than of something else.
@@ -196,7 +192,7 @@ class HelpfulChanges {
       run_.step(fmt::format("on the mesh of the task, {} {} {:.3g} {}", found.knob.kind, found.knob.subject,
                             found.knob.value(amount), found.knob.unit));
       try {
-        Plan plan = run_.planned(with_steps_of(found.knob.problem(amount), run_.problem), 1.0);
+        Plan plan = run_.planned({found.knob.problem(amount), run_.problem.mesh}, 1.0);
         was_tried = was_tried && run_.what_stopped(plan.result).empty();
         if (plan.result.status != SolveStatus::converged || !holds_but_for_its_mesh(plan.certificate)) continue;
         found.amount = amount;

@@ -5,19 +5,19 @@
 #include <utility>
 #include <vector>
 
-#include "prowl/transcription/mesh_levels.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
 
 namespace prowl {
 
 std::optional<Trajectory> TaskAsItIs::solve_all_meshes() {
-  std::vector<MotionProblem> meshes{run_.searched};
-  for (MotionProblem& level : mesh_levels(run_.problem)) {
-    if (count_intervals(level) > count_intervals(meshes.front())) meshes.push_back(std::move(level));
+  std::vector<Mesh> meshes{run_.searched.mesh};
+  for (Mesh& level : mesh_levels(run_.problem.problem, run_.problem.mesh)) {
+    if (level.num_intervals() > meshes.front().num_intervals()) meshes.push_back(std::move(level));
   }
   std::optional<Trajectory> motion;
-  for (MotionProblem& mesh : meshes) {
-    run_.searched = std::move(mesh);
-    run_.step(fmt::format("solving as it is, {} intervals", count_intervals(run_.searched)));
+  for (Mesh& mesh : meshes) {
+    run_.searched = DiscreteProblem(run_.problem.problem, std::move(mesh));
+    run_.step(fmt::format("solving as it is, {} intervals", run_.searched.mesh.num_intervals()));
     motion = run_.search.motion(run_.searched);
     if (!motion) break;
   }
@@ -40,14 +40,17 @@ void TaskAsItIs::go_on() {
   plan_ = run_.planned(run_.problem, 1.0, std::move(options), seconds_before);
   plan_.result.seconds += seconds_before;
   // What was found meanwhile is of no use, unless this is a motion that only its mesh allows.
-  if (plan_.result.status == SolveStatus::converged && holds_but_for_its_mesh(plan_.certificate)) run_.result = {};
+  if (plan_.result.status == SolveStatus::converged && holds_but_for_its_mesh(plan_.certificate)) {
+    run_.result = {};
+    run_.result.task_intervals = run_.problem.mesh.num_intervals();
+  }
   judge();
 }
 
 void TaskAsItIs::take_from_own_mesh(const Trajectory& motion) {
   run_.result.solvable = true;
   run_.result.certificate = certify(run_.problem, motion);
-  const bool has_coarse_meshes = mesh_levels(run_.problem).size() > 1;
+  const bool has_coarse_meshes = mesh_levels(run_.problem.problem, run_.problem.mesh).size() > 1;
   if (!run_.result.stopped_by.empty() || !has_coarse_meshes || !run_.search.may_go_on()) return;
   run_.step("planning as it is, on its own mesh at once");
   PlanOptions options;

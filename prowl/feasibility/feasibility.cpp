@@ -47,14 +47,15 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
 }
 
 /// "goal 1, end of phase 'stand'"; "" for nodes at which there is nothing to look at.
-std::string name_of_node(const MotionProblem& problem, NodeRef at) {
-  const Phase& phase = problem.phases[at.phase];
+std::string name_of_node(const DiscreteProblem& discrete, int k) {
+  const Phase& phase = discrete.phase_of(k);
+  const MeshNode& node = discrete.nodes[k];
   std::string goals;
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    if (&condition != &problem.start() && condition.at == at) goals += condition.name + ", ";
+  for (std::size_t c = 1; c < discrete.condition_nodes.size(); ++c) {
+    if (discrete.condition_nodes[c] == k) goals += discrete.problem.boundary_conditions[c].name + ", ";
   }
-  if (at.node == 0) return fmt::format("{}start of phase '{}'", goals, phase.name);
-  if (at.node == phase.intervals) return fmt::format("{}end of phase '{}'", goals, phase.name);
+  if (node.h_in == 0.0) return fmt::format("{}start of phase '{}'", goals, phase.name);
+  if (node.h_out == 0.0) return fmt::format("{}end of phase '{}'", goals, phase.name);
   return goals.empty() ? "" : fmt::format("{}phase '{}'", goals, phase.name);
 }
 
@@ -84,26 +85,23 @@ std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase
 
 }  // namespace
 
-std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem) {
-  std::vector<std::string> reasons = contacts_out_of_reach(problem);
-  if (const auto reason = why_it_slides(problem)) reasons.push_back(*reason);
+std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem, const ContactSchedule& schedule) {
+  std::vector<std::string> reasons = contacts_out_of_reach(problem, schedule);
+  if (const auto reason = why_it_slides(problem, schedule)) reasons.push_back(*reason);
   return reasons;
 }
 
-std::vector<std::string> doubts(const MotionProblem& problem, const Trajectory& guess, const NlpSolver& solver) {
-  const ContactSchedule schedule(problem);
+std::vector<std::string> doubts(const DiscreteProblem& discrete, const Trajectory& guess, const NlpSolver& solver) {
+  const MotionProblem& problem = discrete.problem;
   std::vector<std::string> lines = postures_that_lose_rank(problem, guess);
-  int p = -1, node = 0;
-  for (std::size_t k = 0; k < guess.nodes.size(); ++k) {
-    node = guess.nodes[k].phase == p ? node + 1 : 0;
-    p = guess.nodes[k].phase;
-    const Phase& phase = problem.phases[p];
-    const std::string when = name_of_node(problem, {p, node});
+  for (int k = 0; k < discrete.num_nodes(); ++k) {
+    const std::string when = name_of_node(discrete, k);
     if (when.empty()) continue;
-    const std::vector<std::string> missed = missed_places(problem, schedule, p, guess.nodes[k].q, when);
+    const std::vector<std::string> missed =
+        missed_places(problem, discrete.schedule, discrete.nodes[k].phase, guess.nodes[k].q, when);
     lines.insert(lines.end(), missed.begin(), missed.end());
     if (!missed.empty()) continue;  // it stands nowhere
-    const std::string reason = why_it_cannot_stand(problem, phase, guess.nodes[k].q, solver);
+    const std::string reason = why_it_cannot_stand(problem, discrete.phase_of(k), guess.nodes[k].q, solver);
     if (!reason.empty()) lines.push_back(when + ": " + reason);
   }
   return lines;

@@ -27,10 +27,9 @@ std::vector<std::optional<Vector3d>> known_places(const MotionProblem& problem, 
   return places;
 }
 
-bool is_during(const BoundaryCondition& condition, int phase, const MotionProblem& problem) {
-  const NodeRef at = condition.at;
-  const int last = problem.phases[at.phase].intervals;
-  return at.phase == phase || (at.phase == phase - 1 && at.node == last) || (at.phase == phase + 1 && at.node == 0);
+bool is_during(const BoundaryCondition& condition, int phase) {
+  return condition.at.phase == phase || condition.at == PhaseFraction::end_of(phase - 1) ||
+         condition.at == PhaseFraction::start_of(phase + 1);
 }
 
 double PointBounds::distance(const Vector3d& p) const {

@@ -13,7 +13,7 @@ namespace prowl {
 std::vector<std::optional<Eigen::Vector3d>> known_places(const MotionProblem& problem, const ContactSchedule& schedule);
 
 /// Whether a condition is about a time of the phase, its ends included: those belong to the phases on both sides.
-bool is_during(const BoundaryCondition& condition, int phase, const MotionProblem& problem);
+bool is_during(const BoundaryCondition& condition, int phase);
 
 /// What a condition says of the point p_base + R_base offset.
 struct PointBounds {

@@ -13,23 +13,26 @@ namespace {
 constexpr double kStickiestSole = 2.0;  // [-] rubber on dry concrete has about 1, that of climbing shoes less than 2
 constexpr double kTimeToFall = 1.0;  // [s] a body of 1 m falls over in 0.5 s, and a mesh sees nothing between its nodes
 
-double longest_interval(const Phase& phase) {
+/// At the shortest duration that the phase may have [s].
+double longest_interval(const Phase& phase, const PhaseMesh& mesh) {
   double longest = 0.0;
-  for (int i = 0; i < phase.intervals; ++i) longest = std::max(longest, phase.step(i, phase.duration.min));
+  for (int i = 0; i < mesh.intervals(); ++i) longest = std::max(longest, mesh.step(i, phase.duration.min));
   return longest;
 }
 
 }  // namespace
 
-std::vector<std::string> implausibilities(const MotionProblem& problem) {
+std::vector<std::string> implausibilities(const DiscreteProblem& discrete) {
+  const MotionProblem& problem = discrete.problem;
   std::vector<std::string> lines = implausible_sizes(problem.robot);
   for (const Surface& surface : problem.surfaces) {
     if (surface.friction <= kStickiestSole) continue;
     lines.push_back(fmt::format("surface '{}' has friction {:g}; rubber on dry concrete has about 1", surface.name,
                                 surface.friction));
   }
-  for (const Phase& phase : problem.phases) {
-    const double longest = longest_interval(phase);
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    const Phase& phase = problem.phases[p];
+    const double longest = longest_interval(phase, discrete.mesh.phases[p]);
     if (longest <= kTimeToFall) continue;
     lines.push_back(fmt::format(
         "phase '{}' has mesh intervals of {:.3g} s, in which a robot could fall over (durations are in seconds)",

@@ -49,15 +49,14 @@ double least_distance(const Held& held, const BoundaryCondition& condition) {
 
 }  // namespace
 
-std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem) {
-  const ContactSchedule schedule(problem);
+std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, const ContactSchedule& schedule) {
   const auto places = known_places(problem, schedule);
   std::vector<std::string> reasons;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const std::string& phase = problem.phases[p].name;
     const std::vector<Held> held = held_in(problem, schedule, places, p);
     for (const BoundaryCondition& condition : problem.boundary_conditions) {
-      if (!is_during(condition, p, problem)) continue;
+      if (!is_during(condition, p)) continue;
       for (const Held& one : held) {
         const double distance = least_distance(one, condition);
         if (!(distance > one.leg.length + kMargin)) continue;

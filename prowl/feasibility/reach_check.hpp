@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "prowl/motion/motion_problem.hpp"
+#include "prowl/motion/contact_schedule.hpp"
 
 namespace prowl {
 
@@ -13,6 +13,6 @@ namespace prowl {
 /// known or,
 ///   if the optimiser chooses it, the nearest of its surface;
 /// - in every phase: two known places farther apart than the two legs span.
-std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem);
+std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, const ContactSchedule& schedule);
 
 }  // namespace prowl

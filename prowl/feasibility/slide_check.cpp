@@ -18,12 +18,12 @@ using Eigen::Vector3d;
 
 constexpr double kMargin = 0.01;  // [m]; far above what goals and contacts are allowed to be off by
 
-/// When a node is reached [s].
+/// When a moment is reached [s].
 struct TimeRange {
   double first = 0.0, last = 0.0;
 };
 
-TimeRange time_of(const MotionProblem& problem, NodeRef at) {
+TimeRange time_of(const MotionProblem& problem, PhaseFraction at) {
   TimeRange time;
   const auto add = [&](int phase, double part) {
     const Duration& duration = problem.phases[phase].duration;
@@ -31,7 +31,7 @@ TimeRange time_of(const MotionProblem& problem, NodeRef at) {
     time.last += part * duration.max;
   };
   for (int p = 0; p < at.phase; ++p) add(p, 1.0);
-  add(at.phase, problem.phases[at.phase].node_time(at.node, 1.0));
+  add(at.phase, at.fraction);
   return time;
 }
 
@@ -71,7 +71,7 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
     if (!place) continue;
     const int contact = phase.contacts[i].contact;
     const ContactReach leg = contact_reach(robot, contact);
-    holds.push_back({"contact " + robot.contacts()[contact].name, time_of(problem, {p, phase.intervals}),
+    holds.push_back({"contact " + robot.contacts()[contact].name, time_of(problem, PhaseFraction::end_of(p)),
                      d.dot(*place) - (leg.length + (leg.root - mass.centre).norm() + mass.radius)});
   }
   return holds;
@@ -79,9 +79,8 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
 
 }  // namespace
 
-std::optional<std::string> why_it_slides(const MotionProblem& problem) {
+std::optional<std::string> why_it_slides(const MotionProblem& problem, const ContactSchedule& schedule) {
   const MassMotion start = centre_of_mass(problem.robot, problem.start_configuration(), problem.start().velocity_lower);
-  const ContactSchedule schedule(problem);
   std::set<int> touched;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const Phase& phase = problem.phases[p];

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "prowl/motion/motion_problem.hpp"
+#include "prowl/motion/contact_schedule.hpp"
 
 namespace prowl {
 
@@ -19,6 +19,6 @@ namespace prowl {
 /// bounds d . c(t) from below by the lengths of the robot's links. Where the two contradict each other by more than a
 /// centimetre there is no such motion. A robot that starts at rest on too steep a slope and is to stay for a second or
 /// two is caught by it; one that is to leave at once is not.
-std::optional<std::string> why_it_slides(const MotionProblem& problem);
+std::optional<std::string> why_it_slides(const MotionProblem& problem, const ContactSchedule& schedule);
 
 }  // namespace prowl

@@ -18,8 +18,8 @@ namespace {
 
 template <class Value>
 using Table = std::vector<std::pair<std::string, Value>>;
-using MakeProgram = std::function<std::unique_ptr<MotionNlp>(const Formulation&, const MotionProblem&, const Mesh&,
-                                                             const Trajectory& guess)>;
+using MakeProgram =
+    std::function<std::unique_ptr<MotionNlp>(const Formulation&, const DiscreteProblem&, const Trajectory& guess)>;
 using MakeRule = std::unique_ptr<CollocationRule> (*)();
 using MakeChart = std::unique_ptr<BaseChart> (*)(const Eigen::Matrix3d& start);
 
@@ -61,15 +61,14 @@ const Value& choice(const Table<Value>& table, const std::string& name) {
 }
 
 MakeProgram collocation_with(std::unique_ptr<DynamicsForm> (*make_dynamics)()) {
-  return [make_dynamics](const Formulation& formulation, const MotionProblem& problem, const Mesh& mesh,
-                         const Trajectory& guess) {
+  return [make_dynamics](const Formulation& formulation, const DiscreteProblem& discrete, const Trajectory& guess) {
     CollocationForm form{
         .dynamics_name = formulation.dynamics,
         .dynamics = make_dynamics(),
         .rule = choice(kRules, formulation.transcription)(),
         .contact = *std::ranges::find(contact_forms(), formulation.contact, &ContactForm::name),
-        .chart = choice(kCharts, formulation.orientation)(base_rotation(problem.start_configuration()))};
-    return std::make_unique<Collocation>(problem, mesh, guess, std::move(form));
+        .chart = choice(kCharts, formulation.orientation)(base_rotation(discrete.problem.start_configuration()))};
+    return std::make_unique<Collocation>(discrete, guess, std::move(form));
   };
 }
 
@@ -99,22 +98,22 @@ const std::vector<std::string>& orientation_names() {
   return names;
 }
 
-std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const MotionProblem& problem,
-                                            const Mesh& mesh, const Trajectory& guess) {
-  if (formulation == Formulation{}) return std::make_unique<Transcription>(problem, mesh, guess);
-  return make_collocation(formulation, problem, mesh, guess);
+std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const DiscreteProblem& discrete,
+                                            const Trajectory& guess) {
+  if (formulation == Formulation{}) return std::make_unique<Transcription>(discrete, guess);
+  return make_collocation(formulation, discrete, guess);
 }
 
-std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem,
-                                            const Mesh& mesh, const Trajectory& guess) {
+std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const DiscreteProblem& discrete,
+                                            const Trajectory& guess) {
   check("dynamics", formulation.dynamics, dynamics_names());
   check("transcription", formulation.transcription, transcription_names());
   check("contact", formulation.contact, contact_names());
   check("orientation", formulation.orientation, orientation_names());
-  if (std::ranges::any_of(problem.phases, [](const Phase& phase) { return !phase.shares.empty(); })) {
+  if (!discrete.mesh.is_even()) {
     throw InputError("phases.shares: only the default formulation takes steps of different length within a phase");
   }
-  return choice(kDynamics, formulation.dynamics)(formulation, problem, mesh, guess);
+  return choice(kDynamics, formulation.dynamics)(formulation, discrete, guess);
 }
 
 }  // namespace prowl

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "prowl/motion/motion_problem.hpp"
-#include "prowl/transcription/mesh.hpp"
 #include "prowl/transcription/motion_nlp.hpp"
 
 namespace prowl {
@@ -27,13 +25,14 @@ const std::vector<std::string>& transcription_names();
 const std::vector<std::string>& contact_names();
 const std::vector<std::string>& orientation_names();
 
-/// Of the problem on a mesh, about a guess with one point a node. Throws InputError if there is no such choice, if two
-/// of the four do not go together, or if the problem asks for something that the formulation has not.
-std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const MotionProblem& problem,
-                                            const Mesh& mesh, const Trajectory& guess);
+/// Of the problem, which must outlive the program, about a guess with one point a node. Throws InputError if there is
+/// no such choice, if two of the four do not go together, or if the problem asks for something that the formulation has
+/// not.
+std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const DiscreteProblem& discrete,
+                                            const Trajectory& guess);
 
 /// The same, but as a collocation in coordinates also where the choice is the default: to check the one by the other.
-std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const MotionProblem& problem,
-                                            const Mesh& mesh, const Trajectory& guess);
+std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const DiscreteProblem& discrete,
+                                            const Trajectory& guess);
 
 }  // namespace prowl

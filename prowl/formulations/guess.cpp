@@ -5,7 +5,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/formulations/straight_guess.hpp"
-#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/guess/initial_guess.hpp"
 
 namespace prowl {
 
@@ -14,9 +14,9 @@ const std::vector<std::string>& guess_names() {
   return names;
 }
 
-Trajectory make_guess(const std::string& name, const MotionProblem& problem, const Mesh& mesh) {
-  if (name == "smooth") return initial_guess(problem, mesh);
-  if (name == "straight") return straight_guess(problem, mesh);
+Trajectory make_guess(const std::string& name, const DiscreteProblem& discrete) {
+  if (name == "smooth") return initial_guess(discrete);
+  if (name == "straight") return straight_guess(discrete);
   throw InputError(fmt::format("guess: \"{}\" is not allowed; need one of {}", name, fmt::join(guess_names(), ", ")));
 }
 

@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "prowl/motion/motion_problem.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/trajectory/trajectory.hpp"
-#include "prowl/transcription/mesh.hpp"
 
 namespace prowl {
 
@@ -13,6 +12,6 @@ namespace prowl {
 const std::vector<std::string>& guess_names();
 
 /// Throws InputError that lists the names for any other.
-Trajectory make_guess(const std::string& name, const MotionProblem& problem, const Mesh& mesh);
+Trajectory make_guess(const std::string& name, const DiscreteProblem& discrete);
 
 }  // namespace prowl

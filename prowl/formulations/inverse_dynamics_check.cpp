@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
-#include "prowl/trajectory/torque_share.hpp"
+#include "prowl/model/torque_share.hpp"
 #include "prowl/transcription/node_cost.hpp"
 
 namespace prowl {

@@ -18,11 +18,11 @@ const CertificateCheck* FormulationRun::worst_check() const {
   return worst == certificate.checks.end() ? nullptr : &*worst;
 }
 
-FormulationRun judge_formulation(const MotionProblem& problem, const Formulation& formulation, MotionNlp& nlp,
+FormulationRun judge_formulation(const DiscreteProblem& discrete, const Formulation& formulation, MotionNlp& nlp,
                                  SolveResult result, std::string solver) {
   FormulationRun run{.formulation = formulation,
                      .solver = std::move(solver),
-                     .nodes = make_mesh(problem).size(),
+                     .nodes = discrete.num_nodes(),
                      .num_variables = nlp.num_variables(),
                      .num_constraints = nlp.num_constraints(),
                      .jacobian_nonzeros = nlp.jacobian_pattern().size(),
@@ -33,21 +33,19 @@ FormulationRun judge_formulation(const MotionProblem& problem, const Formulation
                      .contacts = {},
                      .inverse_dynamics = {}};
   run.motion = nlp.unpack(run.result.z);
-  run.certificate = certify(problem, run.motion);
-  run.contacts = contact_motion(problem, run.motion);
-  run.inverse_dynamics = check_by_inverse_dynamics(problem, run.motion);
+  run.certificate = certify(discrete, run.motion);
+  run.contacts = contact_motion(discrete.problem, run.motion);
+  run.inverse_dynamics = check_by_inverse_dynamics(discrete.problem, run.motion);
   return run;
 }
 
-FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
+FormulationRun run_formulation(const DiscreteProblem& discrete, const Formulation& formulation, const NlpSolver& solver,
                                const SolverOptions& options, HessianKind hessian, const std::string& guess_name) {
-  validate(problem);
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = make_guess(guess_name, problem, mesh);
-  const std::unique_ptr<MotionNlp> nlp = make_formulation(formulation, problem, mesh, guess);
+  const Trajectory guess = make_guess(guess_name, discrete);
+  const std::unique_ptr<MotionNlp> nlp = make_formulation(formulation, discrete, guess);
   nlp->use_hessian(hessian);
   if (const auto reason = solver.why_unsupported(*nlp)) throw InputError(*reason);
-  return judge_formulation(problem, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options),
+  return judge_formulation(discrete, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options),
                            solver.name() + " " + solver.version());
 }
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "prowl/certificate/certificate.hpp"
 #include "prowl/formulations/contact_motion.hpp"
 #include "prowl/formulations/formulation.hpp"
 #include "prowl/formulations/guess.hpp"
 #include "prowl/formulations/inverse_dynamics_check.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
-#include "prowl/trajectory/certificate.hpp"
 
 namespace prowl {
 
@@ -34,11 +34,11 @@ double share_of_limit(const CertificateCheck& check);
 
 /// Solves the problem on its own mesh, from a guess that its task alone gives, and judges the motion. Throws InputError
 /// as make_formulation() and make_guess() do, and if the solver cannot take such a program.
-FormulationRun run_formulation(const MotionProblem& problem, const Formulation& formulation, const NlpSolver& solver,
+FormulationRun run_formulation(const DiscreteProblem& discrete, const Formulation& formulation, const NlpSolver& solver,
                                const SolverOptions& options, HessianKind hessian = HessianKind::exact,
                                const std::string& guess = guess_names().front());
 /// The same for a program that somebody else has solved.
-FormulationRun judge_formulation(const MotionProblem& problem, const Formulation& formulation, MotionNlp& nlp,
+FormulationRun judge_formulation(const DiscreteProblem& discrete, const Formulation& formulation, MotionNlp& nlp,
                                  SolveResult result, std::string solver);
 
 }  // namespace prowl

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/static_equilibrium.hpp"
+#include "prowl/guess/contact_path.hpp"
+#include "prowl/guess/posture_path.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/transcription/contact_path.hpp"
-#include "prowl/transcription/posture_path.hpp"
 
 namespace prowl {
 
@@ -21,19 +22,21 @@ struct Posture {
 };
 
 /// Of the start and of each goal, in the order of time.
-std::vector<Posture> postures(const MotionProblem& problem, const Mesh& mesh) {
-  const PosturePath path(problem, mesh);
-  const ContactPath contacts(problem, mesh, path);
-  std::vector<const BoundaryCondition*> conditions;
-  for (const BoundaryCondition& condition : problem.boundary_conditions) conditions.push_back(&condition);
-  std::ranges::stable_sort(conditions, {}, [&](const BoundaryCondition* c) { return mesh.index(c->at); });
+std::vector<Posture> postures(const DiscreteProblem& discrete) {
+  const MotionProblem& problem = discrete.problem;
+  const PosturePath path(discrete);
+  const ContactPath contacts(discrete, path);
+  std::vector<std::size_t> in_order(discrete.condition_nodes.size());
+  std::iota(in_order.begin(), in_order.end(), 0);
+  std::ranges::stable_sort(in_order, {}, [&](std::size_t c) { return discrete.condition_nodes[c]; });
 
   std::vector<Posture> found;
   VectorXd q = problem.start_configuration();
-  for (const BoundaryCondition* condition : conditions) {
-    q = inverse_kinematics(problem.robot, meet(*condition, q), contacts.targets(mesh.index(condition->at))).q;
-    q = meet(*condition, q);
-    const double time = time_of(*condition, mesh);
+  for (const std::size_t c : in_order) {
+    const BoundaryCondition& condition = problem.boundary_conditions[c];
+    q = inverse_kinematics(problem.robot, meet(condition, q), contacts.targets(discrete.condition_nodes[c])).q;
+    q = meet(condition, q);
+    const double time = discrete.condition_time(c);
     if (!found.empty() && found.back().time == time) found.pop_back();  // both sides of a phase switch
     found.push_back({time, q});
   }
@@ -49,8 +52,9 @@ VectorXd on_straight_line(const std::vector<Posture>& postures, double time) {
 
 }  // namespace
 
-Trajectory straight_guess(const MotionProblem& problem, const Mesh& mesh) {
-  const std::vector<Posture> through = postures(problem, mesh);
+Trajectory straight_guess(const DiscreteProblem& discrete) {
+  const MotionProblem& problem = discrete.problem;
+  const std::vector<Posture> through = postures(discrete);
   std::vector<StaticEquilibrium> standing;
   for (const Phase& phase : problem.phases) {
     standing.push_back(
@@ -58,7 +62,7 @@ Trajectory straight_guess(const MotionProblem& problem, const Mesh& mesh) {
   }
 
   Trajectory guess;
-  for (const MeshNode& node : mesh.nodes) {
+  for (const MeshNode& node : discrete.nodes) {
     const StaticEquilibrium& hold = standing[node.phase];
     guess.nodes.push_back({.time = node.time,
                            .phase = node.phase,

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "prowl/motion/motion_problem.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/trajectory/trajectory.hpp"
-#include "prowl/transcription/mesh.hpp"
 
 namespace prowl {
 
@@ -12,6 +11,6 @@ namespace prowl {
 /// - v = 0 and a = 0;
 /// - tau and forces of standing still in the start posture, on the contacts of the phase.
 /// initial_guess() is much nearer to a solution.
-Trajectory straight_guess(const MotionProblem& problem, const Mesh& mesh);
+Trajectory straight_guess(const DiscreteProblem& discrete);
 
 }  // namespace prowl

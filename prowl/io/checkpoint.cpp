@@ -12,7 +12,6 @@
 #include "prowl/io/json_text.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/iterate.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 namespace {
@@ -21,10 +20,10 @@ IterateFigures figures(const SolveResult& result) {
   return {result.cost, result.constraint_violation, result.dual_violation};
 }
 
-bool is_same_mesh(const MotionProblem& a, const MotionProblem& b) {
+bool is_same_mesh(const Mesh& a, const Mesh& b) {
   const auto same_share = [](double one, double other) { return std::abs(one - other) < 1e-9; };  // rounding of a file
-  const auto same = [&](const Phase& one, const Phase& other) {
-    return one.intervals == other.intervals && std::ranges::equal(one.shares, other.shares, same_share);
+  const auto same = [&](const PhaseMesh& one, const PhaseMesh& other) {
+    return one.intervals() == other.intervals() && std::ranges::equal(one.shares(), other.shares(), same_share);
   };
   return std::ranges::equal(a.phases, b.phases, same);
 }
@@ -38,20 +37,19 @@ Checkpoint::Checkpoint(std::filesystem::path folder, double every, PlanRecord so
 
 void Checkpoint::watch(PlanOptions& options, std::function<void(const std::string& why)> on_failure) {
   on_failure_ = std::move(on_failure);
-  options.on_iterate = [this, also = options.on_iterate](const MotionProblem& on_its_mesh, Plan iterate) {
-    if (also) also(on_its_mesh, iterate);
+  options.on_iterate = [this, also = options.on_iterate](Plan iterate) {
+    if (also) also(iterate);
     try {  // called from within a solver
-      take(on_its_mesh, std::move(iterate));
+      take(std::move(iterate));
     } catch (const std::exception& error) {
       on_failure_(error.what());
     }
   };
 }
 
-void Checkpoint::take(const MotionProblem& on_its_mesh, Plan iterate) {
-  const bool is_new_mesh = best_.plan.trajectory.empty() || !is_same_mesh(on_its_mesh, best_.task.problem);
+void Checkpoint::take(Plan iterate) {
+  const bool is_new_mesh = best_.plan.trajectory.empty() || !is_same_mesh(iterate.mesh, best_.plan.mesh);
   if (is_new_mesh || is_better(figures(iterate.result), figures(best_.plan.result), best_.task.solver.tolerance)) {
-    if (is_new_mesh) best_.task.problem = on_its_mesh;
     best_.plan = std::move(iterate);
     is_written_ = false;
   }
@@ -65,7 +63,7 @@ void Checkpoint::write() {
   is_written_ = true;
 }
 
-void check_resumable(const PlanRecord& record, const Task& task, const std::vector<MotionProblem>& meshes) {
+void check_resumable(const PlanRecord& record, const Task& task, const std::vector<Mesh>& meshes) {
   const auto refuse = [](const std::string& reason) { throw InputError(reason + "; --warm-start starts from it"); };
   if (is_good(record.plan)) refuse("the plan is finished, there is nothing to go on with");
   if (!record.plan.reasons.empty()) throw InputError("the task has no solution: " + record.plan.reasons.front());
@@ -76,12 +74,12 @@ void check_resumable(const PlanRecord& record, const Task& task, const std::vect
   compare("robot file", record.task.robot_file.text, task.robot_file.text);
   compare("URDF", as_utf8(record.task.problem.robot.description().urdf_text),
           task.problem.robot.description().urdf_text);
-  const auto is_its_mesh = [&](const MotionProblem& mesh) { return is_same_mesh(mesh, record.task.problem); };
+  const auto is_its_mesh = [&](const Mesh& mesh) { return is_same_mesh(mesh, record.plan.mesh); };
   if (meshes.empty() || std::ranges::any_of(meshes, is_its_mesh)) return;
   std::vector<int> intervals;
-  for (const MotionProblem& mesh : meshes) intervals.push_back(count_intervals(mesh));
+  for (const Mesh& mesh : meshes) intervals.push_back(mesh.num_intervals());
   refuse(fmt::format("the checkpoint is on another mesh, of {} intervals; here they are of {}",
-                     count_intervals(record.task.problem), fmt::join(intervals, ", ")));
+                     record.plan.mesh.num_intervals(), fmt::join(intervals, ", ")));
 }
 
 }  // namespace prowl

@@ -24,7 +24,7 @@ class Checkpoint {
   void watch(PlanOptions& options, std::function<void(const std::string& why)> on_failure);
 
  private:
-  void take(const MotionProblem& on_its_mesh, Plan iterate);
+  void take(Plan iterate);
   void write();
 
   std::filesystem::path folder_;
@@ -37,6 +37,6 @@ class Checkpoint {
 
 /// Throws InputError unless a solve of `task` on `meshes` can go on from that plan, which was not finished: the same
 /// texts of task, robot and URDF, and one of these meshes. No meshes: any will do.
-void check_resumable(const PlanRecord& record, const Task& task, const std::vector<MotionProblem>& meshes);
+void check_resumable(const PlanRecord& record, const Task& task, const std::vector<Mesh>& meshes);
 
 }  // namespace prowl

@@ -9,7 +9,6 @@
 #include "prowl/io/json_text.hpp"
 #include "prowl/io/mesh_advice.hpp"
 #include "prowl/io/summary.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 
@@ -186,7 +185,7 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
     const std::string proof =
         change.passes      ? "this plan passes its certificate"
         : change.is_proved ? "on the mesh of the task, whose error is too large for the certificate: --refine"
-        : change.was_tried && diagnosis.search_intervals == count_intervals(problem)
+        : change.was_tried && diagnosis.search_intervals == diagnosis.task_intervals
             ? "solved from the initial guess, but prowl plan's motion is none that passes its certificate"
         : change.was_tried
             ? fmt::format("solved on {} mesh intervals, but not on the task's own", diagnosis.search_intervals)

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "prowl/io/interval_shares.hpp"
-#include "prowl/transcription/mesh.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
 
 namespace prowl {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kMargin = 1.25;  // on the error
 
 /// The least --intervals, `needed` or more, that keeps every goal at a node.
 std::optional<int> intervals_option(const Task& task, double needed) {
-  const std::vector<int> of_phase = interval_divisors(task.problem);
+  const std::vector<int> of_phase = interval_divisors(task.problem, task.mesh);
   if (!(needed <= kMostIntervals)) return std::nullopt;
   for (int total = static_cast<int>(std::ceil(needed)); total <= kMostIntervals; ++total) {
     const std::vector<int> shares = share_intervals(task.file_intervals, total);
@@ -36,8 +36,7 @@ std::string mesh_advice(const PlanRecord& record) {
   if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error))
     return "";
   if (!fails_by_mesh_only(record.plan.certificate)) return "";
-  const auto has_equal_steps = [](const Phase& phase) { return phase.shares.empty(); };
-  const bool is_even = std::ranges::all_of(record.task.problem.phases, has_equal_steps);
+  const bool is_even = record.plan.mesh.is_even();
   std::string text;
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;

@@ -6,8 +6,6 @@
 #include <vector>
 
 #include "prowl/io/json_text.hpp"
-#include "prowl/motion/contact_schedule.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 namespace {
@@ -28,38 +26,40 @@ std::string in_words(const MotionProblem& problem, const ContactSchedule& schedu
          (schedule.opens(phase, i) ? ", opens" : "");
 }
 
-Row row_of(const MotionProblem& problem, const ContactSchedule& schedule, int p) {
+Row row_of(const DiscreteProblem& discrete, int p) {
+  const MotionProblem& problem = discrete.problem;
   const Phase& phase = problem.phases[p];
-  Row row = {fmt::format("{}", p + 1), phase.name, in_words(phase.duration), fmt::format("{}", phase.intervals)};
+  Row row = {fmt::format("{}", p + 1), phase.name, in_words(phase.duration),
+             fmt::format("{}", discrete.mesh.phases[p].intervals())};
   const std::size_t first_contact = row.size();
   row.resize(first_contact + problem.robot.contacts().size(), "-");
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
     const int contact = phase.contacts[i].contact;
-    row[first_contact + static_cast<std::size_t>(contact)] = in_words(problem, schedule, p, i);
+    row[first_contact + static_cast<std::size_t>(contact)] = in_words(problem, discrete.schedule, p, i);
   }
   return row;
 }
 
 /// "HyQ trot: 3 phases, 40 intervals, 2 s\n"
-std::string heading(const MotionProblem& problem) {
+std::string heading(const MotionProblem& problem, const Mesh& mesh) {
   Duration total;
   for (const Phase& phase : problem.phases) {
     total.min += phase.duration.min;
     total.max += phase.duration.max;
   }
   return fmt::format("{} {}: {} phase{}, {} intervals, {}\n", problem.robot.name(), problem.name, problem.phases.size(),
-                     problem.phases.size() == 1 ? "" : "s", count_intervals(problem), in_words(total));
+                     problem.phases.size() == 1 ? "" : "s", mesh.num_intervals(), in_words(total));
 }
 
 }  // namespace
 
-std::string phase_table(const MotionProblem& problem) {
-  const ContactSchedule schedule(problem);
+std::string phase_table(const DiscreteProblem& discrete) {
+  const MotionProblem& problem = discrete.problem;
   std::vector<Row> rows = {{"#", "phase", "duration", "intervals"}};
   for (const ContactPoint& contact : problem.robot.contacts()) rows[0].push_back(contact.name);
-  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) rows.push_back(row_of(problem, schedule, p));
+  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) rows.push_back(row_of(discrete, p));
 
-  std::string text = heading(problem);
+  std::string text = heading(problem, discrete.mesh);
   for (const Row& row : rows) {
     std::string line;
     for (std::size_t column = 0; column < row.size(); ++column) {
@@ -73,8 +73,8 @@ std::string phase_table(const MotionProblem& problem) {
   return text;
 }
 
-std::string phases_json(const MotionProblem& problem) {
-  const ContactSchedule schedule(problem);
+std::string phases_json(const DiscreteProblem& discrete) {
+  const MotionProblem& problem = discrete.problem;
   Json phases = Json::array();
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const Phase& phase = problem.phases[p];
@@ -83,13 +83,13 @@ std::string phases_json(const MotionProblem& problem) {
       const PhaseContact& held = phase.contacts[i];
       contacts.push_back({{"contact", problem.robot.contacts()[held.contact].name},
                           {"surface", problem.surfaces[held.surface].name},
-                          {"lands", schedule.lands(p, i)},
-                          {"opens", schedule.opens(p, i)}});
+                          {"lands", discrete.schedule.lands(p, i)},
+                          {"opens", discrete.schedule.opens(p, i)}});
       if (held.place) contacts.back()["place_m"] = std::vector<double>(held.place->begin(), held.place->end());
     }
     phases.push_back({{"name", phase.name},
                       {"duration_s", {phase.duration.min, phase.duration.max}},
-                      {"intervals", phase.intervals},
+                      {"intervals", discrete.mesh.phases[p].intervals()},
                       {"contacts", contacts}});
   }
   return json_text({{"name", problem.name}, {"robot", problem.robot.name()}, {"phases", phases}});

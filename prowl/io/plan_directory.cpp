@@ -68,8 +68,9 @@ PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch
     throw InputError(fmt::format("{}: a file; need the folder that prowl plan wrote", directory.string()));
   }
   PlanRecord record = plan_from_json(read_text_file(directory / kPlan, kLongestPlan), search);
-  const SourceText nodes = read_text_file(directory / kNodes, longest_trajectory(record.task.problem));
-  record.plan.trajectory = trajectory_from_csv(record.task.problem, nodes);
+  const SourceText nodes =
+      read_text_file(directory / kNodes, longest_trajectory(record.task.problem, record.plan.mesh));
+  record.plan.trajectory = trajectory_from_csv(record.task.problem, record.plan.mesh, nodes);
   return record;
 }
 

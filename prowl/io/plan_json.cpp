@@ -11,9 +11,9 @@
 #include "prowl/error.hpp"
 #include "prowl/io/json_parse.hpp"
 #include "prowl/io/json_text.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/model/shown_text.hpp"
 #include "prowl/trajectory/phase_span.hpp"
-#include "prowl/transcription/remesh.hpp"
 
 namespace prowl {
 namespace {
@@ -43,8 +43,8 @@ Json problem_to_json(const PlanRecord& record) {
     }
     phases.push_back({{"name", phase.name},
                       {"duration_s", phase_duration(record, p)},
-                      {"intervals", phase.intervals},
-                      {"shares", phase.shares},
+                      {"intervals", record.plan.mesh.phases[p].intervals()},
+                      {"shares", record.plan.mesh.phases[p].shares()},
                       {"contacts", contacts}});
   }
   return {{"robot", problem.robot.name()},
@@ -251,20 +251,23 @@ Certificate read_certificate(const Reader& json, int version) {
 }
 
 /// The mesh of the plan: that of the task, unless it was refined or stopped on a coarser one.
-MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
+Mesh read_mesh(const Reader& plan, const MotionProblem& problem) {
   const std::vector<Reader> phases = plan.object("problem").list("phases");
   if (phases.size() != problem.phases.size()) {
     throw InputError(fmt::format("{}.problem.phases: {} phases; the task has {}", plan.where(), phases.size(),
                                  problem.phases.size()));
   }
-  std::vector<Steps> steps;
+  Mesh mesh;
   int left = kMostIntervals;
   for (const Reader& phase : phases) {
     const int intervals = phase.integer("intervals");
     if (intervals < 1 || intervals > left) phase.fail("intervals", fmt::format("1 to {}", left));
     left -= intervals;
-    Steps shares = phase.numbers("shares");
-    if (shares.empty()) shares.assign(static_cast<std::size_t>(intervals), 1.0 / intervals);
+    const std::vector<double> shares = phase.numbers("shares");
+    if (shares.empty()) {
+      mesh.phases.emplace_back(intervals);
+      continue;
+    }
     const auto is_step = [](double share) { return share > 0.0 && std::isfinite(share); };
     constexpr double kRounding = 1e-9;
     const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
@@ -272,13 +275,14 @@ MotionProblem on_mesh_of(const Reader& plan, MotionProblem problem) {
       throw InputError(fmt::format("{}.shares: {} numbers with sum {:.6g}; need {} numbers > 0 with sum 1, or none",
                                    phase.where(), shares.size(), sum, intervals));
     }
-    steps.push_back(std::move(shares));
+    mesh.phases.emplace_back(shares);
   }
   try {
-    return on_mesh(std::move(problem), steps);
+    nodes_of_conditions(problem, mesh);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}.problem.phases: {}", plan.where(), error.what()));
   }
+  return mesh;
 }
 
 TaskOverrides read_overrides(const Reader& json) {
@@ -455,7 +459,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
                     "the copy in plan.json is used",
                     source.path.string(), robot.urdf.string()));
   }
-  if (version >= 3) record.task.problem = on_mesh_of(plan, std::move(record.task.problem));
+  record.plan.mesh = version >= 3 ? read_mesh(plan, record.task.problem) : record.task.mesh;
   record.plan.result = read_result(plan, version);
   record.plan.solver = plan.object("solver").text("name");
   record.plan.levels = read_levels(plan.object("solver"), version);

@@ -25,10 +25,10 @@ constexpr const char* kServedPolicy = "default-src 'none'; connect-src 'self';";
 constexpr double kGainStep = 0.02;  ///< [s]
 
 /// Phases with their planned times and contacts.
-Json phases_json(const MotionProblem& problem, const Trajectory& trajectory) {
+Json phases_json(const MotionProblem& problem, const Plan& plan) {
   Json phases = Json::array();
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
-    const std::optional<PhaseSpan> span = phase_span(trajectory, p);
+    const std::optional<PhaseSpan> span = phase_span(plan.trajectory, p);
     if (!span) continue;
     Json contacts = Json::array();
     for (const PhaseContact& held : problem.phases[p].contacts) {
@@ -37,7 +37,7 @@ Json phases_json(const MotionProblem& problem, const Trajectory& trajectory) {
     phases.push_back({{"name", problem.phases[p].name},
                       {"start", span->start},
                       {"end", span->end},
-                      {"intervals", problem.phases[p].intervals},
+                      {"intervals", plan.mesh.phases[p].intervals()},
                       {"contacts", contacts}});
   }
   return phases;
@@ -122,7 +122,7 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
                {"weight_N", robot.weight()},
                {"size_m", robot.size()},
                {"joints", robot.joint_names()},
-               {"phases", phases_json(problem, trajectory)},
+               {"phases", phases_json(problem, inputs.plan.plan)},
                {"plan_json", plan_to_json(record)},
                {"command", plan_command(record)},
                {"scene", report_scene(problem, search, report.warnings)},
@@ -141,22 +141,20 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
   return report;
 }
 
-std::string report_iterate(const MotionProblem& problem, const Trajectory& motion, const MeshIteration& at) {
+std::string report_iterate(const MotionProblem& problem, const Plan& iterate, const MeshIteration& at) {
+  const Trajectory& motion = iterate.trajectory;
   const std::vector<TrajectoryPoint> points = report_points(motion, report_step(motion.duration()));
-  std::size_t switches = 0;
-  for (std::size_t k = 1; k < motion.nodes.size(); ++k)
-    switches += motion.nodes[k].phase != motion.nodes[k - 1].phase ? 1 : 0;
-  const Json iterate = {{"level", at.level},
-                        {"intervals", motion.nodes.size() - 1 - switches},
-                        {"iteration", at.progress.iteration},
-                        {"cost", at.progress.cost},
-                        {"constraint_violation", at.progress.constraint_violation},
-                        {"dual_violation", at.progress.dual_violation},
-                        {"seconds", at.progress.elapsed_seconds},
-                        {"phases", phases_json(problem, motion)},
-                        {"plan", report_motion_json(problem.robot, points)},
-                        {"charts", report_charts(problem, points, {})}};
-  return iterate.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const Json json = {{"level", at.level},
+                     {"intervals", iterate.mesh.num_intervals()},
+                     {"iteration", at.progress.iteration},
+                     {"cost", at.progress.cost},
+                     {"constraint_violation", at.progress.constraint_violation},
+                     {"dual_violation", at.progress.dual_violation},
+                     {"seconds", at.progress.elapsed_seconds},
+                     {"phases", phases_json(problem, iterate)},
+                     {"plan", report_motion_json(problem.robot, points)},
+                     {"charts", report_charts(problem, points, {})}};
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace prowl

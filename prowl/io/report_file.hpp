@@ -39,6 +39,6 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search);
 
 /// An iterate of the solver for a page that is served: its motion, charts and phases as in a report, and how far it is.
 /// One line.
-std::string report_iterate(const MotionProblem& problem, const Trajectory& motion, const MeshIteration& at);
+std::string report_iterate(const MotionProblem& problem, const Plan& iterate, const MeshIteration& at);
 
 }  // namespace prowl

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "prowl/io/mesh_advice.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 namespace {
@@ -78,8 +77,8 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   }
   std::string text = fmt::format("{} {}{}: {}\n", problem.robot.name(), problem.name, when, in_words(result.status));
   text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
-                      problem.phases.size(), problem.phases.size() == 1 ? "" : "s", count_intervals(problem), duration,
-                      record.plan.num_variables, record.plan.num_constraints);
+                      problem.phases.size(), problem.phases.size() == 1 ? "" : "s", record.plan.mesh.num_intervals(),
+                      duration, record.plan.num_variables, record.plan.num_constraints);
   text += fmt::format("  solver       {}: {}, {:.2f} s (problem {:.2f} s)\n", record.plan.solver,
                       iterations_in_words(record.plan), result.seconds, result.times.evaluation());
   if (!record.warm_start.empty()) text += fmt::format("  started from {}\n", record.warm_start);

@@ -156,9 +156,10 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
   return contacts;
 }
 
-/// Phases of the file; where their steps are free, the key that says so.
+/// Phases of the file and their mesh; where their steps are free, the key that says so.
 struct FilePhases {
   std::vector<Phase> phases;
+  Mesh mesh;
   std::vector<std::optional<TomlValue>> free_steps;
 };
 
@@ -175,7 +176,7 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
     const Bounds duration = table.need("duration_s").as_range(duration_range());
     phase.duration = {duration.lower, duration.upper};
-    phase.intervals = table.need("intervals").as_integer(1, kMostIntervals);
+    read.mesh.phases.emplace_back(table.need("intervals").as_integer(1, kMostIntervals));
     auto steps = table.find("steps");
     if (steps && steps->as_one_of("kind of steps", {"equal", "free"}) == 0) steps.reset();
     if (steps && phase.duration.is_fixed()) {
@@ -188,54 +189,55 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
   return read;
 }
 
+/// Equal steps, so many intervals a phase.
+Mesh mesh_of(const std::vector<int>& intervals) {
+  Mesh mesh;
+  for (const int count : intervals) mesh.phases.emplace_back(count);
+  return mesh;
+}
+
 /// A phase whose steps are free becomes phases of one interval each, so that each step is a duration of its own between
 /// the phase's bounds / intervals. Conditions go with their nodes.
-void split_free_steps(const std::vector<std::optional<TomlValue>>& free_steps, std::vector<Phase>& phases,
-                      std::vector<BoundaryCondition>& conditions) {
+void split_free_steps(FilePhases& read, std::vector<BoundaryCondition>& conditions) {
   std::vector<Phase> pieces;
+  Mesh mesh;
   std::vector<int> first;
-  for (std::size_t p = 0; p < phases.size(); ++p) {
+  for (std::size_t p = 0; p < read.phases.size(); ++p) {
+    const Phase& phase = read.phases[p];
     first.push_back(static_cast<int>(pieces.size()));
-    const int n = phases[p].intervals;
-    if (!free_steps[p]) {
-      pieces.push_back(phases[p]);
+    if (!read.free_steps[p]) {
+      pieces.push_back(phase);
+      mesh.phases.push_back(read.mesh.phases[p]);
       continue;
     }
+    const int n = read.mesh.phases[p].intervals();
     if (n > kMostFreeSteps) {
-      free_steps[p]->fail(fmt::format("{} free steps are not allowed; need at most {}: each takes the space of a phase",
-                                      n, kMostFreeSteps));
+      read.free_steps[p]->fail(fmt::format(
+          "{} free steps are not allowed; need at most {}: each takes the space of a phase", n, kMostFreeSteps));
     }
     for (int i = 0; i < n; ++i) {
-      Phase& step = pieces.emplace_back(phases[p]);
-      step.name = fmt::format("{} step {}", phases[p].name, i + 1);
-      step.intervals = 1;
-      step.duration = {phases[p].duration.min / n, phases[p].duration.max / n};
+      Phase& step = pieces.emplace_back(phase);
+      step.name = fmt::format("{} step {}", phase.name, i + 1);
+      step.duration = {phase.duration.min / n, phase.duration.max / n};
+      mesh.phases.emplace_back(1);
       if (i == 0) continue;
       for (PhaseContact& contact : step.contacts) contact.place.reset();  // it landed with the first step
     }
   }
   for (BoundaryCondition& condition : conditions) {
     const auto p = static_cast<std::size_t>(condition.at.phase);
-    condition.at.phase = first[p];
-    if (!free_steps[p] || condition.at.node == 0) continue;
-    condition.at = {first[p] + condition.at.node - 1, 1};
+    const int node = read.free_steps[p] ? read.mesh.phases[p].node_at(condition.at.fraction).value() : 0;
+    condition.at =
+        node == 0 ? PhaseFraction{first[p], condition.at.fraction} : PhaseFraction::end_of(first[p] + node - 1);
   }
-  phases = std::move(pieces);
+  read.phases = std::move(pieces);
+  read.mesh = std::move(mesh);
 }
 
-void override_intervals(std::vector<Phase>& phases, const std::vector<int>& file_intervals, int total) {
-  const std::vector<int> shares = share_intervals(file_intervals, total);
-  for (std::size_t p = 0; p < phases.size(); ++p) phases[p].intervals = shares[p];
-}
-
-void check_lengths(const TomlTable& root, const std::vector<Phase>& phases) {
-  long total = 0;
+void check_lengths(const TomlTable& root, const FilePhases& read) {
   double seconds = 0.0;
-  for (const Phase& phase : phases) {
-    total += phase.intervals;
-    seconds += phase.duration.max;
-  }
-  if (total > kMostIntervals) {
+  for (const Phase& phase : read.phases) seconds += phase.duration.max;
+  if (const int total = read.mesh.num_intervals(); total > kMostIntervals) {
     root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
   }
   if (seconds > kLongestMotion) {
@@ -260,30 +262,40 @@ SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides)
   return options;
 }
 
-MotionProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
-                           const TaskOverrides& overrides, std::vector<int>& file_intervals) {
+/// A problem with the mesh of its file.
+struct FileProblem {
+  MotionProblem problem;
+  Mesh mesh;
+  std::vector<int> file_intervals;  ///< see Task
+};
+
+FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
+                         const TaskOverrides& overrides) {
   std::vector<Surface> surfaces = read_surfaces(root);
   ContactNames names;
   for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
   for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
   const TaskStart start = read_start(root, robot, robot_file, surfaces);
   const std::optional<TaskGait> gait = read_gait(root, robot, surfaces, start);
-  FilePhases read = gait ? FilePhases{gait->phases, {}} : read_phases(root, names);
+  FilePhases read = gait ? FilePhases{gait->phases, gait->mesh, {}} : read_phases(root, names);
   read.free_steps.resize(read.phases.size());
-  std::vector<Phase>& phases = read.phases;
-  for (const Phase& phase : phases) file_intervals.push_back(phase.intervals);
-  if (overrides.intervals) override_intervals(phases, file_intervals, *overrides.intervals);
-  check_lengths(root, phases);
+  std::vector<int> file_intervals;
+  for (const PhaseMesh& phase : read.mesh.phases) file_intervals.push_back(phase.intervals());
+  if (overrides.intervals) read.mesh = mesh_of(share_intervals(file_intervals, *overrides.intervals));
+  check_lengths(root, read);
 
   std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
-  for (BoundaryCondition& goal : read_goals(root, robot, start, phases)) conditions.push_back(std::move(goal));
-  if (gait && gait->displacement) conditions.push_back(arrival(robot, start, *gait->displacement, phases));
-  split_free_steps(read.free_steps, phases, conditions);
+  for (BoundaryCondition& goal : read_goals(root, robot, start, read.phases, read.mesh))
+    conditions.push_back(std::move(goal));
+  if (gait && gait->displacement) {
+    conditions.push_back(arrival(robot, start, *gait->displacement, static_cast<int>(read.phases.size())));
+  }
+  split_free_steps(read, conditions);
 
   MotionProblem problem{.name = "",
                         .robot = std::move(robot),
                         .surfaces = std::move(surfaces),
-                        .phases = std::move(phases),
+                        .phases = std::move(read.phases),
                         .boundary_conditions = std::move(conditions),
                         .running_cost = {},
                         .terminal_cost = {},
@@ -300,7 +312,7 @@ MotionProblem read_problem(const TomlTable& root, RobotModel robot, const Source
         model->as_one_of("friction model", {"cone", "pyramid"}) == 0 ? FrictionModel::cone : FrictionModel::pyramid;
   }
   read_costs(root, problem);
-  return problem;
+  return {std::move(problem), std::move(read.mesh), std::move(file_intervals)};
 }
 
 std::filesystem::path robot_path(const SourceText& task_file, const TomlTable& root) {
@@ -332,9 +344,8 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   check_overrides(task_file, overrides);
   const SolverOptions solver = read_solver(root, overrides);
   const TaskSimulation simulation = read_simulation(root);
-  std::vector<int> file_intervals;
-  MotionProblem problem =
-      read_problem(root, load_robot(robot_file, search, {.urdf_copy = urdf}), robot_file, overrides, file_intervals);
+  auto [problem, mesh, file_intervals] =
+      read_problem(root, load_robot(robot_file, search, {.urdf_copy = urdf}), robot_file, overrides);
   const auto name = root.find("name");
   problem.name = name ? name->as_name() : name_of_file(task_file.path);
   try {
@@ -344,6 +355,7 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
   }
   TrackingOptions tracking = read_tracking(root, problem.robot);
   return {.problem = std::move(problem),
+          .mesh = std::move(mesh),
           .solver = solver,
           .tracking = std::move(tracking),
           .success = simulation.success,

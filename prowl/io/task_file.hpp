@@ -5,6 +5,7 @@
 
 #include "prowl/io/package_path.hpp"
 #include "prowl/io/text_file.hpp"
+#include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/simulation/simulation_options.hpp"
@@ -23,6 +24,7 @@ struct TaskOverrides {
 /// A task file, understood, and all that it was read from: enough to read it again (see plan_directory.hpp).
 struct Task {
   MotionProblem problem;
+  Mesh mesh;
   SolverOptions solver;
   TrackingOptions tracking;
   SuccessCriteria success = {};                   ///< of a simulation

@@ -52,19 +52,21 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
   }
   if (const auto value = table.find("start_s")) gait.start = value->as_number(duration_range());
   if (const auto value = table.find("settle_s")) gait.settle = value->as_number(duration_range());
-  if (const auto value = table.find("intervals_per_second")) {
-    gait.intervals_per_second = value->as_number(NumberRange::positive());
-  }
   gait.surface = read_surface(table, surfaces);
   return gait;
 }
 
-void check_intervals(const TomlTable& table, const Gait& gait) {
+/// Of a phase at its longest [1/s].
+double read_intervals_per_second(const TomlTable& table, const Gait& gait) {
+  constexpr double kDefault = 50.0;
+  const auto value = table.find("intervals_per_second");
+  const double rate = value ? value->as_number(NumberRange::positive()) : kDefault;
   const double seconds = gait.start + gait.strides * gait.stride.max + gait.settle;
-  if (const double intervals = seconds * gait.intervals_per_second; intervals > kMostIntervals) {
+  if (const double intervals = seconds * rate; intervals > kMostIntervals) {
     table.value().fail(fmt::format("{:.0f} mesh intervals, {:g} s of {:g} a second, are not allowed; need at most {}",
-                                   intervals, seconds, gait.intervals_per_second, kMostIntervals));
+                                   intervals, seconds, rate, kMostIntervals));
   }
+  return rate;
 }
 
 /// Of the base over all strides; none if the file says by itself where to go.
@@ -92,8 +94,11 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
   if (root.find("phase")) table->value().fail("the file also has [[phase]]; need one of the two");
   const Feet feet = need_feet(*table, robot);
   const Gait gait = read_values(*table, surfaces);
-  check_intervals(*table, gait);
-  return TaskGait{expand(gait, robot, feet), read_displacement(root, *table, gait, surfaces[gait.surface], start)};
+  const double rate = read_intervals_per_second(*table, gait);
+  std::vector<Phase> phases = expand(gait, robot, feet);
+  Mesh mesh = mesh_with_rate(phases, rate);
+  return TaskGait{std::move(phases), std::move(mesh),
+                  read_displacement(root, *table, gait, surfaces[gait.surface], start)};
 }
 
 }  // namespace prowl

@@ -6,13 +6,14 @@
 
 #include "prowl/io/task_goals.hpp"
 #include "prowl/io/toml_value.hpp"
-#include "prowl/motion/phase.hpp"
+#include "prowl/mesh/mesh.hpp"
 
 namespace prowl {
 
 /// What [gait] stands for.
 struct TaskGait {
   std::vector<Phase> phases;
+  Mesh mesh;
   std::optional<Eigen::Vector3d> displacement;  ///< of the base at the end [m]; none if the file has goals of its own
 };
 

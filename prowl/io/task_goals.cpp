@@ -11,28 +11,28 @@ namespace prowl {
 namespace {
 
 struct NodeTime {
-  NodeRef at;
+  PhaseFraction at;
   double time;  ///< [s]
 };
 
 /// All nodes but the start; of the two nodes at a phase switch only the earlier.
-std::vector<NodeTime> node_times(const std::vector<Phase>& phases) {
+std::vector<NodeTime> node_times(const std::vector<Phase>& phases, const Mesh& mesh) {
   std::vector<NodeTime> nodes;
   double begin = 0.0;
   for (int p = 0; p < static_cast<int>(phases.size()); ++p) {
-    const Phase& phase = phases[p];
-    for (int i = 1; i <= phase.intervals; ++i) {
-      nodes.push_back({{p, i}, begin + phase.duration.min * i / phase.intervals});
+    const double duration = phases[p].duration.min;
+    for (int k = 1; k <= mesh.phases[p].intervals(); ++k) {
+      nodes.push_back({{p, mesh.phases[p].node_time(k, 1.0)}, begin + mesh.phases[p].node_time(k, duration)});
     }
-    begin += phase.duration.min;
+    begin += duration;
   }
   return nodes;
 }
 
-NodeRef node_at_time(const TomlValue& value, const std::vector<Phase>& phases) {
+PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& phases, const Mesh& mesh) {
   constexpr double kSameTime = 1e-6;  // [s]; a decimal fraction in a file is not an exact node time
   const double time = value.as_number(NumberRange::positive());
-  const std::vector<NodeTime> nodes = node_times(phases);
+  const std::vector<NodeTime> nodes = node_times(phases, mesh);
   const auto after =
       std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
   if (after == nodes.end()) {
@@ -47,18 +47,19 @@ NodeRef node_at_time(const TomlValue& value, const std::vector<Phase>& phases) {
                          std::prev(after)->time, after->time));
 }
 
-/// The node at a part of a phase.
-int node_at_fraction(const TomlValue& value, const Phase& phase) {
+/// The part of the phase at the node that is there.
+double fraction_at_node(const TomlValue& value, const PhaseMesh& mesh) {
   constexpr double kRounding = 1e-6;  // a decimal fraction in a file is not an exact node
-  const double node = value.as_number({.lower = 0.0, .upper = 1.0}) * phase.intervals;
-  if (std::abs(node - std::round(node)) > kRounding * phase.intervals) {
-    value.fail(fmt::format("not at a node of the mesh; the nearest are {:.6g} and {:.6g}",
-                           std::floor(node) / phase.intervals, std::ceil(node) / phase.intervals));
+  const int intervals = mesh.intervals();
+  const double node = value.as_number({.lower = 0.0, .upper = 1.0}) * intervals;
+  if (std::abs(node - std::round(node)) > kRounding * intervals) {
+    value.fail(fmt::format("not at a node of the mesh; the nearest are {:.6g} and {:.6g}", std::floor(node) / intervals,
+                           std::ceil(node) / intervals));
   }
-  return static_cast<int>(std::lround(node));
+  return mesh.node_time(static_cast<int>(std::lround(node)), 1.0);
 }
 
-NodeRef read_node(const TomlTable& goal, const std::vector<Phase>& phases) {
+PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phases, const Mesh& mesh) {
   const auto time = goal.find("time_s");
   const auto phase = goal.find("phase");
   const auto fraction = goal.find("fraction");
@@ -68,7 +69,7 @@ NodeRef read_node(const TomlTable& goal, const std::vector<Phase>& phases) {
     for (const Phase& p : phases) {
       if (!p.duration.is_fixed()) time->fail("the duration of phase '" + p.name + "' is free: need phase, not time_s");
     }
-    return node_at_time(*time, phases);
+    return moment_at_time(*time, phases, mesh);
   }
   if (!phase) goal.need("time_s");
   std::vector<std::string> names;
@@ -76,8 +77,7 @@ NodeRef read_node(const TomlTable& goal, const std::vector<Phase>& phases) {
   const auto found = std::find(names.begin(), names.end(), phase->as_text());
   if (found == names.end()) phase->fail_unknown_name("phase", names);
   const auto index = static_cast<int>(found - names.begin());
-  const Phase& found_phase = phases[index];
-  return {index, fraction ? node_at_fraction(*fraction, found_phase) : found_phase.intervals};
+  return {index, fraction ? fraction_at_node(*fraction, mesh.phases[index]) : 1.0};
 }
 
 /// Bounds of three entries of the file, less `origin`, as rows first ... first + 2 of lower and upper.
@@ -154,8 +154,8 @@ bool binds(const BoundaryCondition& condition) {
 }
 
 BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, const RobotModel& robot,
-                            const TaskStart& start, const std::vector<Phase>& phases) {
-  BoundaryCondition condition = BoundaryCondition::unbounded(robot, name, read_node(goal, phases), start.q);
+                            const TaskStart& start, PhaseFraction at) {
+  BoundaryCondition condition = BoundaryCondition::unbounded(robot, name, at, start.q);
   read_base_position(goal, start, condition);
   if (const auto rpy = goal.find("base_rpy_rad")) read_base_orientation(*rpy, start, condition);
   if (const auto joints = goal.find("joints")) {
@@ -184,7 +184,7 @@ BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, cons
 }  // namespace
 
 BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q) {
-  BoundaryCondition start = BoundaryCondition::unbounded(robot, "start", {0, 0}, q);
+  BoundaryCondition start = BoundaryCondition::unbounded(robot, "start", PhaseFraction::start_of(0), q);
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
@@ -193,9 +193,9 @@ BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd
 }
 
 BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
-                          const std::vector<Phase>& phases) {
-  const NodeRef end{static_cast<int>(phases.size()) - 1, phases.back().intervals};
-  BoundaryCondition goal = BoundaryCondition::unbounded(robot, "goal 1", end, start.q);
+                          int num_phases) {
+  BoundaryCondition goal =
+      BoundaryCondition::unbounded(robot, "goal 1", PhaseFraction::end_of(num_phases - 1), start.q);
   goal.q_ref.head<3>() += displacement;
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
@@ -205,10 +205,11 @@ BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const
 }
 
 std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
-                                          const std::vector<Phase>& phases) {
+                                          const std::vector<Phase>& phases, const Mesh& mesh) {
   std::vector<BoundaryCondition> goals;
   for (const TomlTable& goal : root.find_tables("goal")) {
-    goals.push_back(read_goal(goal, fmt::format("goal {}", goals.size() + 1), robot, start, phases));
+    const std::string name = fmt::format("goal {}", goals.size() + 1);
+    goals.push_back(read_goal(goal, name, robot, start, read_moment(goal, phases, mesh)));
     if (std::count_if(goals.begin(), goals.end(), [&](const auto& g) { return g.at == goals.back().at; }) > 1) {
       goal.value().fail("two goals at one time; put them into one [[goal]]");
     }

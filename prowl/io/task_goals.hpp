@@ -2,6 +2,7 @@
 
 // Internal to io: [[goal]] of a task file.
 #include "prowl/io/toml_value.hpp"
+#include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/motion_problem.hpp"
 
 namespace prowl {
@@ -18,10 +19,10 @@ BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd
 /// The goal of a gait: at the end of the last phase the base is displaced from the start by so much (world frame [m]),
 /// at rest, turned as at the start; the legs as they like.
 BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
-                          const std::vector<Phase>& phases);
+                          int num_phases);
 
-/// One condition for each [[goal]] of the file.
+/// One condition for each [[goal]] of the file, at a node of the mesh, which has equal steps in each phase.
 std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
-                                          const std::vector<Phase>& phases);
+                                          const std::vector<Phase>& phases, const Mesh& mesh);
 
 }  // namespace prowl

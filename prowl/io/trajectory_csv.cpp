@@ -96,29 +96,23 @@ void check_row(const std::string& where, const MotionProblem& problem, std::size
 
 /// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in its steps, as long as it may
 /// last. Returns its end [s].
-double check_times(const std::string& file, const Phase& phase, double begin, const TrajectoryPoint* first,
-                   std::size_t line) {
+double check_times(const std::string& file, const Phase& phase, const PhaseMesh& mesh, double begin,
+                   const TrajectoryPoint* first, std::size_t line) {
   constexpr double kRounding = 1e-9;  // of the time
-  const double duration = phase.duration.is_fixed() ? phase.duration.min : first[phase.intervals].time - begin;
+  const double duration = phase.duration.is_fixed() ? phase.duration.min : first[mesh.intervals()].time - begin;
   const double slack = kRounding * (1.0 + begin + phase.duration.max);
   if (duration < phase.duration.min - slack || duration > phase.duration.max + slack) {
     throw InputError(fmt::format("{}:{}: phase '{}' lasts {} s; the task allows {} to {} s", file,
-                                 line + static_cast<std::size_t>(phase.intervals), phase.name, duration,
+                                 line + static_cast<std::size_t>(mesh.intervals()), phase.name, duration,
                                  phase.duration.min, phase.duration.max));
   }
-  for (int node = 0; node <= phase.intervals; ++node) {
-    const double time = begin + phase.node_time(node, duration);
+  for (int node = 0; node <= mesh.intervals(); ++node) {
+    const double time = begin + mesh.node_time(node, duration);
     if (std::abs(first[node].time - time) <= slack) continue;
     throw InputError(fmt::format("{}:{}: time_s: {} is not allowed; need {}, as in the task's mesh", file,
                                  line + static_cast<std::size_t>(node), first[node].time, time));
   }
   return begin + duration;
-}
-
-std::size_t num_rows(const MotionProblem& problem) {
-  std::size_t rows = 0;
-  for (const Phase& phase : problem.phases) rows += static_cast<std::size_t>(phase.intervals) + 1;
-  return rows;
 }
 
 std::string heading(const RobotModel& robot) { return fmt::format("{}", fmt::join(trajectory_columns(robot), ",")); }
@@ -150,16 +144,16 @@ std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& tr
   return text;
 }
 
-std::size_t longest_trajectory(const MotionProblem& problem) {
+std::size_t longest_trajectory(const MotionProblem& problem, const Mesh& mesh) {
   constexpr std::size_t kLongestCell = 64;  // with its comma; a double needs 25, other programs may write more digits
   return heading(problem.robot).size() + 2 +
-         num_rows(problem) * trajectory_columns(problem.robot).size() * kLongestCell;
+         static_cast<std::size_t>(mesh.num_nodes()) * trajectory_columns(problem.robot).size() * kLongestCell;
 }
 
-Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& source) {
+Trajectory trajectory_from_csv(const MotionProblem& problem, const Mesh& mesh, const SourceText& source) {
   const std::string file = source.path.string();
   const std::vector<std::string> columns = trajectory_columns(problem.robot);
-  const std::size_t rows = num_rows(problem);
+  const auto rows = static_cast<std::size_t>(mesh.num_nodes());
   const auto ends = static_cast<std::size_t>(std::count(source.text.begin(), source.text.end(), '\n'));
   if (ends > rows + 1) throw InputError(fmt::format("{}: {} rows; the task's mesh has {} nodes", file, ends - 1, rows));
   std::vector<std::string_view> lines = split_text(source.text, '\n');
@@ -176,14 +170,14 @@ Trajectory trajectory_from_csv(const MotionProblem& problem, const SourceText& s
   double begin = 0.0;
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const std::size_t first = trajectory.nodes.size();
-    for (int node = 0; node <= problem.phases[p].intervals; ++node) {
+    for (int node = 0; node <= mesh.phases[p].intervals(); ++node) {
       const std::size_t line = trajectory.nodes.size() + 1;
       const std::string where = fmt::format("{}:{}", file, line + 1);
       const Row row = parse_row(where, lines[line], columns);
       check_row(where, problem, p, row);
       trajectory.nodes.push_back(from_row(problem.robot, p, row));
     }
-    begin = check_times(file, problem.phases[p], begin, &trajectory.nodes[first], first + 2);
+    begin = check_times(file, problem.phases[p], mesh.phases[p], begin, &trajectory.nodes[first], first + 2);
   }
   return trajectory;
 }

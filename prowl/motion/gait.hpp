@@ -45,8 +45,7 @@ struct Gait {
   double duty_factor = 0.75;  ///< at least pattern.least_duty_factor(), below 1 [-]
   double start = 0.5;         ///< all feet stand before the first stride [s]
   double settle = 0.5;        ///< and from the last landing to the end, in place of the last stand of a stride [s]
-  double intervals_per_second = 50.0;  ///< of a phase at its longest [1/s]
-  int surface = 0;                     ///< index into MotionProblem::surfaces
+  int surface = 0;            ///< index into MotionProblem::surfaces
 };
 
 /// The phases of a gait: "start", swings and stands of every stride, "settle". Feet that land are free to choose their

@@ -2,17 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/nearest_in_patch.hpp"
-#include "prowl/motion/contact_schedule.hpp"
 
 namespace prowl {
 
@@ -23,7 +22,7 @@ using Eigen::VectorXd;
 constexpr double kOnSurface = 1e-3;   // [m]
 constexpr double kAtRest = 1e-3;      // [m/s]
 constexpr double kUnitLength = 1e-6;  // [-]
-constexpr double kRounding = 1e-9;    // [rad, m, rad/s, m/s, N m, parts of a phase]
+constexpr double kRounding = 1e-9;    // [rad, m, rad/s, m/s, N m]
 
 template <class... Args>
 [[noreturn]] void refuse(fmt::format_string<Args...> format, Args&&... args) {
@@ -81,27 +80,11 @@ void check_place(const MotionProblem& problem, const std::string& field, const P
   }
 }
 
-void check_shares(const std::string& field, const Phase& phase) {
-  const std::vector<double>& shares = phase.shares;
-  if (shares.empty()) return;
-  if (std::ssize(shares) != phase.intervals) {
-    refuse("{}: {} of them are not allowed; need one for each of the {} intervals, or none", field, shares.size(),
-           phase.intervals);
-  }
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (!(shares[i] > 0.0)) refuse("{}[{}]: {} is not allowed; need a part of the phase, > 0", field, i, shares[i]);
-  }
-  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
-  if (!(std::abs(sum - 1.0) <= kRounding)) refuse("{}: {} in all is not allowed; need 1", field, sum);
-}
-
 void check_phase(const MotionProblem& problem, const std::string& field, const Phase& phase) {
   const Duration& duration = phase.duration;
   if (!(duration.min > 0.0) || !(duration.min <= duration.max) || !std::isfinite(duration.max)) {
     refuse("{}.duration: {} to {} is not allowed; need 0 < min <= max [s]", field, duration.min, duration.max);
   }
-  if (phase.intervals < 1) refuse("{}.intervals: {} is not allowed; need 1 or more", field, phase.intervals);
-  check_shares(field + ".shares", phase);
   std::set<int> used;
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const std::string contact = fmt::format("{}.contacts[{}]", field, i);
@@ -155,8 +138,9 @@ void check_within_robot(const std::string& field, const RobotModel& robot, const
 void check_condition(const MotionProblem& problem, const std::string& field, const BoundaryCondition& condition) {
   const RobotModel& robot = problem.robot;
   check_index(field + ".at.phase", condition.at.phase, problem.phases.size());
-  const int intervals = problem.phases[condition.at.phase].intervals;
-  check_index(field + ".at.node", condition.at.node, static_cast<std::size_t>(intervals) + 1);
+  if (!(condition.at.fraction >= 0.0 && condition.at.fraction <= 1.0)) {
+    refuse("{}.at.fraction: {} is not allowed; need 0 to 1", field, condition.at.fraction);
+  }
   check_configuration(field + ".q_ref", condition.q_ref, robot.nq());
   check_bounds(field + ".configuration", condition.configuration_lower, condition.configuration_upper, robot.nv());
   check_bounds(field + ".velocity", condition.velocity_lower, condition.velocity_upper, robot.nv());
@@ -174,15 +158,18 @@ void check_condition(const MotionProblem& problem, const std::string& field, con
 
 /// A place is for a contact that lands: one that holds already is where it is.
 void check_places(const MotionProblem& problem) {
-  const ContactSchedule schedule(problem);
+  const auto holds = [&](std::size_t p, int contact) {
+    const auto& contacts = problem.phases[p].contacts;
+    return std::ranges::find(contacts, contact, &PhaseContact::contact) != contacts.end();
+  };
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const auto& contacts = problem.phases[p].contacts;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (!contacts[i].place || schedule.lands(static_cast<int>(p), static_cast<int>(i))) continue;
+      const bool lands = p > 0 && !holds(p - 1, contacts[i].contact);
+      if (!contacts[i].place || lands) continue;
       refuse(
           "phases[{}].contacts[{}].place: contact '{}' does not land in this phase, it {}; need no place, or the phase "
-          "in which "
-          "it lands",
+          "in which it lands",
           p, i, problem.robot.contacts()[contacts[i].contact].name,
           p == 0 ? "starts where the start posture has it" : "holds from the phase before");
     }
@@ -245,16 +232,14 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
 /// Each rotation is bound about its own q_ref: at one time there can be one.
 void check_rotations(const MotionProblem& problem) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::map<int, std::size_t> binding;  // by the number of phases and nodes before: both sides of a switch are one time
+  std::map<double, std::size_t> binding;  // by phases before: both sides of a phase switch are one time
   for (std::size_t i = 0; i < problem.boundary_conditions.size(); ++i) {
     const BoundaryCondition& condition = problem.boundary_conditions[i];
     if (condition.configuration_lower.segment<3>(3).maxCoeff() == -kInfinity &&
         condition.configuration_upper.segment<3>(3).minCoeff() == kInfinity) {
       continue;
     }
-    int time = condition.at.node;
-    for (int p = 0; p < condition.at.phase; ++p) time += problem.phases[p].intervals;
-    const auto [other, is_first] = binding.insert({time, i});
+    const auto [other, is_first] = binding.insert({condition.at.phase + condition.at.fraction, i});
     if (is_first) continue;
     refuse(
         "boundary_conditions[{}].configuration: it binds the base's rotation at the time at which "
@@ -269,9 +254,10 @@ void check_weightless(const std::string& field, const VectorXd& weights) {
 
 void check_start(const MotionProblem& problem) {
   const BoundaryCondition& start = problem.start();
-  if (!(start.at == NodeRef{0, 0})) {
-    refuse("boundary_conditions[0].at: phase {}, node {} is not allowed; the first condition is the start, need 0, 0",
-           start.at.phase, start.at.node);
+  if (!(start.at == PhaseFraction::start_of(0))) {
+    refuse(
+        "boundary_conditions[0].at: phase {}, fraction {} is not allowed; the first condition is the start, need 0, 0",
+        start.at.phase, start.at.fraction);
   }
   if (!start.configuration_lower.isZero(0.0) || !start.configuration_upper.isZero(0.0)) {
     refuse("boundary_conditions[0].configuration: the start must be fixed at its q_ref; need bounds of 0");
@@ -317,7 +303,7 @@ void check_tolerance(const std::string& field, double tolerance) {
 
 }  // namespace
 
-BoundaryCondition BoundaryCondition::unbounded(const RobotModel& robot, std::string name, NodeRef at,
+BoundaryCondition BoundaryCondition::unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
                                                const Eigen::VectorXd& q_ref) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   BoundaryCondition condition;

@@ -12,23 +12,23 @@
 
 namespace prowl {
 
-/// Bounds on state and torque at one node; -inf and +inf where free, equal where prescribed.
+/// Bounds on state and torque at one moment; -inf and +inf where free, equal where prescribed.
 ///
 ///   configuration_lower <= difference(q_ref, q) <= configuration_upper     (nv; base displacement in the world frame,
 ///                                                   rotation vector in the frame of q_ref, joints)
 ///   velocity_lower <= v <= velocity_upper (nv),   torque_lower <= tau <= torque_upper (nu)
 ///
-/// The start of a motion is one of these at node (0, 0) and a goal is one at any node.
+/// The start of a motion is one of these at the start of the first phase; a goal is one at any moment.
 struct BoundaryCondition {
   std::string name;  ///< "start", "goal 1", ... for messages
-  NodeRef at;
+  PhaseFraction at;
   Eigen::VectorXd q_ref;  ///< nq
   Eigen::VectorXd configuration_lower, configuration_upper;
   Eigen::VectorXd velocity_lower, velocity_upper;
   Eigen::VectorXd torque_lower, torque_upper;
 
   /// One that binds nothing, about q_ref.
-  static BoundaryCondition unbounded(const RobotModel& robot, std::string name, NodeRef at,
+  static BoundaryCondition unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
                                      const Eigen::VectorXd& q_ref);
 };
 
@@ -39,7 +39,7 @@ struct GoalTolerance {
   double velocity = 5e-3;
 };
 
-/// What we ask for: everything that defines a motion, before any discretisation but the number of intervals.
+/// What we ask for: everything that defines a motion, before any discretisation.
 /// All limits are those of the robot (joint position, velocity, torque) and of the surfaces (friction cone,
 /// unilateral force), and all are hard.
 struct MotionProblem {

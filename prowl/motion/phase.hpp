@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,32 +29,22 @@ struct Duration {
   bool is_fixed() const { return min == max; }
 };
 
-constexpr int kMostIntervals = 10000;  ///< of a motion; a typing mistake above that, and gigabytes of memory
-
-/// A time with one set of contacts, cut into mesh intervals.
+/// A time with one set of contacts.
 struct Phase {
   std::string name;
   std::vector<PhaseContact> contacts;
   Duration duration;
-  int intervals = 1;
-  /// What each interval takes of the phase's duration: one an interval, > 0, 1 in all. Empty: all the same.
-  std::vector<double> shares = {};
-
-  /// Length of interval i, 0 ... intervals - 1, of a phase that lasts so long [s].
-  double step(int i, double lasting) const { return shares.empty() ? lasting / intervals : lasting * shares[i]; }
-  /// From the start of a phase that lasts so long to its node k, 0 ... intervals [s]. The last is at the end exactly.
-  double node_time(int k, double lasting) const {
-    if (k == intervals) return lasting;
-    if (shares.empty()) return lasting * k / intervals;
-    return lasting * std::accumulate(shares.begin(), shares.begin() + k, 0.0);
-  }
 };
 
-/// Node of a phase, 0 ... intervals. The last node of a phase and the first of the next are two nodes at one time.
-struct NodeRef {
+/// A moment of a motion: the part of a phase that is over, from 0 (its start) to 1 (its end). The end of a phase and
+/// the start of the next are one time.
+struct PhaseFraction {
   int phase = 0;
-  int node = 0;
-  bool operator==(const NodeRef&) const = default;
+  double fraction = 0.0;
+  bool operator==(const PhaseFraction&) const = default;
+
+  static PhaseFraction start_of(int phase) { return {phase, 0.0}; }
+  static PhaseFraction end_of(int phase) { return {phase, 1.0}; }
 };
 
 }  // namespace prowl

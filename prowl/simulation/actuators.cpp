@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "prowl/trajectory/torque_share.hpp"
+#include "prowl/model/torque_share.hpp"
 
 namespace prowl {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "prowl/trajectory/torque_share.hpp"
-#include "prowl/trajectory/worst_case.hpp"
+#include "prowl/model/torque_share.hpp"
+#include "prowl/trajectory/worst_moment.hpp"
 
 namespace prowl {
 namespace {
@@ -34,8 +34,7 @@ class ContactLoads {
   std::vector<ContactLoad> loads() const {
     std::vector<ContactLoad> loads;
     for (const Worst& worst : worst_) {
-      const CertificateCheck pull = worst.pull.check(), beyond = worst.beyond.check();
-      loads.push_back({worst.stood, -pull.worst, pull.time, beyond.worst, beyond.time});
+      loads.push_back({worst.stood, -worst.pull.worst, worst.pull.time, worst.beyond.worst, worst.beyond.time});
     }
     return loads;
   }
@@ -43,7 +42,7 @@ class ContactLoads {
  private:
   struct Worst {
     bool stood = false;
-    WorstCase pull{"pull", "N", 0.0}, beyond{"friction cone", "N", 0.0};
+    WorstMoment pull, beyond;
   };
   const MotionProblem& problem_;
   std::optional<double> friction_;
@@ -57,7 +56,7 @@ RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tra
   constexpr double kAtLimit = 0.999;  // of a curve: the tracker's is a table
   const RobotModel& robot = problem.robot;
   TrackingError error;
-  WorstCase torque("joint torque", "of limit", 1.0);
+  WorstMoment torque;
   ContactLoads loads(problem, friction);
   RolloutMeasures measures;
   long saturated = 0;
@@ -82,8 +81,8 @@ RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tra
   measures.base_position = error.base_position();
   measures.base_angle = error.base_angle();
   measures.joints = error.joints();
-  measures.largest_torque_share = torque.check().worst;
-  measures.largest_torque_joint = torque.check().where;
+  measures.largest_torque_share = torque.worst;
+  measures.largest_torque_joint = torque.where;
   measures.saturated =
       rollout.samples.empty() ? 0.0 : static_cast<double>(saturated) / static_cast<double>(rollout.samples.size());
   measures.contacts = loads.loads();

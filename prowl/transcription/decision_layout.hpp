@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "prowl/motion/contact_schedule.hpp"
-#include "prowl/transcription/mesh.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 
 namespace prowl {
 
@@ -23,8 +22,7 @@ namespace prowl {
 class DecisionLayout {
  public:
   /// `num_chosen`: size of w, one a phase. `rows`: of each node.
-  DecisionLayout(const MotionProblem& problem, const ContactSchedule& schedule, const Mesh& mesh,
-                 const std::vector<int>& num_chosen, const std::vector<int>& rows);
+  DecisionLayout(const DiscreteProblem& discrete, const std::vector<int>& num_chosen, const std::vector<int>& rows);
 
   int num_variables() const { return num_variables_; }
   int num_constraints() const { return num_constraints_; }

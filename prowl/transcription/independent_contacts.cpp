@@ -38,12 +38,12 @@ std::vector<int> independent_rows(const MatrixXd& given, const MatrixXd& candida
   return rows;
 }
 
-PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                             const Eigen::VectorXd& q) {
+PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const Eigen::VectorXd& q) {
+  const MotionProblem& problem = discrete.problem;
   const auto& held = problem.phases[phase].contacts;
   const int nv = problem.robot.nv(), num_contacts = static_cast<int>(held.size());
   std::vector<int> staying, landing;
-  for (int i = 0; i < num_contacts; ++i) (schedule.lands(phase, i) ? landing : staying).push_back(i);
+  for (int i = 0; i < num_contacts; ++i) (discrete.schedule.lands(phase, i) ? landing : staying).push_back(i);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
   ContactKinematics kinematics(contact_indices(held));

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "prowl/motion/contact_schedule.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/transcription/node_functions.hpp"
 
 namespace prowl {
@@ -16,7 +16,6 @@ std::vector<int> independent_rows(const Eigen::MatrixXd& given, const Eigen::Mat
 /// first, those that land add what is left. One posture stands for the phase. It does where dependence is a matter of
 /// the robot's shape (flat feet, knee and foot); from a singular one (straight legs) a row stays out that counts as
 /// soon as the legs bend, and the contact drifts, which the certificate finds.
-PhaseContacts phase_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                             const Eigen::VectorXd& q);
+PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const Eigen::VectorXd& q);
 
 }  // namespace prowl

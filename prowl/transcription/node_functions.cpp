@@ -16,8 +16,6 @@ using Eigen::VectorXd;
 
 constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
 
-const Phase& phase_of(const MotionProblem& problem, int phase) { return problem.phases[phase]; }
-
 /// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start
 /// of the motion to the one after the node (other phases at the middle of their durations).
 ///
@@ -25,15 +23,16 @@ const Phase& phase_of(const MotionProblem& problem, int phase) { return problem.
 /// half makes it smaller whatever the gain. Gains for the step before let errors grow where steps do. And not shorter
 /// than the steps before: what contacts are off by after long steps would have to be gone within a short one, at a
 /// speed that the certificate sees. docs/transcription.md, "Steps of different length".
-std::vector<double> per_gain_step(const MotionProblem& problem, int phase) {
+std::vector<double> per_gain_step(const DiscreteProblem& discrete, int phase) {
   std::vector<double> result;
   double longest = 0.0;  // [s]
   for (int p = 0; p <= phase; ++p) {
-    const Phase& here = phase_of(problem, p);
-    const double duration = 0.5 * (here.duration.min + here.duration.max);
+    const Duration& range = discrete.problem.phases[p].duration;
+    const PhaseMesh& mesh = discrete.mesh.phases[p];
+    const double duration = 0.5 * (range.min + range.max);
     result.clear();
-    for (int k = 0; k <= here.intervals; ++k) {
-      longest = std::max(longest, here.step(std::min(k, here.intervals - 1), duration));
+    for (int k = 0; k <= mesh.intervals(); ++k) {
+      longest = std::max(longest, mesh.step(std::min(k, mesh.intervals() - 1), duration));
       result.push_back(duration / longest);
     }
   }
@@ -46,20 +45,23 @@ double cone_smoothing(const MotionProblem& problem, double friction, std::size_t
   return problem.robot.weight() * std::min(0.01, 0.2 * friction / static_cast<double>(contacts));
 }
 
-NodeFunctions::NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                             const PhaseContacts& contacts, const StabilisationOfStep& stabilisation)
-    : nv_(problem.robot.nv()),
-      nu_(problem.robot.nu()),
+NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
+                             const StabilisationOfStep& stabilisation)
+    : nv_(discrete.problem.robot.nv()),
+      nu_(discrete.problem.robot.nu()),
       num_chosen_(static_cast<int>(contacts.chosen_rows.size())),
-      intervals_(phase_of(problem, phase).intervals),
-      free_duration_(!phase_of(problem, phase).duration.is_fixed()),
+      intervals_(discrete.mesh.phases[phase].intervals()),
+      free_duration_(!discrete.problem.phases[phase].duration.is_fixed()),
       stabilisation_(stabilisation),
-      per_gain_step_(per_gain_step(problem, phase)),
-      torques_(problem.robot),
-      placement_(problem, schedule, phase, contacts.landing),
-      cost_(problem),
-      dynamics_(problem.robot, contact_indices(phase_of(problem, phase).contacts), contacts.chosen_rows) {
-  const auto& held = phase_of(problem, phase).contacts;
+      per_gain_step_(per_gain_step(discrete, phase)),
+      torques_(discrete.problem.robot),
+      placement_(discrete, phase, contacts.landing),
+      cost_(discrete.problem),
+      dynamics_(discrete.problem.robot, contact_indices(discrete.problem.phases[phase].contacts),
+                contacts.chosen_rows) {
+  const MotionProblem& problem = discrete.problem;
+  const ContactSchedule& schedule = discrete.schedule;
+  const auto& held = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[i];
     const Surface& surface = problem.surfaces[contact.surface];

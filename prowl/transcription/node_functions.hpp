@@ -6,9 +6,8 @@
 #include <vector>
 
 #include "prowl/dynamics/projected_residual.hpp"
-#include "prowl/motion/contact_schedule.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/motion/friction_limit.hpp"
-#include "prowl/motion/motion_problem.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
 #include "prowl/transcription/motion_limit.hpp"
 #include "prowl/transcription/node_cost.hpp"
@@ -61,7 +60,7 @@ struct NodeValues {
 /// the node already (the last one of their owner), unless contacts lose rank.
 class NodeFunctions {
  public:
-  NodeFunctions(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts,
+  NodeFunctions(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
                 const StabilisationOfStep& stabilisation = {});
 
   int num_variables() const { return 3 * nv_ + nu_ + num_chosen_; }  ///< of a node

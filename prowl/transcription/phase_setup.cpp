@@ -5,17 +5,17 @@
 
 namespace prowl {
 
-std::vector<PhaseContacts> contacts_of_phases(const MotionProblem& problem, const ContactSchedule& schedule,
-                                              const Mesh& mesh, const Trajectory& guess) {
+std::vector<PhaseContacts> contacts_of_phases(const DiscreteProblem& discrete, const Trajectory& guess) {
   std::vector<PhaseContacts> contacts;
-  for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const Eigen::VectorXd& q = guess.nodes[mesh.index({p, 0})].q;
-    contacts.push_back(phase_contacts(problem, schedule, p, q));
+  for (int p = 0; p < static_cast<int>(discrete.problem.phases.size()); ++p) {
+    const Eigen::VectorXd& q = guess.nodes[discrete.mesh.first_node(p)].q;
+    contacts.push_back(phase_contacts(discrete, p, q));
   }
   return contacts;
 }
 
-std::vector<Eigen::VectorXd> anchor_origins(const MotionProblem& problem, const ContactSchedule& schedule) {
+std::vector<Eigen::VectorXd> anchor_origins(const DiscreteProblem& discrete) {
+  const MotionProblem& problem = discrete.problem;
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(problem.start_configuration());
   std::vector<Eigen::VectorXd> origins;
@@ -23,7 +23,8 @@ std::vector<Eigen::VectorXd> anchor_origins(const MotionProblem& problem, const 
     const auto& contacts = problem.phases[p].contacts;
     Eigen::VectorXd& anchors = origins.emplace_back(3 * static_cast<Eigen::Index>(contacts.size()));
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const Stance& stance = schedule.stances()[schedule.stance(static_cast<int>(p), static_cast<int>(i))];
+      const Stance& stance =
+          discrete.schedule.stances()[discrete.schedule.stance(static_cast<int>(p), static_cast<int>(i))];
       const double radius = problem.robot.contacts()[stance.contact].radius;
       anchors.segment<3>(static_cast<Eigen::Index>(3 * i)) =
           stance.lands() ? problem.surfaces[stance.surface].at({0.0, 0.0}, radius)

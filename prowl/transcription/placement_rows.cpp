@@ -29,18 +29,18 @@ double clearance_profile(const Swing& swing, double s) {
 
 }  // namespace
 
-PlacementRows::PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                             const std::vector<LandingAxes>& landing, int intervals_at_rest)
-    : length_(problem.robot.size()),
+PlacementRows::PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
+                             int intervals_at_rest)
+    : length_(discrete.problem.robot.size()),
       speed_(std::sqrt(RobotModel::kGravity * length_)),
       kinematics_({}),
-      at_rest_(Eigen::VectorXd::Zero(problem.robot.nv())),
-      second_(problem.robot.nv()) {
-  rows_.resize(static_cast<std::size_t>(problem.phases[phase].intervals) + 1);
-  add_landing(problem, schedule, phase, landing);
-  for (const Swing& swing : schedule.swings()) {
+      at_rest_(Eigen::VectorXd::Zero(discrete.problem.robot.nv())),
+      second_(discrete.problem.robot.nv()) {
+  rows_.resize(discrete.mesh.phases[phase].intervals() + 1);
+  add_landing(discrete, phase, landing);
+  for (const Swing& swing : discrete.schedule.swings()) {
     if (swing.first_phase <= phase && phase <= swing.last_phase)
-      add_clearance(problem, schedule, phase, swing, intervals_at_rest);
+      add_clearance(discrete, phase, swing, intervals_at_rest);
   }
   kinematics_ = ContactKinematics(points_);
 }
@@ -52,11 +52,11 @@ int PlacementRows::point_of(int contact) {
   return static_cast<int>(points_.size()) - 1;
 }
 
-void PlacementRows::add_landing(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                                const std::vector<LandingAxes>& landing) {
+void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing) {
+  const MotionProblem& problem = discrete.problem;
   const auto& contacts = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
-    if (!schedule.lands(phase, i)) continue;
+    if (!discrete.schedule.lands(phase, i)) continue;
     const PhaseContact& contact = contacts[i];
     const Surface& surface = problem.surfaces[contact.surface];
     Eigen::Matrix3d axes;
@@ -85,25 +85,27 @@ void PlacementRows::add_landing(const MotionProblem& problem, const ContactSched
 // Surfaces without an edge are passed during the whole swing. A patch is passed while the foot is near it, and where
 // that is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the
 // second.
-void PlacementRows::add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                                  const Swing& swing, int intervals_at_rest) {
+void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, const Swing& swing,
+                                  int intervals_at_rest) {
+  const MotionProblem& problem = discrete.problem;
   const double total = time_of(problem, swing.first_phase, swing.last_phase);
   const double before = time_of(problem, swing.first_phase, phase - 1) / total;
   const double part = time_of(problem, phase, phase) / total;
-  const Phase& asked = problem.phases[phase];
-  const int intervals = asked.intervals;
-  const Phase& last = problem.phases[swing.last_phase];
-  const double last_step = last.step(last.intervals - 1, time_of(problem, swing.last_phase, swing.last_phase)) / total;
+  const PhaseMesh& mesh = discrete.mesh.phases[phase];
+  const int intervals = mesh.intervals();
+  const PhaseMesh& last = discrete.mesh.phases[swing.last_phase];
+  const double last_step =
+      last.step(last.intervals() - 1, time_of(problem, swing.last_phase, swing.last_phase)) / total;
   const double at_rest = swing.after < 0 ? 0.0 : intervals_at_rest * last_step;
   const double moving = at_rest < 1.0 ? 1.0 - at_rest : 1.0;
   const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
-  const auto surface_of = [&](int stance) { return stance < 0 ? -1 : schedule.stances()[stance].surface; };
+  const auto surface_of = [&](int stance) { return stance < 0 ? -1 : discrete.schedule.stances()[stance].surface; };
   const ContactPoint& contact = problem.robot.contacts()[swing.contact];
   for (int k = 0; k <= intervals; ++k) {
     // The first node of a swing is where it left, the last where it lands; of a switch in between one node is enough.
     if (k == 0 && phase == swing.first_phase) continue;
     if (k == intervals && !is_last_phase) continue;
-    const double progress = before + asked.node_time(k, part);
+    const double progress = before + mesh.node_time(k, part);
     const double risen = std::min(progress / moving, 1.0);
     for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
       const Surface& surface = problem.surfaces[s];

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
-#include "prowl/motion/contact_schedule.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 
 namespace prowl {
 
@@ -26,8 +26,8 @@ class PlacementRows {
   /// `landing`: one for each contact of the phase; of no meaning for those that do not land. `intervals_at_rest`: in
   /// which a contact that lands is down already; backward Euler, where the velocity at a node is that of the interval
   /// before it, needs one.
-  PlacementRows(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                const std::vector<LandingAxes>& landing, int intervals_at_rest = 0);
+  PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
+                int intervals_at_rest = 0);
 
   int most_rows() const;  ///< over all nodes
   int count(int k) const { return static_cast<int>(rows_[k].size()); }
@@ -59,10 +59,8 @@ class PlacementRows {
     std::string what;
   };
   const Row& at(int k, int row) const { return rows_[k][row]; }
-  void add_landing(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                   const std::vector<LandingAxes>& landing);
-  void add_clearance(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const Swing& swing,
-                     int intervals_at_rest);
+  void add_landing(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing);
+  void add_clearance(const DiscreteProblem& discrete, int phase, const Swing& swing, int intervals_at_rest);
   int point_of(int contact);
 
   double length_, speed_;

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "prowl/error.hpp"
-#include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
 
@@ -19,8 +18,8 @@ using Eigen::VectorXd;
 
 }  // namespace
 
-StagewiseTranscription::StagewiseTranscription(Transcription& flat)
-    : flat_(flat), stages_(static_cast<std::size_t>(flat.layout_.num_nodes())) {
+StagewiseTranscription::StagewiseTranscription(NodeProgram& nodes)
+    : nodes_(nodes), discrete_(nodes.discrete()), layout_(nodes.layout()), stages_(nodes.num_nodes()) {
   for (int k = 0; k < num_stages(); ++k) set_variables(k);
   for (int k = 0; k < num_stages(); ++k) set_functions(k);
   set_shapes();
@@ -42,20 +41,20 @@ void StagewiseTranscription::use_threads(int count) {
 }
 
 std::pair<double, double> StagewiseTranscription::bounds(int k, int variable) const {
-  const int own = flat_.column(k, variable);
-  double lower = flat_.variable_lower_(own), upper = flat_.variable_upper_(own);
-  const bool is_state = variable < 2 * flat_.layout_.nv();
-  if (is_state && k + 1 < num_stages() && !flat_.is_interval(k)) {
-    const int twin = flat_.column(k + 1, variable);
-    lower = std::max(lower, flat_.variable_lower_(twin));
-    upper = std::min(upper, flat_.variable_upper_(twin));
+  const int own = nodes_.column(k, variable);
+  double lower = nodes_.bounds().lower(own), upper = nodes_.bounds().upper(own);
+  const bool is_state = variable < 2 * layout_.nv();
+  if (is_state && k + 1 < num_stages() && !discrete_.is_interval(k)) {
+    const int twin = nodes_.column(k + 1, variable);
+    lower = std::max(lower, nodes_.bounds().lower(twin));
+    upper = std::min(upper, nodes_.bounds().upper(twin));
   }
   return {lower, upper};
 }
 
 VectorXd StagewiseTranscription::units(int k) const {
-  const RobotModel& robot = flat_.problem_.robot;
-  const int nv = flat_.layout_.nv(), nu = flat_.layout_.nu(), own = flat_.layout_.node_size(k);
+  const RobotModel& robot = discrete_.problem.robot;
+  const int nv = layout_.nv(), nu = layout_.nu(), own = layout_.node_size(k);
   const double length = robot.size(), time = std::sqrt(length / RobotModel::kGravity), force = robot.weight();
   VectorXd q = VectorXd::Ones(nv);
   VectorXd tau = VectorXd::Constant(nu, force * length);
@@ -65,20 +64,20 @@ VectorXd StagewiseTranscription::units(int k) const {
     q(6 + i) = length;
     tau(i) = force;
   }
-  VectorXd units = VectorXd::Constant(flat_.functions(k).num_columns(), length);
+  VectorXd units = VectorXd::Constant(nodes_.functions(k).num_columns(), length);
   // Dependent forces stay in newtons: they cost nothing, and what regularises them is all that holds them at first.
-  units.head(own) << q, q / time, q / (time * time), tau, VectorXd::Ones(flat_.layout_.num_w(k));
-  if (flat_.functions(k).has_free_duration()) units(own) = time;
+  units.head(own) << q, q / time, q / (time * time), tau, VectorXd::Ones(layout_.num_w(k));
+  if (nodes_.functions(k).has_free_duration()) units(own) = time;
   return units;
 }
 
 void StagewiseTranscription::set_variables(int k) {
   Stage& stage = this->stage(k);
-  const int states = 2 * flat_.layout_.nv(), own = flat_.layout_.node_size(k), all = flat_.functions(k).num_columns();
+  const int states = 2 * layout_.nv(), own = layout_.node_size(k), all = nodes_.functions(k).num_columns();
   const auto is_shared_with = [&](int other, int variable) {
     if (other < 0 || other >= num_stages()) return false;
-    const std::vector<int>& shared = flat_.shared_[flat_.phase_of(other)];
-    return std::ranges::find(shared, flat_.column(k, variable)) != shared.end();
+    const std::vector<int>& shared = nodes_.shared(nodes_.phase_of(other));
+    return std::ranges::find(shared, nodes_.column(k, variable)) != shared.end();
   };
 
   stage.fixed.setZero(all);
@@ -123,14 +122,14 @@ void StagewiseTranscription::set_functions(int k) {
     }
     ++count;
   };
-  const NodeFunctions& functions = flat_.functions(k);
-  const MeshNode& node = flat_.mesh_node(k);
+  const NodeFunctions& functions = nodes_.functions(k);
+  const MeshNode& node = discrete_.nodes[k];
   for (int row = 0; row < functions.num_rows(node.node); ++row) {
     add(functions.lower(node.node, row), functions.upper(node.node, row));
   }
   stage.num_rows = count;
 
-  const int states = 2 * flat_.layout_.nv();
+  const int states = 2 * layout_.nv();
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
     const int variable = stage.variables[i];
     const bool is_carried = variable >= states && static_cast<int>(i) >= stage.size.inputs;  // bounded where it began
@@ -157,11 +156,11 @@ void StagewiseTranscription::set_functions(int k) {
 }
 
 HalfTime StagewiseTranscription::half_time(int k, int i, const VectorXd& node) const {
-  const Phase& phase = flat_.problem_.phases[flat_.phase_of(k)];
-  if (i < 0 || i == phase.intervals) return {};
-  const double slope = 0.5 * phase.step(i, 1.0);
-  if (!flat_.functions(k).has_free_duration()) return {slope * phase.duration.min, slope, -1};
-  const int column = flat_.layout_.node_size(k);  // the first of what is shared
+  const PhaseMesh& mesh = discrete_.phase_mesh_of(k);
+  if (i < 0 || i == mesh.intervals()) return {};
+  const double slope = 0.5 * mesh.step(i, 1.0);
+  if (!nodes_.functions(k).has_free_duration()) return {slope * discrete_.phase_of(k).duration.min, slope, -1};
+  const int column = layout_.node_size(k);  // the first of what is shared
   return {slope * node(column), slope, column};
 }
 
@@ -171,7 +170,7 @@ void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, VectorXd& st
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
     state(stage.variables[i]) = ux(static_cast<Index>(i)) * stage.unit(static_cast<Index>(i));
   }
-  arrival.set(flat_.charts_[k], flat_.layout_.nv(), half_time(k, flat_.mesh_node(k).node - 1, state), state);
+  arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state);
 }
 
 void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
@@ -182,10 +181,10 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
   set_arrival(k, ux, work(stage).state, stage.arrival);
   const VectorXd& node = stage.node();
   if (stage.num_next() > 0) {
-    stage.departure.set(flat_.charts_[k], flat_.charts_[k + 1], flat_.layout_.nv(),
-                        half_time(k, flat_.mesh_node(k).node, node), node);
+    stage.departure.set(nodes_.chart(k), nodes_.chart(k + 1), layout_.nv(), half_time(k, discrete_.nodes[k].node, node),
+                        node);
   }
-  flat_.set_point(k, node, stage.point);
+  nodes_.set_point(k, node, stage.point);
 }
 
 void StagewiseTranscription::fill_values(int k, const NodeValues& node) {
@@ -205,7 +204,7 @@ void StagewiseTranscription::fill_values(int k, const NodeValues& node) {
     stage.values.inequalities(i) = function(stage.inequalities[i]);
   }
   if (stage.num_next() > 0) {
-    const Index states = 2 * flat_.layout_.nv();
+    const Index states = 2 * layout_.nv();
     stage.departure.value(stage.values.next.head(states));
     for (std::size_t i = 0; i < stage.carried.size(); ++i) {
       stage.values.next(states + static_cast<Index>(i)) = stage.node()(stage.carried[i]);
@@ -220,7 +219,7 @@ const StageValues& StagewiseTranscription::values(int k, const VectorXd& ux) {
   Stage& stage = this->stage(k);
   if (stage.have_values) return stage.values;
   NodeValues& node = work(stage).values;
-  flat_.at_node(k, [&] { flat_.functions(k).evaluate(stage.point, node); });
+  nodes_.at_node(k, [&] { nodes_.functions(k).evaluate(stage.point, node); });
   fill_values(k, node);
   return stage.values;
 }
@@ -268,7 +267,7 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
 }
 
 void StagewiseTranscription::add_on_next(const Stage& stage, const VectorXd& on_next, VectorXd& on_node) const {
-  const Index states = 2 * flat_.layout_.nv();
+  const Index states = 2 * layout_.nv();
   on_node.head(states) += on_next.head(states).cwiseProduct(stage.next_per_unit.head(states));
   for (std::size_t i = 0; i < stage.carried.size(); ++i) {
     const Index state = states + static_cast<Index>(i);
@@ -293,7 +292,7 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   move_to(k, ux);
   Stage& stage = this->stage(k);
   Work& work = this->work(stage);
-  const bool is_exact = flat_.functions(k).hessian_kind() == HessianKind::exact;
+  const bool is_exact = nodes_.functions(k).hessian_kind() == HessianKind::exact;
   work.on_rows.setZero(stage.num_rows);
   work.on_node.setZero(stage.node().size());
   const auto distribute = [&](const std::vector<int>& places, const VectorXd& on) {
@@ -309,8 +308,8 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   };
   distribute(stage.equalities, multipliers.equalities);
   distribute(stage.inequalities, multipliers.inequalities);
-  flat_.at_node(k,
-                [&] { flat_.functions(k).linearise(stage.point, cost_factor, work.on_rows, work.values, work.form); });
+  nodes_.at_node(
+      k, [&] { nodes_.functions(k).linearise(stage.point, cost_factor, work.on_rows, work.values, work.form); });
   if (stage.num_next() > 0) {
     work.on_next.setZero(stage.node().size());
     add_on_next(stage, multipliers.next, work.on_next);
@@ -332,7 +331,7 @@ void StagewiseTranscription::linearise_to_first_order(int k, const VectorXd& ux)
   Stage& stage = this->stage(k);
   if (!stage.have_derivatives) {
     NodeValues& node = work(stage).values;
-    flat_.at_node(k, [&] { flat_.functions(k).evaluate_with_derivatives(stage.point, node); });
+    nodes_.at_node(k, [&] { nodes_.functions(k).evaluate_with_derivatives(stage.point, node); });
     if (!stage.have_values) fill_values(k, node);
     fill_slopes(k, node);
   }
@@ -348,7 +347,7 @@ void StagewiseTranscription::keep_linear(Stage& stage) {
 void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
   Stage& stage = this->stage(k);
   Work& work = this->work(stage);
-  const Index size = stage.node().size(), states = 2 * flat_.layout_.nv();
+  const Index size = stage.node().size(), states = 2 * layout_.nv();
   work.form.setZero(size, size);
   if (stage.num_next() > 0) {
     const VectorXd& unit = stage.next_per_unit;
@@ -404,7 +403,7 @@ void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd&
   }
   next.resize(stage.num_next());
   if (stage.num_next() == 0) return;
-  const Index states = 2 * flat_.layout_.nv();
+  const Index states = 2 * layout_.nv();
   stage.linear_departure.push_forward(work.step, next.head(states));
   for (std::size_t i = 0; i < stage.carried.size(); ++i) {
     next(states + static_cast<Index>(i)) = work.step(stage.carried[i]);
@@ -446,7 +445,7 @@ const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorX
     slopes(i, variable) = per_unit;
   }
   if (stage.num_next() > 0) {
-    const Index states = 2 * flat_.layout_.nv();
+    const Index states = 2 * layout_.nv();
     auto next = slopes.bottomRows(stage.num_next());
     stage.departure.derivatives(next.topRows(states));
     for (std::size_t i = 0; i < stage.carried.size(); ++i) next(states + static_cast<Index>(i), stage.carried[i]) = 1.0;
@@ -471,25 +470,25 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
   std::vector<VectorXd> result;
   for (int k = 0; k < num_stages(); ++k) {
     VectorXd node(stage(k).fixed.size());
-    for (Index i = 0; i < node.size(); ++i) node(i) = z(flat_.column(k, static_cast<int>(i)));
-    const double s = half_time(k, flat_.mesh_node(k).node - 1, node).s;
-    const VectorXd state = Arrival::state(flat_.charts_[k], flat_.layout_.nv(), s, node);
+    for (Index i = 0; i < node.size(); ++i) node(i) = z(nodes_.column(k, static_cast<int>(i)));
+    const double s = half_time(k, discrete_.nodes[k].node - 1, node).s;
+    const VectorXd state = Arrival::state(nodes_.chart(k), layout_.nv(), s, node);
     result.push_back(state(stage(k).variables).cwiseQuotient(stage(k).unit));
   }
   return result;
 }
 
 VectorXd StagewiseTranscription::flat(const std::vector<VectorXd>& stages) const {
-  VectorXd z(flat_.num_variables()), state;
+  VectorXd z(layout_.num_variables()), state;
   for (int k = num_stages() - 1; k >= 0; --k) {  // what is shared: as it began
     Arrival arrival;
     set_arrival(k, stages[k], state, arrival);
     const VectorXd& node = arrival.node();
-    for (Index i = 0; i < node.size(); ++i) z(flat_.column(k, static_cast<int>(i))) = node(i);
+    for (Index i = 0; i < node.size(); ++i) z(nodes_.column(k, static_cast<int>(i))) = node(i);
   }
   return z;
 }
 
-std::string StagewiseTranscription::describe_stage(int k) const { return flat_.describe_place(k); }
+std::string StagewiseTranscription::describe_stage(int k) const { return discrete_.describe_moment(k); }
 
 }  // namespace prowl

@@ -7,13 +7,11 @@
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/transcription/half_step.hpp"
-#include "prowl/transcription/node_functions.hpp"
+#include "prowl/transcription/node_program.hpp"
 
 namespace prowl {
 
-class Transcription;
-
-/// A Transcription as a chain of stages, one a node. docs/transcription.md, "stage by stage":
+/// A NodeProgram as a chain of stages, one a node. docs/transcription.md, "stage by stage":
 ///
 ///   states   z, w (half a step before the node's q, v), and what this node and the one before share
 ///   inputs   a, tau, forces w of dependent contacts, and what is shared from this node on (duration, places)
@@ -25,8 +23,8 @@ class Transcription;
 /// by sqrt(l/g). A solver that regularises adds the same number to the curvature in each. (But w is in newtons.)
 class StagewiseTranscription : public StagewiseNlp {
  public:
-  /// A view of `flat`, which must outlive it and not move.
-  explicit StagewiseTranscription(Transcription& flat);
+  /// Of `nodes`, which must outlive it.
+  explicit StagewiseTranscription(NodeProgram& nodes);
 
   int num_stages() const override { return static_cast<int>(stages_.size()); }
   const StageSize& size(int k) const override { return stage(k).size; }
@@ -135,7 +133,9 @@ class StagewiseTranscription : public StagewiseNlp {
   void add_on_next(const Stage& stage, const Eigen::VectorXd& on_next, Eigen::VectorXd& on_node) const;
   static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
-  Transcription& flat_;
+  NodeProgram& nodes_;
+  const DiscreteProblem& discrete_;
+  const DecisionLayout& layout_;
   std::vector<Stage> stages_;
   std::vector<std::vector<Work>> works_;  ///< for each thread, one a shape
 };

@@ -15,11 +15,11 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// All nodes at the time of a node: itself and, at a phase switch, its twin.
-std::vector<int> nodes_at_time_of(const Mesh& mesh, int k) {
+std::vector<int> nodes_at_time_of(const DiscreteProblem& discrete, int k) {
   std::vector<int> nodes{k};
-  const MeshNode& node = mesh.nodes[k];
+  const MeshNode& node = discrete.nodes[k];
   if (node.h_in == 0.0 && k > 0) nodes.push_back(k - 1);
-  if (node.h_out == 0.0 && k + 1 < mesh.size()) nodes.push_back(k + 1);
+  if (node.h_out == 0.0 && k + 1 < discrete.num_nodes()) nodes.push_back(k + 1);
   return nodes;
 }
 
@@ -50,23 +50,24 @@ void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, co
 
 }  // namespace
 
-std::vector<Eigen::Matrix3d> rotation_charts(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess) {
+std::vector<Eigen::Matrix3d> rotation_charts(const DiscreteProblem& discrete, const Trajectory& guess) {
   std::vector<Eigen::Matrix3d> charts;
-  for (int k = 0; k < mesh.size(); ++k) {
-    const int first = nodes_at_time_of(mesh, k).back() < k ? k - 1 : k;
+  for (int k = 0; k < discrete.num_nodes(); ++k) {
+    const int first = nodes_at_time_of(discrete, k).back() < k ? k - 1 : k;
     charts.push_back(base_rotation(guess.nodes[first].q));
   }
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+  for (std::size_t c = 0; c < discrete.condition_nodes.size(); ++c) {
+    const BoundaryCondition& condition = discrete.problem.boundary_conditions[c];
     if (!binds_rotation(condition)) continue;
-    for (const int k : nodes_at_time_of(mesh, mesh.index(condition.at))) {
+    for (const int k : nodes_at_time_of(discrete, discrete.condition_nodes[c])) {
       charts[k] = base_rotation(condition.q_ref);
     }
   }
   return charts;
 }
 
-VariableBounds variable_bounds(const MotionProblem& problem, const ContactSchedule& schedule, const Mesh& mesh,
-                               const DecisionLayout& layout) {
+VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLayout& layout) {
+  const MotionProblem& problem = discrete.problem;
   const RobotModel& robot = problem.robot;
   const int nu = layout.nu();
   VariableBounds bounds;
@@ -86,15 +87,17 @@ VariableBounds variable_bounds(const MotionProblem& problem, const ContactSchedu
     bounds.lower(layout.duration(p)) = duration.min;
     bounds.upper(layout.duration(p)) = duration.max;
   }
-  for (std::size_t s = 0; s < schedule.stances().size(); ++s) {
-    const Stance& stance = schedule.stances()[s];
+  const std::vector<Stance>& stances = discrete.schedule.stances();
+  for (std::size_t s = 0; s < stances.size(); ++s) {
+    const Stance& stance = stances[s];
     if (!stance.lands() || !stance.place) continue;
     const Surface& surface = problem.surfaces[stance.surface];
     const int first = layout.place(static_cast<int>(s));
     bounds.lower.segment<2>(first) = bounds.upper.segment<2>(first) = surface.coordinates(*stance.place);
   }
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    const int k = mesh.index(condition.at);
+  for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
+    const BoundaryCondition& condition = problem.boundary_conditions[c];
+    const int k = discrete.condition_nodes[c];
     // The chart of the node is that of q_ref, so the variables are q_ref (+) tangent: shift by what is not zero there.
     Eigen::VectorXd reference(layout.nv());
     reference << base_position(condition.q_ref), Eigen::Vector3d::Zero(), condition.q_ref.tail(nu);

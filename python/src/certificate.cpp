@@ -1,4 +1,4 @@
-#include "prowl/trajectory/certificate.hpp"
+#include "prowl/certificate/certificate.hpp"
 
 #include <fmt/format.h>
 #include <nanobind/stl/string.h>

@@ -40,7 +40,7 @@ DiagnosisObject run_diagnosis(const Task& task, double max_time, const nb::objec
   DiagnosisObject result;
   {
     const nb::gil_scoped_release others_may_run;
-    result.found = diagnose(task.problem, *make_solver(solver_names().front()), IpoptSolver(), options);
+    result.found = diagnose({task.problem, task.mesh}, *make_solver(solver_names().front()), IpoptSolver(), options);
     result.headline = diagnosis_headline(result.found, task.problem);
     result.summary = diagnosis_text(result.found, task.problem);
     result.json = diagnosis_json(result.found, task.problem);

@@ -120,8 +120,7 @@ void bind_plan(nb::module_& module) {
           "certificate", [](const PlanObject& p) -> const Certificate& { return p.record.plan.certificate; },
           nb::rv_policy::reference_internal)
       .def_prop_ro(
-          "task", [](const PlanObject& p) -> const Task& { return p.asked ? *p.asked : p.record.task; },
-          nb::rv_policy::reference_internal)
+          "task", [](const PlanObject& p) -> const Task& { return p.record.task; }, nb::rv_policy::reference_internal)
       .def_prop_ro(
           "robot", [](const PlanObject& p) -> const RobotModel& { return p.problem().robot; },
           nb::rv_policy::reference_internal)

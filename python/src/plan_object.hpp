@@ -17,9 +17,6 @@ struct PlanObject {
 
   PlanRecord record;
   Motion motion;
-  /// What was asked for, where that is not what the record has: it stopped on a coarser mesh. To go on means to solve
-  /// this.
-  std::optional<Task> asked;
   std::shared_ptr<const Tracker> tracker;          ///< null: no gains
   std::optional<std::filesystem::path> read_from;  ///< the folder, if it was not solved here
 };

@@ -32,21 +32,18 @@ struct JudgedPoint {
 class Program {
  public:
   Program(const Task& task, const Formulation& formulation, const std::string& guess_name)
-      : task_(task), formulation_(formulation) {
+      : task_(task), discrete_(task.problem, task.mesh), formulation_(formulation) {
     const nb::gil_scoped_release others_may_run;
-    validate(task_.problem);
-    const Mesh mesh = make_mesh(task_.problem);
-    const Trajectory guess = make_guess(guess_name, task_.problem, mesh);
-    nlp_ = make_formulation(formulation_, task_.problem, mesh, guess);
+    const Trajectory guess = make_guess(guess_name, discrete_);
+    nlp_ = make_formulation(formulation_, discrete_, guess);
     start_ = nlp_->pack(guess);
-    nodes_ = mesh.size();
   }
 
   const Task& task() const { return task_; }
   const Formulation& formulation() const { return formulation_; }
   const MotionNlp& nlp() const { return *nlp_; }
   const Eigen::VectorXd& start() const { return start_; }
-  int nodes() const { return nodes_; }
+  int nodes() const { return discrete_.num_nodes(); }
 
   double cost(const Numbers& z) {
     return locked([&] { return nlp_->cost(point(z)); });
@@ -87,7 +84,7 @@ class Program {
       nlp_->constraints(result.z, rows);
       result.cost = nlp_->cost(result.z);
       result.constraint_violation = constraint_violation(*nlp_, result.z, rows);
-      FormulationRun run = judge_formulation(task_.problem, formulation_, *nlp_, std::move(result), "");
+      FormulationRun run = judge_formulation(discrete_, formulation_, *nlp_, std::move(result), "");
       Motion motion(run.motion);
       return JudgedPoint{std::move(run), std::move(motion)};
     });
@@ -117,10 +114,10 @@ class Program {
   }
 
   Task task_;
+  DiscreteProblem discrete_;
   Formulation formulation_;
   std::unique_ptr<MotionNlp> nlp_;
   Eigen::VectorXd start_;
-  int nodes_ = 0;
   std::mutex busy_;
 };
 

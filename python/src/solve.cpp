@@ -14,7 +14,6 @@
 #include "prowl/io/warm_start.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 #include "signals.hpp"
 
 namespace prowl::python {
@@ -90,22 +89,21 @@ nb::object solve(const Task& task, const std::string& solver_name, int threads, 
   std::string note;
   {
     const nb::gil_scoped_release others_may_run;
+    const DiscreteProblem asked(task.problem, task.mesh);
     if (start_from) {
-      options.start_from = warm_start(start_from->record, task.problem);
+      options.start_from = warm_start(start_from->record, asked);
       options.resume =
           start_from->record.plan.result.status != SolveStatus::converged;  // an iterate is no solution to stay near
     }
-    Plan found = make_plan(task.problem, *solver, options);
+    Plan found = make_plan(asked, *solver, options);
     PlanRecord record{.task = task,
                       .plan = std::move(found),
                       .versions = cli::versions(),
                       .feedback = {},
                       .iterations = observer.iterations(),
                       .warm_start = start_from && start_from->read_from ? start_from->read_from->string() : ""};
-    record.task.problem = mesh_of(task.problem, record.plan);
     if (gains && !observer.stop()) note = add_feedback(record, observer);
     plan = std::make_shared<PlanObject>(std::move(record));
-    if (count_intervals(plan->problem()) != count_intervals(task.problem)) plan->asked = task;
   }
   const nb::object result = nb::cast(plan);
   if (auto& error = observer.error()) {

@@ -23,9 +23,10 @@ struct PhaseView {
 
 std::vector<PhaseView> phases(const Task& task) {
   std::vector<PhaseView> all;
-  for (const Phase& phase : task.problem.phases) {
-    PhaseView& view =
-        all.emplace_back(PhaseView{phase.name, {}, phase.duration.min, phase.duration.max, phase.intervals});
+  for (std::size_t p = 0; p < task.problem.phases.size(); ++p) {
+    const Phase& phase = task.problem.phases[p];
+    PhaseView& view = all.emplace_back(
+        PhaseView{phase.name, {}, phase.duration.min, phase.duration.max, task.mesh.phases[p].intervals()});
     for (const PhaseContact& contact : phase.contacts) {
       view.contacts.push_back(task.problem.robot.contacts()[contact.contact].name);
     }
@@ -80,7 +81,8 @@ void bind_task(nb::module_& module) {
           [](nb::handle self) { return view(nb::cast<const Task&>(self).problem.start_configuration(), self); },
           "Configuration at the start, q (nq).")
       .def(
-          "phase_table", [](const Task& task) { return phase_table(task.problem); }, "The phases as a table to print.")
+          "phase_table", [](const Task& task) { return phase_table({task.problem, task.mesh}); },
+          "The phases as a table to print.")
       .def("__repr__", [](const Task& task) {
         return fmt::format("<prowl.Task {}: {}, {} phase{}>", task.problem.name, task.problem.robot.name(),
                            task.problem.phases.size(), task.problem.phases.size() == 1 ? "" : "s");

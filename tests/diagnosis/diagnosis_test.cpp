@@ -9,9 +9,9 @@
 
 #include "prowl/diagnosis/change_search.hpp"
 #include "prowl/io/diagnosis_report.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 #include "tests/support/failing_solver.hpp"
 #include "tests/support/task_test.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 #include "tests/support/task_test.hpp"
 
 namespace prowl {

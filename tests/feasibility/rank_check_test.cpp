@@ -8,7 +8,7 @@
 
 #include "prowl/dynamics/body_bounds.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/robots.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "prowl/trajectory/constrained_dynamics_oracle.hpp"
+#include "prowl/certificate/constrained_dynamics_oracle.hpp"
 #include "tests/support/random_states.hpp"
 #include "tests/support/standing_problem.hpp"
 

@@ -8,9 +8,9 @@
 
 #include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/formulations/formulation.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 #include "tests/support/standing_problem.hpp"
 
 /// What a rule of integration makes of given torques: they are linear in time over all of the motion, so that every

@@ -4,9 +4,9 @@
 
 #include "../io/test_files.hpp"
 #include "prowl/formulations/run_formulation.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 
 namespace prowl {
 namespace {

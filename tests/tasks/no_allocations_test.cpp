@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "../io/test_files.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/allocations.hpp"
 

@@ -12,9 +12,9 @@
 #include "../io/test_files.hpp"
 #include "../support/failing_solver.hpp"
 #include "prowl/io/task_file.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 #include "prowl/transcription/remesh.hpp"
 
 namespace prowl {

@@ -8,11 +8,11 @@
 #include "../io/test_files.hpp"
 #include "prowl/error.hpp"
 #include "prowl/io/task_file.hpp"
+#include "prowl/mesh/receding_horizon.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
 #include "prowl/transcription/mesh.hpp"
 #include "prowl/transcription/remesh.hpp"
-#include "prowl/transcription/shift_horizon.hpp"
 
 namespace prowl {
 namespace {

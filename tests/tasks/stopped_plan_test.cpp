@@ -7,9 +7,9 @@
 
 #include "../io/test_files.hpp"
 #include "prowl/io/task_file.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/mesh_levels.hpp"
 
 namespace prowl {
 namespace {

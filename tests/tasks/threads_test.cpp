@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "../io/test_files.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/io/task_file.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {

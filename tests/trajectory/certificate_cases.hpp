@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "prowl/trajectory/certificate.hpp"
+#include "prowl/certificate/certificate.hpp"
 #include "tests/trajectory/stance_motion.hpp"
 
 namespace prowl::test {

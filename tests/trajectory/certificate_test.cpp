@@ -1,4 +1,4 @@
-#include "prowl/trajectory/certificate.hpp"
+#include "prowl/certificate/certificate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

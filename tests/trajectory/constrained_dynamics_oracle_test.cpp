@@ -1,4 +1,4 @@
-#include "prowl/trajectory/constrained_dynamics_oracle.hpp"
+#include "prowl/certificate/constrained_dynamics_oracle.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "prowl/trajectory/contact_places.hpp"
+#include "prowl/certificate/contact_places.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "prowl/trajectory/ground_distance.hpp"
+#include "prowl/certificate/ground_distance.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "prowl/trajectory/integration_error.hpp"
+#include "prowl/certificate/integration_error.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "prowl/trajectory/reintegration.hpp"
+#include "prowl/certificate/reintegration.hpp"
 #include "tests/support/robots.hpp"
 #include "tests/trajectory/stance_motion.hpp"
 

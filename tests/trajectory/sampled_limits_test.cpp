@@ -1,4 +1,4 @@
-#include "prowl/trajectory/sampled_limits.hpp"
+#include "prowl/certificate/sampled_limits.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

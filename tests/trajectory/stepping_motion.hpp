@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "prowl/trajectory/constrained_dynamics_oracle.hpp"
+#include "prowl/certificate/constrained_dynamics_oracle.hpp"
 #include "tests/trajectory/certificate_cases.hpp"
 
 namespace prowl::test {

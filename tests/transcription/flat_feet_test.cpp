@@ -8,9 +8,9 @@
 #include <pinocchio/algorithm/rnea.hpp>
 #include <pinocchio/multibody/data.hpp>
 
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/pinocchio_model.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/standing_problem.hpp"
 

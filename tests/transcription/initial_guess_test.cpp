@@ -1,4 +1,4 @@
-#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/guess/initial_guess.hpp"
 
 #include <gtest/gtest.h>
 

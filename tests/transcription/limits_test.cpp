@@ -5,8 +5,8 @@
 #include <map>
 #include <set>
 
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/motion/friction_cone.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/robots.hpp"

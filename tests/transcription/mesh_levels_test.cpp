@@ -1,4 +1,4 @@
-#include "prowl/transcription/mesh_levels.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "prowl/transcription/mesh_refinement.hpp"
+#include "prowl/mesh/mesh_refinement.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "prowl/transcription/monotone_cubic.hpp"
+#include "prowl/guess/monotone_cubic.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "prowl/transcription/resample.hpp"
+#include "prowl/mesh/resample.hpp"
 
 #include <gmock/gmock.h>
 

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "prowl/certificate/certificate.hpp"
 #include "prowl/dynamics/contact_kinematics.hpp"
-#include "prowl/trajectory/certificate.hpp"
-#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/standing_problem.hpp"
 

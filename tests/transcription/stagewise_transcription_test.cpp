@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "prowl/transcription/initial_guess.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"

@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "prowl/error.hpp"
+#include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/nlp/derivative_check.hpp"
-#include "prowl/transcription/initial_guess.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"

@@ -21,8 +21,10 @@ Eigen::Matrix3d axes_of(const Surface& surface) {
 
 }  // namespace
 
-CentroidalContacts centroidal_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                                       const Eigen::VectorXd& q, const std::vector<LandingAxes>& landing) {
+CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phase, const Eigen::VectorXd& q,
+                                       const std::vector<LandingAxes>& landing) {
+  const MotionProblem& problem = discrete.problem;
+  const ContactSchedule& schedule = discrete.schedule;
   constexpr int kNormal = 2;
   const auto& held = problem.phases[phase].contacts;
   const int num_contacts = static_cast<int>(held.size());

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "prowl/motion/contact_schedule.hpp"
 #include "prowl/transcription/placement_rows.hpp"
 
 namespace prowl {
@@ -29,7 +28,7 @@ struct CentroidalContacts {
 };
 
 /// `q` a configuration of the phase, in which it shows which contacts depend on each other.
-CentroidalContacts centroidal_contacts(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                                       const Eigen::VectorXd& q, const std::vector<LandingAxes>& landing);
+CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phase, const Eigen::VectorXd& q,
+                                       const std::vector<LandingAxes>& landing);
 
 }  // namespace prowl

@@ -18,7 +18,7 @@ std::pair<RowGroup, int> group_of(const std::vector<RowGroup>& groups, int i) {
 
 std::vector<RowGroup> CentroidalNlp::variable_groups(int k) const {
   const CentroidalColumns& at = layout_.columns(k);
-  const int nv = problem_.robot.nv(), num_contact_coordinates = 3 * static_cast<int>(node(k).contact_names().size());
+  const int nv = problem().robot.nv(), num_contact_coordinates = 3 * static_cast<int>(node(k).contact_names().size());
   std::vector<RowGroup> groups = {{"q", nv}, {"v", nv}, {"r", 3}, {"r'", 3}, {"h", 3}, {"c", num_contact_coordinates}};
   if (at.ends_interval()) groups.insert(groups.end(), {{"r''", 3}, {"h'", 3}, {"f", num_contact_coordinates}});
   return groups;
@@ -27,7 +27,7 @@ std::vector<RowGroup> CentroidalNlp::variable_groups(int k) const {
 std::vector<RowGroup> CentroidalNlp::constraint_groups(int k) const {
   std::vector<RowGroup> groups = node(k).row_groups(mesh_node(k).node);
   if (k == 0) return groups;
-  const int nv = problem_.robot.nv();
+  const int nv = problem().robot.nv();
   const std::vector<RowGroup> link =
       is_interval(k - 1) ? CentroidalInterval::row_groups(nv, static_cast<int>(node(k).contacts().sliding.size()))
                          : std::vector<RowGroup>{{"q across the phase switch", nv},
@@ -35,12 +35,6 @@ std::vector<RowGroup> CentroidalNlp::constraint_groups(int k) const {
                                                  {"r' across the phase switch", 3}};
   groups.insert(groups.end(), link.begin(), link.end());
   return groups;
-}
-
-std::string CentroidalNlp::describe_node(int k) const {
-  const MeshNode& at = mesh_node(k);
-  const Phase& phase = problem_.phases[at.phase];
-  return fmt::format("phase {} '{}', node {}", at.phase + 1, phase.name, at.node);
 }
 
 std::string CentroidalNlp::describe_constraint(int row) const {
@@ -59,25 +53,25 @@ std::string CentroidalNlp::describe_constraint(int row) const {
       what = node(k).contacts().sliding[i].what;
     } else {
       what = fmt::format("{}, {}", group.name,
-                         group.count == 3 ? std::string(1, "xyz"[i]) : coordinate_name(problem_.robot, i));
+                         group.count == 3 ? std::string(1, "xyz"[i]) : coordinate_name(problem().robot, i));
     }
   }
-  return fmt::format("{}, {}, t = {:.3f} s", describe_node(k), what, mesh_node(k).time);
+  return fmt::format("{}, {}, t = {:.3f} s", discrete_.describe_node(k), what, mesh_node(k).time);
 }
 
 std::string CentroidalNlp::describe_variable(int index) const {
-  for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
+  for (std::size_t p = 0; p < problem().phases.size(); ++p) {
     if (layout_.duration(static_cast<int>(p)) != index) continue;
-    return fmt::format("phase {} '{}', duration", p + 1, problem_.phases[p].name);
+    return fmt::format("phase {} '{}', duration", p + 1, problem().phases[p].name);
   }
   int k = 0;
   while (k + 1 < layout_.num_nodes() && index >= layout_.node(k + 1)) ++k;
   const std::vector<RowGroup> groups = variable_groups(k);
   const auto [group, i] = group_of(groups, index - layout_.node(k));
   std::string which(1, "xyz"[i % 3]);
-  if (group.name == "q" || group.name == "v") which = coordinate_name(problem_.robot, i);
+  if (group.name == "q" || group.name == "v") which = coordinate_name(problem().robot, i);
   if (group.name == "c" || group.name == "f") which += " of " + node(k).contact_names()[i / 3];
-  return fmt::format("{}, {} {}, t = {:.3f} s", describe_node(k), group.name, which, mesh_node(k).time);
+  return fmt::format("{}, {} {}, t = {:.3f} s", discrete_.describe_node(k), group.name, which, mesh_node(k).time);
 }
 
 }  // namespace prowl

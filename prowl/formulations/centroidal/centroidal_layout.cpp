@@ -19,12 +19,13 @@ CentroidalColumns::CentroidalColumns(int nv, int num_contacts, bool ends_interva
   size = forces + 3 * num_contacts;
 }
 
-CentroidalLayout::CentroidalLayout(const MotionProblem& problem, const Mesh& mesh, const std::vector<int>& rows,
+CentroidalLayout::CentroidalLayout(const DiscreteProblem& discrete, const std::vector<int>& rows,
                                    const std::vector<int>& sliding_rows) {
+  const MotionProblem& problem = discrete.problem;
   const int nv = problem.robot.nv();
   int num_rows = 0;
-  for (int k = 0; k < mesh.size(); ++k) {
-    const MeshNode& node = mesh.nodes[k];
+  for (int k = 0; k < discrete.num_nodes(); ++k) {
+    const MeshNode& node = discrete.nodes[k];
     const auto contacts = problem.phases[node.phase].contacts.size();
     columns_.emplace_back(nv, static_cast<int>(contacts), node.node > 0);
     nodes_.push_back(num_variables_);
@@ -37,7 +38,7 @@ CentroidalLayout::CentroidalLayout(const MotionProblem& problem, const Mesh& mes
 
   link_rows_.push_back(num_rows);
   for (int k = 0; k < num_links(); ++k) {
-    const MeshNode& node = mesh.nodes[k];
+    const MeshNode& node = discrete.nodes[k];
     const bool is_interval = node.h_out > 0.0;
     num_rows += is_interval ? nv + 9 + sliding_rows[node.phase] : 2 * nv + 3;
     link_rows_.push_back(num_rows);

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "prowl/motion/motion_problem.hpp"
-#include "prowl/transcription/mesh.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 
 namespace prowl {
 
@@ -27,8 +26,7 @@ struct CentroidalColumns {
 class CentroidalLayout {
  public:
   /// `rows` of each node, `sliding_rows` of an interval of each phase.
-  CentroidalLayout(const MotionProblem& problem, const Mesh& mesh, const std::vector<int>& rows,
-                   const std::vector<int>& sliding_rows);
+  CentroidalLayout(const DiscreteProblem& discrete, const std::vector<int>& rows, const std::vector<int>& sliding_rows);
 
   int num_variables() const { return num_variables_; }
   int num_constraints() const { return link_rows_.back(); }

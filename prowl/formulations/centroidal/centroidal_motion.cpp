@@ -38,25 +38,25 @@ void refuse_torques(const MotionProblem& problem) {
   }
 }
 
-std::deque<CentroidalNode> nodes_of_phases(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess) {
-  const ContactSchedule schedule(problem);
+std::deque<CentroidalNode> nodes_of_phases(const DiscreteProblem& discrete, const Trajectory& guess) {
+  const MotionProblem& problem = discrete.problem;
   std::deque<CentroidalNode> phases;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
-    const VectorXd& q = guess.nodes[mesh.index({p, 0})].q;
-    std::vector<bool> ties(static_cast<std::size_t>(problem.phases[p].intervals) + 1, false);
-    for (const BoundaryCondition& condition : problem.boundary_conditions) {
-      if (condition.at.phase != p || !binds_base_velocity(condition)) continue;
-      ties[condition.at.node] = true;
+    const VectorXd& q = guess.nodes[discrete.mesh.first_node(p)].q;
+    std::vector<bool> ties(discrete.mesh.phases[p].intervals() + 1, false);
+    for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
+      const MeshNode& node = discrete.nodes[discrete.condition_nodes[c]];
+      if (node.phase == p && binds_base_velocity(problem.boundary_conditions[c])) ties[node.node] = true;
     }
-    const std::vector<LandingAxes> landing = phase_contacts(problem, schedule, p, q).landing;
-    phases.emplace_back(problem, schedule, p, landing, centroidal_contacts(problem, schedule, p, q, landing), ties);
+    const std::vector<LandingAxes> landing = phase_contacts(discrete, p, q).landing;
+    phases.emplace_back(discrete, p, landing, centroidal_contacts(discrete, p, q, landing), ties);
   }
   return phases;
 }
 
-std::vector<int> rows_of_nodes(const std::deque<CentroidalNode>& phases, const Mesh& mesh) {
+std::vector<int> rows_of_nodes(const std::deque<CentroidalNode>& phases, const DiscreteProblem& discrete) {
   std::vector<int> rows;
-  for (const MeshNode& node : mesh.nodes) rows.push_back(phases[node.phase].num_rows(node.node));
+  for (const MeshNode& node : discrete.nodes) rows.push_back(phases[node.phase].num_rows(node.node));
   return rows;
 }
 
@@ -73,16 +73,15 @@ VectorXd without_base_linear(VectorXd weight) {
 
 }  // namespace
 
-CentroidalNlp::CentroidalNlp(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess)
-    : problem_(problem),
-      mesh_(mesh),
-      scale_(problem.robot),
-      phases_(nodes_of_phases(problem_, mesh, guess)),
-      layout_(problem, mesh, rows_of_nodes(phases_, mesh), sliding_rows(phases_)),
-      charts_(rotation_charts(problem, mesh, guess)),
-      acceleration_weight_(without_base_linear(problem.running_cost.acceleration_weight)),
-      values_(static_cast<std::size_t>(mesh.size())) {
-  refuse_torques(problem);
+CentroidalNlp::CentroidalNlp(const DiscreteProblem& discrete, const Trajectory& guess)
+    : MotionNlp(discrete),
+      scale_(problem().robot),
+      phases_(nodes_of_phases(discrete, guess)),
+      layout_(discrete, rows_of_nodes(phases_, discrete), sliding_rows(phases_)),
+      charts_(rotation_charts(discrete, guess)),
+      acceleration_weight_(without_base_linear(problem().running_cost.acceleration_weight)),
+      values_(discrete.nodes.size()) {
+  refuse_torques(problem());
   set_bounds();
   set_patterns(guess);
 }
@@ -91,18 +90,17 @@ CentroidalNlp::CentroidalNlp(const MotionProblem& problem, const Mesh& mesh, con
 // same form.
 void CentroidalNlp::set_bounds() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::vector<int> none(static_cast<std::size_t>(mesh_.size()), 0);  // more than there are phases
-  const ContactSchedule schedule(problem_);
-  const DecisionLayout other(problem_, schedule, mesh_, none, none);
-  const VariableBounds bounds = variable_bounds(problem_, schedule, mesh_, other);
+  const std::vector<int> none(discrete_.nodes.size(), 0);  // more than there are phases
+  const DecisionLayout other(discrete_, none, none);
+  const VariableBounds bounds = variable_bounds(discrete_, other);
   variable_lower_.setConstant(layout_.num_variables(), -kInfinity);
   variable_upper_.setConstant(layout_.num_variables(), kInfinity);
-  const int size = 2 * problem_.robot.nv();
+  const int size = 2 * problem().robot.nv();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     variable_lower_.segment(layout_.node(k), size) = bounds.lower.segment(other.node(k), size);
     variable_upper_.segment(layout_.node(k), size) = bounds.upper.segment(other.node(k), size);
   }
-  for (int p = 0; p < static_cast<int>(problem_.phases.size()); ++p) {
+  for (int p = 0; p < static_cast<int>(problem().phases.size()); ++p) {
     if (layout_.duration(p) < 0) continue;
     variable_lower_(layout_.duration(p)) = bounds.lower(other.duration(p));
     variable_upper_(layout_.duration(p)) = bounds.upper(other.duration(p));
@@ -118,13 +116,13 @@ void CentroidalNlp::set_bounds() {
 }
 
 VectorXd CentroidalNlp::pack(const Trajectory& trajectory) const {
-  const int nv = problem_.robot.nv(), nu = problem_.robot.nu();
+  const int nv = problem().robot.nv(), nu = problem().robot.nu();
   VectorXd z = VectorXd::Zero(num_variables());
-  CentroidalKinematics kinematics(problem_.robot);
-  RigidBodyTerms terms(problem_.robot);
+  CentroidalKinematics kinematics(problem().robot);
+  RigidBodyTerms terms(problem().robot);
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const TrajectoryPoint& from = trajectory.nodes[k];
-    const Phase& phase = problem_.phases[phase_of(k)];
+    const Phase& phase = problem().phases[phase_of(k)];
     const CentroidalColumns& at = layout_.columns(k);
     kinematics.update(from.q, from.v);
     terms.update_kinematics(from.q);
@@ -134,7 +132,7 @@ VectorXd CentroidalNlp::pack(const Trajectory& trajectory) const {
     x.segment(6, nu) = from.q.tail(nu);
     x.segment(at.v, nv) = from.v;
     x.segment<3>(at.com) = kinematics.com();
-    x.segment<3>(at.com_velocity) = kinematics.momentum().head<3>() / problem_.robot.mass();
+    x.segment<3>(at.com_velocity) = kinematics.momentum().head<3>() / problem().robot.mass();
     x.segment<3>(at.momentum) = kinematics.momentum().tail<3>();
     Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();
     for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
@@ -146,12 +144,11 @@ VectorXd CentroidalNlp::pack(const Trajectory& trajectory) const {
       moment += (c - kinematics.com()).cross(f);
     }
     if (at.ends_interval()) {
-      x.segment<3>(at.com_acceleration) = force / problem_.robot.mass() - RobotModel::kGravity * Vector3d::UnitZ();
+      x.segment<3>(at.com_acceleration) = force / problem().robot.mass() - RobotModel::kGravity * Vector3d::UnitZ();
       x.segment<3>(at.momentum_rate) = moment;
     }
     if (layout_.duration(phase_of(k)) >= 0 && mesh_node(k).h_out == 0.0) {
-      const int first = mesh_.index({phase_of(k), 0});
-      z(layout_.duration(phase_of(k))) = from.time - trajectory.nodes[first].time;
+      z(layout_.duration(phase_of(k))) = planned_duration(trajectory, phase_of(k));
     }
   }
   return z;
@@ -159,8 +156,8 @@ VectorXd CentroidalNlp::pack(const Trajectory& trajectory) const {
 
 Trajectory CentroidalNlp::unpack(const VectorXd& z) {
   if (!z.allFinite()) throw NumericalError("variables of a motion that are not finite");
-  const int nv = problem_.robot.nv();
-  InverseDynamics needed(problem_.robot);
+  const int nv = problem().robot.nv();
+  InverseDynamics needed(problem().robot);
   Trajectory motion;
   double time = 0.0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
@@ -176,18 +173,18 @@ Trajectory CentroidalNlp::unpack(const VectorXd& z) {
     point.q = node(k).configuration(this->point(z, k));
     point.v = velocity(k);
     point.a = (velocity(end) - velocity(end - 1)) / step(z, k);
-    point.force.setZero(3 * static_cast<Index>(problem_.robot.contacts().size()));
-    const std::vector<int> contacts = contact_indices(problem_.phases[point.phase].contacts);
+    point.force.setZero(3 * static_cast<Index>(problem().robot.contacts().size()));
+    const std::vector<int> contacts = contact_indices(problem().phases[point.phase].contacts);
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       point.force.segment<3>(3 * contacts[i]) = z.segment<3>(layout_.node(end) + at.forces + 3 * static_cast<int>(i));
     }
-    point.tau = needed(point).tail(problem_.robot.nu());
+    point.tau = needed(point).tail(problem().robot.nu());
   }
   return motion;
 }
 
-std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const MotionProblem& problem,
-                                           const Mesh& mesh, const Trajectory& guess) {
+std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const DiscreteProblem& discrete,
+                                           const Trajectory& guess) {
   const Formulation own{.dynamics = formulation.dynamics};
   const auto check = [](const char* what, const std::string& name, const std::string& needed) {
     if (name == needed) return;
@@ -199,7 +196,7 @@ std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const
   check("transcription", formulation.transcription, own.transcription);
   check("contact", formulation.contact, own.contact);
   check("orientation", formulation.orientation, own.orientation);
-  return std::make_unique<CentroidalNlp>(problem, mesh, guess);
+  return std::make_unique<CentroidalNlp>(discrete, guess);
 }
 
 }  // namespace prowl

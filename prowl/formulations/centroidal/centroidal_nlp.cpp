@@ -12,11 +12,11 @@ using Eigen::VectorXd;
 
 }  // namespace
 
-double CentroidalNlp::share(int k) const { return 1.0 / problem_.phases[phase_of(k)].intervals; }
+double CentroidalNlp::share(int k) const { return 1.0 / discrete_.phase_mesh_of(k).intervals(); }
 
 double CentroidalNlp::step(const VectorXd& z, int k) const {
-  const int phase = phase_of(k), index = layout_.duration(phase);
-  return share(k) * (index >= 0 ? z(index) : problem_.phases[phase].duration.min);
+  const int phase = phase_of(k);
+  return share(k) * duration(z, phase, layout_.duration(phase));
 }
 
 CentroidalPoint CentroidalNlp::point(const VectorXd& z, int k) const {
@@ -36,17 +36,13 @@ CentroidalInterval CentroidalNlp::interval(const VectorXd& z, int k) const {
   return {scale_, node(k).contacts().sliding, acceleration_weight_, end(k), end(k + 1), step(z, k)};
 }
 
-void CentroidalNlp::evaluate(const VectorXd& z, bool with_derivatives) {
-  if (evaluated_at_.size() == z.size() && evaluated_at_ == z && (have_derivatives_ || !with_derivatives)) return;
-  evaluated_at_.resize(0);  // in case that an evaluation throws half-way
+void CentroidalNlp::evaluate_all(const VectorXd& z, bool with_derivatives) {
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     CentroidalValues& values = values_[k];
     const CentroidalPoint here = point(z, k);
     node(k).evaluate(here, values);
     if (with_derivatives) node(k).add_derivatives(here, values);
   }
-  evaluated_at_ = z;
-  have_derivatives_ = with_derivatives;
 }
 
 double CentroidalNlp::cost(const VectorXd& z) {
@@ -78,7 +74,7 @@ void CentroidalNlp::cost_gradient(const VectorXd& z, Eigen::Ref<VectorXd> gradie
 
 void CentroidalNlp::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   evaluate(z, false);
-  const Index nv = problem_.robot.nv();
+  const Index nv = problem().robot.nv();
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const VectorXd& rows = values_[k].rows;
     g.segment(layout_.node_row(k), rows.size()) = rows;
@@ -105,7 +101,7 @@ void CentroidalNlp::fill_jacobian(const VectorXd& z) {
       jacobian_.entries.push_back({layout_.node_row(k) + row, layout_.node(k) + col, value});
     }
   }
-  const int nv = problem_.robot.nv();
+  const int nv = problem().robot.nv();
   for (int k = 0; k < layout_.num_links(); ++k) {
     const int row = layout_.link_row(k), here = layout_.node(k), next = layout_.node(k + 1);
     if (is_interval(k)) {
@@ -141,9 +137,9 @@ void CentroidalNlp::visit_hessian(const HessianBlocks& blocks, Emit emit) const 
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j < 3; ++j) emit(i < 3 ? next + 3 + i : v1 + i, here + 3 + j, between.turn(i, j));
     }
-    for (int i = 3; i < problem_.robot.nv(); ++i) emit(v1 + i, v0 + i, between.v(i));
+    for (int i = 3; i < problem().robot.nv(); ++i) emit(v1 + i, v0 + i, between.v(i));
   }
-  for (int p = 0; p < static_cast<int>(problem_.phases.size()); ++p) {
+  for (int p = 0; p < static_cast<int>(problem().phases.size()); ++p) {
     if (layout_.duration(p) >= 0) emit(layout_.duration(p), layout_.duration(p), blocks.durations(p));
   }
 }
@@ -154,7 +150,7 @@ void CentroidalNlp::hessian(const VectorXd& z, double cost_factor, const VectorX
       hessian_kind_ == HessianKind::exact ? multipliers : VectorXd(VectorXd::Zero(multipliers.size()));
   HessianBlocks blocks{std::vector<MatrixXd>(static_cast<std::size_t>(layout_.num_nodes())),
                        std::vector<CentroidalInterval::Between>(static_cast<std::size_t>(layout_.num_links())),
-                       VectorXd::Zero(static_cast<Index>(problem_.phases.size()))};
+                       VectorXd::Zero(static_cast<Index>(problem().phases.size()))};
   CentroidalValues scratch;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const CentroidalPoint here = point(z, k);
@@ -187,8 +183,8 @@ void CentroidalNlp::set_patterns(const Trajectory& guess) {
 
   HessianBlocks blocks{{},
                        std::vector<CentroidalInterval::Between>(static_cast<std::size_t>(layout_.num_links())),
-                       VectorXd::Zero(static_cast<Index>(problem_.phases.size()))};
-  for (CentroidalInterval::Between& between : blocks.between) between.v.setZero(problem_.robot.nv());
+                       VectorXd::Zero(static_cast<Index>(problem().phases.size()))};
+  for (CentroidalInterval::Between& between : blocks.between) between.v.setZero(problem().robot.nv());
   Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic> marks;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const CentroidalColumns& at = layout_.columns(k);

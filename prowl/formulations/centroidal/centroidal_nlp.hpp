@@ -26,9 +26,7 @@ class CentroidalNlp : public MotionNlp {
  public:
   /// `guess` (one point a node) fixes the chart of the base's rotation at each node. Throws InputError if bounds
   /// contradict each other, or if the task asks for torques.
-  CentroidalNlp(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess);
-  CentroidalNlp(const CentroidalNlp&) = delete;  // its nodes refer to its problem
-  CentroidalNlp& operator=(const CentroidalNlp&) = delete;
+  CentroidalNlp(const DiscreteProblem& discrete, const Trajectory& guess);
 
   Eigen::VectorXd pack(const Trajectory& trajectory) const override;
   /// a is the program's own rate of v, (v_k - v_k-1) / dt, constant over an interval as forces are; tau what inverse
@@ -52,17 +50,13 @@ class CentroidalNlp : public MotionNlp {
   std::vector<RowGroup> constraint_groups(int k) const;
 
  private:
-  const MeshNode& mesh_node(int k) const { return mesh_.nodes[k]; }
-  int phase_of(int k) const { return mesh_node(k).phase; }
   const CentroidalNode& node(int k) const { return phases_[phase_of(k)]; }
   CentroidalNode& node(int k) { return phases_[phase_of(k)]; }
-  /// Whether nodes k and k + 1 are the ends of an interval; else they are a phase switch.
-  bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
   double share(int k) const;  ///< of the duration of node k's phase that a step is
   double step(const Eigen::VectorXd& z, int k) const;
   CentroidalPoint point(const Eigen::VectorXd& z, int k) const;
   CentroidalInterval interval(const Eigen::VectorXd& z, int k) const;
-  void evaluate(const Eigen::VectorXd& z, bool with_derivatives);
+  void evaluate_all(const Eigen::VectorXd& z, bool with_derivatives) override;
   void fill_jacobian(const Eigen::VectorXd& z);
 
   void set_bounds();
@@ -75,10 +69,7 @@ class CentroidalNlp : public MotionNlp {
   /// Calls emit(row, col, value) for each place of the Hessian, always in the same order.
   template <class Emit>
   void visit_hessian(const HessianBlocks& blocks, Emit emit) const;
-  std::string describe_node(int k) const;
 
-  MotionProblem problem_;
-  Mesh mesh_;
   CentroidalScale scale_;
   std::deque<CentroidalNode> phases_;
   CentroidalLayout layout_;
@@ -88,16 +79,13 @@ class CentroidalNlp : public MotionNlp {
   /// Of each node's Hessian: lower triangle, with the duration as the last variable.
   std::vector<std::vector<std::pair<int, int>>> node_places_;
 
-  // What was evaluated last, and where.
-  Eigen::VectorXd evaluated_at_;
-  bool have_derivatives_ = false;
-  std::vector<CentroidalValues> values_;
+  std::vector<CentroidalValues> values_;  ///< one a node, where evaluate() was last
   SparseEntries jacobian_;
 };
 
 /// As make_formulation(). Rules of integration, contact and orientation are its own: throws InputError if another one
 /// than the default of the other dynamics is asked for.
-std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const MotionProblem& problem,
-                                           const Mesh& mesh, const Trajectory& guess);
+std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const DiscreteProblem& discrete,
+                                           const Trajectory& guess);
 
 }  // namespace prowl

@@ -31,33 +31,34 @@ CentroidalScale::CentroidalScale(const RobotModel& robot)
       momentum(robot.mass() * speed * length) {}
 
 // c takes the part of the place that a contact lands at, so that PlacementRows does not have to tie it to anything.
-CentroidalNode::CentroidalNode(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                               std::vector<LandingAxes> landing, CentroidalContacts contacts, std::vector<bool> ties)
-    : nv_(problem.robot.nv()),
-      nu_(problem.robot.nu()),
-      intervals_(problem.phases[phase].intervals),
-      scale_(problem.robot),
-      mass_(problem.robot.mass()),
-      first_columns_(nv_, static_cast<int>(problem.phases[phase].contacts.size()), false),
-      columns_(nv_, static_cast<int>(problem.phases[phase].contacts.size()), true),
-      contact_indices_(contact_indices(problem.phases[phase].contacts)),
+CentroidalNode::CentroidalNode(const DiscreteProblem& discrete, int phase, std::vector<LandingAxes> landing,
+                               CentroidalContacts contacts, std::vector<bool> ties)
+    : nv_(discrete.problem.robot.nv()),
+      nu_(discrete.problem.robot.nu()),
+      intervals_(discrete.mesh.phases[phase].intervals()),
+      scale_(discrete.problem.robot),
+      mass_(discrete.problem.robot.mass()),
+      first_columns_(nv_, static_cast<int>(discrete.problem.phases[phase].contacts.size()), false),
+      columns_(nv_, static_cast<int>(discrete.problem.phases[phase].contacts.size()), true),
+      contact_indices_(contact_indices(discrete.problem.phases[phase].contacts)),
       ties_(std::move(ties)),
       held_(std::move(contacts)),
-      placement_(problem, schedule, phase, without_places(std::move(landing)), kIntervalsAtRest),
-      cost_(problem),
-      kinematics_(problem.robot),
-      terms_(problem.robot),
+      placement_(discrete, phase, without_places(std::move(landing)), kIntervalsAtRest),
+      cost_(discrete.problem),
+      kinematics_(discrete.problem.robot),
+      terms_(discrete.problem.robot),
       points_(contact_indices_),
-      tau_ref_(problem.running_cost.tau_ref),
-      places_cost_(!problem.running_cost.contact_positions.empty() ||
-                   !problem.terminal_cost.contact_positions.empty()) {
+      tau_ref_(discrete.problem.running_cost.tau_ref),
+      places_cost_(!discrete.problem.running_cost.contact_positions.empty() ||
+                   !discrete.problem.terminal_cost.contact_positions.empty()) {
+  const MotionProblem& problem = discrete.problem;
   const auto& held = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[i];
     const Surface& surface = problem.surfaces[contact.surface];
     friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
     contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
-    opens_.push_back(schedule.opens(phase, i));
+    opens_.push_back(discrete.schedule.opens(phase, i));
   }
   for (int k = 0; k <= intervals_; ++k) {
     std::array<int, kinds + 1>& first = first_rows_.emplace_back();

@@ -60,8 +60,8 @@ class CentroidalNode {
  public:
   /// `landing` as PlacementRows has it; `ties` for each node of the phase whether r' is tied to v there. The problem
   /// must live as long as this.
-  CentroidalNode(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                 std::vector<LandingAxes> landing, CentroidalContacts contacts, std::vector<bool> ties);
+  CentroidalNode(const DiscreteProblem& discrete, int phase, std::vector<LandingAxes> landing,
+                 CentroidalContacts contacts, std::vector<bool> ties);
 
   const CentroidalColumns& columns(int k) const { return k == 0 ? first_columns_ : columns_; }
   const CentroidalContacts& contacts() const { return held_; }

@@ -10,14 +10,14 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-ChartedNode::ChartedNode(const MotionProblem& problem, const ContactSchedule& schedule, int phase,
-                         const PhaseContacts& contacts, const StabilisationOfStep& stabilisation,
-                         const ContactRows& contact_rows, const BaseChart& chart, VectorXd anchor_origin)
-    : problem_(problem),
+ChartedNode::ChartedNode(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
+                         const StabilisationOfStep& stabilisation, const ContactRows& contact_rows,
+                         const BaseChart& chart, VectorXd anchor_origin)
+    : discrete_(discrete),
       phase_(phase),
       chart_(chart),
       anchor_origin_(std::move(anchor_origin)),
-      functions_(problem, schedule, phase, contacts, stabilisation),
+      functions_(discrete, phase, contacts, stabilisation),
       contact_rows_(contact_rows) {}
 
 double ChartedNode::lower(int node, int row) const {
@@ -33,7 +33,7 @@ double ChartedNode::upper(int node, int row) const {
 std::string ChartedNode::describe_coordinate(int i) const {
   constexpr const char* kBase[] = {"base x",          "base y",          "base z",
                                    "base rotation 1", "base rotation 2", "base rotation 3"};
-  return i < 6 ? kBase[i] : problem_.robot.joint_names()[i - 6];
+  return i < 6 ? kBase[i] : robot().joint_names()[i - 6];
 }
 
 std::string ChartedNode::describe_row(int node, int row) const {
@@ -42,7 +42,7 @@ std::string ChartedNode::describe_row(int node, int row) const {
 }
 
 VectorXd ChartedNode::configuration(const VectorXd& columns) const {
-  const int nv = problem_.robot.nv();
+  const int nv = robot().nv();
   VectorXd q(nv + 1);
   q.head<3>() = columns.head<3>();
   set_base_rotation(q, chart_.rotation(columns.segment<3>(3)));
@@ -56,7 +56,7 @@ double ChartedNode::duration(const VectorXd& columns) const {
 
 // In a chart of its own, the tangent at R(e).
 NodePoint ChartedNode::point(const Instant& at, const VectorXd& columns) const {
-  const int nv = problem_.robot.nv(), nu = problem_.robot.nu();
+  const int nv = robot().nv(), nu = robot().nu();
   NodePoint point;
   point.node = at.node;
   point.theta.setZero();
@@ -72,7 +72,7 @@ NodePoint ChartedNode::point(const Instant& at, const VectorXd& columns) const {
     point.anchors.segment<3>(3 * functions_.landed()[l]) += functions_.landed_axes()[l] * columns.segment<2>(place);
     place += 2;
   }
-  point.cost_weight = at.cost_share * point.duration / phase().intervals;
+  point.cost_weight = at.cost_share * point.duration / discrete_.mesh.phases[phase_].intervals();
   point.terminal_weight = at.terminal_weight;
   return point;
 }
@@ -89,7 +89,7 @@ void ChartedNode::evaluate(const Instant& at, const VectorXd& columns, Values& v
 
 void ChartedNode::gather(const ContactRows::Derivatives& derivatives, const NodePoint& where,
                          Eigen::Ref<MatrixXd> rows) const {
-  const int nv = problem_.robot.nv();
+  const int nv = robot().nv();
   rows.setZero();
   rows.leftCols(nv) = derivatives.q;
   rows.middleCols(nv, nv) = derivatives.v;
@@ -124,7 +124,7 @@ void ChartedNode::evaluate_with_derivatives(const Instant& at, const VectorXd& c
 }
 
 void ChartedNode::add_contact_hessian(const NodePoint& where, const VectorXd& multipliers, MatrixXd& result) {
-  const int nv = problem_.robot.nv();
+  const int nv = robot().nv();
   const ContactRows::Hessian& h = contact_rows_.hessian(functions_.at(), multipliers);
   result.topLeftCorner(nv, nv) += h.qq;
   result.block(nv, nv, nv, nv) += h.vv;

@@ -22,7 +22,7 @@ struct Instant {
 /// evaluation at a time.
 class ChartedNode {
  public:
-  ChartedNode(const MotionProblem& problem, const ContactSchedule& schedule, int phase, const PhaseContacts& contacts,
+  ChartedNode(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
               const StabilisationOfStep& stabilisation, const ContactRows& contact_rows, const BaseChart& chart,
               Eigen::VectorXd anchor_origin);
 
@@ -30,7 +30,7 @@ class ChartedNode {
   const ContactRows& contact_rows() const { return contact_rows_; }
   const BaseChart& chart() const { return chart_; }
   int num_columns() const { return functions_.num_columns(); }
-  int num_dofs() const { return problem_.robot.nv(); }
+  int num_dofs() const { return robot().nv(); }
   int num_rows(int node) const { return functions_.num_rows(node) + contact_rows_.count(); }
   double lower(int node, int row) const;
   double upper(int node, int row) const;
@@ -61,10 +61,11 @@ class ChartedNode {
               Eigen::Ref<Eigen::MatrixXd> rows) const;
   void add_contact_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
 
-  const Phase& phase() const { return problem_.phases[phase_]; }
+  const Phase& phase() const { return discrete_.problem.phases[phase_]; }
+  const RobotModel& robot() const { return discrete_.problem.robot; }
   int first_place() const { return functions_.num_variables() + (functions_.has_free_duration() ? 1 : 0); }
 
-  const MotionProblem& problem_;
+  const DiscreteProblem& discrete_;
   int phase_;
   const BaseChart& chart_;
   Eigen::VectorXd anchor_origin_;

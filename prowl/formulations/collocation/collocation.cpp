@@ -29,22 +29,22 @@ StabilisationOfStep gains(const CollocationForm& form) {
 
 }  // namespace
 
-Collocation::Collocation(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess, CollocationForm form)
-    : problem_(problem), schedule_(problem), mesh_(mesh), form_(std::move(form)) {
+Collocation::Collocation(const DiscreteProblem& discrete, const Trajectory& guess, CollocationForm form)
+    : MotionNlp(discrete), form_(std::move(form)) {
   if (form_.rule->is_explicit() && has_acceleration()) {
     throw InputError("transcription: " + form_.rule->name() +
                      " needs dynamics = \"forward\": it evaluates accelerations");
   }
-  for (const Phase& phase : problem_.phases) {
-    const double step = phase.duration.max / phase.intervals;
+  for (std::size_t p = 0; p < problem().phases.size(); ++p) {
+    const double step = problem().phases[p].duration.max / discrete.mesh.phases[p].intervals();
     if (!form_.contact.stabilised || step <= form_.rule->longest_stabilised_step()) continue;
     throw InputError(fmt::format(
         "transcription: {} cannot keep contacts over steps of {:.3g} s; need at most {} s, or another contact form",
         form_.rule->name(), step, form_.rule->longest_stabilised_step()));
   }
-  const std::vector<VectorXd> origins = anchor_origins(problem_, schedule_);
-  std::vector<PhaseContacts> contacts = contacts_of_phases(problem_, schedule_, mesh_, guess);
-  for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
+  const std::vector<VectorXd> origins = anchor_origins(discrete);
+  std::vector<PhaseContacts> contacts = contacts_of_phases(discrete, guess);
+  for (std::size_t p = 0; p < problem().phases.size(); ++p) {
     const int phase = static_cast<int>(p);
     if (!contacts[p].chosen_rows.empty() && !form_.contact.stabilised) {
       throw InputError("contact: \"" + form_.contact.name + "\" needs contacts that do not depend on each other");
@@ -52,18 +52,18 @@ Collocation::Collocation(const MotionProblem& problem, const Mesh& mesh, const T
     if (!contacts[p].chosen_rows.empty() && form_.dynamics->has_forces()) {
       throw InputError("dynamics: \"" + form_.dynamics_name + "\" needs contacts that do not depend on each other");
     }
-    if (form_.dynamics->has_forces()) contacts[p].chosen_rows = all_rows(problem_.phases[p]);
-    const ContactRows rows(problem_, phase,
+    if (form_.dynamics->has_forces()) contacts[p].chosen_rows = all_rows(problem().phases[p]);
+    const ContactRows rows(problem(), phase,
                            {.distance = form_.contact.distance,
                             .velocity = form_.contact.velocity,
                             .acceleration = form_.contact.acceleration || form_.dynamics->has_forces(),
                             .tolerance = form_.contact.tolerance});
-    charted_.push_back(std::make_unique<ChartedNode>(problem_, schedule_, phase, contacts[p], gains(form_), rows,
-                                                     *form_.chart, origins[p]));
+    charted_.push_back(
+        std::make_unique<ChartedNode>(discrete, phase, contacts[p], gains(form_), rows, *form_.chart, origins[p]));
   }
   make_layout();
-  for (int k = 0; k < mesh_.size(); ++k) make_node(k);
-  for (int k = 0; k + 1 < mesh_.size(); ++k) {
+  for (int k = 0; k < num_nodes(); ++k) make_node(k);
+  for (int k = 0; k + 1 < num_nodes(); ++k) {
     intervals_.emplace_back();
     if (is_interval(k)) make_interval(k);
   }
@@ -75,22 +75,22 @@ Collocation::Collocation(const MotionProblem& problem, const Mesh& mesh, const T
 Collocation::~Collocation() = default;
 
 int Collocation::point_size(int k, bool state) const {
-  const int nv = problem_.robot.nv(), forces = static_cast<int>(charted(k).functions().chosen_rows().size());
-  return (state ? 2 * nv : 0) + (has_acceleration() ? nv : 0) + problem_.robot.nu() + forces;
+  const int nv = problem().robot.nv(), forces = static_cast<int>(charted(k).functions().chosen_rows().size());
+  return (state ? 2 * nv : 0) + (has_acceleration() ? nv : 0) + problem().robot.nu() + forces;
 }
 
 void Collocation::make_layout() {
   const CollocationRule::Middle middle = form_.rule->middle();
   int next = 0;
-  for (int k = 0; k < mesh_.size(); ++k) {
+  for (int k = 0; k < num_nodes(); ++k) {
     node_first_.push_back(next);
     next += point_size(k, true);
     const bool has_middle = is_interval(k) && middle.inputs;
     middle_first_.push_back(has_middle ? next : -1);
     if (has_middle) next += point_size(k, middle.state);
   }
-  for (const Phase& phase : problem_.phases) durations_.push_back(phase.duration.is_fixed() ? -1 : next++);
-  for (const Stance& stance : schedule_.stances()) {
+  for (const Phase& phase : problem().phases) durations_.push_back(phase.duration.is_fixed() ? -1 : next++);
+  for (const Stance& stance : discrete_.schedule.stances()) {
     places_.push_back(stance.lands() ? next : -1);
     if (stance.lands()) next += 2;
   }
@@ -109,26 +109,22 @@ std::vector<int> Collocation::shared_columns(int k) const {
   std::vector<int> columns;
   if (durations_[phase] >= 0) columns.push_back(durations_[phase]);
   for (const int contact : charted(k).functions().landed()) {
-    const int place = places_[schedule_.stance(phase, contact)];
+    const int place = places_[discrete_.schedule.stance(phase, contact)];
     columns.insert(columns.end(), {place, place + 1});
   }
   return columns;
 }
 
 StepSize Collocation::step(int k, int first_shared) const {
-  const Phase& phase = problem_.phases[mesh_node(k).phase];
-  if (phase.duration.is_fixed()) return {.fixed = phase.duration.min / phase.intervals};
-  return {.variable = first_shared, .share = 1.0 / phase.intervals};
-}
-
-double Collocation::duration(const VectorXd& z, int phase) const {
-  const int index = durations_[phase];
-  return index >= 0 ? z(index) : problem_.phases[phase].duration.min;
+  const Duration& duration = discrete_.phase_of(k).duration;
+  const int intervals = discrete_.phase_mesh_of(k).intervals();
+  if (duration.is_fixed()) return {.fixed = duration.min / intervals};
+  return {.variable = first_shared, .share = 1.0 / intervals};
 }
 
 /// From local `first` on.
 IntervalProgram::Point Collocation::variables(ProgramGraph& graph, int k, int first, bool state) const {
-  const int nv = problem_.robot.nv(), nu = problem_.robot.nu();
+  const int nv = problem().robot.nv(), nu = problem().robot.nu();
   IntervalProgram::Point point;
   if (state) {
     point.x = graph.variables(first, nv);
@@ -145,7 +141,7 @@ IntervalProgram::Point Collocation::variables(ProgramGraph& graph, int k, int fi
 }
 
 void Collocation::make_node(int k) {
-  const int nv = problem_.robot.nv(), own = point_size(k, true);
+  const int nv = problem().robot.nv(), own = point_size(k, true);
   std::vector<int> columns = this->columns(node_first_[k], own);
   const std::vector<int> shared = shared_columns(k);
   columns.insert(columns.end(), shared.begin(), shared.end());
@@ -165,7 +161,7 @@ void Collocation::make_node(int k) {
   }
   const double share =
       (at.h_in > 0.0 ? form_.rule->right_share() : 0.0) + (at.h_out > 0.0 ? form_.rule->left_share() : 0.0);
-  const Instant instant{.node = at.node, .cost_share = share, .terminal_weight = k + 1 == mesh_.size() ? 1.0 : 0.0};
+  const Instant instant{.node = at.node, .cost_share = share, .terminal_weight = k + 1 == num_nodes() ? 1.0 : 0.0};
   PointFunction& dynamics = piece.own(form_.dynamics->at(charted, instant, std::move(rows)));
   std::vector<ProgramGraph::Vector> inputs = {point.x, point.v};
   if (has_acceleration()) inputs.push_back(point.acceleration);
@@ -193,7 +189,7 @@ void Collocation::make_node(int k) {
 
 void Collocation::make_interval(int k) {
   const auto at = static_cast<std::size_t>(k);
-  const int nv = problem_.robot.nv(), own = point_size(k, true);
+  const int nv = problem().robot.nv(), own = point_size(k, true);
   const CollocationRule::Middle middle = form_.rule->middle();
   const int middle_size = middle.inputs ? point_size(k, middle.state) : 0;
   // Node, middle and node follow each other among the decision variables.
@@ -237,9 +233,7 @@ void Collocation::for_each_piece(Visit visit) const {
   }
 }
 
-void Collocation::evaluate(const VectorXd& z, bool with_derivatives) {
-  if (evaluated_at_.size() == z.size() && evaluated_at_ == z && (have_derivatives_ || !with_derivatives)) return;
-  evaluated_at_.resize(0);  // in case that an evaluation throws half-way
+void Collocation::evaluate_all(const VectorXd& z, bool with_derivatives) {
   const auto locals = [&z](const ProgramPiece& piece) {
     VectorXd values(static_cast<Index>(piece.columns().size()));
     for (Index j = 0; j < values.size(); ++j) values(j) = z(piece.columns()[j]);
@@ -249,7 +243,7 @@ void Collocation::evaluate(const VectorXd& z, bool with_derivatives) {
     try {
       nodes_[k]->piece.graph.evaluate(locals(nodes_[k]->piece), with_derivatives);
     } catch (const NumericalError& error) {
-      throw NumericalError(describe_place(static_cast<int>(k)) + ": " + error.what());
+      throw NumericalError(discrete_.describe_moment(static_cast<int>(k)) + ": " + error.what());
     }
   }
   for (std::size_t k = 0; k < intervals_.size(); ++k) {
@@ -268,11 +262,10 @@ void Collocation::evaluate(const VectorXd& z, bool with_derivatives) {
     try {
       graph.evaluate(locals(intervals_[k]->piece), with_derivatives);
     } catch (const NumericalError& error) {
-      throw NumericalError(describe_place(static_cast<int>(k)) + ", in the interval after it: " + error.what());
+      throw NumericalError(discrete_.describe_moment(static_cast<int>(k)) +
+                           ", in the interval after it: " + error.what());
     }
   }
-  evaluated_at_ = z;
-  have_derivatives_ = with_derivatives;
 }
 
 double Collocation::cost(const VectorXd& z) {
@@ -302,9 +295,9 @@ void Collocation::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
     for (const ProgramPiece::Rows& rows : piece.rows())
       g.segment(rows.first, rows.lower.size()) = piece.graph.value(rows.vector);
   });
-  const int state = 2 * problem_.robot.nv();
+  const int state = 2 * problem().robot.nv();
   int row = first_switch_row_;
-  for (int k = 0; k + 1 < mesh_.size(); ++k) {
+  for (int k = 0; k + 1 < num_nodes(); ++k) {
     if (is_interval(k)) continue;
     const auto at = static_cast<std::size_t>(k);
     g.segment(row, state) = z.segment(node_first_[at + 1], state) - z.segment(node_first_[at], state);

@@ -7,8 +7,6 @@
 #include "prowl/formulations/collocation/collocation_rule.hpp"
 #include "prowl/formulations/collocation/contact_form.hpp"
 #include "prowl/formulations/collocation/dynamics_form.hpp"
-#include "prowl/motion/contact_schedule.hpp"
-#include "prowl/transcription/mesh.hpp"
 #include "prowl/transcription/motion_nlp.hpp"
 
 namespace prowl {
@@ -36,9 +34,7 @@ class Collocation : public MotionNlp {
   /// Throws InputError if the choices do not go together, if steps are too long for the rule's gains, if the problem
   /// binds the base's rotation in part (a chart for all nodes has no bounds for that), or if contacts depend on each
   /// other and forces are variables or contacts are not stabilised.
-  Collocation(const MotionProblem& problem, const Mesh& mesh, const Trajectory& guess, CollocationForm form);
-  Collocation(const Collocation&) = delete;
-  Collocation& operator=(const Collocation&) = delete;
+  Collocation(const DiscreteProblem& discrete, const Trajectory& guess, CollocationForm form);
   ~Collocation() override;
 
   Eigen::VectorXd pack(const Trajectory& trajectory) const override;
@@ -63,16 +59,13 @@ class Collocation : public MotionNlp {
     int row, col, place;
   };
 
-  const MeshNode& mesh_node(int k) const { return mesh_.nodes[k]; }
-  bool is_interval(int k) const { return mesh_node(k).h_out > 0.0; }
-  ChartedNode& charted(int k) const { return *charted_[mesh_node(k).phase]; }
+  ChartedNode& charted(int k) const { return *charted_[phase_of(k)]; }
   bool has_acceleration() const { return !form_.dynamics->eliminates_acceleration(); }
   /// Variables of a node (or of a middle, with or without its state).
   int point_size(int k, bool state) const;
   std::vector<int> columns(int first, int size) const;
   std::vector<int> shared_columns(int k) const;
   StepSize step(int k, int first_shared) const;
-  double duration(const Eigen::VectorXd& z, int phase) const;
 
   void make_layout();
   void make_node(int k);
@@ -83,14 +76,10 @@ class Collocation : public MotionNlp {
   IntervalProgram::Point variables(ProgramGraph& graph, int k, int first, bool state) const;
   void write_point(const TrajectoryPoint& point, int k, int first, bool state, const Eigen::Vector3d& near,
                    Eigen::VectorXd& z) const;
-  void evaluate(const Eigen::VectorXd& z, bool with_derivatives);
-  std::string describe_place(int k) const;
+  void evaluate_all(const Eigen::VectorXd& z, bool with_derivatives) override;
   template <class Visit>
   void for_each_piece(Visit visit) const;
 
-  MotionProblem problem_;
-  ContactSchedule schedule_;
-  Mesh mesh_;
   CollocationForm form_;
   std::vector<std::unique_ptr<ChartedNode>> charted_;  ///< one a phase
   std::vector<int> node_first_, middle_first_;         ///< variables; of the interval after a node, -1 without
@@ -99,8 +88,6 @@ class Collocation : public MotionNlp {
   std::vector<std::unique_ptr<IntervalPiece>> intervals_;  ///< null at a phase switch
   int first_switch_row_ = 0;
   HessianKind hessian_kind_ = HessianKind::exact;
-  Eigen::VectorXd evaluated_at_;
-  bool have_derivatives_ = false;
 };
 
 }  // namespace prowl

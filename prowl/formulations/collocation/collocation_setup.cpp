@@ -19,13 +19,13 @@ using Eigen::VectorXd;
 
 // Those of Transcription's layout, with the rotation in another chart.
 void Collocation::set_bounds(const Trajectory& guess) {
-  const int nv = problem_.robot.nv(), nu = problem_.robot.nu();
-  const std::vector<int> no_forces(problem_.phases.size(), 0), no_rows(static_cast<std::size_t>(mesh_.size()), 0);
-  const DecisionLayout layout(problem_, schedule_, mesh_, no_forces, no_rows);
-  const VariableBounds bounds = variable_bounds(problem_, schedule_, mesh_, layout);
-  const std::vector<Eigen::Matrix3d> charts = rotation_charts(problem_, mesh_, guess);
+  const int nv = problem().robot.nv(), nu = problem().robot.nu();
+  const std::vector<int> no_forces(problem().phases.size(), 0), no_rows(discrete_.nodes.size(), 0);
+  const DecisionLayout layout(discrete_, no_forces, no_rows);
+  const VariableBounds bounds = variable_bounds(discrete_, layout);
+  const std::vector<Eigen::Matrix3d> charts = rotation_charts(discrete_, guess);
   Vector3d near = Vector3d::Zero();
-  for (int k = 0; k < mesh_.size(); ++k) {
+  for (int k = 0; k < num_nodes(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     const int first = node_first_[at], tau = first + (has_acceleration() ? 3 : 2) * nv;
     const auto copy = [&](int to, int from, int size) {
@@ -41,11 +41,11 @@ void Collocation::set_bounds(const Trajectory& guess) {
       variable_lower_.segment<3>(first + 3) = variable_upper_.segment<3>(first + 3) = e;
     } else if (lower.maxCoeff() > -std::numeric_limits<double>::infinity() ||
                upper.minCoeff() < std::numeric_limits<double>::infinity()) {
-      throw InputError(describe_place(k) +
+      throw InputError(discrete_.describe_moment(k) +
                        ": binds a part of the base's rotation, for which this formulation has no bounds");
     }
     if (middle_first_[at] < 0) continue;
-    const RobotModel& robot = problem_.robot;
+    const RobotModel& robot = problem().robot;
     int middle = middle_first_[at];
     if (form_.rule->middle().state) {
       variable_lower_.segment(middle + 6, nu) = robot.position_lower();
@@ -77,7 +77,7 @@ void Collocation::set_rows() {
     if (interval) add(interval->piece);
   }
   first_switch_row_ = static_cast<int>(lower.size());
-  const auto continuity = 2 * static_cast<std::size_t>(problem_.robot.nv()) * (problem_.phases.size() - 1);
+  const auto continuity = 2 * static_cast<std::size_t>(problem().robot.nv()) * (problem().phases.size() - 1);
   lower.insert(lower.end(), continuity, 0.0);
   upper.insert(upper.end(), continuity, 0.0);
   constraint_lower_ = Eigen::Map<const VectorXd>(lower.data(), static_cast<Index>(lower.size()));
@@ -112,9 +112,9 @@ void Collocation::set_patterns() {
     add(interval->piece, interval->places);
   }
   int row = first_switch_row_;
-  for (int k = 0; k + 1 < mesh_.size(); ++k) {
+  for (int k = 0; k + 1 < num_nodes(); ++k) {
     if (is_interval(k)) continue;
-    for (int i = 0; i < 2 * problem_.robot.nv(); ++i, ++row) {
+    for (int i = 0; i < 2 * problem().robot.nv(); ++i, ++row) {
       for (const int end : {0, 1}) {
         jacobian_pattern_.rows.push_back(row);
         jacobian_pattern_.cols.push_back(node_first_[k + end] + i);
@@ -125,7 +125,7 @@ void Collocation::set_patterns() {
 
 void Collocation::write_point(const TrajectoryPoint& point, int k, int first, bool state, const Vector3d& near,
                               VectorXd& z) const {
-  const int nv = problem_.robot.nv(), nu = problem_.robot.nu();
+  const int nv = problem().robot.nv(), nu = problem().robot.nu();
   if (state) {
     z.segment<3>(first) = base_position(point.q);
     z.segment<3>(first + 3) = form_.chart->coordinates(base_rotation(point.q), near);
@@ -148,7 +148,7 @@ void Collocation::write_point(const TrajectoryPoint& point, int k, int first, bo
 VectorXd Collocation::pack(const Trajectory& trajectory) const {
   VectorXd z(num_variables());
   Vector3d near = Vector3d::Zero();
-  for (int k = 0; k < mesh_.size(); ++k) {
+  for (int k = 0; k < num_nodes(); ++k) {
     const auto at = static_cast<std::size_t>(k);
     const TrajectoryPoint& point = trajectory.nodes[at];
     write_point(point, k, node_first_[at], true, near, z);
@@ -157,62 +157,44 @@ VectorXd Collocation::pack(const Trajectory& trajectory) const {
     const double middle = 0.5 * (point.time + trajectory.nodes[at + 1].time);
     write_point(sample(trajectory, middle), k, middle_first_[at], form_.rule->middle().state, near, z);
   }
-  for (std::size_t p = 0; p < problem_.phases.size(); ++p) {
-    if (durations_[p] < 0) continue;
-    const int phase = static_cast<int>(p), last = problem_.phases[p].intervals;
-    z(durations_[p]) =
-        trajectory.nodes[mesh_.index({phase, last})].time - trajectory.nodes[mesh_.index({phase, 0})].time;
+  for (std::size_t p = 0; p < durations_.size(); ++p) {
+    if (durations_[p] >= 0) z(durations_[p]) = planned_duration(trajectory, static_cast<int>(p));
   }
-  RigidBodyTerms terms(problem_.robot);
-  for (std::size_t s = 0; s < schedule_.stances().size(); ++s) {
-    const Stance& stance = schedule_.stances()[s];
-    if (!stance.lands()) continue;
-    terms.update_kinematics(trajectory.nodes[mesh_.index({stance.first_phase, 0})].q);
-    z.segment<2>(places_[s]) = problem_.surfaces[stance.surface].coordinates(terms.contact_position(stance.contact));
+  const std::vector<Eigen::Vector2d> places = landing_places(trajectory);
+  for (std::size_t s = 0; s < places.size(); ++s) {
+    if (places_[s] >= 0) z.segment<2>(places_[s]) = places[s];
   }
   return z;
 }
 
 Trajectory Collocation::unpack(const VectorXd& z) {
   evaluate(z, false);
-  const int nv = problem_.robot.nv(), nu = problem_.robot.nu();
+  const int nv = problem().robot.nv(), nu = problem().robot.nu();
   Trajectory trajectory;
   trajectory.interpolation = Interpolation::hermite;
   double phase_start = 0.0;
-  for (int k = 0; k < mesh_.size(); ++k) {
+  for (int k = 0; k < num_nodes(); ++k) {
     const auto at = static_cast<std::size_t>(k);
-    const MeshNode& node = mesh_node(k);
-    const int intervals = problem_.phases[node.phase].intervals;
     const PointFunction& dynamics = *nodes_[at]->dynamics;
     const VectorXd& columns = dynamics.columns();
     TrajectoryPoint point;
-    point.time = phase_start + duration(z, node.phase) * node.node / intervals;
-    if (node.node == intervals) phase_start = point.time;
-    point.phase = node.phase;
+    point.time = node_time(k, duration(z, phase_of(k), durations_[phase_of(k)]), phase_start);
+    point.phase = phase_of(k);
     point.q = charted(k).configuration(columns);
-    // Of the two quaternions of a rotation the one that goes on without a jump.
-    if (k > 0 && point.q.segment<4>(3).dot(trajectory.nodes.back().q.segment<4>(3)) < 0.0)
-      point.q.segment<4>(3) *= -1.0;
     point.v = columns.segment(nv, nv);
     point.a = columns.segment(2 * nv, nv);
     point.tau = columns.segment(3 * nv, nu);
-    point.force.setZero(3 * static_cast<Index>(problem_.robot.contacts().size()));
+    point.force.setZero(3 * static_cast<Index>(problem().robot.contacts().size()));
     const std::vector<int>& contacts = charted(k).functions().contacts();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       point.force.segment<3>(3 * contacts[i]) = dynamics.forces().segment<3>(static_cast<Index>(3 * i));
     }
-    trajectory.nodes.push_back(std::move(point));
+    append(std::move(point), trajectory);
     if (middle_first_[at] < 0) continue;
     const int skipped = (form_.rule->middle().state ? 2 * nv : 0) + (has_acceleration() ? nv : 0);
     trajectory.middle_torques.push_back(z.segment(middle_first_[at] + skipped, nu));
   }
   return trajectory;
-}
-
-std::string Collocation::describe_place(int k) const {
-  const MeshNode& node = mesh_node(k);
-  return fmt::format("phase {} '{}', node {}, t = {:.3f} s", node.phase + 1, problem_.phases[node.phase].name,
-                     node.node, node.time);
 }
 
 std::string Collocation::describe_constraint(int row) const {
@@ -225,26 +207,26 @@ std::string Collocation::describe_constraint(int row) const {
   for (std::size_t k = 0; k < nodes_.size(); ++k) {
     const std::string* name = name_in(nodes_[k]->piece);
     if (!name && k < intervals_.size() && intervals_[k]) name = name_in(intervals_[k]->piece);
-    if (name) return describe_place(static_cast<int>(k)) + ", " + *name;
+    if (name) return discrete_.describe_moment(static_cast<int>(k)) + ", " + *name;
   }
-  const int nv = problem_.robot.nv(), i = (row - first_switch_row_) % (2 * nv);
+  const int nv = problem().robot.nv(), i = (row - first_switch_row_) % (2 * nv);
   int to_go = (row - first_switch_row_) / (2 * nv), k = 0;
   while (is_interval(k) || to_go-- > 0) ++k;
-  return fmt::format("{}, {}, {} across the phase switch", describe_place(k), charted(k).describe_coordinate(i % nv),
-                     i < nv ? "position" : "velocity");
+  return fmt::format("{}, {}, {} across the phase switch", discrete_.describe_moment(k),
+                     charted(k).describe_coordinate(i % nv), i < nv ? "position" : "velocity");
 }
 
 std::string Collocation::describe_variable(int index) const {
-  const int nv = problem_.robot.nv(), nu = problem_.robot.nu();
+  const int nv = problem().robot.nv(), nu = problem().robot.nu();
   for (std::size_t p = 0; p < durations_.size(); ++p) {
-    if (durations_[p] == index) return fmt::format("phase {} '{}', duration", p + 1, problem_.phases[p].name);
+    if (durations_[p] == index) return fmt::format("phase {} '{}', duration", p + 1, problem().phases[p].name);
   }
   for (std::size_t s = 0; s < places_.size(); ++s) {
     if (places_[s] < 0 || (index != places_[s] && index != places_[s] + 1)) continue;
-    const int contact = schedule_.stances()[s].contact;
-    return fmt::format("place {} of {}", index - places_[s] + 1, problem_.robot.contacts()[contact].name);
+    const int contact = discrete_.schedule.stances()[s].contact;
+    return fmt::format("place {} of {}", index - places_[s] + 1, problem().robot.contacts()[contact].name);
   }
-  int k = mesh_.size() - 1;
+  int k = num_nodes() - 1;
   while (node_first_[k] > index) --k;
   const int middle = middle_first_[k];
   const bool inside = middle >= 0 && index >= middle;
@@ -253,9 +235,9 @@ std::string Collocation::describe_variable(int index) const {
   if (!has_acceleration() && i >= 2 * nv) i += nv;
   constexpr const char* kKinds[] = {"position", "velocity", "acceleration"};
   const std::string what = i < 3 * nv ? fmt::format("{} {}", kKinds[i / nv], charted(k).describe_coordinate(i % nv))
-                           : i < 3 * nv + nu ? "torque " + problem_.robot.joint_names()[i - 3 * nv]
+                           : i < 3 * nv + nu ? "torque " + problem().robot.joint_names()[i - 3 * nv]
                                              : fmt::format("force {}", i - 3 * nv - nu + 1);
-  return fmt::format("{}{}, {}", describe_place(k), inside ? ", in the interval after it" : "", what);
+  return fmt::format("{}{}, {}", discrete_.describe_moment(k), inside ? ", in the interval after it" : "", what);
 }
 
 }  // namespace prowl

@@ -1,0 +1,139 @@
+#include "prowl/certificate/constrained_dynamics_oracle.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <pinocchio/algorithm/crba.hpp>
+#include <pinocchio/algorithm/frames.hpp>
+#include <pinocchio/algorithm/jacobian.hpp>
+#include <pinocchio/algorithm/kinematics.hpp>
+#include <pinocchio/algorithm/rnea.hpp>
+
+#include "prowl/model/pinocchio_model.hpp"
+
+namespace prowl {
+namespace {
+
+// Pivots of A below this part of the largest are rounding: rows that depend on each other leave 1e-14, and the smallest
+// that a real contact leaves (the light ends of a robot of 80 kg) is 1e-4. Some rows depend on each other only in the
+// plane in which the robot moves (knee and foot of both hind legs); a plan keeps to such a plane as far as its solver's
+// tolerance, and leaves 1e-8 to 1e-7.
+constexpr double kRankThreshold = 1e-6;
+
+}  // namespace
+
+struct ConstrainedDynamicsOracle::Workspace {
+  using Factors = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+
+  const PinocchioModel& pinocchio;
+  pinocchio::Data data;
+  std::vector<int> contacts;
+  Eigen::LLT<Eigen::MatrixXd> mass;  // M = L L'
+  Eigen::Matrix<double, 6, Eigen::Dynamic> frame_jacobian;
+  Eigen::MatrixXd A_transposed;  // L⁻¹ J'
+  Factors factors;               // of it
+
+  Workspace(const PinocchioModel& model, const std::vector<int>& held)
+      : pinocchio(model),
+        data(model.model),
+        contacts(held),
+        frame_jacobian(6, model.model.nv),
+        A_transposed(model.model.nv, 3 * static_cast<Eigen::Index>(held.size())) {
+    factors.setThreshold(kRankThreshold);
+  }
+
+  void factorise(const Eigen::VectorXd& q) {
+    // With this type it is in Pinocchio's library; with another it takes half a minute to compile.
+    pinocchio::crba(pinocchio.model, data, Eigen::Ref<const Eigen::VectorXd>(q));
+    mass.compute(data.M.selfadjointView<Eigen::Upper>());
+    if (contacts.empty()) return;
+    pinocchio::computeJointJacobians(pinocchio.model, data, q);
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      frame_jacobian.setZero();
+      pinocchio::getFrameJacobian(pinocchio.model, data, pinocchio.contact_frames[contacts[i]],
+                                  pinocchio::LOCAL_WORLD_ALIGNED, frame_jacobian);
+      A_transposed.middleCols<3>(3 * static_cast<Eigen::Index>(i)) = frame_jacobian.topRows<3>().transpose();
+    }
+    mass.matrixL().solveInPlace(A_transposed);
+    factors.compute(A_transposed);
+  }
+
+  // J a + J̇v, by kinematics instead of by J.
+  Eigen::VectorXd contact_acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
+    pinocchio::forwardKinematics(pinocchio.model, data, q, v, a);
+    Eigen::VectorXd acceleration(A_transposed.cols());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      acceleration.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+          pinocchio::getFrameClassicalAcceleration(pinocchio.model, data, pinocchio.contact_frames[contacts[i]],
+                                                   pinocchio::LOCAL_WORLD_ALIGNED)
+              .linear();
+    }
+    return acceleration;
+  }
+
+  // From the contacts held to all of the robot, zero elsewhere.
+  Eigen::VectorXd of_robot(const Eigen::VectorXd& held_force) const {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pinocchio.contact_frames.size()));
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      force.segment<3>(3 * contacts[i]) = held_force.segment<3>(3 * static_cast<Eigen::Index>(i));
+    }
+    return force;
+  }
+};
+
+ConstrainedDynamicsOracle::ConstrainedDynamicsOracle(const RobotModel& robot, const std::vector<int>& contacts)
+    : workspace_(std::make_unique<Workspace>(robot.pinocchio(), contacts)) {}
+ConstrainedDynamicsOracle::ConstrainedDynamicsOracle(ConstrainedDynamicsOracle&&) noexcept = default;
+ConstrainedDynamicsOracle::~ConstrainedDynamicsOracle() = default;
+
+ConstrainedDynamicsOracle::Motion ConstrainedDynamicsOracle::evaluate(const Eigen::VectorXd& q,
+                                                                      const Eigen::VectorXd& v,
+                                                                      const Eigen::VectorXd& tau) {
+  Workspace& w = *workspace_;
+  w.factorise(q);
+  Eigen::VectorXd x = -pinocchio::nonLinearEffects(w.pinocchio.model, w.data, q, v);
+  x.tail(tau.size()) += tau;
+  w.mass.matrixL().solveInPlace(x);  // b
+
+  Motion motion;
+  motion.force = w.of_robot(Eigen::VectorXd::Zero(w.A_transposed.cols()));
+  if (!w.contacts.empty()) {
+    const Eigen::VectorXd drift = w.contact_acceleration(q, v, Eigen::VectorXd::Zero(v.size()));
+    const Eigen::VectorXd push = w.factors.transpose().solve(-drift - w.A_transposed.transpose() * x);
+    x += push;
+    motion.force = w.of_robot(w.factors.solve(push));
+  }
+  w.mass.matrixU().solveInPlace(x);
+  motion.a = std::move(x);
+  if (!w.contacts.empty()) {
+    motion.residual = w.contact_acceleration(q, v, motion.a).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  }
+  return motion;
+}
+
+Eigen::VectorXd ConstrainedDynamicsOracle::internal_part(const Eigen::VectorXd& force) const {
+  const Workspace& w = *workspace_;
+  Eigen::VectorXd held(w.A_transposed.cols());
+  for (std::size_t i = 0; i < w.contacts.size(); ++i) {
+    held.segment<3>(3 * static_cast<Eigen::Index>(i)) = force.segment<3>(3 * w.contacts[i]);
+  }
+  if (w.contacts.empty() || w.factors.rank() == held.size()) return w.of_robot(Eigen::VectorXd::Zero(held.size()));
+  return w.of_robot(held - w.factors.solve(w.A_transposed * held));  // A'⁺ A': onto the forces that A' sees
+}
+
+ConstrainedDynamicsOracle::ContactPoints ConstrainedDynamicsOracle::contact_points(const Eigen::VectorXd& q,
+                                                                                   const Eigen::VectorXd& v) {
+  Workspace& w = *workspace_;
+  const auto& frames = w.pinocchio.contact_frames;
+  pinocchio::forwardKinematics(w.pinocchio.model, w.data, q, v);
+
+  ContactPoints points{Eigen::Matrix3Xd(3, frames.size()), Eigen::Matrix3Xd(3, frames.size())};
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    points.position.col(column) = pinocchio::updateFramePlacement(w.pinocchio.model, w.data, frames[i]).translation();
+    points.velocity.col(column) =
+        pinocchio::getFrameVelocity(w.pinocchio.model, w.data, frames[i], pinocchio::LOCAL_WORLD_ALIGNED).linear();
+  }
+  return points;
+}
+
+}  // namespace prowl

@@ -1,0 +1,53 @@
+#include "prowl/certificate/mesh_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace prowl {
+namespace {
+
+using Limits = CertificateLimits;
+
+double worst(const Certificate& certificate, const char* name) {
+  const CertificateCheck* const check = certificate.find(name);
+  return check ? check->worst : 0.0;
+}
+
+}  // namespace
+
+MeshTolerance mesh_tolerance(Grade grade) {
+  if (grade == Grade::certified) {
+    return {Limits::integration_error_certified, Limits::second_error_certified, Limits::reintegration_certified};
+  }
+  return {Limits::integration_error_draft, Limits::second_error_draft, Limits::reintegration_draft};
+}
+
+MeshTolerance mesh_tolerance(double reintegration) {
+  const MeshTolerance of_grade =
+      mesh_tolerance(reintegration <= Limits::reintegration_certified ? Grade::certified : Grade::draft);
+  return {reintegration * of_grade.local / of_grade.reintegration, of_grade.second, reintegration};
+}
+
+MeshTolerance mesh_errors(const Certificate& certificate) {
+  return {worst(certificate, "local integration error"), worst(certificate, "integration error in a second"),
+          worst(certificate, "re-integration")};
+}
+
+std::vector<double> error_parts(const Certificate& certificate, const MeshTolerance& tolerance) {
+  const auto part_of = [&](const IntervalError& of, double local) {
+    const double part = std::max(of.error / local, of.reintegration / tolerance.reintegration);
+    return std::isfinite(of.error) && std::isfinite(of.reintegration) ? part : std::numeric_limits<double>::infinity();
+  };
+  const MeshTolerance errors = mesh_errors(certificate);
+  // As long as intervals are too coarse by themselves, the sum tells nothing of what is left of it.
+  const bool is_for_the_sum =
+      errors.local <= tolerance.local && errors.reintegration <= tolerance.reintegration && errors.second > 0.0;
+  const double for_the_sum = errors.local * std::pow(tolerance.second / errors.second, 1.5);
+  const double local = is_for_the_sum ? std::min(tolerance.local, for_the_sum) : tolerance.local;
+  std::vector<double> parts;
+  for (const IntervalError& interval : certificate.interval_errors) parts.push_back(part_of(interval, local));
+  return parts;
+}
+
+}  // namespace prowl

@@ -1,0 +1,187 @@
+#include "prowl/certificate/sampled_limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/certificate/ground_distance.hpp"
+#include "prowl/certificate/true_motion.hpp"
+#include "prowl/certificate/worst_case.hpp"
+#include "prowl/model/torque_share.hpp"
+
+namespace prowl {
+namespace {
+
+using Limits = CertificateLimits;
+
+/// Where each contact is, against where it has to be.
+class ContactChecks {
+ public:
+  ContactChecks(const MotionProblem& problem, const ContactPlaces& places) : problem_(problem), places_(places) {}
+
+  void record(const TrajectoryPoint& point, const ConstrainedDynamicsOracle::ContactPoints& points) {
+    for (std::size_t c = 0; c < problem_.robot.contacts().size(); ++c) {
+      const auto& [name, frame, radius, offset] = problem_.robot.contacts()[c];
+      const ContactPlace& place = places_[point.phase][c];
+      const Eigen::Vector3d position = points.position.col(c);
+      if (place.surface) {
+        penetration_.record(radius - problem_.surfaces[*place.surface].distance(position), point.time, name);
+        drift_.record((position - place.anchor).norm(), point.time, name);
+        velocity_.record(points.velocity.col(c).norm(), point.time, name);
+        continue;
+      }
+      for (const Surface& surface : problem_.surfaces) {
+        penetration_.record(radius - distance_from_ground(surface, position), point.time, name);
+      }
+    }
+  }
+
+  void append_to(std::vector<CertificateCheck>& checks) const {
+    for (const WorstCase* check : {&drift_, &velocity_, &penetration_}) check->append_to(checks);
+  }
+
+ private:
+  const MotionProblem& problem_;
+  const ContactPlaces& places_;
+  WorstCase drift_{"contact drift", "m", Limits::contact_drift};
+  WorstCase velocity_{"contact velocity", "m/s", Limits::contact_velocity};
+  WorstCase penetration_{"penetration", "m", Limits::penetration};
+};
+
+/// What is missing at the highest point of every swing from the clearance above the planes without an edge.
+class SwingChecks {
+ public:
+  SwingChecks(const MotionProblem& problem, const ContactPlaces& places)
+      : problem_(problem),
+        places_(places),
+        missing_("swing clearance missing", "m", Limits::missing_clearance * problem.swing_clearance),
+        highest_(problem.robot.contacts().size(), kLow) {}
+
+  /// Points in order of time.
+  void record(const TrajectoryPoint& point, const ConstrainedDynamicsOracle::ContactPoints& points) {
+    for (std::size_t c = 0; c < highest_.size(); ++c) {
+      const ContactPoint& contact = problem_.robot.contacts()[c];
+      if (places_[point.phase][c].swings) {
+        highest_[c] = std::max(highest_[c], height(points.position.col(c)) - contact.radius);
+      } else if (std::isfinite(highest_[c])) {
+        if (problem_.swing_clearance > 0.0) {
+          missing_.record(problem_.swing_clearance - highest_[c], point.time, contact.name);
+        }
+        highest_[c] = kLow;
+      }
+    }
+  }
+
+  void append_to(std::vector<CertificateCheck>& checks) const { missing_.append_to(checks); }
+
+ private:
+  static constexpr double kLow = -std::numeric_limits<double>::infinity();
+
+  double height(const Eigen::Vector3d& position) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Surface& surface : problem_.surfaces) {
+      if (surface.patch.empty()) least = std::min(least, surface.distance(position));
+    }
+    return least;
+  }
+
+  const MotionProblem& problem_;
+  const ContactPlaces& places_;
+  WorstCase missing_;
+  std::vector<double> highest_;  // of the swing so far, each contact [m]
+};
+
+/// What the ground has to do for the motion, by the true dynamics.
+class ForceChecks {
+ public:
+  explicit ForceChecks(const MotionProblem& problem)
+      : problem_(problem),
+        friction_("friction cone", "N", Limits::force_over_weight * problem.robot.weight()),
+        unilateral_("unilateral force", "N", Limits::force_over_weight * problem.robot.weight()),
+        planned_("planned contact force", "N", Limits::planned_force_over_weight * problem.robot.weight()) {}
+
+  void record(const TrajectoryPoint& point, ConstrainedDynamicsOracle& dynamics, bool at_node) {
+    const auto motion = true_motion(point, dynamics);
+    acceleration_.record(motion.residual, point.time, "");
+    for (const PhaseContact& held : problem_.phases[point.phase].contacts) {
+      const Surface& surface = problem_.surfaces[held.surface];
+      const std::string& name = problem_.robot.contacts()[held.contact].name;
+      const Eigen::Vector3d force = motion.force.segment<3>(3 * held.contact);
+      const double normal = surface.normal.dot(force);
+      const double tangential = (force - normal * surface.normal).norm();
+      unilateral_.record(-normal, point.time, name);
+      // A pull is the unilateral check's: here it only leaves no room for friction.
+      friction_.record(tangential - surface.friction * std::max(normal, 0.0), point.time, name);
+    }
+    if (!at_node) return;  // between nodes the planned force is linear, which the true one is not
+    for (std::size_t c = 0; c < problem_.robot.contacts().size(); ++c) {
+      const Eigen::Vector3d error = (point.force - motion.force).segment<3>(3 * static_cast<Eigen::Index>(c));
+      planned_.record(error.norm(), point.time, problem_.robot.contacts()[c].name);
+    }
+  }
+
+  void append_to(std::vector<CertificateCheck>& checks) const {
+    for (const WorstCase* check : {&friction_, &unilateral_, &planned_, &acceleration_}) check->append_to(checks);
+  }
+
+ private:
+  const MotionProblem& problem_;
+  WorstCase friction_, unilateral_, planned_;
+  WorstCase acceleration_{"contact acceleration", "m/s^2", Limits::contact_acceleration};
+};
+
+class JointChecks {
+ public:
+  explicit JointChecks(const RobotModel& robot) : robot_(robot) {}
+
+  void record(const TrajectoryPoint& point) {
+    for (int i = 0; i < robot_.nu(); ++i) {
+      const double position = point.q(7 + i);
+      const double outside = std::max(robot_.position_lower()(i) - position, position - robot_.position_upper()(i));
+      const std::string& name = robot_.joint_names()[i];
+      if (outside > -std::numeric_limits<double>::infinity()) position_.record(outside, point.time, name);
+      velocity_.record(std::abs(point.v(6 + i)) / robot_.velocity_limit()(i), point.time, name);
+      torque_.record(torque_share(robot_, i, position, point.v(6 + i), point.tau(i)), point.time, name);
+    }
+  }
+
+  void append_to(std::vector<CertificateCheck>& checks) const {
+    for (const WorstCase* check : {&position_, &velocity_, &torque_}) check->append_to(checks);
+  }
+
+ private:
+  const RobotModel& robot_;
+  WorstCase position_{"joint position beyond limit", "SI", Limits::joint_position};
+  WorstCase velocity_{"joint velocity", "of limit", Limits::velocity_ratio};
+  WorstCase torque_{"joint torque", "of limit", Limits::torque_ratio};
+};
+
+}  // namespace
+
+std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const Trajectory& trajectory,
+                                             const ContactPlaces& places, PhaseDynamics& dynamics) {
+  ContactChecks contacts(problem, places);
+  SwingChecks swings(problem, places);
+  ForceChecks forces(problem);
+  JointChecks joints(problem.robot);
+  for (const MeshInterval& interval : mesh_intervals(trajectory)) {
+    const double h = interval.step();
+    const int pieces = std::max(Limits::grid_intervals, static_cast<int>(std::ceil(h / Limits::grid_step)));
+    for (int i = 0; i <= pieces; ++i) {
+      const TrajectoryPoint point = interval.at(h * i / pieces);
+      const auto points = dynamics[point.phase].contact_points(point.q, point.v);
+      contacts.record(point, points);
+      swings.record(point, points);
+      forces.record(point, dynamics[point.phase], i == 0 || i == pieces);
+      joints.record(point);
+    }
+  }
+  std::vector<CertificateCheck> checks;
+  contacts.append_to(checks);
+  swings.append_to(checks);
+  forces.append_to(checks);
+  joints.append_to(checks);
+  return checks;
+}
+
+}  // namespace prowl

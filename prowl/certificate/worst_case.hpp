@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "prowl/certificate/certificate.hpp"
+#include "prowl/trajectory/worst_moment.hpp"
+
+namespace prowl {
+
+/// One check of a certificate while it looks for its worst moment.
+class WorstCase {
+ public:
+  WorstCase(std::string name, std::string unit, double limit)
+      : WorstCase(std::move(name), std::move(unit), limit, limit) {}
+  WorstCase(std::string name, std::string unit, double limit, double certified_limit) {
+    check_.name = std::move(name);
+    check_.unit = std::move(unit);
+    check_.limit = limit;
+    check_.certified_limit = certified_limit;
+  }
+
+  void record(double value, double time, std::string_view where) { moment_.record(value, time, where); }
+
+  CertificateCheck check() const {
+    CertificateCheck check = check_;
+    check.worst = moment_.worst;
+    check.time = moment_.time;
+    check.where = moment_.where;
+    check.passed = check.worst <= check.limit;
+    return check;
+  }
+
+  /// Appends the check, unless nothing was recorded.
+  void append_to(std::vector<CertificateCheck>& checks) const {
+    if (!moment_.empty) checks.push_back(check());
+  }
+
+ private:
+  CertificateCheck check_;
+  WorstMoment moment_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,89 @@
+#include "prowl/guess/posture_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// World velocity of the base where a boundary condition prescribes it.
+std::optional<Eigen::Vector3d> prescribed_base_velocity(const BoundaryCondition& condition, const VectorXd& q) {
+  const Eigen::Vector3d v = condition.velocity_lower.head<3>();
+  if (v != condition.velocity_upper.head<3>()) return std::nullopt;
+  return base_rotation(q) * v;
+}
+
+bool binds(const BoundaryCondition& condition, Eigen::Index i) {
+  return std::isfinite(condition.configuration_lower(i)) || std::isfinite(condition.configuration_upper(i));
+}
+
+}  // namespace
+
+VectorXd meet(const BoundaryCondition& condition, const VectorXd& q) {
+  return integrate(
+      condition.q_ref,
+      difference(condition.q_ref, q).cwiseMax(condition.configuration_lower).cwiseMin(condition.configuration_upper));
+}
+
+PosturePath::PosturePath(const DiscreteProblem& discrete) {
+  std::vector<std::size_t> in_order(discrete.condition_nodes.size());
+  std::iota(in_order.begin(), in_order.end(), 0);
+  std::ranges::stable_sort(in_order, {}, [&](std::size_t c) { return discrete.condition_nodes[c]; });
+
+  VectorXd q = discrete.problem.start_configuration();
+  std::vector<std::vector<Waypoint>> waypoints(static_cast<std::size_t>(q.size() - 4));
+  for (const std::size_t c : in_order) {
+    const BoundaryCondition& condition = discrete.problem.boundary_conditions[c];
+    q = meet(condition, q);
+    add(condition, q, discrete.condition_time(c), waypoints);
+  }
+  for (const auto& points : waypoints) curves_.emplace_back(points);
+}
+
+VectorXd PosturePath::operator()(double time) const {
+  VectorXd q(static_cast<Eigen::Index>(curves_.size()) + 4);
+  for (std::size_t i = 0; i < curves_.size(); ++i) q(static_cast<Eigen::Index>(i < 3 ? i : i + 4)) = curves_[i](time);
+  q.segment<4>(3) = rotation(time).coeffs();
+  return q;
+}
+
+void PosturePath::add(const BoundaryCondition& condition, const VectorXd& q, double time,
+                      std::vector<std::vector<Waypoint>>& waypoints) {
+  const auto base_velocity = prescribed_base_velocity(condition, q);
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const auto coordinate = static_cast<Eigen::Index>(i);  // 0 ... 2 base position, then joints
+    const Eigen::Index place = i < 3 ? coordinate : coordinate + 4;
+    const Eigen::Index tangent = i < 3 ? coordinate : coordinate + 3;
+    if (!binds(condition, tangent)) continue;
+    // Two conditions at one time (both sides of a phase switch): the later has met the earlier.
+    auto& points = waypoints[i];
+    if (!points.empty() && points.back().time >= time) points.pop_back();
+    points.push_back({time, q(place), std::nullopt});
+    if (i < 3 && base_velocity) points.back().slope = (*base_velocity)(coordinate);
+  }
+  if (binds(condition, 3) || binds(condition, 4) || binds(condition, 5)) {
+    if (!turns_.empty() && turns_.back().time >= time) turns_.pop_back();
+    Eigen::Quaterniond rotation = base_quaternion(q);
+    // Of the two quaternions of a rotation the one that goes on without a jump.
+    if (!turns_.empty() && turns_.back().rotation.dot(rotation) < 0.0) rotation.coeffs() *= -1.0;
+    turns_.push_back({time, rotation});
+  }
+}
+
+Eigen::Quaterniond PosturePath::rotation(double time) const {
+  const auto next = std::ranges::upper_bound(turns_, time, {}, &Turn::time);
+  if (next == turns_.begin()) return turns_.front().rotation;
+  if (next == turns_.end()) return turns_.back().rotation;
+  const Turn& last = *std::prev(next);
+  const double progress = MonotoneCubic({{last.time, 0.0, {}}, {next->time, 1.0, {}}})(time);
+  return last.rotation.slerp(progress, next->rotation);
+}
+
+}  // namespace prowl

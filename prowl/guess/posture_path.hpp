@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "prowl/guess/monotone_cubic.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
+
+namespace prowl {
+
+/// The configuration nearest to q that a boundary condition allows.
+Eigen::VectorXd meet(const BoundaryCondition& condition, const Eigen::VectorXd& q);
+
+/// What the boundary conditions alone say about the motion: base and joints, contacts not considered. Each coordinate
+/// of base position and joints has its own waypoints, so that one that is free at a condition goes on to the next; the
+/// base's rotation turns from one prescribed rotation to the next about a fixed axis, at rest at both.
+class PosturePath {
+ public:
+  explicit PosturePath(const DiscreteProblem& discrete);
+
+  /// Configuration (nq) at a time [s].
+  Eigen::VectorXd operator()(double time) const;
+
+ private:
+  struct Turn {
+    double time;
+    Eigen::Quaterniond rotation;
+  };
+
+  void add(const BoundaryCondition& condition, const Eigen::VectorXd& q, double time,
+           std::vector<std::vector<Waypoint>>& waypoints);
+  Eigen::Quaterniond rotation(double time) const;
+
+  std::vector<MonotoneCubic> curves_;
+  std::vector<Turn> turns_;
+};
+
+}  // namespace prowl

@@ -1,0 +1,75 @@
+#include "prowl/mesh/discrete_problem.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+const MotionProblem& valid(const MotionProblem& problem, const Mesh& mesh) {
+  validate(problem);
+  if (mesh.phases.size() != problem.phases.size()) {
+    throw InputError(
+        fmt::format("mesh: {} phases are not allowed; the problem has {}", mesh.phases.size(), problem.phases.size()));
+  }
+  return problem;
+}
+
+/// Middle of the range [s].
+double nominal_duration(const Duration& duration) {
+  return duration.is_fixed() ? duration.min : 0.5 * (duration.min + duration.max);
+}
+
+std::vector<MeshNode> mesh_nodes(const std::vector<Phase>& phases, const Mesh& mesh) {
+  std::vector<MeshNode> nodes;
+  double phase_start = 0.0;
+  for (int p = 0; p < static_cast<int>(phases.size()); ++p) {
+    const PhaseMesh& cut = mesh.phases[p];
+    const double duration = nominal_duration(phases[p].duration);
+    for (int k = 0; k <= cut.intervals(); ++k) {
+      nodes.push_back({.phase = p,
+                       .node = k,
+                       .time = phase_start + cut.node_time(k, duration),
+                       .h_in = k > 0 ? cut.step(k - 1, duration) : 0.0,
+                       .h_out = k < cut.intervals() ? cut.step(k, duration) : 0.0});
+    }
+    phase_start = nodes.back().time;
+  }
+  return nodes;
+}
+
+}  // namespace
+
+std::vector<int> nodes_of_conditions(const MotionProblem& problem, const Mesh& mesh) {
+  std::vector<int> nodes;
+  for (const BoundaryCondition& condition : problem.boundary_conditions) {
+    const auto [phase, fraction] = condition.at;
+    const auto node = mesh.phases[phase].node_at(fraction);
+    if (!node) {
+      throw InputError(fmt::format("{}: no node of the mesh is at {:.6g} of phase '{}'", condition.name, fraction,
+                                   problem.phases[phase].name));
+    }
+    nodes.push_back(mesh.node(phase, *node));
+  }
+  return nodes;
+}
+
+DiscreteProblem::DiscreteProblem(MotionProblem motion_problem, Mesh problem_mesh)
+    : problem(std::move(motion_problem)),
+      mesh(std::move(problem_mesh)),
+      schedule(valid(problem, mesh)),
+      nodes(mesh_nodes(problem.phases, mesh)),
+      condition_nodes(nodes_of_conditions(problem, mesh)) {}
+
+std::string DiscreteProblem::describe_node(int k) const {
+  return fmt::format("phase {} '{}', node {}", nodes[k].phase + 1, phase_of(k).name, nodes[k].node);
+}
+
+std::string DiscreteProblem::describe_moment(int k) const {
+  return fmt::format("{}, t = {:.3f} s", describe_node(k), nodes[k].time);
+}
+
+}  // namespace prowl

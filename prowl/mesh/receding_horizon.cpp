@@ -1,0 +1,128 @@
+#include "prowl/mesh/receding_horizon.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "prowl/error.hpp"
+
+namespace prowl {
+namespace {
+
+void check_nodes(const DiscreteProblem& problem, const Trajectory& motion) {
+  if (problem.mesh.phases.front().intervals() < 2) {
+    throw InputError("shift_horizon: the first phase has one interval; need two or more");
+  }
+  const bool fits = std::ranges::equal(motion.nodes, problem.nodes, {}, &TrajectoryPoint::phase, &MeshNode::phase);
+  if (!fits) {
+    throw InputError(
+        fmt::format("shift_horizon: the motion has {} nodes, the problem's mesh {}, or they are of other phases",
+                    motion.nodes.size(), problem.nodes.size()));
+  }
+}
+
+/// Both bounds move with the duration; where the shortest one is used up, what the motion has left of the phase is
+/// allowed.
+Duration longer(const Duration& duration, double by, double planned) {
+  if (duration.is_fixed()) return {planned + by, planned + by};
+  return {duration.min + by > 0.0 ? duration.min + by : std::min(duration.min, planned + by), duration.max + by};
+}
+
+/// Of the intervals of a phase, as parts of it; of equal ones all 1.
+std::vector<double> lengths(const PhaseMesh& mesh) {
+  std::vector<double> result;
+  for (int i = 0; i < mesh.intervals(); ++i) {
+    result.push_back(mesh.is_even() ? 1.0 : mesh.node_time(i + 1, 1.0) - mesh.node_time(i, 1.0));
+  }
+  return result;
+}
+
+/// The first interval goes; what comes at the end is as long as the last one. A single phase keeps its length: what
+/// goes at its start comes back at its end.
+Mesh shifted(Mesh mesh) {
+  std::vector<double> first = lengths(mesh.phases.front());
+  if (mesh.phases.size() == 1) {
+    first.push_back(first.front());
+  } else {
+    std::vector<double> last = lengths(mesh.phases.back());
+    last.push_back(last.back());
+    mesh.phases.back() = PhaseMesh(last);
+  }
+  first.erase(first.begin());
+  mesh.phases.front() = PhaseMesh(first);
+  return mesh;
+}
+
+/// Goals of the first phase come one node earlier, those at the end of the last phase stay there.
+std::vector<BoundaryCondition> shifted_conditions(const DiscreteProblem& before, const TrajectoryPoint& start,
+                                                  const Mesh& mesh) {
+  const MotionProblem& problem = before.problem;
+  const int last = static_cast<int>(problem.phases.size()) - 1;
+  std::vector<BoundaryCondition> conditions;
+  conditions.push_back(BoundaryCondition::unbounded(problem.robot, problem.start().name, problem.start().at, start.q));
+  conditions.back().configuration_lower.setZero();
+  conditions.back().configuration_upper.setZero();
+  conditions.back().velocity_lower = conditions.back().velocity_upper = start.v;
+  for (std::size_t c = 1; c < problem.boundary_conditions.size(); ++c) {
+    const BoundaryCondition& goal = problem.boundary_conditions[c];
+    const int phase = goal.at.phase, node = before.nodes[before.condition_nodes[c]].node;
+    const int shifted_node = phase == 0 ? node - 1 : node;
+    if (phase == 0 && shifted_node <= 0) continue;  // it is over
+    conditions.push_back(goal);
+    if (goal.at == PhaseFraction::end_of(last)) continue;
+    conditions.back().at.fraction = mesh.phases[phase].node_time(shifted_node, 1.0);
+  }
+  return conditions;
+}
+
+/// The first stage has no states: what belongs to their bounds is not in its multipliers. Of the rest the next stage
+/// knows better.
+StageMultipliers first_stage(const StageMultipliers& first, const StageMultipliers& second) {
+  const auto later = [](const Eigen::VectorXd& of_first, const Eigen::VectorXd& of_second) {
+    return of_first.size() == of_second.size() ? of_second : of_first;
+  };
+  return {later(first.next, second.next), later(first.equalities, second.equalities),
+          later(first.inequalities, second.inequalities)};
+}
+
+}  // namespace
+
+ShiftedHorizon shift_horizon(const DiscreteProblem& problem, const Trajectory& motion,
+                             const std::vector<StageMultipliers>& multipliers) {
+  check_nodes(problem, motion);
+  const std::vector<TrajectoryPoint>& nodes = motion.nodes;
+  const double first_step = nodes[1].time - nodes[0].time;
+  const auto planned = [&](int phase) {
+    const auto ends = std::ranges::equal_range(nodes, phase, {}, &TrajectoryPoint::phase);
+    return std::prev(ends.end())->time - ends.begin()->time;
+  };
+  MotionProblem next = problem.problem;
+  Mesh mesh = shifted(problem.mesh);
+  const int last = static_cast<int>(next.phases.size()) - 1;
+  const double last_step = last > 0 ? nodes.back().time - nodes[nodes.size() - 2].time : first_step;
+  if (last > 0) {
+    Duration &first_duration = next.phases.front().duration, &last_duration = next.phases.back().duration;
+    first_duration = longer(first_duration, -first_step, planned(0));
+    last_duration = longer(last_duration, last_step, planned(last));
+  }
+  next.boundary_conditions = shifted_conditions(problem, nodes[1], mesh);
+  ShiftedHorizon result{DiscreteProblem(std::move(next), std::move(mesh)), {}, {}};
+
+  result.start_from.nodes.assign(nodes.begin() + 1, nodes.end());
+  result.start_from.nodes.push_back(nodes.back());
+  result.start_from.nodes.back().time += last_step;
+  for (TrajectoryPoint& node : result.start_from.nodes) node.time -= first_step;
+
+  if (multipliers.size() == nodes.size()) {
+    std::vector<StageMultipliers>& shifted_multipliers = result.start_multipliers;
+    shifted_multipliers.push_back(first_stage(multipliers[0], multipliers[1]));
+    shifted_multipliers.insert(shifted_multipliers.end(), multipliers.begin() + 2, multipliers.end() - 1);
+    shifted_multipliers.push_back(multipliers[multipliers.size() - 2]);
+    shifted_multipliers.push_back(multipliers.back());
+  }
+  return result;
+}
+
+}  // namespace prowl

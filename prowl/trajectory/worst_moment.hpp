@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <string_view>
+
+namespace prowl {
+
+/// The largest of many values of a motion, where and when it came; a NaN counts as larger than anything.
+struct WorstMoment {
+  bool empty = true;  ///< nothing was recorded
+  double worst = 0.0;
+  double time = 0.0;  ///< [s]
+  std::string where;
+
+  void record(double value, double at_time, std::string_view at) {
+    if (!empty && (std::isnan(worst) || value <= worst)) return;
+    empty = false;
+    worst = value;
+    time = at_time;
+    where = at;
+  }
+};
+
+}  // namespace prowl
