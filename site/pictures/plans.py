@@ -71,4 +71,4 @@ class Planner:
             command.remove("--package-dir")
         result = subprocess.run(command, capture_output=True, text=True)
         if result.returncode not in allowed:
-            raise SystemExit(f"pictures: {' '.join(command)} ended with {result.returncode}\n{result.stderr}")
+            raise SystemExit(f"{' '.join(command)} ended with {result.returncode}\n{result.stderr}")

@@ -20,11 +20,12 @@ namespace {
 
 const std::filesystem::path kTasks = std::filesystem::path(PROWL_SOURCE_DIR) / "tasks";
 
-/// robot/motion of every task, in order.
+/// robot/motion of every task, in order. Those of tasks/paper have the paper's meshes, which are too coarse for the
+/// certificate: tests/scripts/paper_test.py has them.
 std::vector<std::string> shipped_tasks() {
   std::vector<std::string> tasks;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(kTasks)) {
-    if (entry.path().extension() != ".toml") continue;
+    if (entry.path().extension() != ".toml" || entry.path().parent_path().filename() == "paper") continue;
     tasks.push_back(std::filesystem::relative(entry.path(), kTasks).replace_extension().string());
   }
   std::ranges::sort(tasks);
