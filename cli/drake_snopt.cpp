@@ -7,16 +7,16 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "cli/process/python_script.hpp"
 #include "prowl/error.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/nlp/dual_violation.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
+#include "prowl/solvers/foreign/snopt_solver.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
-#include "prowl/solvers/iterate.hpp"
-#include "prowl/solvers/judge.hpp"
-#include "prowl/solvers/snopt_solver.hpp"
-#include "python_script.hpp"
+#include "prowl/nlp/iterate.hpp"
+#include "prowl/solvers/remeasure_result.hpp"
 #include "socket_process.hpp"
 
 namespace prowl::cli {

@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <sstream>
 
-#include "commands.hpp"
-#include "environment.hpp"
-#include "exit_status.hpp"
-#include "json_result.hpp"
-#include "output.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/screen/json_result.hpp"
+#include "cli/screen/output.hpp"
+#include "cli/verbs/commands.hpp"
 #include "prowl/error.hpp"
-#include "prowl/model/nearest_name.hpp"
+#include "prowl/session/environment.hpp"
+#include "prowl/text/nearest_name.hpp"
 
 namespace {
 
@@ -18,7 +18,7 @@ using namespace prowl::cli;
 
 std::string version_text() {
   std::string text;
-  for (const auto& [name, version] : prowl::cli::versions()) {
+  for (const auto& [name, version] : prowl::versions()) {
     const std::string line = fmt::format("{} {}", name, version);
     text = name == "prowl" ? fmt::format("{}{}{}", line, text.empty() ? "" : "\n", text)
                            : fmt::format("{}{}{}", text, text.empty() ? "" : "\n", line);
@@ -136,9 +136,9 @@ int main(int argc, char** argv) {
   };
   open_standard_streams();
   try {
-    check_processor();
+    prowl::check_processor();
     const std::string verb = verb_of(argc, argv);
-    if (!verb.empty() && verb != "doctor" && verb != "completion") check_libraries();  // doctor tells of them
+    if (!verb.empty() && verb != "doctor" && verb != "completion") prowl::check_libraries();  // doctor tells of them
     return run(argc, argv);
   } catch (const prowl::InputError& error) {
     return report(error, kBadInput);

@@ -16,13 +16,16 @@ elseif(NOT PROWL_SIMD MATCHES "^(avx2|baseline)$")
 endif()
 message(STATUS "Prowl: vector instructions: ${PROWL_SIMD}")
 
-# prowl_layer(<name> DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
-# One library a folder of prowl/, so that the linker too refuses an include against the direction of the layers.
+# prowl_layer(<name> [FOLDER folder] DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
+# One library a folder, so that the linker too refuses an include against the direction of the layers. FOLDER: <name>, in the
+# folder of the caller, if not said otherwise.
 # FAST: most of the time of a solve is spent there; compiled for ${PROWL_SIMD}.
 function(prowl_layer name)
-  cmake_parse_arguments(ARG "FAST" "" "DEPENDS;PRIVATE" ${ARGN})
-  set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${name})
-  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*/*.cpp)
+  cmake_parse_arguments(ARG "FAST" "FOLDER" "DEPENDS;PRIVATE" ${ARGN})
+  if(NOT ARG_FOLDER)
+    set(ARG_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/${name})
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ARG_FOLDER}/*.cpp)
   add_library(prowl_${name} ${sources})
   add_library(prowl::${name} ALIAS prowl_${name})
   target_compile_features(prowl_${name} PUBLIC cxx_std_20)

@@ -41,6 +41,9 @@ struct Plan {
   std::vector<std::string> hints;
 };
 
+/// Whether the plan may be used: the solver converged and the certificate passed.
+bool is_good(const Plan& plan);
+
 struct PlanOptions {
   SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together
   /// Empty: start from the task alone, on a coarse mesh first. Else start from this motion (see resample()).

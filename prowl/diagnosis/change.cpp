@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
+#include "prowl/diagnosis/asked_knobs.hpp"
 #include "prowl/diagnosis/joint_knobs.hpp"
-#include "prowl/diagnosis/way_knobs.hpp"
 #include "prowl/motion/duration_limits.hpp"
 
 namespace prowl {

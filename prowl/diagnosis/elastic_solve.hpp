@@ -6,7 +6,7 @@
 
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
-#include "prowl/transcription/motion_limit.hpp"
+#include "prowl/transcription/node/motion_limit.hpp"
 
 namespace prowl {
 

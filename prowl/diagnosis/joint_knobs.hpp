@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "prowl/diagnosis/change.hpp"
-#include "prowl/transcription/motion_limit.hpp"
+#include "prowl/transcription/node/motion_limit.hpp"
 
 namespace prowl {
 

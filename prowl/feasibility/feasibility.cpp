@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/feasibility/known_facts.hpp"
+#include "prowl/feasibility/prescribed_places.hpp"
 #include "prowl/feasibility/rank_check.hpp"
 #include "prowl/feasibility/reach_check.hpp"
 #include "prowl/feasibility/slide_check.hpp"

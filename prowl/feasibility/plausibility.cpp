@@ -22,8 +22,7 @@ double longest_interval(const Phase& phase, const PhaseMesh& mesh) {
 
 }  // namespace
 
-std::vector<std::string> implausibilities(const DiscreteProblem& discrete) {
-  const MotionProblem& problem = discrete.problem;
+std::vector<std::string> implausibilities(const MotionProblem& problem, const Mesh& mesh) {
   std::vector<std::string> lines = implausible_sizes(problem.robot);
   for (const Surface& surface : problem.surfaces) {
     if (surface.friction <= kStickiestSole) continue;
@@ -32,7 +31,7 @@ std::vector<std::string> implausibilities(const DiscreteProblem& discrete) {
   }
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const Phase& phase = problem.phases[p];
-    const double longest = longest_interval(phase, discrete.mesh.phases[p]);
+    const double longest = longest_interval(phase, mesh.phases[p]);
     if (longest <= kTimeToFall) continue;
     lines.push_back(fmt::format(
         "phase '{}' has mesh intervals of {:.3g} s, in which a robot could fall over (durations are in seconds)",

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "prowl/dynamics/body_bounds.hpp"
-#include "prowl/feasibility/known_facts.hpp"
+#include "prowl/feasibility/prescribed_places.hpp"
 #include "prowl/model/nearest_in_patch.hpp"
 
 namespace prowl {

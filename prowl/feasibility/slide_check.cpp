@@ -8,7 +8,7 @@
 
 #include "prowl/dynamics/body_bounds.hpp"
 #include "prowl/feasibility/friction_support.hpp"
-#include "prowl/feasibility/known_facts.hpp"
+#include "prowl/feasibility/prescribed_places.hpp"
 
 namespace prowl {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "prowl/model/robot_model.hpp"
-#include "prowl/model/urdf_check.hpp"
+#include "prowl/model/urdf/urdf_check.hpp"
 
 namespace prowl {
 

@@ -15,11 +15,11 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/description_error.hpp"
-#include "prowl/model/nearest_name.hpp"
 #include "prowl/model/physical_inertia.hpp"
 #include "prowl/model/pinocchio_model.hpp"
-#include "prowl/model/shown_text.hpp"
-#include "prowl/model/urdf_check.hpp"
+#include "prowl/model/urdf/urdf_check.hpp"
+#include "prowl/text/nearest_name.hpp"
+#include "prowl/text/shown_text.hpp"
 
 namespace prowl {
 

@@ -4,10 +4,10 @@
 #include <fmt/ranges.h>
 
 #include "prowl/error.hpp"
-#include "prowl/solvers/fatrop_solver.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/solvers/uno_solver.hpp"
+#include "prowl/solvers/foreign/fatrop_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/uno_solver.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 
 namespace prowl {
 

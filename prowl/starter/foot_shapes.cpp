@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "prowl/error.hpp"
-#include "prowl/io/visual_mesh.hpp"
-#include "prowl/model/robot_visuals.hpp"
+#include "prowl/model/urdf/robot_visuals.hpp"
+#include "prowl/files/visual_mesh.hpp"
 
 namespace prowl {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "prowl/io/package_path.hpp"
 #include "prowl/model/robot_model.hpp"
+#include "prowl/model/urdf/package_path.hpp"
 
 namespace prowl {
 

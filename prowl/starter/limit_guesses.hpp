@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "prowl/model/robot_model.hpp"
-#include "prowl/model/urdf_outline.hpp"
+#include "prowl/model/urdf/urdf_outline.hpp"
 #include "prowl/starter/standing_posture.hpp"
 
 namespace prowl {

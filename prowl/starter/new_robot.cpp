@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "prowl/dynamics/static_equilibrium.hpp"
-#include "prowl/io/text_file.hpp"
-#include "prowl/model/name_check.hpp"
-#include "prowl/model/urdf_outline.hpp"
+#include "prowl/files/text_file.hpp"
+#include "prowl/model/urdf/urdf_outline.hpp"
 #include "prowl/starter/robot_pose.hpp"
+#include "prowl/text/name_check.hpp"
 
 namespace prowl {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "prowl/io/package_path.hpp"
 #include "prowl/model/robot_description.hpp"
+#include "prowl/model/urdf/package_path.hpp"
 #include "prowl/starter/foot_contacts.hpp"
 #include "prowl/starter/legs.hpp"
 #include "prowl/starter/limit_guesses.hpp"

@@ -6,8 +6,8 @@
 
 #include "prowl/model/body_placements.hpp"
 #include "prowl/model/body_tree.hpp"
-#include "prowl/model/link_tree.hpp"
 #include "prowl/model/robot_model.hpp"
+#include "prowl/model/urdf/link_tree.hpp"
 
 namespace prowl {
 

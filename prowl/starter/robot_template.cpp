@@ -8,7 +8,7 @@
 #include <set>
 
 #include "prowl/error.hpp"
-#include "prowl/io/toml_text.hpp"
+#include "prowl/task_file/toml/toml_text.hpp"
 
 namespace prowl {
 namespace {

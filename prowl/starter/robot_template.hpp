@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "prowl/io/package_path.hpp"
+#include "prowl/model/urdf/package_path.hpp"
 #include "prowl/starter/new_robot.hpp"
 
 namespace prowl {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "prowl/io/toml_text.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/starter/new_task.hpp"
+#include "prowl/task_file/toml/toml_text.hpp"
 
 namespace prowl {
 namespace {

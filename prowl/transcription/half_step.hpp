@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "prowl/transcription/defects.hpp"
+#include "prowl/transcription/base_defects.hpp"
 #include "prowl/transcription/rotation_product.hpp"
 
 namespace prowl {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "prowl/transcription/motion_limit.hpp"
+#include "prowl/transcription/node/motion_limit.hpp"
 #include "prowl/transcription/node_program.hpp"
 
 namespace prowl {

@@ -9,7 +9,7 @@
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 #include "prowl/transcription/decision_layout.hpp"
-#include "prowl/transcription/node_functions.hpp"
+#include "prowl/transcription/node/node_functions.hpp"
 #include "prowl/transcription/transcription_bounds.hpp"
 
 namespace prowl {

@@ -1,7 +1,7 @@
 #include "prowl/transcription/phase_setup.hpp"
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/transcription/independent_contacts.hpp"
+#include "prowl/transcription/node/independent_contacts.hpp"
 
 namespace prowl {
 

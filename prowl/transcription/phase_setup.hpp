@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "prowl/trajectory/trajectory.hpp"
-#include "prowl/transcription/node_functions.hpp"
+#include "prowl/transcription/node/node_functions.hpp"
 
 namespace prowl {
 

@@ -5,7 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
-#include "prowl/io/summary.hpp"
+#include "screen/plan_summary.hpp"
 
 namespace prowl::python {
 

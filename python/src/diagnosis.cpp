@@ -9,10 +9,10 @@
 
 #include "bindings.hpp"
 #include "prowl/error.hpp"
-#include "prowl/io/diagnosis_report.hpp"
-#include "prowl/io/task_file.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "screen/diagnosis_text.hpp"
 #include "signals.hpp"
 
 namespace nb = nanobind;

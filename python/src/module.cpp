@@ -3,14 +3,14 @@
 #include <nanobind/stl/string.h>
 
 #include "bindings.hpp"
-#include "environment.hpp"
+#include "prowl/session/environment.hpp"
 
 NB_MODULE(_prowl, module) {
   using namespace prowl::python;
   module.doc() = "Prowl's library as seen from Python; use it through the package prowl.";
   bind_errors(module);
-  prowl::cli::check_processor();
-  prowl::cli::check_libraries();
+  prowl::check_processor();
+  prowl::check_libraries();
   bind_robot(module);
   bind_task(module);
   bind_certificate(module);
@@ -22,6 +22,6 @@ NB_MODULE(_prowl, module) {
   bind_diagnosis(module);
   bind_dynamics(module);
   bind_program(module);
-  module.def("versions", &prowl::cli::versions, "Versions of Prowl and of what it uses.");
+  module.def("versions", &prowl::versions, "Versions of Prowl and of what it uses.");
   module.attr("__version__") = PROWL_VERSION;
 }

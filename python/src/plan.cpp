@@ -7,12 +7,12 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
-#include "environment.hpp"
+#include "module_files.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
-#include "prowl/io/summary.hpp"
-#include "prowl/io/trajectory_csv.hpp"
+#include "prowl/plan_folder/trajectory_csv.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
+#include "screen/plan_summary.hpp"
 
 namespace prowl::python {
 namespace {
@@ -25,7 +25,7 @@ std::shared_ptr<const Tracker> make_tracker(const PlanRecord& record,
 }
 
 std::shared_ptr<PlanObject> read(const std::filesystem::path& directory, const std::vector<std::string>& package_dirs) {
-  return std::make_shared<PlanObject>(read_plan(directory, cli::package_search(package_dirs)), directory);
+  return std::make_shared<PlanObject>(read_plan(directory, package_search(package_dirs)), directory);
 }
 
 void write(const PlanObject& plan, const std::filesystem::path& directory, std::optional<double> step) {

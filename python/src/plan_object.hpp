@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "motion.hpp"
-#include "prowl/io/plan_directory.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
 #include "prowl/tracker/tracker.hpp"
 
 namespace prowl::python {

@@ -6,14 +6,14 @@
 #include <mutex>
 #include <type_traits>
 
+#include "alternatives/guess_choice.hpp"
+#include "alternatives/run_formulation.hpp"
 #include "bindings.hpp"
 #include "motion.hpp"
 #include "prowl/error.hpp"
-#include "prowl/formulations/guess.hpp"
-#include "prowl/formulations/run_formulation.hpp"
-#include "prowl/io/task_file.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/nlp/dual_violation.hpp"
+#include "prowl/task_file/task_file.hpp"
 
 namespace prowl::python {
 namespace {

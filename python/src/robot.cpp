@@ -6,11 +6,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "environment.hpp"
-#include "prowl/io/robot_file.hpp"
-#include "prowl/io/robot_summary.hpp"
+#include "module_files.hpp"
 #include "prowl/model/robot_inspection.hpp"
 #include "prowl/model/robot_model.hpp"
+#include "prowl/task_file/robot_file.hpp"
+#include "screen/robot_summary.hpp"
 
 namespace prowl::python {
 namespace {
@@ -18,12 +18,11 @@ namespace {
 using Folders = std::vector<std::string>;
 
 RobotModel read_robot(const std::filesystem::path& path, const Folders& package_dirs) {
-  return load_robot(read_text_file(path), cli::package_search(package_dirs), {.needs_contacts = false});
+  return load_robot(read_text_file(path), package_search(package_dirs), {.needs_contacts = false});
 }
 
 RobotModel parse_robot(const std::string& text, const std::filesystem::path& path, const Folders& package_dirs) {
-  return load_robot({std::filesystem::absolute(path), text}, cli::package_search(package_dirs),
-                    {.needs_contacts = false});
+  return load_robot({std::filesystem::absolute(path), text}, package_search(package_dirs), {.needs_contacts = false});
 }
 
 using Numbers = std::array<double, 3>;

@@ -11,7 +11,7 @@
 #include "bindings.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
-#include "prowl/io/simulation_files.hpp"
+#include "prowl/plan_folder/simulation_files.hpp"
 #include "signals.hpp"
 
 namespace prowl::python {

@@ -4,15 +4,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <algorithm>
-
 #include "bindings.hpp"
-#include "environment.hpp"
 #include "interrupted.hpp"
 #include "plan_object.hpp"
-#include "prowl/error.hpp"
-#include "prowl/io/warm_start.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/session/plan_task.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "signals.hpp"
 
@@ -30,88 +25,54 @@ class Observer : public Stop {
  public:
   explicit Observer(nb::object callback) : callback_(std::move(callback)) {}
 
-  void begin_level(int intervals) {
-    progress_.intervals = intervals;
-    ++level_;
+  void watch(PlanRequest& request) {
+    request.interrupt = &stop();
+    request.on_mesh = [this](int intervals) { progress_.intervals = intervals; };
+    request.on_iteration = [this](const SolveProgress& solve) {
+      progress_.solve = solve;
+      ask([this] {
+        if (!callback_.is_none()) callback_(progress_);
+      });
+    };
+    constexpr int kSamples = 20;  // between two looks for Ctrl-C: about 10 ms
+    request.on_gain = [this, calls = 0](int, int) mutable {
+      if (calls++ % kSamples == 0) ask([] {});
+      return !stop();
+    };
   }
-  void operator()(const SolveProgress& solve) {
-    iterations_.push_back({std::max(level_, 0), solve});
-    progress_.solve = solve;
-    ask([this] {
-      if (!callback_.is_none()) callback_(progress_);
-    });
-  }
-  const std::vector<MeshIteration>& iterations() const { return iterations_; }
 
  private:
   nb::object callback_;
   Progress progress_;
-  int level_ = -1;
-  std::vector<MeshIteration> iterations_;
 };
 
-/// Gains for a plan that is good. "" or why there are none: the plan is as good without.
-std::string add_feedback(PlanRecord& record, Observer& observer) {
-  if (!is_good(record.plan)) return "";
-  constexpr int kSamples = 20;  // between two looks for Ctrl-C: about 10 ms
-  SignalCheck check(kSamples);
-  try {
-    record.feedback = design_feedback(record.task.problem, record.plan.trajectory, record.task.tracking,
-                                      [&check](const ReducedSample&) { check(); });
-  } catch (const NumericalError& error) {
-    return error.what();
-  } catch (nb::python_error& error) {
-    observer.keep(std::move(error));
-  }
-  return "";
-}
-
-nb::object solve(const Task& task, const std::string& solver_name, int threads, bool coarse_first,
+nb::object solve(const Task& task, const std::string& solver, int threads, bool coarse_first,
                  const PlanObject* start_from, bool gains, nb::object on_iteration) {
-  constexpr int kMostThreads = 256;
-  if (threads < 1 || threads > kMostThreads)
-    throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", threads, kMostThreads));
-  if (solver_name == "fatrop" && threads > 1) {
-    throw InputError("threads: Fatrop evaluates one stage at a time; need 1, or another solver");
-  }
-  const std::unique_ptr<NlpSolver> solver = make_solver(solver_name);
-  const IpoptSolver hint_solver;
+  PlanRequest request{.solver = solver, .threads = threads, .coarse_first = coarse_first, .gains = gains};
   Observer observer(std::move(on_iteration));
-  PlanOptions options{.solver = task.solver};
-  options.solver.on_iteration = [&observer](const SolveProgress& progress) { observer(progress); };
-  options.solver.interrupt = &observer.stop();
-  options.solver.threads = threads;
-  options.on_level = [&observer](int intervals) { observer.begin_level(intervals); };
-  options.hint_solver = &hint_solver;
-  options.coarse_first = coarse_first;
-
+  observer.watch(request);
+  if (start_from) {
+    const bool is_solution = start_from->record.plan.result.status == SolveStatus::converged;
+    request.start = {.record = &start_from->record,
+                     .resume = !is_solution,  // an iterate is no solution to stay near
+                     .folder = start_from->read_from ? start_from->read_from->string() : ""};
+  }
   std::shared_ptr<PlanObject> plan;
-  std::string note;
+  std::string why_no_gains;
   {
     const nb::gil_scoped_release others_may_run;
-    const DiscreteProblem asked(task.problem, task.mesh);
-    if (start_from) {
-      options.start_from = warm_start(start_from->record, asked);
-      options.resume =
-          start_from->record.plan.result.status != SolveStatus::converged;  // an iterate is no solution to stay near
-    }
-    Plan found = make_plan(asked, *solver, options);
-    PlanRecord record{.task = task,
-                      .plan = std::move(found),
-                      .versions = cli::versions(),
-                      .feedback = {},
-                      .iterations = observer.iterations(),
-                      .warm_start = start_from && start_from->read_from ? start_from->read_from->string() : ""};
-    if (gains && !observer.stop()) note = add_feedback(record, observer);
-    plan = std::make_shared<PlanObject>(std::move(record));
+    PlannedTask planned = plan_task(task, request);
+    why_no_gains = std::move(planned.why_no_gains);
+    plan = std::make_shared<PlanObject>(std::move(planned.record));
   }
   const nb::object result = nb::cast(plan);
   if (auto& error = observer.error()) {
     if (error->matches(PyExc_KeyboardInterrupt)) raise_interrupted(result);
     throw std::move(*error);
   }
-  if (!note.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, ("no gains: " + note).c_str(), 2) != 0)
+  if (!why_no_gains.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, ("no gains: " + why_no_gains).c_str(), 2) != 0) {
     throw nb::python_error();
+  }
   return result;
 }
 

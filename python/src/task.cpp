@@ -6,9 +6,9 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
-#include "environment.hpp"
-#include "prowl/io/phase_table.hpp"
-#include "prowl/io/task_file.hpp"
+#include "module_files.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "screen/phase_table.hpp"
 
 namespace prowl::python {
 namespace {
@@ -38,13 +38,13 @@ using Folders = std::vector<std::string>;
 
 Task read_task(const std::filesystem::path& path, const Folders& package_dirs, std::optional<int> intervals,
                std::optional<int> max_iterations, std::optional<double> max_time, std::optional<double> tolerance) {
-  return read_task_file(path, cli::package_search(package_dirs), {intervals, max_iterations, max_time, tolerance});
+  return read_task_file(path, package_search(package_dirs), {intervals, max_iterations, max_time, tolerance});
 }
 
 Task parse_task_text(const std::string& text, const std::filesystem::path& path, const Folders& package_dirs,
                      std::optional<int> intervals, std::optional<int> max_iterations, std::optional<double> max_time,
                      std::optional<double> tolerance) {
-  return read_task_text({std::filesystem::absolute(path), text}, cli::package_search(package_dirs),
+  return read_task_text({std::filesystem::absolute(path), text}, package_search(package_dirs),
                         {intervals, max_iterations, max_time, tolerance});
 }
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks who includes whom under prowl/: the table of docs/architecture.md.
+"""Checks who includes whom: the table of docs/architecture.md.
 
 Usage: check_includes.py SOURCE_DIR [INTERNAL_HEADER...]. Prints one line for each include that is not allowed; exit
 status 1 if there is one. Internal headers are those that show a library of the table below, by themselves or through
@@ -10,81 +10,276 @@ import re
 import sys
 from pathlib import Path
 
-# layer: the layers below it that it may include; itself and prowl/error.hpp it always may.
+# Folder: the folders that it may include, besides itself. A folder in one of these is part of it.
+# prowl/error.hpp is for all but the tracker.
 ALLOWED = {
-    "model": set(),
-    "dynamics": {"model"},
-    "motion": {"model", "dynamics"},
-    "nlp": set(),
-    "solvers": {"nlp"},
-    # Of dynamics neither: the certificate must not share the projection with the planner.
-    "trajectory": {"model", "motion"},
-    "transcription": {"model", "dynamics", "motion", "trajectory", "nlp"},
-    "formulations": {"model", "dynamics", "motion", "trajectory", "nlp", "transcription"},
-    "feasibility": {"model", "dynamics", "motion", "trajectory", "nlp"},
-    "tracker": set(),  # nor prowl/error.hpp: it goes on the robot
-    "tracking": {"model", "dynamics", "motion", "trajectory", "tracker"},
-    "estimation": {"model", "dynamics"},
-    # Of dynamics nothing: an independent judge.
-    "simulation": {"model", "motion", "trajectory", "tracker", "estimation"},
-    # After prowl/plan, which it solves with.
-    "diagnosis": {".", "model", "dynamics", "motion", "trajectory", "nlp", "transcription", "feasibility"},
-    "io": None,  # what it needs
-    "starter": {"model", "dynamics", "motion", "io"},
-    ".": None,  # prowl/plan
+    # The planner, in the order in which a plan goes through it. Each line may include lines above it only.
+    "prowl/text": [],
+    "prowl/files": ["prowl/text"],
+    "prowl/model": ["prowl/text"],
+    "prowl/dynamics": ["prowl/model"],
+    "prowl/motion": ["prowl/model", "prowl/dynamics"],
+    "prowl/trajectory": ["prowl/model"],
+    "prowl/nlp": [],  # knows no robots
+    "prowl/mesh": ["prowl/model", "prowl/motion", "prowl/trajectory", "prowl/nlp"],
+    "prowl/guess": ["prowl/model", "prowl/dynamics", "prowl/motion", "prowl/trajectory", "prowl/mesh"],
+    "prowl/transcription": [
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/mesh",
+    ],
+    "prowl/solvers": ["prowl/nlp"],
+    "prowl/feasibility": [
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/mesh",
+    ],
+    # Of dynamics and transcription nothing: the certificate reaches its verdict by another path.
+    "prowl/certificate": ["prowl/model", "prowl/motion", "prowl/trajectory", "prowl/mesh"],
+    # plan.cpp, refine.cpp: the flow.
+    "prowl": [
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/mesh",
+        "prowl/guess",
+        "prowl/transcription",
+        "prowl/feasibility",
+        "prowl/certificate",
+    ],
+    "prowl/tracker": [],  # nor prowl/error.hpp: it goes on the robot
+    "prowl/tracking": ["prowl/model", "prowl/dynamics", "prowl/motion", "prowl/trajectory", "prowl/tracker"],
+    "prowl/estimation": ["prowl/model", "prowl/dynamics"],
+    # Of dynamics nothing: an independent judge. What runs on board the robot, the estimator, may use them.
+    "prowl/simulation": ["prowl/model", "prowl/motion", "prowl/trajectory", "prowl/tracker", "prowl/estimation"],
+    "prowl/diagnosis": [
+        "prowl",
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/mesh",
+        "prowl/guess",
+        "prowl/transcription",
+        "prowl/feasibility",
+        "prowl/certificate",
+    ],
+    # Files in, plans out.
+    "prowl/task_file": [
+        "prowl/text",
+        "prowl/files",
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/mesh",
+        "prowl/nlp",
+        "prowl/tracking",
+        "prowl/simulation",
+    ],
+    "prowl/session": [
+        "prowl",
+        "prowl/model",
+        "prowl/mesh",
+        "prowl/nlp",
+        "prowl/solvers",
+        "prowl/tracking",
+        "prowl/simulation",
+        "prowl/task_file",
+    ],
+    "prowl/plan_folder": [
+        "prowl",
+        "prowl/text",
+        "prowl/files",
+        "prowl/model",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/mesh",
+        "prowl/tracker",
+        "prowl/tracking",
+        "prowl/simulation",
+        "prowl/task_file",
+        "prowl/session",
+    ],
+    "prowl/report_page": [
+        "prowl/files",
+        "prowl/model",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/solvers",
+        "prowl/tracker",
+        "prowl/session",
+        "prowl/plan_folder",
+    ],
+    "prowl/starter": ["prowl/text", "prowl/files", "prowl/model", "prowl/dynamics", "prowl/task_file"],
+    # Beside the planner.
+    "alternatives": [
+        "prowl/files",
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/mesh",
+        "prowl/guess",
+        "prowl/transcription",
+        "prowl/certificate",
+    ],
+    "screen": [
+        "prowl/files",
+        "prowl/model",
+        "prowl/mesh",
+        "prowl/diagnosis",
+        "prowl/simulation",
+        "prowl/tracking",
+        "prowl/task_file",
+        "prowl/session",
+        "prowl/plan_folder",
+    ],
+    # The front ends.
+    "cli/process": ["cli", "prowl/session"],
+    "cli/screen": ["cli", "cli/process", "prowl/text", "prowl/files", "prowl/nlp", "prowl/session"],
+    "cli/options": [
+        "cli/screen",
+        "prowl",
+        "prowl/files",
+        "prowl/mesh",
+        "prowl/transcription",
+        "prowl/task_file",
+        "prowl/session",
+        "prowl/plan_folder",
+    ],
+    "cli/verbs": [
+        "cli",
+        "cli/process",
+        "cli/screen",
+        "cli/options",
+        "prowl",
+        "prowl/files",
+        "prowl/model",
+        "prowl/motion",
+        "prowl/guess",
+        "prowl/solvers",
+        "prowl/feasibility",
+        "prowl/tracker",
+        "prowl/tracking",
+        "prowl/simulation",
+        "prowl/diagnosis",
+        "prowl/task_file",
+        "prowl/session",
+        "prowl/plan_folder",
+        "prowl/report_page",
+        "prowl/starter",
+        "alternatives",
+        "screen",
+    ],
+    "cli": ["cli/process", "cli/screen", "cli/verbs", "prowl", "prowl/text", "prowl/solvers", "prowl/session"],
+    "python/src": [
+        "prowl",
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/solvers",
+        "prowl/certificate",
+        "prowl/tracker",
+        "prowl/tracking",
+        "prowl/simulation",
+        "prowl/diagnosis",
+        "prowl/task_file",
+        "prowl/session",
+        "prowl/plan_folder",
+        "alternatives",
+        "screen",
+    ],
 }
+# Of these the files alone: each of their folders has a line of its own.
+WITHOUT_FOLDERS = ["prowl", "cli"]
+ROOTS = ["prowl", "alternatives", "screen", "cli", "python/src"]
 
-# Library, by a pattern of its headers: where it may be included.
+# Library, by a pattern of its headers: the folders, or files, that may include it.
 LIBRARIES = {
-    "Pinocchio": (r"pinocchio/", {"model", "dynamics", "trajectory"}),
-    "Ipopt": (r"Ip[A-Z]\w*\.(hpp|h)|IpoptConfig\.h|coin-or/", {"solvers"}),
-    "Fatrop": (r"fatrop/|blasfeo", {"solvers"}),
-    "Uno": (r"uno/", {"solvers"}),
-    "toml++": (r"toml\+\+/|toml\.hpp", {"io"}),
-    "nlohmann": (r"nlohmann/", {"io"}),
-    "tinyxml2": (r"tinyxml2\.h", {"model", "io"}),
-    "MuJoCo": (r"mujoco/", {"simulation"}),
-    "urdfdom": (r"urdf_parser/|urdf_model/|console_bridge/", {"model"}),
-    "Assimp": (r"assimp/", {"io"}),
-    "meshoptimizer": (r"meshoptimizer\.h", {"io"}),
-    "CLI11": (r"CLI/", set()),
+    "Pinocchio": (r"pinocchio/", ["prowl/model", "prowl/dynamics", "prowl/certificate"]),
+    "Ipopt": (r"Ip[A-Z]\w*\.(hpp|h)|IpoptConfig\.h|coin-or/", ["prowl/solvers/foreign/ipopt_solver.cpp"]),
+    "Fatrop": (r"fatrop/|blasfeo", ["prowl/solvers/foreign/fatrop_solver.cpp"]),
+    "Uno": (r"uno/", ["prowl/solvers/foreign/uno_solver.cpp"]),
+    "MuJoCo": (r"mujoco/", ["prowl/simulation/mujoco_model.hpp"]),
+    "toml++": (r"toml\+\+/|toml\.hpp", ["prowl/task_file"]),
+    "nlohmann": (
+        r"nlohmann/",
+        ["prowl/files", "prowl/plan_folder", "prowl/report_page", "alternatives", "screen", "cli"],
+    ),
+    "tinyxml2": (r"tinyxml2\.h", ["prowl/model/urdf", "prowl/plan_folder"]),
+    "urdfdom": (r"urdf_parser/|urdf_model/|console_bridge/", ["prowl/model/urdf"]),
+    "Assimp": (r"assimp/", ["prowl/files/visual_mesh.cpp"]),
+    "meshoptimizer": (r"meshoptimizer\.h", ["prowl/files/visual_mesh.cpp"]),
+    "CLI11": (r"CLI/", ["cli"]),
+    "nanobind": (r"nanobind/", ["python/src"]),
 }
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 
-def layer_of(path):
-    parts = Path(path).parts  # prowl, layer, file
-    return parts[1] if len(parts) > 2 else "."
+def folder_of(path):
+    """The folder of the table that a file belongs to: the nearest one above it. None if there is none."""
+    own = Path(path).parent.as_posix()
+    for folder in Path(path).parents:
+        name = folder.as_posix()
+        if name in ALLOWED:
+            return name if name == own or name not in WITHOUT_FOLDERS else None
+    return None
+
+
+def is_in(path, places):
+    """Whether the file is one of these, or in one of these folders."""
+    return any(path == place or path.startswith(place + "/") for place in places)
 
 
 def violations(root, internal_headers=()):
-    """One line for each include under root/prowl that the tables above do not allow."""
+    """One line for each include under the roots that the tables above do not allow."""
     files = {}
-    for path in sorted((root / "prowl").rglob("*")):
-        if path.suffix in (".hpp", ".cpp"):
-            files[path.relative_to(root).as_posix()] = INCLUDE.findall(path.read_text(encoding="utf-8"))
+    for top in ROOTS:
+        for path in sorted((root / top).rglob("*")):
+            if path.suffix in (".hpp", ".cpp"):
+                files[path.relative_to(root).as_posix()] = INCLUDE.findall(path.read_text(encoding="utf-8"))
     if not files:
-        return [f"{root}/prowl: no source files, nothing was checked"]
-    found = []
+        return [f"{root}: no source files, nothing was checked"]
+    found = circles()
     for name, includes in files.items():
-        if layer_of(name) not in ALLOWED:
-            found.append(f"{name}: layer {layer_of(name)} is not in the table")
+        folder = folder_of(name)
+        if folder is None:
+            found.append(f"{name}: its folder is not in the table")
             continue
-        for include in includes:
-            if not is_allowed(layer_of(name), include):
-                found.append(f"{name}: {include} is not for {layer_of(name)}")
-    return found + headers_that_show_libraries(files, internal_headers) + solvers_in_two_files(files)
+        found += [f"{name}: {include} is not for {folder}" for include in includes if not is_allowed(name, include)]
+    return found + headers_that_show_libraries(files, internal_headers)
 
 
-def is_allowed(layer, include):
-    if include.startswith("prowl/"):
-        allowed = ALLOWED[layer]
-        if include == "prowl/error.hpp":
-            return layer != "tracker"
-        return allowed is None or layer_of(include) in allowed | {layer}
+def circles():
+    """Folders that the table lets include each other, directly or through others, but for cli, whose main() starts all."""
+    below = {folder: set(others) - {"cli"} for folder, others in ALLOWED.items()}
+    for _ in ALLOWED:
+        for others in below.values():
+            others.update(*(below[other] for other in list(others)))
+    return [f"{folder}: the table lets it include itself through others" for folder in below if folder in below[folder]]
+
+
+def is_allowed(name, include):
+    folder = folder_of(name)
+    if include == "prowl/error.hpp":
+        return folder != "prowl/tracker"
     library = library_of(include)
-    return library is None or layer in LIBRARIES[library][1]
+    if library:
+        return is_in(name, LIBRARIES[library][1])
+    if not is_in(include, ROOTS):
+        return True  # the standard library, Eigen, Boost, fmt; a file beside it
+    return folder_of(include) in [folder, *ALLOWED[folder]]
 
 
 def library_of(include):
@@ -103,7 +298,8 @@ def headers_that_show_libraries(files, internal_headers):
                 return library
         return None
 
-    showing = {name: shown(name, set()) for name in files if name.endswith(".hpp")}
+    installed = [name for name in files if name.endswith(".hpp") and name.startswith("prowl/")]
+    showing = {name: shown(name, set()) for name in installed}
     found = [
         f"{name}: shows {library} and is not an internal header"
         for name, library in showing.items()
@@ -112,15 +308,6 @@ def headers_that_show_libraries(files, internal_headers):
     return found + [
         f"{name}: does not show a library, is no internal header" for name in internal_headers if not showing.get(name)
     ]
-
-
-def solvers_in_two_files(files):
-    found = []
-    for solver in ("Ipopt", "Fatrop", "Uno"):
-        users = [name for name, includes in files.items() if any(library_of(i) == solver for i in includes)]
-        if len(users) > 1:
-            found.append(f"{', '.join(users)}: {solver} is to be included in one file only")
-    return found
 
 
 if __name__ == "__main__":

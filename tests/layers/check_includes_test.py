@@ -4,6 +4,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import check_includes
 from check_includes import violations
 
 
@@ -13,88 +14,118 @@ class CheckIncludes(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
 
-    def found(self, internal=(), **includes):
-        """Violations of a tree with the given files: name with / as __, include as written after #include."""
-        for name, include in includes.items():
-            stem, suffix = name.rsplit("_", 1)
-            path = self.root / "prowl" / f"{stem.replace('__', '/')}.{suffix}"
+    def found(self, files, internal=()):
+        """Violations of a tree with these files, each with one include as written after #include."""
+        for name, include in files.items():
+            path = self.root / name
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(f"#pragma once\n\n#include {include}\n", encoding="utf-8")
         return violations(self.root, internal)
+
+    def expect_only_the_first_to_be_refused(self, cases):
+        for name, include in cases:
+            with self.subTest(name=name, include=include):
+                self.assertEqual(1, len(self.found({name: include})))
+                self.assertEqual([], self.found({name: "<vector>"}))
 
     def test_accepts_the_direction_of_the_layers(self):
         self.assertEqual(
             [],
             self.found(
+                {
+                    "prowl/model/robot.hpp": "<Eigen/Core>",
+                    "prowl/model/robot.cpp": '"prowl/model/pinocchio_model.hpp"',
+                    "prowl/model/pinocchio_model.hpp": "<pinocchio/multibody/model.hpp>",
+                    "prowl/model/urdf/outline.cpp": '"prowl/model/robot.hpp"',
+                    "prowl/dynamics/terms.cpp": "<pinocchio/algorithm/rnea.hpp>",
+                    "prowl/motion/cost.hpp": '"prowl/dynamics/terms.hpp"',
+                    "prowl/transcription/node/functions.cpp": '"prowl/nlp/nlp.hpp"',
+                    "prowl/solvers/foreign/ipopt_solver.cpp": "<IpTNLP.hpp>",
+                    "prowl/nlp/nlp.cpp": '"prowl/error.hpp"',
+                    "prowl/plan.cpp": '"prowl/mesh/mesh.hpp"',
+                    "prowl/session/plan_task.hpp": '"prowl/plan.hpp"',
+                    "screen/summary.cpp": '"prowl/session/plan_record.hpp"',
+                    "cli/verbs/plan_command.cpp": '"screen/summary.hpp"',
+                    "cli/main.cpp": '"cli/verbs/commands.hpp"',
+                    "python/src/task.cpp": '"prowl/task_file/task.hpp"',
+                },
                 internal=["prowl/model/pinocchio_model.hpp"],
-                model__robot_hpp="<Eigen/Core>",
-                model__robot_cpp='"prowl/model/pinocchio_model.hpp"',
-                model__pinocchio_model_hpp="<pinocchio/multibody/model.hpp>",
-                dynamics__terms_cpp="<pinocchio/algorithm/rnea.hpp>",
-                motion__cost_hpp='"prowl/dynamics/terms.hpp"',
-                transcription__defects_cpp='"prowl/nlp/nlp.hpp"',
-                solvers__ipopt_solver_cpp="<IpTNLP.hpp>",
-                nlp__nlp_cpp='"prowl/error.hpp"',
-                plan_cpp='"prowl/transcription/mesh.hpp"',
             ),
         )
 
     def test_refuses_each_step_against_it(self):
-        for name, include in [
-            ("model__robot_hpp", '"prowl/motion/cost.hpp"'),
-            ("nlp__nlp_hpp", '"prowl/model/robot.hpp"'),
-            ("motion__cost_cpp", '"prowl/nlp/nlp.hpp"'),
-            ("solvers__fatrop_solver_cpp", '"prowl/transcription/mesh.hpp"'),
-            ("trajectory__certificate_cpp", '"prowl/dynamics/projector.hpp"'),
-            ("transcription__defects_cpp", '"prowl/solvers/ipopt_solver.hpp"'),
-            ("simulation__rollout_cpp", '"prowl/dynamics/projector.hpp"'),
-            ("dynamics__projector_hpp", '"prowl/plan.hpp"'),
-            ("tracker__tracker_cpp", '"prowl/model/so3.hpp"'),
-            ("tracker__tracker_hpp", '"prowl/error.hpp"'),
-        ]:
-            with self.subTest(include=include):
-                self.assertEqual(1, len(self.found(**{name: include})))
-                self.assertEqual([], self.found(**{name: "<vector>"}))
+        self.expect_only_the_first_to_be_refused(
+            [
+                ("prowl/model/robot.hpp", '"prowl/motion/cost.hpp"'),
+                ("prowl/model/urdf/outline.hpp", '"prowl/motion/cost.hpp"'),
+                ("prowl/nlp/nlp.hpp", '"prowl/model/robot.hpp"'),
+                ("prowl/motion/cost.cpp", '"prowl/mesh/mesh.hpp"'),
+                ("prowl/solvers/foreign/fatrop_solver.cpp", '"prowl/mesh/mesh.hpp"'),
+                ("prowl/certificate/certificate.cpp", '"prowl/dynamics/projector.hpp"'),
+                ("prowl/certificate/certificate.cpp", '"prowl/transcription/defects.hpp"'),
+                ("prowl/transcription/defects.cpp", '"prowl/solvers/make_solver.hpp"'),
+                ("prowl/simulation/physics.cpp", '"prowl/dynamics/projector.hpp"'),
+                ("prowl/dynamics/projector.hpp", '"prowl/plan.hpp"'),
+                ("prowl/task_file/task.hpp", '"prowl/plan.hpp"'),
+                ("prowl/session/plan_task.cpp", '"prowl/plan_folder/plan_folder.hpp"'),
+                ("prowl/plan_folder/plan_folder.cpp", '"prowl/report_page/report_file.hpp"'),
+                ("prowl/plan.cpp", '"alternatives/formulation.hpp"'),
+                ("prowl/plan.cpp", '"screen/summary.hpp"'),
+                ("screen/summary.cpp", '"cli/screen/output.hpp"'),
+                ("cli/process/interrupt.cpp", '"cli/screen/output.hpp"'),
+                ("python/src/task.cpp", '"cli/screen/output.hpp"'),
+                ("prowl/tracker/tracker.cpp", '"prowl/model/so3.hpp"'),
+                ("prowl/tracker/tracker.hpp", '"prowl/error.hpp"'),
+            ]
+        )
 
     def test_refuses_libraries_where_they_do_not_belong(self):
-        for name, include in [
-            ("motion__cost_cpp", "<pinocchio/algorithm/rnea.hpp>"),
-            ("transcription__defects_cpp", "<IpIpoptApplication.hpp>"),
-            ("nlp__nlp_cpp", "<nlohmann/json.hpp>"),
-            ("model__robot_cpp", "<toml++/toml.h>"),
-        ]:
-            with self.subTest(include=include):
-                self.assertEqual(1, len(self.found(**{name: include})))
-                self.assertEqual([], self.found(**{name: "<vector>"}))
+        self.expect_only_the_first_to_be_refused(
+            [
+                ("prowl/motion/cost.cpp", "<pinocchio/algorithm/rnea.hpp>"),
+                ("prowl/transcription/defects.cpp", "<IpIpoptApplication.hpp>"),
+                ("prowl/solvers/riccati/riccati_solver.cpp", "<IpTNLP.hpp>"),
+                ("prowl/solvers/foreign/other_solver.cpp", "<IpoptConfig.h>"),
+                ("prowl/nlp/nlp.cpp", "<nlohmann/json.hpp>"),
+                ("prowl/model/robot.cpp", "<toml++/toml.h>"),
+                ("prowl/session/plan_task.cpp", "<CLI/CLI.hpp>"),
+                ("cli/main.cpp", "<nanobind/nanobind.h>"),
+            ]
+        )
 
     def test_refuses_public_headers_that_show_a_library(self):
-        for name, include in [
-            ("model__robot_hpp", "<pinocchio/multibody/model.hpp>"),
-            ("solvers__ipopt_solver_hpp", "<IpTNLP.hpp>"),
-            ("io__task_file_hpp", "<toml++/toml.h>"),
-            ("io__plan_json_hpp", "<nlohmann/json.hpp>"),
-        ]:
-            with self.subTest(include=include):
-                self.assertEqual(1, len(self.found(**{name: include})))
-                self.assertEqual([], self.found(**{name: "<vector>"}))
+        self.expect_only_the_first_to_be_refused(
+            [
+                ("prowl/model/robot.hpp", "<pinocchio/multibody/model.hpp>"),
+                ("prowl/task_file/task_file.hpp", "<toml++/toml.h>"),
+                ("prowl/plan_folder/plan_json.hpp", "<nlohmann/json.hpp>"),
+            ]
+        )
 
     def test_refuses_public_headers_that_show_a_library_through_another(self):
         hidden = {
-            "model__hidden_hpp": "<pinocchio/multibody/model.hpp>",
-            "model__hidden_cpp": '"prowl/model/hidden.hpp"',
+            "prowl/model/hidden.hpp": "<pinocchio/multibody/model.hpp>",
+            "prowl/model/hidden.cpp": '"prowl/model/hidden.hpp"',
         }
         internal = ["prowl/model/hidden.hpp"]
-        self.assertEqual([], self.found(internal, **hidden))
-        self.assertEqual(1, len(self.found(internal, **hidden, dynamics__terms_hpp='"prowl/model/hidden.hpp"')))
+        self.assertEqual([], self.found(hidden, internal))
+        shows = {"prowl/dynamics/terms.hpp": '"prowl/model/hidden.hpp"'}
+        self.assertEqual(1, len(self.found(hidden | shows, internal)))
 
     def test_refuses_an_internal_header_that_hides_nothing(self):
-        self.assertEqual(1, len(self.found(["prowl/model/robot.hpp"], model__robot_hpp="<Eigen/Core>")))
+        self.assertEqual(1, len(self.found({"prowl/model/robot.hpp": "<Eigen/Core>"}, ["prowl/model/robot.hpp"])))
 
-    def test_refuses_a_second_file_with_ipopt(self):
-        self.assertEqual(1, len(self.found(solvers__a_cpp="<IpTNLP.hpp>", solvers__b_cpp="<IpoptConfig.h>")))
+    def test_refuses_a_folder_it_does_not_know(self):
+        self.assertEqual(
+            1, len(self.found({"python/src/task.cpp": "<vector>", "prowl/helpers/vector.hpp": "<vector>"}))
+        )
 
-    def test_refuses_a_layer_it_does_not_know(self):
-        self.assertEqual(1, len(self.found(helpers__vector_hpp="<vector>")))
+    def test_refuses_a_table_with_a_circle(self):
+        self.assertEqual([], check_includes.circles())
+        motion = check_includes.ALLOWED["prowl/motion"]
+        motion.append("prowl/mesh")
+        self.addCleanup(motion.remove, "prowl/mesh")
+        self.assertTrue(check_includes.circles())
 
     def test_does_not_pass_on_an_empty_tree(self):
         self.assertEqual(1, len(violations(self.root)))

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "alternatives/collocation/collocation.hpp"
+#include "alternatives/collocation/graph/rate_function.hpp"
+
+namespace prowl {
+
+/// What holds at one node.
+struct Collocation::NodePiece {
+  ProgramPiece piece;
+  PointFunction* dynamics = nullptr;
+  ProgramGraph::Vector acceleration = {};
+  Eigen::MatrixXd hessian = {};
+  std::vector<HessianPlace> places = {};
+};
+
+/// What holds over one interval. Accelerations at its ends, where they are functions, are those of the node pieces.
+struct Collocation::IntervalPiece {
+  ProgramPiece piece;
+  struct Link {
+    ProgramGraph::Vector here, there;
+    int node = 0;
+    std::vector<int> columns;  ///< local of this piece for each local of the node's
+  };
+  std::vector<Link> links = {};
+  Eigen::MatrixXd hessian = {};
+  std::vector<HessianPlace> places = {};
+};
+
+}  // namespace prowl

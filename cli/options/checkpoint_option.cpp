@@ -1,0 +1,84 @@
+#include "cli/options/checkpoint_option.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/options/shared_options.hpp"
+#include "cli/screen/output.hpp"
+#include "prowl/error.hpp"
+#include "prowl/files/atomic_folder.hpp"
+#include "prowl/mesh/mesh_levels.hpp"
+#include "prowl/session/environment.hpp"
+
+namespace prowl::cli {
+
+namespace fs = std::filesystem;
+
+void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
+  CLI::Option* const folder = add_folder(verb, "--checkpoint", arguments.folder,
+                                         "Keep the best iterate in this folder while it solves, for --resume");
+  verb.add_option(
+          "--checkpoint-every", arguments.every,
+          fmt::format("Seconds between two that are written; default {:g}, 0: each that is better", arguments.every))
+      ->check(nonnegative_number())
+      ->type_name("S")
+      ->needs(folder);
+  add_folder(verb, "--resume", arguments.resume,
+             "Go on from this checkpoint, or from a plan that was not finished, of the same task");
+}
+
+namespace {
+
+bool is_in(const fs::path& path, const fs::path& folder) {
+  return std::ranges::mismatch(folder, path).in1 == folder.end();
+}
+
+}  // namespace
+
+PlanRecord read_resumable(const std::string& folder, const PackageSearch& search, const PlanRequest& request,
+                          Task& task) {
+  PlanRecord record = read_plan(folder, search);
+  std::vector<Mesh> meshes;
+  if (!request.refine) {
+    meshes = request.coarse_first ? mesh_levels(task.problem, task.mesh) : std::vector{task.mesh};
+  }
+  try {
+    check_resumable(record, task, meshes);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--resume {}: {}", folder, error.what()));
+  }
+  if (request.refine) task.mesh = record.plan.mesh;
+  return record;
+}
+
+std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& arguments, const std::filesystem::path& out,
+                                              const Task& task, PlanRequest& request) {
+  if (arguments.folder.empty()) return nullptr;
+  const fs::path folder = real_path(arguments.folder), plan_folder = real_path(out);
+  if (folder == plan_folder) {
+    throw InputError(fmt::format(
+        "--checkpoint {}: is where the plan goes, and may hold an earlier one; need another folder", arguments.folder));
+  }
+  if (is_in(folder, plan_folder) || is_in(plan_folder, folder)) {
+    throw InputError(
+        fmt::format("--checkpoint {}: the plan goes to {}, and each takes its folder's place as a whole; need a folder "
+                    "beside it",
+                    arguments.folder, out.string()));
+  }
+  if (holds_good_plan(folder)) {
+    throw InputError(fmt::format("--checkpoint {}: holds a plan that passed; need another folder", arguments.folder));
+  }
+  const bool is_resumed = !arguments.resume.empty() && real_path(arguments.resume) == folder;
+  PlanRecord so_far{.task = task, .plan = {}, .versions = versions(), .warm_start = request.start.folder};
+  if (is_resumed) so_far.plan = request.start.record->plan;
+  if (!is_resumed && fs::exists(folder / "plan.json")) {
+    print_note(fmt::format("replaces what is in {}; --resume would go on from it", arguments.folder));
+  }
+  auto checkpoint = std::make_unique<Checkpoint>(arguments.folder, arguments.every, std::move(so_far));
+  checkpoint->watch(request.on_iterate,
+                    [](const std::string& why) { print_note("no checkpoint, planning goes on: " + why); });
+  return checkpoint;
+}
+
+}  // namespace prowl::cli

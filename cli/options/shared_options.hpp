@@ -1,0 +1,30 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "prowl/task_file/task_file.hpp"
+#include "prowl/transcription/hessian_kind.hpp"
+
+namespace prowl::cli {
+
+// Options that several verbs have, in the same words.
+/// An option that names a folder, which "" is none.
+CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning);
+void add_plan_directory(CLI::App& verb, std::string& directory);  ///< the folder that prowl plan wrote; required
+void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
+void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet
+void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);  ///< --max-time, --max-iterations, --tolerance
+void add_hessian(CLI::App& verb, HessianKind& hessian);            ///< --hessian
+
+/// A finite number > 0, >= 0 or from one to another; CLI11's own checks let NaN through.
+CLI::Validator positive_number();
+CLI::Validator nonnegative_number();
+CLI::Validator number_between(double lower, double upper);
+CLI::Validator whole_number();  ///< of 64 bits; CLI11 takes -1, and what is larger, for the largest
+
+/// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.
+void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status);
+
+}  // namespace prowl::cli

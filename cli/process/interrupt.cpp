@@ -1,0 +1,47 @@
+#include "cli/process/interrupt.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+
+#include "cli/exit_status.hpp"
+
+namespace prowl::cli {
+namespace {
+
+std::atomic<bool> interrupted = false, hung_up = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+
+extern "C" void on_interrupt(int signal) {
+  if (signal == SIGHUP) hung_up = true;
+  if (interrupted.exchange(true)) {
+    if (signal == SIGHUP) return;  // a shell and the kernel may both send one
+    ::_exit(kInterrupted);
+  }
+  const int before = errno;  // of what is interrupted
+  constexpr char kNotice[] = "\nstopping as soon as what is running allows; once more to end at once\n";
+  [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kNotice, sizeof(kNotice) - 1);
+  errno = before;
+}
+
+}  // namespace
+
+bool is_terminal_gone() { return hung_up; }
+
+const std::atomic<bool>& catch_interrupts() {
+  struct sigaction action = {};
+  action.sa_handler = on_interrupt;
+  sigemptyset(&action.sa_mask);
+  action.sa_flags = SA_RESTART;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before = {};
+    sigaction(signal, nullptr, &before);
+    // nohup: go on without the terminal. A script's `prowl ... &`: Ctrl-C is for what runs before it.
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGPIPE, SIG_IGN);  // who no longer reads the progress has not asked to stop
+  return interrupted;
+}
+
+}  // namespace prowl::cli

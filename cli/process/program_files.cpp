@@ -1,0 +1,16 @@
+#include "cli/process/program_files.hpp"
+
+namespace prowl::cli {
+
+std::filesystem::path program_path() {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored);
+}
+
+std::filesystem::path share_folder() { return program_path().parent_path().parent_path() / "share/prowl"; }
+
+PackageSearch package_search(const std::vector<std::string>& package_dirs) {
+  return prowl::package_search(program_path(), package_dirs);
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/options/shared_options.hpp"
+#include "cli/process/interrupt.hpp"
+#include "cli/process/program_files.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/screen/json_result.hpp"
+#include "cli/screen/output.hpp"
+#include "cli/screen/wrap.hpp"
+#include "cli/verbs/commands.hpp"
+#include "prowl/diagnosis/diagnosis.hpp"
+#include "prowl/feasibility/plausibility.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "screen/diagnosis_text.hpp"
+
+namespace prowl::cli {
+namespace {
+
+struct DiagnoseArguments {
+  std::string task;
+  std::vector<std::string> package_dirs;
+  double max_seconds = DiagnosisOptions().max_seconds;
+  bool json = false;
+};
+
+ExitStatus exit_status(const Diagnosis& diagnosis) {
+  const bool was_planned = diagnosis.solvable && diagnosis.stopped_by.empty();
+  if (diagnosis.interrupted && !was_planned) return kInterrupted;
+  if (diagnosis.solvable) return diagnosis.certificate.passed ? kPassed : kCertificateFailed;
+  return diagnosis.is_undecided() ? kLimit : kNotSolved;
+}
+
+int run_diagnose(const DiagnoseArguments& arguments) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs));
+  const DiscreteProblem discrete(task.problem, task.mesh);
+  for (const std::string& line : implausibilities(task.problem, task.mesh)) print_note(line);
+  DiagnosisOptions options{.solver = task.solver, .max_seconds = arguments.max_seconds};
+  options.solver.interrupt = &interrupted;
+  options.on_step = [](const std::string& what) { print_progress(what + "\n"); };
+  const Diagnosis diagnosis = diagnose(discrete, *make_solver(solver_names().front()), IpoptSolver(), options);
+  const int status = exit_status(diagnosis);
+  if (arguments.json) {
+    print_json({.verb = "diagnose", .exit_status = status, .result = diagnosis_json(diagnosis, task.problem)});
+  } else {
+    print_result(wrap(diagnosis_text(diagnosis, task.problem)));
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_diagnose_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<DiagnoseArguments>();
+  CLI::App* const verb = app.add_subcommand("diagnose", "Find out why a task has no plan, and what would change that");
+  verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
+  verb->add_option("--max-time", arguments->max_seconds,
+                   fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
+      ->check(positive_number())
+      ->type_name("S");
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
+  set_footer(*verb,
+             {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
+             "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, whether or not a\n"
+             "cause was found; 6 time or iterations were up before that was known; 7 there is a plan, but its\n"
+             "certificate fails; 130 interrupted: what was found so far.");
+  verb->callback([arguments, &status] { status = run_diagnose(*arguments); });
+}
+
+}  // namespace prowl::cli

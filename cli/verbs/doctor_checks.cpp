@@ -1,0 +1,196 @@
+#include "cli/verbs/doctor_checks.hpp"
+
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "cli/process/process.hpp"
+#include "cli/process/program_files.hpp"
+#include "cli/process/python_script.hpp"
+#include "prowl/error.hpp"
+#include "prowl/session/environment.hpp"
+#include "prowl/solvers/foreign/fatrop_solver.hpp"
+
+namespace prowl::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using State = Finding::State;
+
+constexpr double kLeastMemory = 2.2;  // [GB], what one compiler takes for a file that includes Pinocchio
+constexpr double kBusy = 1.5;         // processes that want to run, per core
+
+/// The value of "name : value" in one of the kernel's tables; "" if it is not there.
+std::string kernel_value(const char* file, const std::string& name) {
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    if (!line.starts_with(name)) continue;
+    const std::size_t colon = line.find(':');
+    const std::size_t begin = colon == std::string::npos ? colon : line.find_first_not_of(" \t", colon + 1);
+    if (begin != std::string::npos) return line.substr(begin);
+  }
+  return "";
+}
+
+double memory(const std::string& name) {
+  return 1e-6 * std::strtod(kernel_value("/proc/meminfo", name).c_str(), nullptr);
+}  // [GB]
+
+/// Those that this process may use: a container or taskset leaves fewer than there are.
+int usable_cores() {
+  cpu_set_t set;
+  if (::sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
+  return static_cast<int>(std::thread::hardware_concurrency());
+}
+
+/// Processes that want to run, over the last minute.
+double load() {
+  double loads[1] = {0.0};
+  return ::getloadavg(loads, 1) == 1 ? loads[0] : 0.0;
+}
+
+/// A verb that is drawn or written by a script, and what the script needs.
+Finding check_script(const char* verb, const char* script_name, const char* libraries) {
+  const std::string python = default_python();
+  Finding finding{.area = "files", .name = verb, .text = python, .remedy = ""};
+  std::error_code ignored;
+  const fs::path script = share_folder() / script_name;
+  if (!fs::exists(script, ignored)) {
+    finding.state = State::missing;
+    finding.text = script.string() + " is not there";
+    finding.remedy = fmt::format("build or install again; prowl {} needs it", verb);
+    return finding;
+  }
+  int status = -1;
+  try {
+    status = run_program(
+        {python, "-c",
+         fmt::format("import importlib.util as u, sys; sys.exit(any(u.find_spec(m) is None for m in '{}'.split()))",
+                     libraries)},
+        [](const std::string&) {});
+  } catch (const InputError&) {  // it cannot be started
+  }
+  if (status != 0) {
+    finding.state = State::missing;
+    finding.text = python + (status < 0 ? " cannot be started" : fmt::format(" lacks one of: {}", libraries));
+    finding.remedy = fmt::format("scripts/setup makes one in .venv; or prowl {} --python PATH", verb);
+  }
+  return finding;
+}
+
+Finding check_page() {
+  const fs::path page = share_folder() / "report.html";
+  std::error_code ignored;
+  if (fs::exists(page, ignored)) return {.area = "files", .name = "report", .text = page.string(), .remedy = ""};
+  return {.area = "files",
+          .name = "report",
+          .state = State::missing,
+          .text = page.string() + " is not there",
+          .remedy = "scripts/setup builds it; prowl report needs it"};
+}
+
+Finding check_robots() {
+  Finding finding{.area = "files", .name = "robots", .text = {}, .remedy = ""};
+  try {
+    const fs::path urdf = resolve_uri("package://example-robot-data/robots/hyq_description/robots/hyq_no_sensors.urdf",
+                                      fs::path("."), {}, package_search({}));
+    finding.text = urdf.parent_path().parent_path().parent_path().string();
+  } catch (const InputError&) {
+    finding.state = State::missing;
+    finding.text = "no package example-robot-data: the URDFs of robots/*.toml are not found from here";
+    finding.remedy = "scripts/setup installs it in .venv; or pip install example-robot-data, and --package-dir FOLDER";
+    finding.status = kFiles;
+  }
+  return finding;
+}
+
+}  // namespace
+
+std::vector<Finding> check_build() {
+  std::vector<Finding> findings;
+  const bool optimised =
+      std::string(PROWL_BUILD_TYPE) == "Release" || std::string(PROWL_BUILD_TYPE) == "RelWithDebInfo";
+  findings.push_back(
+      {.area = "build",
+       .name = "prowl",
+       .state = optimised ? State::ok : State::slow,
+       .text = fmt::format("{}, build type {}", PROWL_VERSION, *PROWL_BUILD_TYPE == '\0' ? "none" : PROWL_BUILD_TYPE),
+       .remedy = optimised
+                     ? ""
+                     : "takes 10 times as long or more: cmake --preset release && cmake --build --preset release"});
+  const bool could_be_faster =
+      std::string(PROWL_SIMD) == "baseline" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  findings.push_back(
+      {.area = "build",
+       .name = "vector instructions",
+       .state = State::ok,
+       .text = std::string(PROWL_SIMD) +
+               (could_be_faster ? "; avx2 would run here, 10 to 25 % faster, with other last digits" : ""),
+       .remedy = could_be_faster ? "if wanted: cmake -DPROWL_SIMD=avx2" : ""});
+  for (const auto& [name, version] : versions()) {
+    if (name == "prowl" || name == "vector instructions") continue;
+    findings.push_back({.area = "build", .name = name, .text = version, .remedy = ""});
+    if (const auto reason = name == "MuJoCo" ? why_no_mujoco() : std::nullopt) {
+      findings.back().state = State::missing;
+      findings.back().text += ": " + *reason;
+      findings.back().remedy = "prowl simulate --engine rollout does without";
+    }
+  }
+  const std::string kernels = FatropSolver::linear_algebra();
+  findings.push_back(
+      {.area = "build",
+       .name = "BLASFEO",
+       .text =
+           kernels.empty()
+               ? "generic kernels: Fatrop's linear algebra takes about twice the time of AVX2 ones (docs/solvers.md)"
+               : "kernels for " + kernels,
+       .remedy = ""});
+  return findings;
+}
+
+std::vector<Finding> check_machine() {
+  std::vector<Finding> findings;
+  std::string features;
+  const auto add = [&features](bool has, const char* name) {
+    features += fmt::format(", {} {}", has ? "has" : "no", name);
+  };
+  add(__builtin_cpu_supports("avx2"), "AVX2");
+  add(__builtin_cpu_supports("fma"), "FMA");
+  add(__builtin_cpu_supports("avx512f"), "AVX-512");
+  const std::string model = kernel_value("/proc/cpuinfo", "model name");
+  findings.push_back(
+      {.area = "machine", .name = "processor", .text = (model.empty() ? "unknown" : model) + features, .remedy = ""});
+
+  const int cores = usable_cores();
+  const bool busy = load() > kBusy * cores;
+  findings.push_back({.area = "machine",
+                      .name = "cores",
+                      .state = busy ? State::slow : State::ok,
+                      .text = fmt::format("{}; {:.1f} processes want to run", cores, load()),
+                      .remedy = busy ? "others use this machine: times are longer than Prowl's own" : ""});
+
+  const double all = memory("MemTotal"), free = memory("MemAvailable");
+  const bool little = free < kLeastMemory;
+  findings.push_back(
+      {.area = "machine",
+       .name = "memory",
+       .state = little ? State::slow : State::ok,
+       .text = fmt::format("{:.1f} GB, {:.1f} GB of it free", all, free),
+       .remedy =
+           little
+               ? "enough to plan; a build takes 2.2 GB for a file, on disk if they are not there: close other programs"
+               : ""});
+  return findings;
+}
+
+std::vector<Finding> check_files() {
+  return {check_robots(), check_script("figures", "figures/draw.py", "numpy scipy matplotlib"),
+          check_script("export", "exports/write_mcap.py", "numpy mcap mcap_ros2"), check_page()};
+}
+
+}  // namespace prowl::cli

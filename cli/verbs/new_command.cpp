@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/options/shared_options.hpp"
+#include "cli/process/program_files.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/screen/json_result.hpp"
+#include "cli/screen/output.hpp"
+#include "cli/verbs/commands.hpp"
+#include "cli/verbs/new_file.hpp"
+#include "prowl/error.hpp"
+#include "prowl/files/json_text.hpp"
+#include "prowl/model/robot_inspection.hpp"
+#include "prowl/starter/new_task.hpp"
+#include "prowl/starter/robot_template.hpp"
+#include "prowl/task_file/robot_file.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "screen/robot_summary.hpp"
+
+namespace prowl::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewRobotArguments {
+  std::string urdf;
+  std::vector<std::string> package_dirs;
+  NewFileOptions file;
+  bool json = false;
+};
+
+/// "Talos v2" -> "talos_v2".
+std::string file_stem(const std::string& name) {
+  std::string stem;
+  for (const char c : name) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (std::isalnum(letter) != 0)
+      stem += static_cast<char>(std::tolower(letter));
+    else if (!stem.empty() && stem.back() != '_')
+      stem += '_';
+  }
+  while (stem.ends_with('_')) stem.pop_back();
+  return stem.empty() ? "robot" : stem;
+}
+
+fs::path urdf_path(const std::string& text, const PackageSearch& search) {
+  if (text.find("://") == std::string::npos) return text;
+  try {
+    return resolve_uri(text, fs::current_path() / "robot.toml", {}, search);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", text, error.what()));
+  }
+}
+
+int run_new_robot(const NewRobotArguments& arguments) {
+  const PackageSearch search = package_search(arguments.package_dirs);
+  if (!arguments.file.out.empty()) check_new_file(arguments.file.out, arguments.file.force);
+  const NewRobot robot = new_robot(urdf_path(arguments.urdf, search), search);
+  const fs::path out = arguments.file.out.empty() ? fs::path("robots") / (file_stem(robot.description.name) + ".toml")
+                                                  : fs::path(arguments.file.out);
+  check_new_file(out, arguments.file.force);
+  const std::string text = robot_template(robot, urdf_reference(robot.description, out, search), out);
+  // Read as `prowl robot` will read it: what cannot be read is not written.
+  const RobotModel model = load_robot({fs::absolute(out), text}, search);
+  const RobotInspection inspection = inspect(model);
+  write_new_file(out, text);
+  if (arguments.json) {
+    print_json({.verb = "new", .written = {out}, .result = robot_report_json(model, inspection)});
+    return kPassed;
+  }
+  std::string report =
+      fmt::format("{}: {:.1f} kg, {} legs, {} contacts, {}\nwritten to {}\n", model.name(), model.mass(),
+                  robot.search.legs.size(), model.contacts().size(),
+                  robot.posture.found ? fmt::format("standing with the base {:.3f} m up", robot.posture.height)
+                                      : "NO posture found that stands on them",
+                  out.string());
+  for (const RobotWarning& warning : inspection.warnings) report += fmt::format("warning: {}\n", warning.text);
+  print_result(report +
+               fmt::format("next: look at its guesses, then prowl robot {0} and prowl new task {0}\n", out.string()));
+  return kPassed;
+}
+
+void add_new_robot(CLI::App& verb, int& status) {
+  const auto arguments = std::make_shared<NewRobotArguments>();
+  CLI::App* const robot =
+      verb.add_subcommand("robot", "Write a robot file for a URDF: feet, posture and limits as far as it can tell");
+  robot->add_option("urdf", arguments->urdf, "URDF of a legged robot: a path, or package://NAME/PATH")
+      ->required()
+      ->type_name("URDF");
+  add_new_file(*robot, arguments->file, "robots/NAME.toml");
+  add_json(*robot, arguments->json);
+  add_package_dirs(*robot, arguments->package_dirs);
+  set_footer(*robot,
+             {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml"},
+             "0, 2 bad input and nothing is written, 4 files. What it guesses it says in comments.");
+  robot->callback([arguments, &status] { status = run_new_robot(*arguments); });
+}
+
+struct NewTaskArguments {
+  std::string robot;
+  std::string kind = "crouch";
+  std::vector<std::string> package_dirs;
+  NewFileOptions file;
+  bool json = false;
+};
+
+constexpr std::array kKinds = {NewTaskKind::hold, NewTaskKind::stand, NewTaskKind::crouch, NewTaskKind::step};
+
+int run_new_task(const NewTaskArguments& arguments) {
+  const fs::path robot_file = arguments.robot;
+  const fs::path out = arguments.file.out.empty() ? fs::path("tasks") / robot_file.stem() / (arguments.kind + ".toml")
+                                                  : fs::path(arguments.file.out);
+  check_new_file(out, arguments.file.force);
+  const PackageSearch search = package_search(arguments.package_dirs);
+  const RobotModel robot = load_robot(read_text_file(robot_file), search);
+  const auto kind =
+      std::find_if(kKinds.begin(), kKinds.end(), [&](NewTaskKind k) { return to_string(k) == arguments.kind; });
+  NewTask task;
+  try {
+    task = new_task(robot, *kind);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", robot_file.string(), error.what()));
+  }
+  const fs::path from = fs::absolute(out).lexically_normal().parent_path();
+  const fs::path reference = fs::absolute(robot_file).lexically_normal().lexically_relative(from);
+  const std::string text = task_template(task, robot, reference.generic_string());
+  read_task_text({fs::absolute(out), text}, search);  // what cannot be read is not written
+  write_new_file(out, text);
+  if (arguments.json) {
+    const nlohmann::json result = {{"robot", robot.name()}, {"kind", arguments.kind}};
+    print_json({.verb = "new", .written = {out}, .result = json_text(result)});
+    return kPassed;
+  }
+  print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}\n", robot.name(), arguments.kind, out.string(),
+                           out.string()));
+  return kPassed;
+}
+
+void add_new_task(CLI::App& verb, int& status) {
+  const auto arguments = std::make_shared<NewTaskArguments>();
+  CLI::App* const task = verb.add_subcommand("task", "Write a task file for a robot, in its size, that plans as it is");
+  task->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
+  std::vector<std::string> names;
+  for (const NewTaskKind kind : kKinds) names.push_back(to_string(kind));
+  task->add_option(
+          "--kind", arguments->kind,
+          "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step forward")
+      ->check(CLI::IsMember(names))
+      ->type_name("NAME");
+  add_new_file(*task, arguments->file, "tasks/ROBOT/KIND.toml");
+  add_json(*task, arguments->json);
+  add_package_dirs(*task, arguments->package_dirs);
+  set_footer(*task, {"prowl new task robots/go2.toml --kind step --out step.toml && prowl plan step.toml"},
+             "0, 2 bad input and nothing is written, 4 files.");
+  task->callback([arguments, &status] { status = run_new_task(*arguments); });
+}
+
+}  // namespace
+
+void add_new_command(CLI::App& app, int& status) {
+  CLI::App* const verb = app.add_subcommand("new", "Write a robot or task file to start from");
+  verb->require_subcommand(1);
+  set_footer(*verb,
+             {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml",
+              "prowl new task robots/go2.toml --kind step --out step.toml"},
+             "0, 2 bad input and nothing is written, 4 files. More with prowl new robot --help.");
+  add_new_robot(*verb, status);
+  add_new_task(*verb, status);
+}
+
+}  // namespace prowl::cli

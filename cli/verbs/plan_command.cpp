@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "cli/options/checkpoint_option.hpp"
+#include "cli/options/refine_option.hpp"
+#include "cli/options/shared_options.hpp"
+#include "cli/process/interrupt.hpp"
+#include "cli/process/program_files.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/screen/json_result.hpp"
+#include "cli/screen/output.hpp"
+#include "cli/screen/progress.hpp"
+#include "cli/screen/progress_bar.hpp"
+#include "cli/screen/wrap.hpp"
+#include "cli/verbs/commands.hpp"
+#include "prowl/error.hpp"
+#include "prowl/feasibility/plausibility.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/plan_folder/trajectory_csv.hpp"
+#include "prowl/report_page/report_file.hpp"
+#include "prowl/session/plan_task.hpp"
+#include "prowl/solvers/make_solver.hpp"
+#include "screen/phase_table.hpp"
+#include "screen/plan_brief.hpp"
+
+namespace prowl::cli {
+namespace {
+
+struct PlanArguments {
+  std::string task;
+  std::string out;
+  std::string warm_start;
+  PlanRequest request{.solver = solver_names().front()};
+  std::vector<std::string> package_dirs;
+  TaskOverrides overrides;
+  std::optional<double> step;  ///< [s]
+  CheckpointArguments checkpoint;
+  bool json = false;
+  bool print_phases = false;
+  bool report = false;
+};
+
+/// Those of its files that a new plan's folder has.
+std::vector<std::filesystem::path> files_of_plan(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  for (const char* name : {"plan.json", "trajectory.csv", "trajectory_uniform.csv", "tracker.bin", kReportFile}) {
+    if (std::filesystem::exists(directory / name)) files.push_back(directory / name);
+  }
+  return files;
+}
+
+int print_phases(const Task& task, bool json) {
+  const DiscreteProblem problem(task.problem, task.mesh);
+  if (json) {
+    print_json({.verb = "plan", .result = phases_json(problem)});
+  } else {
+    print_result(phase_table(problem));
+  }
+  return kPassed;
+}
+
+/// Throws InputError if the samples of --dt would fill the disk.
+void check_step(const Task& task, std::optional<double> step) {
+  double duration = 0.0;
+  for (const Phase& phase : task.problem.phases) duration += phase.duration.max;
+  if (step && duration / *step > kMostUniformSamples) {
+    throw InputError(fmt::format("--dt: {} s is too fine for a motion of {} s", *step, duration));
+  }
+}
+
+/// Reads the plan of --warm-start or --resume, if there is one, and says in the request to start from it.
+std::optional<PlanRecord> read_start(const PlanArguments& arguments, const PackageSearch& search, Task& task,
+                                     PlanRequest& request) {
+  std::optional<PlanRecord> start;
+  if (!arguments.warm_start.empty()) {
+    start = read_plan(arguments.warm_start, search);
+    request.start = {.folder = arguments.warm_start, .option = "--warm-start " + arguments.warm_start};
+  } else if (!arguments.checkpoint.resume.empty()) {
+    start = read_resumable(arguments.checkpoint.resume, search, request, task);
+    request.start = {.resume = true, .folder = arguments.checkpoint.resume};
+  }
+  return start;
+}
+
+/// What is left to say of a plan that is written.
+void advise(const PlanArguments& arguments, const PlannedTask& planned, int status, const std::filesystem::path& out) {
+  const bool may_go_on = !is_good(planned.record.plan) && (status == kLimit || status == kInterrupted);
+  const int reached = planned.record.plan.mesh.num_intervals(), wanted = planned.record.task.mesh.num_intervals();
+  if (may_go_on && !arguments.request.refine && reached < wanted) {
+    print_note(fmt::format("stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one",
+                           reached, wanted));
+  }
+  if (may_go_on) {
+    print_message(fmt::format("to go on from there: --resume {}{}, all else as before\n", out.string(),
+                              arguments.warm_start.empty() ? "" : " in place of --warm-start"));
+  }
+  if (status == kNotSolved || status == kLimit) {
+    print_message(fmt::format("why, and what would change that: prowl diagnose {}\n", arguments.task));
+  }
+}
+
+int run_plan(const PlanArguments& arguments) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  const PackageSearch search = package_search(arguments.package_dirs);
+  Task task = read_task_file(arguments.task, search, arguments.overrides);
+  if (arguments.print_phases) return print_phases(task, arguments.json);
+  PlanRequest request = arguments.request;
+  check(request);
+  const std::filesystem::path out = arguments.out.empty() ? "out" / std::filesystem::path(task_slug(arguments.task))
+                                                          : std::filesystem::path(arguments.out);
+  check_plan_directory(out);
+  check_step(task, arguments.step);
+  for (const std::string& line : implausibilities(task.problem, task.mesh)) print_note(line);
+
+  ProgressPrinter progress;
+  progress.watch(request);
+  request.interrupt = &interrupted;
+  request.on_round = [&](const RefineRound& round) { print_progress(in_words(round, *request.refine)); };
+  std::optional<ProgressBar> gains;
+  request.on_gain = [&](int done, int samples) {
+    if (!gains) gains.emplace("gains", samples, ProgressBar::Start::if_long);
+    gains->show(done);
+    return true;
+  };
+  const std::optional<PlanRecord> start = read_start(arguments, search, task, request);
+  if (start) request.start.record = &*start;
+  const auto checkpoints = write_checkpoints(arguments.checkpoint, out, task, request);
+  const PlannedTask planned = plan_task(std::move(task), request);
+  gains.reset();
+  const PlanRecord& record = planned.record;
+  if (!planned.why_no_gains.empty()) print_note(planned.why_no_gains);
+
+  if (holds_good_plan(out)) print_note("replaces an earlier plan that passed, in " + out.string());
+  write_plan(out, record, arguments.step);
+  if (arguments.report) write_report(record, out, out / kReportFile, search);
+  if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
+  const int status =
+      planned.interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
+  advise(arguments, planned, status, out);
+  if (arguments.json) {
+    print_json({.verb = "plan",
+                .exit_status = status,
+                .plan = &record,
+                .directory = out,
+                .written = files_of_plan(out),
+                .result = plan_report_json(record, out)});
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_plan_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<PlanArguments>();
+  CLI::App* const verb = app.add_subcommand("plan", "Plan the motion of a task file and check it");
+  verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
+  add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
+  add_json(*verb, arguments->json);
+  verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
+      ->check(positive_number())
+      ->type_name("S");
+  verb->add_option("--solver", arguments->request.solver, "Who solves it; default " + arguments->request.solver)
+      ->check(CLI::IsMember(solver_names()))
+      ->type_name("NAME");
+  verb->add_option("--threads", arguments->request.threads,
+                   "Threads that evaluate the problem, not with fatrop; default 1. The result is the same")
+      ->check(CLI::Range(1, kMostThreads))
+      ->type_name("N");
+  add_hessian(*verb, arguments->request.hessian);
+  add_solver_limits(*verb, arguments->overrides);
+  verb->add_option("--intervals", arguments->overrides.intervals,
+                   "Mesh intervals in all, shared out over the phases as in the task file")
+      ->check(CLI::Range(1, kMostIntervals))
+      ->type_name("N");
+  add_refine(*verb, arguments->request.refine);
+  verb->add_flag_callback(
+      "--no-gains", [arguments] { arguments->request.gains = false; }, "Leave out the feedback gains, tracker.bin");
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
+  verb->add_flag_callback(
+      "--one-mesh", [arguments] { arguments->request.coarse_first = false; },
+      "Solve on this mesh at once, not on coarser ones first");
+  add_folder(*verb, "--warm-start", arguments->warm_start,
+             "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ");
+  add_checkpoint(*verb, arguments->checkpoint);
+  verb->get_option("--resume")->excludes("--warm-start");
+  add_package_dirs(*verb, arguments->package_dirs);
+  CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
+                                             "Print the phases, those of a gait too, and plan nothing");
+  for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--refine",
+                             "--no-gains", "--report", "--checkpoint", "--resume"}) {
+    phases->excludes(unused);
+  }
+  set_footer(*verb,
+             {"prowl plan tasks/hyq/crouch.toml", "prowl plan tasks/hyq/balance.toml --print-phases",
+              "prowl plan tasks/hyq/stand.toml --intervals 40 --dt 0.001 --out out/stand",
+              "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120",
+              "prowl plan tasks/hyq/crouch.toml --checkpoint out/so_far --checkpoint-every 0",
+              "prowl plan tasks/hyq/crouch.toml --resume out/so_far", "prowl plan tasks/hyq/step.toml --refine",
+              "prowl plan tasks/hyq/crouch.toml --refine certified"},
+             "0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
+             "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"
+             "130 interrupted (Ctrl-C keeps the best motion so far, marked as not finished).");
+  verb->callback([arguments, &status] { status = run_plan(*arguments); });
+}
+
+}  // namespace prowl::cli

@@ -1,0 +1,238 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+
+#include "cli/options/shared_options.hpp"
+#include "cli/process/program_files.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/screen/json_result.hpp"
+#include "cli/screen/output.hpp"
+#include "cli/screen/progress_bar.hpp"
+#include "cli/screen/wrap.hpp"
+#include "cli/verbs/commands.hpp"
+#include "cli/verbs/plan_tracker.hpp"
+#include "prowl/error.hpp"
+#include "prowl/files/atomic_folder.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/plan_folder/rollout_files.hpp"
+#include "prowl/plan_folder/simulation_files.hpp"
+#include "prowl/report_page/report_file.hpp"
+#include "prowl/session/environment.hpp"
+#include "prowl/simulation/sweep.hpp"
+#include "prowl/tracking/displaced_start.hpp"
+
+namespace prowl::cli {
+namespace {
+
+// Options of one engine alone are grouped by it, in --help and for check_engine().
+constexpr const char* kMujocoOptions = "With --engine mujoco";
+constexpr const char* kRolloutOptions = "With --engine rollout";
+
+struct SimulateArguments {
+  std::string directory;
+  std::vector<std::string> package_dirs;
+  bool json = false;
+  bool report = false;
+  std::string engine = "mujoco";
+  bool open_loop = false;
+  std::optional<double> control_rate;  ///< [Hz]
+  double record_rate = 200.0;          ///< [Hz]
+  // With mujoco.
+  SimulationOptions options;
+  double delay_ms = 1e3 * SimulationOptions{}.delay;
+  std::optional<double> friction;
+  std::vector<double> push;  ///< time, impulse in x, y, z
+  double push_duration = 0.1;
+  std::optional<std::uint64_t> sweep_case;
+  // With rollout.
+  std::vector<double> base_offset{0.0, 0.0, 0.0};      ///< [m]
+  std::vector<double> base_offset_rpy{0.0, 0.0, 0.0};  ///< [rad]
+};
+
+void check_engine(const CLI::App& verb, const std::string& engine) {
+  const bool rollout = engine == "rollout";
+  for (const CLI::Option* option : verb.get_options()) {
+    if (option->count() == 0 || option->get_group() != (rollout ? kMujocoOptions : kRolloutOptions)) continue;
+    throw InputError(
+        fmt::format("{}: not with --engine {}, {}", option->get_name(), engine,
+                    rollout ? "which has no sensors, delay, friction, pushes or chance; it is for --engine mujoco"
+                            : "which starts as planned; it is for --engine rollout"));
+  }
+}
+
+/// What came of a simulation, for stdout.
+struct Outcome {
+  bool success;
+  std::string text, json;
+};
+
+Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
+  check_mujoco();
+  SimulationOptions options = arguments.options;
+  options.open_loop = arguments.open_loop;
+  options.control_rate = arguments.control_rate.value_or(options.control_rate);
+  options.record_rate = arguments.record_rate;
+  options.delay = 1e-3 * arguments.delay_ms;
+  options.physics.friction = arguments.friction ? arguments.friction : plan.task.simulated_friction;
+  if (arguments.push.size() % 4 != 0) {
+    throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]",
+                                 arguments.push.size()));
+  }
+  for (std::size_t i = 0; i < arguments.push.size(); i += 4) {
+    const double* const push = &arguments.push[i];
+    options.pushes.push_back({{push[1], push[2], push[3]}, push[0], arguments.push_duration});
+  }
+  if (arguments.sweep_case) options = perturbed(tracker, options, {}, *arguments.sweep_case);
+  MotionProgress progress;
+  const SimulationRecord record{options,
+                                simulate(plan.task.problem, tracker, plan.task.success, options, std::ref(progress))};
+  write_simulation(arguments.directory, plan, record);
+  return {record.result.success(), simulation_summary(plan, record), simulation_json(plan, record)};
+}
+
+/// Of --control-rate; 0 for a controller that acts at every moment.
+double control_step(std::optional<double> rate) {
+  if (!rate || *rate == 0.0) return 0.0;
+  if (!(*rate >= 10.0 && *rate <= 1e5)) {
+    throw InputError(fmt::format("control rate: {} is not allowed; need 10 to 1e5 Hz, or 0: continuous", *rate));
+  }
+  return 1.0 / *rate;
+}
+
+Outcome run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
+  constexpr double kSampleStep = 1e-3;  // [s] that errors, torques and forces are looked at
+  const MotionProblem& problem = plan.task.problem;
+  RolloutRecord record;
+  record.options = {.closed_loop = !arguments.open_loop,
+                    .stand_on = plan.task.success.rest,
+                    .control_step = control_step(arguments.control_rate),
+                    .sample_step = kSampleStep};
+  record.base_offset = Eigen::Vector3d::Map(arguments.base_offset.data());
+  record.base_offset_rpy = Eigen::Vector3d::Map(arguments.base_offset_rpy.data());
+  record.friction = plan.task.simulated_friction;
+  record.record_rate = arguments.record_rate;
+
+  const Eigen::AngleAxisd turn(rotation_from_rpy(record.base_offset_rpy));
+  Eigen::Matrix<double, 6, 1> displacement;
+  displacement << record.base_offset, turn.angle() * turn.axis();
+  const StartState start = displaced_start(problem.robot, tracker, displacement);
+  MotionProgress progress;
+  record.rollout = rollout(problem.robot, tracker, start.q, start.v, record.options, std::ref(progress));
+  record.measures =
+      measure_rollout(problem, tracker, record.rollout, tracker.end() + record.options.stand_on, record.friction);
+  record.failures = rollout_failures(tracker, record.rollout, record.measures, plan.task.success);
+  write_rollout(arguments.directory, plan, tracker, record);
+  return {record.failures.empty(), rollout_summary(plan, record), rollout_json(plan, tracker, record)};
+}
+
+int run_simulate(const SimulateArguments& arguments) {
+  const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
+  const Tracker tracker = read_tracker(arguments.directory, plan.task.problem);
+  check_writable(arguments.directory);
+  const Outcome outcome =
+      arguments.engine == "rollout" ? run_rollout(arguments, plan, tracker) : run_mujoco(arguments, plan, tracker);
+  if (!arguments.json) {
+    print_result(wrap(outcome.text + fmt::format("written to {}/simulate.json, simulate.csv\n", arguments.directory)));
+  }
+  const std::filesystem::path directory = arguments.directory;
+  std::vector<std::filesystem::path> written = {directory / "simulate.json", directory / "simulate.csv"};
+  if (arguments.report) {
+    write_report(plan, directory, directory / kReportFile, package_search(arguments.package_dirs));
+    written.push_back(directory / kReportFile);
+  }
+  const int status = outcome.success ? kPassed : kSimulationFailed;
+  if (arguments.json) {
+    print_json({.verb = "simulate",
+                .exit_status = status,
+                .plan = &plan,
+                .directory = directory,
+                .written = written,
+                .result = outcome.json});
+  }
+  return status;
+}
+
+void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
+  SimulationOptions& options = arguments.options;
+  const std::vector<CLI::Option*> all = {
+      verb.add_flag("--perfect-state", options.perfect_state,
+                    "The controller sees the true state: no sensors, no estimator"),
+      verb.add_option("--noise", options.noise_scale, "Factor on the sensors' noise and bias; default 1")
+          ->type_name("X"),
+      verb.add_option("--delay", arguments.delay_ms, "From sensors to torque; default 2")
+          ->check(number_between(0.0, 1000.0))
+          ->type_name("MS"),
+      verb.add_option("--bandwidth", options.bandwidth, "Of the actuators, first order; default 0: they follow at once")
+          ->type_name("HZ"),
+      verb.add_option("--mass", options.physics.mass_scale, "Factor on all masses and inertias; default 1")
+          ->type_name("X"),
+      verb.add_option("--friction", arguments.friction, "Of all surfaces; default: as in the task")->type_name("MU"),
+      verb.add_option("--push", arguments.push,
+                      "Push the base: time [s] and impulse [N s], world axes; may be given again")
+          ->type_name("T IX IY IZ")
+          ->expected(4)
+          ->take_all(),
+      verb.add_option("--push-duration", arguments.push_duration, "Of every push; default 0.1")
+          ->type_name("S")
+          ->check(positive_number()),
+      verb.add_option("--step", options.physics.step, "Of the physics; default 0.0005")->type_name("S"),
+      verb.add_option("--seed", options.seed, "Of all random numbers; default 1")
+          ->check(whole_number())
+          ->type_name("N"),
+      verb.add_option("--case", arguments.sweep_case,
+                      "Perturbed as the case of that seed in prowl sweep without options")
+          ->check(whole_number())
+          ->type_name("SEED")};
+  for (CLI::Option* const option : all) option->group(kMujocoOptions);
+  for (const char* drawn : {"--mass", "--friction", "--push", "--push-duration", "--seed"})
+    all.back()->excludes(verb.get_option(drawn));
+}
+
+void add_rollout_options(CLI::App& verb, SimulateArguments& arguments) {
+  const std::vector<CLI::Option*> all = {
+      verb.add_option("--base-offset-m", arguments.base_offset,
+                      "Start with the base moved by so much, world axes [m], and the feet in place")
+          ->type_name("X Y Z")
+          ->expected(3),
+      verb.add_option("--base-offset-rad", arguments.base_offset_rpy,
+                      "Start with the base turned by so much, its own axes [rad], and the feet in place")
+          ->type_name("ROLL PITCH YAW")
+          ->expected(3)};
+  for (CLI::Option* const option : all) option->group(kRolloutOptions);
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<SimulateArguments>();
+  CLI::App* const verb =
+      app.add_subcommand("simulate", "Run a plan with its feedback in MuJoCo, or in its own dynamics");
+  add_plan_directory(*verb, arguments->directory);
+  verb->add_option(
+          "--engine", arguments->engine,
+          "mujoco (default): as on a robot; rollout: the dynamics of the plan forward in time, contacts as scheduled")
+      ->check(CLI::IsMember({"mujoco", "rollout"}))
+      ->type_name("NAME");
+  verb->add_flag("--open-loop", arguments->open_loop, "Feedforward torques only");
+  verb->add_option("--control-rate", arguments->control_rate, "Default 1000; with --engine rollout 0: at every moment")
+      ->type_name("HZ");
+  verb->add_option("--record-rate", arguments->record_rate, "Rows a second in simulate.csv; default 200")
+      ->type_name("HZ");
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
+  add_mujoco_options(*verb, *arguments);
+  add_rollout_options(*verb, *arguments);
+  set_footer(*verb,
+             {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
+              "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
+             "0 success, 8 failure by the task's criteria; others as prowl plan.");
+  verb->callback([arguments, verb, &status] {
+    check_engine(*verb, arguments->engine);
+    status = run_simulate(*arguments);
+  });
+}
+
+}  // namespace prowl::cli

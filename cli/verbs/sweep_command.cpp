@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "cli/options/shared_options.hpp"
+#include "cli/process/interrupt.hpp"
+#include "cli/process/program_files.hpp"
+#include "cli/exit_status.hpp"
+#include "cli/screen/json_result.hpp"
+#include "cli/screen/output.hpp"
+#include "cli/screen/progress_bar.hpp"
+#include "cli/screen/wrap.hpp"
+#include "cli/verbs/commands.hpp"
+#include "cli/verbs/plan_tracker.hpp"
+#include "prowl/files/atomic_folder.hpp"
+#include "prowl/plan_folder/sweep_files.hpp"
+
+namespace prowl::cli {
+namespace {
+
+struct SweepArguments {
+  std::string directory;
+  std::vector<std::string> package_dirs;
+  SimulationOptions options;
+  PerturbationRanges ranges;
+  int cases = 200;
+  std::uint64_t seed = 1;
+  int breakdown_cases = 20;
+  bool json = false;
+};
+
+/// Calls `run` with something that shows its progress; silent once `interrupted`, when what runs is still being
+/// finished.
+template <typename Run>
+auto with_bar(const char* what, const std::atomic<bool>& interrupted, const Run& run) {
+  std::optional<ProgressBar> bar;  // its length comes with the first call
+  return run([&](int done, int total) {
+    if (interrupted) return;
+    if (!bar) bar.emplace(what, total);
+    bar->show(done);
+  });
+}
+
+int run_sweep(const SweepArguments& arguments) {
+  check_mujoco();
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
+  check_writable(arguments.directory);
+  const MotionProblem& problem = plan.task.problem;
+  const Tracker tracker = read_tracker(arguments.directory, problem);
+  SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = arguments.ranges};
+  std::vector<SimulationOptions> options;
+  for (int i = 0; i < arguments.cases; ++i) {
+    options.push_back(
+        perturbed(tracker, arguments.options, arguments.ranges, arguments.seed + static_cast<std::uint64_t>(i)));
+  }
+  record.cases = with_bar("simulations", interrupted, [&](const SweepProgress& on_done) {
+    return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
+  });
+  if (arguments.breakdown_cases > 0 && !interrupted) {
+    SimulationOptions alone = arguments.options;
+    alone.physics.friction = plan.task.simulated_friction;
+    record.breakdowns =
+        with_bar("simulations of one perturbation alone", interrupted, [&](const SweepProgress& on_done) {
+          return find_breakdowns(problem, tracker, plan.task.success, alone, arguments.seed, arguments.breakdown_cases,
+                                 on_done, &interrupted);
+        });
+  }
+  record.interrupted = interrupted && (std::ssize(record.cases) < arguments.cases || arguments.breakdown_cases > 0);
+  if (record.cases.empty()) {
+    const char* const message = "interrupted before the first simulation was finished; nothing written";
+    print_message(fmt::format("{}\n", message));
+    if (arguments.json) print_json_error("sweep", kInterrupted, message);
+    return kInterrupted;
+  }
+  const std::filesystem::path file = std::filesystem::path(arguments.directory) / "sweep.json";
+  const std::string json = sweep_json(plan, tracker, record);
+  const int status = record.interrupted ? kInterrupted : kPassed;
+  write_file_atomically(file, json);
+  if (arguments.json) {
+    print_json({.verb = "sweep",
+                .exit_status = status,
+                .plan = &plan,
+                .directory = arguments.directory,
+                .written = {file},
+                .result = json});
+  } else {
+    print_result(wrap(sweep_summary(plan, tracker, record) + fmt::format("written to {}\n", file.string())));
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, int& status) {
+  const auto arguments = std::make_shared<SweepArguments>();
+  PerturbationRanges& ranges = arguments->ranges;
+  CLI::App* const verb = app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each perturbed in another way");
+  add_plan_directory(*verb, arguments->directory);
+  verb->add_option("--n", arguments->cases, "How many; default 200")->type_name("N")->check(CLI::Range(1, 1000000));
+  verb->add_option("--seed", arguments->seed, "Of the first case, the others count on; default 1")
+      ->check(whole_number())
+      ->type_name("N");
+  verb->add_option("--mass-spread", ranges.mass, "Masses are off by up to this share; default 0.1")
+      ->type_name("X")
+      ->check(number_between(0.0, 0.9));
+  verb->add_option("--push-impulse", ranges.push, "Impulse on the base; default 10")
+      ->type_name("NS")
+      ->check(nonnegative_number());
+  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet, "While two feet or fewer are down; default 2")
+      ->type_name("NS")
+      ->check(nonnegative_number());
+  verb->add_option("--breakdown", arguments->breakdown_cases,
+                   "Simulations for each size of a perturbation alone; default 20, 0: do not look for it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 100000));
+  verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");
+  add_json(*verb, arguments->json);
+  add_package_dirs(*verb, arguments->package_dirs);
+  set_footer(*verb,
+             {"prowl sweep out/hyq_crouch --n 200 --seed 1",
+              "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2 --breakdown 0"},
+             "0 if all were simulated, whatever came of them;\n"
+             "130 interrupted (Ctrl-C keeps the simulations that have finished).");
+  verb->callback([arguments, &status] { status = run_sweep(*arguments); });
+}
+
+}  // namespace prowl::cli

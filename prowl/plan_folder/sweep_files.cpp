@@ -1,0 +1,146 @@
+#include "prowl/plan_folder/sweep_files.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "prowl/files/json_text.hpp"
+
+namespace prowl {
+namespace {
+
+struct Count {
+  std::string phase;
+  int successes = 0, cases = 0;
+};
+
+/// Cases by the phase in which they were pushed, in the order of the phases.
+std::vector<Count> by_phase(const Tracker& tracker, const SweepRecord& record) {
+  std::vector<Count> counts;
+  for (const TrackingPlan::Segment& segment : tracker.plan().segments) counts.push_back({segment.name});
+  for (const SweepCase& one : record.cases) {
+    Count& count = *std::ranges::find(counts, pushed_phase(tracker, one.options), &Count::phase);
+    ++count.cases;
+    count.successes += one.result.success() ? 1 : 0;
+  }
+  std::erase_if(counts, [](const Count& count) { return count.cases == 0; });
+  return counts;
+}
+
+SuccessRate overall(const SweepRecord& record) {
+  const auto successes = std::ranges::count_if(record.cases, [](const SweepCase& one) { return one.result.success(); });
+  return success_rate(static_cast<int>(successes), static_cast<int>(record.cases.size()));
+}
+
+/// Failures first, those that ended first before others; then by how far the base ended from where the plan does.
+std::vector<std::size_t> worst_first(const SweepRecord& record) {
+  std::vector<std::size_t> order(record.cases.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) {
+    const SimulationResult& result = record.cases[i].result;
+    return std::tuple(result.success(), result.end == SimulationResult::End::finished, result.end_time,
+                      result.end == SimulationResult::End::finished ? -result.base_position.rest : 0.0);
+  });
+  return order;
+}
+
+std::string describe(const SimulationOptions& options) {
+  std::string text =
+      fmt::format("mass x {:.2f}, friction {:.2f}", options.physics.mass_scale, options.physics.friction.value_or(NAN));
+  for (const Push& push : options.pushes) {
+    const double direction = std::atan2(push.impulse.y(), push.impulse.x()) * 180.0 / std::numbers::pi;
+    text += fmt::format(", {:g} N s towards {:.0f} deg at {:.2f} s", push.impulse.norm(), direction, push.time);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record) {
+  const SuccessRate rate = overall(record);
+  std::string text =
+      fmt::format("{} {} in MuJoCo, perturbed: {} of {} succeed, {:.1f} % (95 % interval: {:.1f} to {:.1f} %)\n",
+                  plan.task.problem.robot.name(), plan.task.problem.name, rate.successes, rate.cases, 100 * rate.rate(),
+                  100 * rate.lower, 100 * rate.upper);
+  if (record.interrupted) {
+    text += rate.cases < record.asked
+                ? fmt::format("  interrupted: {} of {} simulations were finished\n", rate.cases, record.asked)
+                : "  interrupted while looking at one perturbation alone\n";
+  }
+  text += "  pushed in phase                             success\n";
+  for (const Count& count : by_phase(tracker, record)) {
+    text += fmt::format("    {:<40}  {} of {}\n", count.phase, count.successes, count.cases);
+  }
+  const bool as_default = record.ranges == PerturbationRanges{} && !record.cases.front().options.open_loop;
+  text +=
+      as_default ? "  worst cases (prowl simulate DIR --case SEED)\n" : "  worst cases (options of each: sweep.json)\n";
+  const std::vector<std::size_t> order = worst_first(record);
+  constexpr std::size_t kWorst = 5;
+  for (std::size_t i = 0; i < std::min(kWorst, order.size()); ++i) {
+    const SweepCase& one = record.cases[order[i]];
+    text += fmt::format("    seed {:<6} {}: {}\n", record.first_seed + order[i], describe(one.options),
+                        one.result.success()
+                            ? fmt::format("success, base {:.1f} cm off", 100 * one.result.base_position.rest)
+                            : one.result.failures.front());
+  }
+  if (!record.breakdowns.empty()) text += "  one perturbation alone: success falls under one half between\n";
+  for (const Breakdown& found : record.breakdowns) {
+    text +=
+        fmt::format("    {:<20} {}\n", found.kind,
+                    std::isfinite(found.fails) ? fmt::format("{:g} and {:g} {}", found.holds, found.fails, found.unit)
+                                               : fmt::format("not up to {:g} {}", found.holds, found.unit));
+  }
+  return text;
+}
+
+std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record) {
+  using Json = nlohmann::ordered_json;
+  const SuccessRate rate = overall(record);
+  const PerturbationRanges& ranges = record.ranges;
+  Json json = {{"schema_version", 1},
+               {"name", plan.task.problem.name},
+               {"robot", plan.task.problem.robot.name()},
+               {"interrupted", record.interrupted},
+               {"first_seed", record.first_seed},
+               {"cases_asked", record.asked},
+               {"cases", rate.cases},
+               {"successes", rate.successes},
+               {"success_rate", rate.rate()},
+               {"interval_95", {rate.lower, rate.upper}},
+               {"ranges",
+                {{"mass", ranges.mass},
+                 {"friction", {ranges.friction_low, ranges.friction_high}},
+                 {"push_Ns", ranges.push},
+                 {"push_on_two_feet_Ns", ranges.push_on_two_feet},
+                 {"push_duration_s", ranges.push_duration}}},
+               {"phases", Json::array()},
+               {"worst", Json::array()},
+               {"breakdowns", Json::array()},
+               {"versions", {{"MuJoCo", Physics::version()}}}};
+  for (const Count& count : by_phase(tracker, record)) {
+    json["phases"].push_back({{"phase", count.phase}, {"successes", count.successes}, {"cases", count.cases}});
+  }
+  for (const std::size_t i : worst_first(record)) {
+    const SweepCase& one = record.cases[i];
+    json["worst"].push_back({{"seed", record.first_seed + i},
+                             {"success", one.result.success()},
+                             {"failures", one.result.failures},
+                             {"perturbation", describe(one.options)},
+                             {"pushed_in_phase", pushed_phase(tracker, one.options)},
+                             {"rest_position_m", one.result.base_position.rest},
+                             {"rest_angle_rad", one.result.base_angle.rest},
+                             {"largest_slip_m", *std::ranges::max_element(one.result.slip)}});
+  }
+  for (const Breakdown& found : record.breakdowns) {
+    Json entry = {{"kind", found.kind}, {"unit", found.unit}, {"holds", found.holds}, {"fails", nullptr}};
+    if (std::isfinite(found.fails)) entry["fails"] = found.fails;
+    json["breakdowns"].push_back(entry);
+  }
+  return json_text(json);
+}
+
+}  // namespace prowl

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/simulation/sweep.hpp"
+
+namespace prowl {
+
+/// What `prowl sweep` was asked for, and what came out.
+struct SweepRecord {
+  std::uint64_t first_seed = 1;
+  int asked = 0;  ///< cases; more than there are below if it was interrupted
+  PerturbationRanges ranges;
+  std::vector<SweepCase> cases = {};  ///< of seeds first_seed, first_seed + 1, ...
+  std::vector<Breakdown> breakdowns = {};
+  bool interrupted = false;  ///< cases or breakdowns are missing
+};
+
+std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record);
+/// sweep.json (docs/simulation.md).
+std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record);
+
+}  // namespace prowl

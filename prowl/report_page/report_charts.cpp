@@ -1,0 +1,212 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "prowl/files/base64.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/report_page/report_json.hpp"
+
+namespace prowl {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Points = std::vector<TrajectoryPoint>;
+using Value = std::function<double(const TrajectoryPoint&)>;
+
+const char* const kAxes[] = {"x", "y", "z"};
+constexpr double kLeastLoad = 1e-3;  ///< of the weight: below it the ratio of two forces means nothing
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+Json series(const char* label, const char* style, const char* time, const Points& points, const Value& value) {
+  std::vector<float> values;
+  for (const TrajectoryPoint& point : points) values.push_back(static_cast<float>(value(point)));
+  return {{"label", label}, {"style", style}, {"time", time}, {"values", base64(values)}};
+}
+
+/// Charts of the planned motion and, where there is one, of the simulated.
+class Charts {
+ public:
+  Charts(const MotionProblem& problem, const Points& plan, const Points& simulation)
+      : problem_(problem), robot_(problem.robot), plan_(plan), simulation_(simulation) {}
+
+  Json chart(const std::string& title, const char* unit, const Value& value) const {
+    Json all = Json::array();
+    all.push_back(series("plan", "plan", "plan", plan_, value));
+    if (!simulation_.empty()) all.push_back(series("simulation", "simulation", "simulation", simulation_, value));
+    return {{"title", title}, {"unit", unit}, {"series", all}};
+  }
+  /// Adds a limit over the planned motion, unless it is infinite.
+  void add_limit(Json& chart, const Value& limit) const {
+    if (plan_.empty() || !std::isfinite(limit(plan_.front()))) return;
+    chart["series"].push_back(series("limit", "limit", "plan", plan_, limit));
+  }
+
+  Json torques() const {
+    Json charts = Json::array();
+    for (int j = 0; j < robot_.nu(); ++j) {
+      Json one = chart(joint(j), prismatic(j) ? "N" : "N m", [j](const auto& p) { return p.tau(j); });
+      add_limit(one, [this, j](const auto& p) { return robot_.torque_upper(j, p.q(7 + j), p.v(6 + j)); });
+      add_limit(one, [this, j](const auto& p) { return robot_.torque_lower(j, p.q(7 + j), p.v(6 + j)); });
+      charts.push_back(one);
+    }
+    return charts;
+  }
+
+  Json base() const {
+    Json charts = Json::array();
+    for (int i = 0; i < 3; ++i) {
+      charts.push_back(chart(fmt::format("position {}", kAxes[i]), "m", [i](const auto& p) { return p.q(i); }));
+    }
+    const char* const angles[] = {"roll", "pitch", "yaw"};
+    for (int i = 0; i < 3; ++i) {
+      charts.push_back(
+          chart(angles[i], "rad", [i](const auto& p) { return rpy_from_rotation(base_rotation(p.q))(i); }));
+    }
+    for (int i = 0; i < 3; ++i) {
+      charts.push_back(
+          chart(fmt::format("velocity {} (base frame)", kAxes[i]), "m/s", [i](const auto& p) { return p.v(i); }));
+    }
+    for (int i = 0; i < 3; ++i) {
+      charts.push_back(chart(fmt::format("angular velocity {} (base frame)", kAxes[i]), "rad/s",
+                             [i](const auto& p) { return p.v(3 + i); }));
+    }
+    return charts;
+  }
+
+  Json joint_positions() const {
+    Json charts = Json::array();
+    for (int j = 0; j < robot_.nu(); ++j) {
+      Json one = chart(joint(j), prismatic(j) ? "m" : "rad", [j](const auto& p) { return p.q(7 + j); });
+      add_limit(one, [this, j](const auto&) { return robot_.position_upper()(j); });
+      add_limit(one, [this, j](const auto&) { return robot_.position_lower()(j); });
+      charts.push_back(one);
+    }
+    return charts;
+  }
+
+  Json joint_velocities() const {
+    Json charts = Json::array();
+    for (int j = 0; j < robot_.nu(); ++j) {
+      Json one = chart(joint(j), prismatic(j) ? "m/s" : "rad/s", [j](const auto& p) { return p.v(6 + j); });
+      add_limit(one, [this, j](const auto&) { return robot_.velocity_limit()(j); });
+      add_limit(one, [this, j](const auto&) { return -robot_.velocity_limit()(j); });
+      charts.push_back(one);
+    }
+    return charts;
+  }
+
+  Json forces() const {
+    Json charts = Json::array();
+    for (std::size_t c = 0; c < robot_.contacts().size(); ++c) {
+      for (int i = 0; i < 3; ++i) {
+        const Eigen::Index k = 3 * static_cast<Eigen::Index>(c) + i;
+        charts.push_back(chart(fmt::format("{} {}", robot_.contacts()[c].name, kAxes[i]), "N",
+                               [k](const auto& p) { return p.force(k); }));
+      }
+    }
+    return charts;
+  }
+
+  /// How much of each kind of limit is used, at the worst joint or contact: 1 is all of it.
+  Json margins() const {
+    Json charts = Json::array();
+    const auto add = [&](const std::string& title, const Json& one) {
+      Json with_limit = one;
+      with_limit["title"] = title;
+      add_limit(with_limit, [](const auto&) { return 1.0; });
+      charts.push_back(with_limit);
+    };
+    add("joint torque, worst joint",
+        chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::torque_share); }));
+    add("joint position, worst joint",
+        chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::position_share); }));
+    add("joint velocity, worst joint",
+        chart("", "of limit", [this](const auto& p) { return worst_joint(p, &Charts::velocity_share); }));
+    for (std::size_t c = 0; c < robot_.contacts().size(); ++c) {
+      Json one = {{"title", ""}, {"unit", "of limit"}, {"series", Json::array()}};
+      one["series"].push_back(series("plan", "plan", "plan", plan_,
+                                     [this, c](const auto& p) { return friction_share(p, static_cast<int>(c)); }));
+      add(fmt::format("friction, {}", robot_.contacts()[c].name), one);
+    }
+    return charts;
+  }
+
+ private:
+  using Share = double (Charts::*)(const TrajectoryPoint&, int) const;
+
+  const std::string& joint(int j) const { return robot_.joint_names()[j]; }
+  bool prismatic(int j) const { return robot_.joint_is_prismatic()[j]; }
+
+  double worst_joint(const TrajectoryPoint& p, Share share) const {
+    double worst = 0.0;
+    for (int j = 0; j < robot_.nu(); ++j) worst = std::max(worst, (this->*share)(p, j));
+    return worst;
+  }
+  double torque_share(const TrajectoryPoint& p, int j) const {
+    const double tau = p.tau(j), q = p.q(7 + j), v = p.v(6 + j);
+    return tau / (tau < 0.0 ? robot_.torque_lower(j, q, v) : robot_.torque_upper(j, q, v));
+  }
+  /// 0 in the middle of the range, 1 at its ends.
+  double position_share(const TrajectoryPoint& p, int j) const {
+    const double lower = robot_.position_lower()(j), upper = robot_.position_upper()(j);
+    if (!std::isfinite(upper - lower)) return 0.0;
+    return std::abs(p.q(7 + j) - 0.5 * (lower + upper)) / (0.5 * (upper - lower));
+  }
+  double velocity_share(const TrajectoryPoint& p, int j) const {
+    return std::abs(p.v(6 + j)) / robot_.velocity_limit()(j);
+  }
+
+  /// Tangential force over what friction can hold; nothing while the contact is open or bears next to nothing.
+  double friction_share(const TrajectoryPoint& p, int c) const {
+    for (const PhaseContact& held : problem_.phases[p.phase].contacts) {
+      if (held.contact != c) continue;
+      const Surface& surface = problem_.surfaces[held.surface];
+      const Eigen::Vector3d f = p.force.segment<3>(3 * c);
+      const double normal = surface.normal.dot(f);
+      if (normal < kLeastLoad * robot_.weight()) return kNothing;
+      return (f - normal * surface.normal).norm() / (surface.friction * normal);
+    }
+    return kNothing;
+  }
+
+  const MotionProblem& problem_;
+  const RobotModel& robot_;
+  const Points& plan_;
+  const Points& simulation_;
+};
+
+}  // namespace
+
+Json report_charts(const MotionProblem& problem, const Points& plan, const Points& simulation) {
+  const Charts charts(problem, plan, simulation);
+  return {{{"name", "Torques"}, {"charts", charts.torques()}},
+          {{"name", "Base"}, {"charts", charts.base()}},
+          {{"name", "Joints"}, {"charts", charts.joint_positions()}},
+          {{"name", "Rates"}, {"charts", charts.joint_velocities()}},
+          {{"name", "Forces"}, {"charts", charts.forces()}},
+          {{"name", "Margins"}, {"charts", charts.margins()}}};
+}
+
+Json report_gains(const TrackingPlan& plan, double step) {
+  Json times = Json::array();
+  std::vector<float> values;
+  for (const TrackingPlan::Segment& segment : plan.segments) {
+    const double length = segment.end - segment.start;
+    const int parts = std::clamp(static_cast<int>(std::ceil(length / step)), 1, segment.samples - 1);
+    for (int i = 0; i <= parts; ++i) {  // the ends of a segment among them
+      const int sample = static_cast<int>(std::lround(static_cast<double>(i) * (segment.samples - 1) / parts));
+      times.push_back(segment.start + length * sample / (segment.samples - 1));
+      const Eigen::Map<const Eigen::MatrixXd> K(plan.gains.col(segment.first_sample + sample).data(), plan.nu(),
+                                                2 * plan.nv());
+      for (int j = 0; j < plan.nu(); ++j) {
+        for (int k = 0; k < 2 * plan.nv(); ++k) values.push_back(static_cast<float>(K(j, k)));
+      }
+    }
+  }
+  return {{"time", times}, {"values", base64(values)}};
+}
+
+}  // namespace prowl

@@ -1,0 +1,27 @@
+#pragma once
+
+// Internal to io: the parts of what a report shows, as JSON (docs/report.md). Times in seconds, placements in the world
+// as x y z [m] and a unit quaternion x y z w; arrays of numbers are base64 of little-endian 32-bit floats.
+#include <nlohmann/json.hpp>
+
+#include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/tracker/tracking_plan.hpp"
+
+namespace prowl {
+
+/// "meshes", "visuals", "bodies", "contacts", "surfaces". A mesh that cannot be read is replaced by a box of its body's
+/// inertia, with a line in `warnings`.
+nlohmann::ordered_json report_scene(const MotionProblem& problem, const PackageSearch& search,
+                                    std::vector<std::string>& warnings);
+
+/// "time", "placements" (of every body at every time) and "forces" (of every contact, world frame [N]).
+nlohmann::ordered_json report_motion_json(const RobotModel& robot, const std::vector<TrajectoryPoint>& points);
+
+/// The charts: an array of tabs, each with its charts, each with its series over the time of "plan" or "simulation".
+nlohmann::ordered_json report_charts(const MotionProblem& problem, const std::vector<TrajectoryPoint>& plan,
+                                     const std::vector<TrajectoryPoint>& simulation);
+
+/// K(t), thinned out to samples about `step` [s] apart: "time" and "values", 2 nv gains of each joint in turn.
+nlohmann::ordered_json report_gains(const TrackingPlan& plan, double step);
+
+}  // namespace prowl

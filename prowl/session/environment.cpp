@@ -1,0 +1,90 @@
+#include "prowl/session/environment.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <cstdlib>
+#include <memory>
+#include <sstream>
+#include <string_view>
+
+#include "prowl/error.hpp"
+#include "prowl/simulation/physics.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/library_release.hpp"
+#include "prowl/solvers/make_solver.hpp"
+
+namespace prowl {
+namespace {
+
+std::vector<std::filesystem::path> path_list(const char* variable) {
+  std::vector<std::filesystem::path> paths;
+  const char* const value = std::getenv(variable);
+  std::istringstream text(value ? value : "");
+  for (std::string path; std::getline(text, path, ':');) {
+    if (!path.empty()) paths.emplace_back(path);
+  }
+  return paths;
+}
+
+}  // namespace
+
+PackageSearch package_search(const std::filesystem::path& program, const std::vector<std::string>& package_dirs) {
+  PackageSearch search;
+  search.folders.assign(package_dirs.begin(), package_dirs.end());
+  for (const auto& prefix : path_list("AMENT_PREFIX_PATH")) search.folders.push_back(prefix / "share");
+  for (const auto& path : path_list("ROS_PACKAGE_PATH")) search.folders.push_back(path);
+  std::error_code ignored;  // a working directory that was removed has nothing to offer
+  search.working_directory = std::filesystem::current_path(ignored);
+  // CLONE/build/bin/prowl, CLONE/build/python/prowl/: found from any working directory, without a path compiled in. In
+  // a wheel that is site-packages, where Pinocchio's wheels have their shared folder.
+  const std::filesystem::path folder = program.parent_path();
+  const std::filesystem::path prefix = folder.filename() == "bin" ? folder.parent_path() : folder;
+  search.clone = prefix.parent_path();
+  if (search.clone.filename() == "python") search.clone = search.clone.parent_path().parent_path();
+  search.installed = {prefix / "share", prefix.parent_path() / "cmeel.prefix" / "share"};
+  return search;
+}
+
+std::string processor_features() {
+  std::string features;
+  if (__builtin_cpu_supports("avx")) features += " AVX";
+  if (__builtin_cpu_supports("avx2")) features += " AVX2";
+  if (__builtin_cpu_supports("fma")) features += " FMA";
+  return features.empty() ? "" : features.substr(1);
+}
+
+void check_processor() {
+  const char* const needed = std::string_view(PROWL_SIMD) == "avx2" ? "AVX2 FMA" : "";
+  if (const auto reason = why_missing_instructions("this build of Prowl", needed, processor_features())) {
+    throw InputError(*reason + ": build with cmake -DPROWL_SIMD=baseline");
+  }
+}
+
+void check_libraries() {
+  if (const auto reason = IpoptSolver::why_wrong_library()) throw InputError(*reason);
+}
+
+std::optional<std::string> why_no_mujoco() {
+  return why_missing_instructions("libmujoco.so", "AVX", processor_features());
+}
+
+void check_mujoco() {
+  if (const auto reason = why_no_mujoco()) throw InputError(*reason + ": prowl simulate --engine rollout does without");
+}
+
+std::map<std::string, std::string> versions() {
+  std::map<std::string, std::string> all = {
+      {"prowl", PROWL_VERSION},
+      {"MuJoCo", Physics::version()},
+      {"Pinocchio", PROWL_PINOCCHIO_VERSION},
+      {"vector instructions", PROWL_SIMD},
+      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  for (const std::string& name : solver_names()) {
+    const std::unique_ptr<NlpSolver> solver = make_solver(name);
+    all[solver->name()] = solver->version();
+  }
+  return all;
+}
+
+}  // namespace prowl

@@ -1,0 +1,131 @@
+#include "prowl/session/plan_task.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "prowl/error.hpp"
+#include "prowl/session/environment.hpp"
+#include "prowl/session/warm_start.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
+
+namespace prowl {
+
+namespace {
+
+const std::string& solver_name(const PlanRequest& request) {
+  return request.solver.empty() ? solver_names().front() : request.solver;
+}
+
+Trajectory start_from(const PlanStart& start, const DiscreteProblem& asked) {
+  if (!start.record) return {};
+  try {
+    return warm_start(*start.record, asked);
+  } catch (const InputError& error) {
+    if (start.option.empty()) throw;
+    throw InputError(fmt::format("{}: {}", start.option, error.what()));
+  }
+}
+
+/// Writes iterations down while it hands them on.
+class Watch {
+ public:
+  Watch(const PlanRequest& request, PlanOptions& options) : request_(request) {
+    options.on_level = [this](int intervals) {
+      ++level_;
+      if (request_.on_mesh) request_.on_mesh(intervals);
+    };
+    options.solver.on_iteration = [this](const SolveProgress& progress) {
+      iterations_.push_back({std::max(level_, 0), progress});
+      if (request_.on_iteration) request_.on_iteration(progress);
+    };
+  }
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+
+  std::vector<MeshIteration> take() { return std::move(iterations_); }
+
+ private:
+  const PlanRequest& request_;
+  int level_ = -1;
+  std::vector<MeshIteration> iterations_;
+};
+
+/// A front end wants no gains any more.
+struct NoMoreGains {};
+
+/// Gains for a plan that is good; why there are none, for the plan is as good without.
+std::string add_gains(const PlanRequest& request, PlanRecord& record) {
+  const MotionProblem& problem = record.task.problem;
+  const TrackingOptions& options = record.task.tracking;
+  std::function<void(const ReducedSample&)> on_sample;
+  int samples = 0, done = 0;
+  if (request.on_gain) {
+    const std::vector<ReferencePhase> grid = reference_grid(problem, record.plan.trajectory, options.step);
+    for (const ReferencePhase& phase : grid) samples += static_cast<int>(phase.samples.size());
+    on_sample = [&, phases = std::ssize(grid)](const ReducedSample& sample) {
+      const bool stands_on = sample.phase >= phases;  // that phase is one more
+      if (!stands_on) ++done;
+      if (!request.on_gain(done, samples)) throw NoMoreGains();
+    };
+  }
+  try {
+    record.feedback = design_feedback(problem, record.plan.trajectory, options, on_sample);
+    return "";
+  } catch (const NumericalError& error) {
+    return error.what();
+  } catch (const NoMoreGains&) {
+    return "";
+  }
+}
+
+}  // namespace
+
+void check(const PlanRequest& request) {
+  if (request.threads < 1 || request.threads > kMostThreads) {
+    throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", request.threads, kMostThreads));
+  }
+  if (solver_name(request) == "fatrop" && request.threads > 1) {
+    throw InputError("threads: Fatrop evaluates one stage at a time; need 1, or another solver");
+  }
+  make_solver(solver_name(request));
+}
+
+PlannedTask plan_task(Task task, const PlanRequest& request) {
+  check(request);
+  const DiscreteProblem asked(task.problem, task.mesh);
+  const std::unique_ptr<NlpSolver> solver = make_solver(solver_name(request));
+  const IpoptSolver hint_solver;
+  PlanOptions options{.solver = task.solver,
+                      .start_from = start_from(request.start, asked),
+                      .resume = request.start.resume,
+                      .hint_solver = &hint_solver,
+                      .hessian = request.hessian,
+                      .coarse_first = request.coarse_first,
+                      .on_iterate = request.on_iterate};
+  options.solver.threads = request.threads;
+  options.solver.interrupt = request.interrupt;
+  Watch watch(request, options);
+
+  PlannedTask planned{
+      .record = {.task = std::move(task), .plan = {}, .versions = versions(), .warm_start = request.start.folder},
+      .why_no_gains = {}};
+  Plan& plan = planned.record.plan;
+  if (request.refine) {
+    RefinedPlan refined =
+        make_refined_plan(asked, *solver, options, {.tolerance = *request.refine, .on_round = request.on_round});
+    plan = std::move(refined.plan);
+    planned.interrupted = refined.interrupted;
+  } else {
+    plan = make_plan(asked, *solver, options);
+    planned.interrupted = plan.result.status == SolveStatus::interrupted;
+  }
+  planned.record.iterations = watch.take();
+  if (request.gains && is_good(plan)) planned.why_no_gains = add_gains(request, planned.record);
+  return planned;
+}
+
+}  // namespace prowl

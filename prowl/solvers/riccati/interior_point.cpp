@@ -1,0 +1,416 @@
+#include "prowl/solvers/riccati/interior_point.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <stdexcept>
+
+#include "prowl/error.hpp"
+#include "prowl/nlp/stopwatch.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+// Of Wächter and Biegler 2006, with the names they have there.
+constexpr double kKappaEpsilon = 10.0, kKappaMu = 0.2, kThetaMu = 1.5, kSMax = 100.0;
+constexpr double kLargestRegularisation = 1e20, kLeastRegularisation = 1e-20;
+
+constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3.0;
+constexpr double kLargestMultiplier = 1e3;  ///< of an estimate that is of use
+constexpr double kNearlyFeasible = 1e-2, kHugeMultiplier = 1e5;
+constexpr double kLargestCostSlope = 100.0;
+constexpr double kStepAccuracy = 1e-2;  ///< of Newton's equations, as a part of the tolerance: what a full step leaves
+
+/// First mu times the number of stages: the cost is an integral, the barrier a sum over stages, and for both to weigh
+/// the same on each mesh mu has to fall as a step does (HyQ rear from the task alone on 350 intervals: with mu = 1e-3
+/// 59 iterations, with this 22; on 23 intervals 16 and 16).
+/// Near a solution whose multipliers are known slacks are placed by them, and mu can be near its end: HyQ balance with
+/// the goal moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
+constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-4, kKnownBarrier = 3e-5;
+constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< of slacks off their bounds
+/// Where no part of a step is an improvement, shorter steps by more regularisation, so many times.
+constexpr double kFailureGrowth = 100.0;
+constexpr int kMostFailures = 4;
+
+std::vector<Index> first_rows(const StagewiseNlp& nlp) {
+  std::vector<Index> rows = {0};
+  for (int k = 0; k < nlp.num_stages(); ++k) rows.push_back(rows.back() + nlp.size(k).inequalities);
+  return rows;
+}
+
+template <class Bound>
+VectorXd stacked(const StagewiseNlp& nlp, Bound bound) {
+  const std::vector<Index> rows = first_rows(nlp);
+  VectorXd all(rows.back());
+  for (int k = 0; k < nlp.num_stages(); ++k) {
+    all.segment(rows[k], nlp.size(k).inequalities) = bound(k);
+  }
+  return all;
+}
+
+double sum_of_sizes(const StageVectors& vectors) {
+  double result = 0.0;
+  for (const VectorXd& v : vectors) result += v.lpNorm<1>();
+  return result;
+}
+
+}  // namespace
+
+InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options, int threads)
+    : nlp_(nlp),
+      options_(options),
+      threads_(threads),
+      num_stages_(nlp.num_stages()),
+      rows_(first_rows(nlp)),
+      kkt_(nlp),
+      slacks_(stacked(nlp, [&](int k) { return nlp.lower(k); }), stacked(nlp, [&](int k) { return nlp.upper(k); })) {
+  for (int k = 0; k < num_stages_; ++k) {
+    const StageSize& size = nlp.size(k);
+    const Index next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
+    on_.push_back({VectorXd::Zero(next), VectorXd::Zero(size.equalities), VectorXd::Zero(size.inequalities)});
+    weights_.push_back(VectorXd::Zero(size.inequalities));
+    gradient_.push_back(VectorXd::Zero(size.variables()));
+    right_equalities_.push_back(VectorXd::Zero(size.equalities));
+    right_links_.push_back(VectorXd::Zero(next));
+  }
+  dual_violation_ = step_ = trial_ux_ = gradient_;
+  step_on_equalities_ = right_equalities_;
+  step_on_next_ = no_next_ = right_links_;
+  for (Values* values : {&values_, &trial_}) {
+    values->stage_costs.setZero(num_stages_);
+    values->links = right_links_;
+    values->equalities = right_equalities_;
+    values->inequalities.setZero(rows_.back());
+  }
+  for (VectorXd* v : {&s_, &ds_, &lambda_, &beta_, &sigma_, &residual_, &step_lambda_}) v->setZero(rows_.back());
+}
+
+/// function(), and what it cannot evaluate gets its place: the functions of a stage know neither phase nor time.
+template <class Function>
+void InteriorPoint::at_stage(int k, Function function) const {
+  try {
+    function();
+  } catch (const NumericalError& error) {
+    throw NumericalError(fmt::format("{}: {}", nlp_.describe_stage(k), error.what()));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", nlp_.describe_stage(k), error.what()));
+  }
+}
+
+bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
+  const Stopwatch stopwatch(times_.values);
+  try {
+    threads_.for_each(num_stages_, [&](int k) { at_stage(k, [&] { evaluate_stage(k, ux, values); }); });
+  } catch (const NumericalError& error) {
+    failure_ = error.what();
+    return false;
+  }
+  values.cost = values.stage_costs.sum();
+  return true;
+}
+
+void InteriorPoint::evaluate_stage(int k, const StageVectors& ux, Values& values) {
+  const auto i = static_cast<std::size_t>(k);
+  const StageValues& stage = nlp_.values(k, ux[i]);
+  values.stage_costs(k) = stage.cost;
+  values.equalities[i] = stage.equalities;
+  segment(values.inequalities, k) = stage.inequalities;
+  if (k + 1 < num_stages_) values.links[i] = stage.next - ux[i + 1].tail(stage.next.size());
+  if (!std::isfinite(stage.cost)) throw NumericalError("the cost is not finite");
+  if (!stage.equalities.allFinite()) throw NumericalError("an equality is not finite");
+  if (!stage.inequalities.allFinite()) throw NumericalError("an inequality is not finite");
+  if (!stage.next.allFinite()) throw NumericalError("the next state is not finite");
+}
+
+/// Those of the other functions are found where they are used; these spread to all stages first.
+void InteriorPoint::need_finite_slopes(int k) const {
+  if (!nlp_.cost_gradient(k).allFinite()) throw NumericalError("the gradient of the cost is not finite");
+  if (!nlp_.equality_slopes(k).allFinite()) throw NumericalError("the derivatives of an equality are not finite");
+}
+
+void InteriorPoint::linearise() {
+  const Stopwatch stopwatch(times_.derivatives);
+  threads_.for_each(num_stages_, [this](int k) {
+    const auto i = static_cast<std::size_t>(k);
+    on_[i].inequalities = segment(lambda_, k);
+    at_stage(k, [&] {
+      nlp_.linearise(k, ux_[i], cost_scale_, on_[i]);
+      need_finite_slopes(k);
+    });
+  });
+}
+
+/// For what needs no second derivatives.
+void InteriorPoint::linearise_to_first_order() {
+  const Stopwatch stopwatch(times_.derivatives);
+  threads_.for_each(num_stages_, [this](int k) {
+    at_stage(k, [&] {
+      nlp_.linearise_to_first_order(k, ux_[k]);
+      need_finite_slopes(k);
+    });
+  });
+}
+
+StageKkt::Outcome InteriorPoint::factorise(StageKkt::Hessian hessian, double delta) {
+  const Stopwatch stopwatch(times_.linear_algebra);
+  return kkt_.factorise(hessian, delta, weights_);
+}
+
+double InteriorPoint::violation(const Values& values, const VectorXd& s) const {
+  return sum_of_sizes(values.links) + sum_of_sizes(values.equalities) + (values.inequalities - s).lpNorm<1>();
+}
+
+double InteriorPoint::largest_violation(const Values& values, const VectorXd& s) const {
+  const double inequalities = s.size() > 0 ? (values.inequalities - s).cwiseAbs().maxCoeff() : 0.0;
+  return std::max({largest(values.links), largest(values.equalities), inequalities});
+}
+
+double InteriorPoint::barrier_function(const Values& values, const Slacks& slacks) const {
+  return cost_scale_ * values.cost + mu_ * slacks.log_barrier();
+}
+
+void InteriorPoint::update_dual_violation() {
+  largest_dual_violation_ = slacks_.largest_dual_violation(lambda_);
+  for (int k = 0; k < num_stages_; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    VectorXd& violation = dual_violation_[i];
+    violation = cost_scale_ * nlp_.cost_gradient(k);
+    violation.noalias() += nlp_.equality_slopes(k).transpose() * on_[i].equalities;
+    on_[i].inequalities = segment(lambda_, k);
+    nlp_.add_pull_back(k, on_[i].next, on_[i].inequalities, violation);
+    if (k > 0) violation.tail(nlp_.size(k).states) -= on_[i - 1].next;
+    if (!violation.allFinite()) throw NumericalError(nlp_.describe_stage(k) + ": first derivatives are not finite");
+    if (violation.size() > 0)
+      largest_dual_violation_ = std::max(largest_dual_violation_, violation.cwiseAbs().maxCoeff());
+  }
+}
+
+double InteriorPoint::error(double mu) const {
+  const double of_bounds = slacks_.sum_of_multipliers();
+  double of_all = of_bounds + lambda_.lpNorm<1>();
+  double count = slacks_.num_bounds() + static_cast<double>(lambda_.size());
+  for (const StageMultipliers& on : on_) {
+    of_all += on.next.lpNorm<1>() + on.equalities.lpNorm<1>();
+    count += static_cast<double>(on.next.size() + on.equalities.size());
+  }
+  const double dual_scale = std::max(kSMax, of_all / std::max(1.0, count)) / kSMax;
+  const double bound_scale = std::max(kSMax, of_bounds / std::max(1, slacks_.num_bounds())) / kSMax;
+  return std::max({largest_dual_violation_ / dual_scale, largest_violation(values_, slacks_.s),
+                   slacks_.largest_complementarity(mu) / bound_scale});
+}
+
+void InteriorPoint::update_figures() {
+  figures_.cost = values_.cost;
+  figures_.violation = largest_violation(values_, slacks_.s);
+  figures_.dual_violation = largest_dual_violation_ / cost_scale_;
+}
+
+bool InteriorPoint::update_barrier() {
+  const double least = options_.tolerance / (kKappaEpsilon + 1.0);
+  if (mu_ <= least || error(mu_) > kKappaEpsilon * mu_) return false;
+  mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, kThetaMu)));
+  return true;
+}
+
+void InteriorPoint::scale_cost() {
+  cost_scale_ = 1.0;
+  linearise_to_first_order();
+  double slope = 0.0;
+  for (int k = 0; k < num_stages_; ++k) {
+    if (nlp_.cost_gradient(k).size() > 0) slope = std::max(slope, nlp_.cost_gradient(k).cwiseAbs().maxCoeff());
+  }
+  if (slope > kLargestCostSlope) cost_scale_ = kLargestCostSlope / slope;
+}
+
+bool InteriorPoint::has_start_multipliers() const {
+  const std::vector<StageMultipliers>& start = options_.start_multipliers;
+  bool fits = options_.start_is_near && start.size() == on_.size();
+  for (std::size_t i = 0; fits && i < on_.size(); ++i) {
+    fits = start[i].next.size() == on_[i].next.size() && start[i].equalities.size() == on_[i].equalities.size() &&
+           start[i].inequalities.size() == on_[i].inequalities.size();
+  }
+  return fits;
+}
+
+void InteriorPoint::start_slacks() {
+  const double push = options_.start_is_near ? kNearPush : kFirstPush;
+  if (!has_start_multipliers()) {
+    slacks_.start(values_.inequalities, push);
+    slacks_.center(mu_);
+    slacks_.pull(mu_, lambda_);
+    return;
+  }
+  for (int k = 0; k < num_stages_; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    on_[i].next = cost_scale_ * options_.start_multipliers[i].next;
+    on_[i].equalities = cost_scale_ * options_.start_multipliers[i].equalities;
+    segment(lambda_, k) = cost_scale_ * options_.start_multipliers[i].inequalities;
+  }
+  slacks_.start(values_.inequalities, lambda_, mu_, push);
+}
+
+std::vector<StageMultipliers> InteriorPoint::multipliers() const {
+  std::vector<StageMultipliers> result = on_;
+  for (int k = 0; k < num_stages_; ++k) {
+    StageMultipliers& on = result[k];
+    on.next /= cost_scale_;
+    on.equalities /= cost_scale_;
+    on.inequalities = segment(lambda_, k) / cost_scale_;
+  }
+  return result;
+}
+
+/// Least squares: those that leave the least violation of the dual equations.
+void InteriorPoint::estimate_multipliers() {
+  for (VectorXd& weights : weights_) weights.setZero();
+  if (factorise(StageKkt::Hessian::identity, 1.0) != StageKkt::Outcome::solvable) return;
+  set_gradient(cost_scale_, lambda_);
+  for (VectorXd& links : right_links_) links.setZero();
+  for (VectorXd& equalities : right_equalities_) equalities.setZero();
+  kkt_.solve(gradient_, right_equalities_, right_links_);
+  const bool is_of_use = std::max(largest(kkt_.on_next()), largest(kkt_.on_equalities())) <= kLargestMultiplier;
+  for (int k = 0; k < num_stages_; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    on_[i].next = is_of_use ? kkt_.on_next()[i] : VectorXd::Zero(on_[i].next.size());
+    on_[i].equalities = is_of_use ? kkt_.on_equalities()[i] : VectorXd::Zero(on_[i].equalities.size());
+  }
+}
+
+double InteriorPoint::largest_multiplier() const {
+  double result = 0.0;
+  for (const StageMultipliers& on : on_) {
+    result = std::max({result, on.next.lpNorm<Eigen::Infinity>(), on.equalities.lpNorm<Eigen::Infinity>()});
+  }
+  return result;
+}
+
+void InteriorPoint::set_right_sides(const Values& values, const VectorXd& s) {
+  right_links_ = values.links;
+  right_equalities_ = values.equalities;
+  residual_ = values.inequalities - s;
+}
+
+/// Gradient of the scaled cost and of what multipliers make of the inequalities.
+void InteriorPoint::set_gradient(double cost_scale, const VectorXd& lambda) {
+  for (int k = 0; k < num_stages_; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    gradient_[i] = cost_scale * nlp_.cost_gradient(k);
+    on_[i].inequalities = segment(lambda, k);
+    nlp_.add_pull_back(k, no_next_[i], on_[i].inequalities, gradient_[i]);
+  }
+}
+
+void InteriorPoint::set_weights() {
+  slacks_.weights(sigma_);
+  for (int k = 0; k < num_stages_; ++k) weights_[k] = segment(sigma_, k);
+}
+
+/// Steps of all variables and new multipliers with the factors and weights at hand, for violations (right_links_,
+/// right_equalities_, residual).
+void InteriorPoint::solve_direction(double cost_scale, const VectorXd& residual) {
+  const Stopwatch stopwatch(times_.linear_algebra);
+  slacks_.pull(mu_, beta_);
+  step_lambda_ = beta_ + sigma_.cwiseProduct(residual);
+  set_gradient(cost_scale, step_lambda_);
+  kkt_.solve(gradient_, right_equalities_, right_links_, kStepAccuracy * options_.tolerance);
+  for (int k = 0; k < num_stages_; ++k) segment(ds_, k) = kkt_.along_inequalities()[k];
+  ds_ += residual;
+  step_lambda_ = beta_ + sigma_.cwiseProduct(ds_);
+}
+
+bool InteriorPoint::compute_direction(double least_regularisation, std::string& failure) {
+  set_weights();
+  regularisation_ = least_regularisation;
+  while (true) {
+    const StageKkt::Outcome outcome = factorise(StageKkt::Hessian::lagrangian, regularisation_);
+    if (outcome == StageKkt::Outcome::solvable) break;
+    if (outcome == StageKkt::Outcome::not_finite) {
+      throw NumericalError(nlp_.describe_stage(kkt_.last_stage()) + ": second derivatives are not finite");
+    }
+    if (regularisation_ == 0.0) {
+      regularisation_ = last_regularisation_ == 0.0 ? kFirstRegularisation
+                                                    : std::max(kLeastRegularisation, kDecrease * last_regularisation_);
+    } else {
+      regularisation_ *= kGrowth;
+    }
+    if (regularisation_ > kLargestRegularisation) {
+      failure = "no regularisation makes the problem convex";
+      return false;
+    }
+  }
+  // What a step that failed asks for says nothing of the curvature.
+  if (regularisation_ > 0.0 && least_regularisation == 0.0) last_regularisation_ = regularisation_;
+
+  set_right_sides(values_, slacks_.s);
+  solve_direction(cost_scale_, residual_);
+  step_ = kkt_.steps();
+  slacks_.set_step(mu_, ds_);
+  slope_ = beta_.dot(ds_);
+  for (int k = 0; k < num_stages_; ++k) {
+    slope_ += cost_scale_ * nlp_.cost_gradient(k).dot(step_[k]);
+  }
+  if (std::isfinite(slope_)) return true;
+  failure = "the search direction is not finite";
+  return false;
+}
+
+InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch& watch) {
+  using enum SolveStatus;
+  ux_ = start;
+  if (!evaluate(ux_, values_)) return {evaluation_failed, failure_};
+  mu_ = (has_start_multipliers() ? kKnownBarrier : options_.start_is_near ? kNearBarrier : kFirstBarrier) / num_stages_;
+  try {
+    scale_cost();
+    start_slacks();
+    if (!has_start_multipliers()) estimate_multipliers();
+    linearise();
+    theta_ = violation(values_, slacks_.s);
+    least_theta_ = 1e-4 * std::max(1.0, theta_);
+    const double largest_theta = 1e4 * std::max(1.0, theta_);
+    filter_.reset(largest_theta);
+    if (has_start_multipliers()) keep_start();
+    for (iterations_ = 0;; ++iterations_) {
+      end_whole_steps();
+      update_dual_violation();
+      update_figures();
+      if (!std::isfinite(figures_.dual_violation)) return {evaluation_failed, "the iterate is not finite"};
+      if (error(0.0) <= options_.tolerance && figures_.violation <= options_.tolerance) {
+        return {converged, "optimal within tolerance"};
+      }
+      if (const auto ending = watch(iterations_, figures_)) return *ending;
+      bool new_barrier = false;
+      while (update_barrier()) new_barrier = true;
+      if (new_barrier) filter_.reset(largest_theta);
+      std::string failure;
+      bool has_moved = false;
+      double least_regularisation = 0.0;
+      for (int failures = 0; !has_moved && failures <= kMostFailures; ++failures) {
+        if (!compute_direction(least_regularisation, failure)) return {solver_failed, failure};
+        has_moved = search_line();
+        least_regularisation = kFailureGrowth * std::max(kFirstRegularisation, regularisation_);
+      }
+      if (!has_moved) {
+        if (const auto ending = restore_feasibility(watch)) return *ending;
+        continue;
+      }
+      linearise();
+      const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasible;
+      // A regularised step that removes a violation leaves multipliers in proportion to the regularisation, and these
+      // bend the Lagrangian, which asks for more of it.
+      if (regularisation_ > 0.0 && violation_is_small && largest_multiplier() > kHugeMultiplier) {
+        estimate_multipliers();
+        linearise();
+      }
+    }
+  } catch (const NumericalError& error) {
+    return {evaluation_failed, error.what()};
+  }
+}
+
+}  // namespace prowl

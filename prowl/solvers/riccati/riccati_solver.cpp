@@ -1,0 +1,83 @@
+#include "prowl/solvers/riccati/riccati_solver.hpp"
+
+#include <optional>
+
+#include "prowl/nlp/stopwatch.hpp"
+#include "prowl/solvers/arguments.hpp"
+#include "prowl/solvers/remeasure_result.hpp"
+#include "prowl/solvers/riccati/interior_point.hpp"
+#include "prowl/solvers/thrown_error.hpp"
+
+namespace prowl {
+
+using Eigen::VectorXd;
+
+std::string RiccatiSolver::name() const { return "Riccati"; }
+
+std::string RiccatiSolver::version() const { return "1"; }
+
+std::optional<std::string> RiccatiSolver::why_unsupported(Nlp& nlp) const {
+  return why_no_chain(nlp, "the Riccati solver");
+}
+
+SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
+  check_arguments(nlp, z_start, options);
+  const double began = wall_seconds();
+  const double cpu_start = cpu_seconds();
+  SolveResult result;
+  result.z = z_start;
+  if (const auto reason = why_unsupported(nlp)) {
+    result.message = *reason;
+    return result;
+  }
+  StagewiseNlp& stages = *nlp.stagewise();
+  std::optional<InteriorPoint> made;
+  try {
+    made.emplace(stages, options, nlp.use_threads(options.threads));
+  } catch (...) {  // no memory, no threads
+    result.message = what_was_thrown();
+    return result;
+  }
+  InteriorPoint& method = *made;
+  IterateFigures best;
+  StageVectors best_stages;
+  const auto watch = [&](int iteration, const IterateFigures& figures) -> std::optional<InteriorPoint::Ending> {
+    using enum SolveStatus;
+    if (is_better(figures, best, options.tolerance)) {
+      best = figures;
+      best_stages = method.stages();
+    }
+    if (options.on_iteration) {
+      options.on_iteration(
+          {iteration, figures.cost, figures.violation, figures.dual_violation, wall_seconds() - began});
+    }
+    if (options.on_iterate) options.on_iterate(stages.flat(method.stages()));
+    if (options.interrupt && options.interrupt->load()) return {{interrupted, "stopped on request"}};
+    if (wall_seconds() - began > options.max_seconds) return {{time_limit, "time limit reached"}};
+    if (iteration >= options.max_iterations) return {{iteration_limit, "iteration limit reached"}};
+    return std::nullopt;
+  };
+  InteriorPoint::Ending ending{SolveStatus::solver_failed, ""};
+  try {
+    ending = method.run(stages.stages(z_start), watch);
+  } catch (...) {
+    ending.message = what_was_thrown();
+  }
+  result.status = ending.status;
+  result.message = ending.message;
+  result.iterations = method.iterations();
+  const bool has_converged = result.status == SolveStatus::converged;
+  if (has_converged || !best_stages.empty()) {
+    result.z = stages.flat(has_converged ? method.stages() : best_stages);
+    if (has_converged) result.stage_multipliers = method.multipliers();
+    result.dual_violation = (has_converged ? method.figures() : best).dual_violation;
+  }
+
+  judge(nlp, options.tolerance, name(), result);
+  result.times = method.times();
+  result.times.cpu = cpu_seconds() - cpu_start;
+  result.seconds = wall_seconds() - began;
+  return result;
+}
+
+}  // namespace prowl

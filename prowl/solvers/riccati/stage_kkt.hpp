@@ -1,0 +1,130 @@
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <deque>
+#include <vector>
+
+#include "prowl/nlp/stagewise_nlp.hpp"
+#include "prowl/solvers/riccati/stage_vectors.hpp"
+
+namespace prowl {
+
+/// Newton's equations of a chain of stages, by a Riccati recursion: the step d_k = (du_k, dx_k) that minimises
+///
+///   sum of  1/2 d' M d + g' d,   M = Hessian of the Lagrangian + delta I + inequalities' diag(weights) inequalities
+///   subject to  dx_{k+1} = next' d + b_k,   equalities' d + c_k = 0
+///
+/// at the stages as they were linearised last, with the multipliers of both. From the last stage to the first:
+///
+///   equalities     determine as many inputs as their rank, chosen by an LU factorisation with full pivoting: those are
+///                  substituted. What is left of the equalities is a condition on the state and goes to the stage
+///                  before, as equalities of that stage: E dx + e = 0
+///   free inputs    minimise (Cholesky): what remains is the cost-to-go  1/2 dx' P dx + p' dx
+///
+/// The Cholesky factors exist if and only if M is positive definite on the steps that keep the equalities. Equalities
+/// that depend on others are left out, with multipliers of zero. An input that could meet an equality only by a huge
+/// step does not count: that equality goes to earlier stages, and iterative refinement makes up for what was left out.
+/// No memory is taken once the ranks have settled.
+class StageKkt {
+ public:
+  /// A view of `nlp`, which must outlive it.
+  explicit StageKkt(StagewiseNlp& nlp);
+
+  enum class Hessian { lagrangian, identity };
+  enum class Outcome { solvable, indefinite, not_finite };
+
+  /// `weights`: of the inequalities. With `identity` M is delta I and the weighted inequalities.
+  Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
+  int last_stage() const { return last_stage_; }  ///< where the latest factorisation ended: 0 if it is solvable
+
+  /// Of g, c and b, one vector a stage each; b has none after the last stage. `accuracy`: of the equations, largest
+  /// absolute value, where iterative refinement may end.
+  void solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
+             double accuracy = 0.0);
+
+  const StageVectors& steps() const { return steps_; }
+  const StageVectors& on_equalities() const { return on_equalities_; }
+  const StageVectors& on_next() const { return on_next_; }
+  const StageVectors& along_inequalities() const { return along_inequalities_; }  ///< their derivatives times the step
+
+ private:
+  /// Variables in the order (determined inputs, free inputs, states). r: all but the determined ones. What a solve
+  /// reads is kept small: on long chains it comes from main memory.
+  struct Stage {
+    StageSize size;
+    int carried = 0;                       ///< conditions E of the next stage, which are equalities here
+    int rank = 0;                          ///< number of determined inputs
+    int passed = 0;                        ///< conditions E of this stage
+    Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of the equalities, own and carried ones, in u
+    std::vector<Eigen::Index> order;       ///< place of each variable in (u, x)
+    Eigen::MatrixXd M_dd;                  ///< M in the determined inputs
+    Eigen::MatrixXd K;                     ///< determined inputs = K r + k
+    Eigen::MatrixXd T;                     ///< M_dd K + M_dr
+    Eigen::LLT<Eigen::MatrixXd> cholesky;
+    Eigen::MatrixXd G;  ///< L^-1 N_fx of the free inputs
+    Eigen::MatrixXd P, E;
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of what determines no input
+    std::vector<int> passed_rows;                            ///< which of the rows in the order of the pivots E is
+
+    Eigen::VectorXd m, c, k, r, p, e, step, on_rows, on_carried;
+    Eigen::VectorXd gradient, permuted, no_inequalities;
+    int num_equalities() const { return size.equalities + carried; }
+    int free() const { return size.inputs - rank; }
+    int rest() const { return size.variables() - rank; }
+  };
+
+  /// Matrices that are of use only while a stage is factorised: one of each size, shared by the stages that need it.
+  class Shared {
+   public:
+    Eigen::MatrixXd& of_size(Eigen::Index rows, Eigen::Index cols);
+
+   private:
+    std::deque<Eigen::MatrixXd> matrices_;  ///< stay where they are
+  };
+  struct Work {
+    Shared equalities;  ///< own and carried ones, in (u, x)
+    Shared in_states;   ///< L^-1 of those in x, rows in the order of the pivots
+    Shared condensed;   ///< M in (u, x)
+    Shared M;           ///< in the stage's order
+    Shared N;           ///< M in r, lower triangle
+    Shared M_ddK;
+  };
+
+  Stage& stage(int k) { return stages_[k]; }
+  Eigen::MatrixXd& gather_equalities(int k);
+  void put_in_order(const Stage& stage, const Eigen::MatrixXd& condensed, Eigen::MatrixXd& M);
+  void determine_inputs(Stage& stage, const Eigen::MatrixXd& equalities);
+  void eliminate(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& M, Eigen::MatrixXd& in_states,
+                 Eigen::MatrixXd& N);
+  void pass_conditions(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& in_states);
+  /// How many of the pivots of a stage's equalities count; notes whether others were more than rounding.
+  template <class Pivots>
+  int count_independent(const Eigen::MatrixXd& equalities, const Pivots& pivots);
+  Outcome factorise_stage(int k);
+  void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
+  void forward(int k, const Eigen::VectorXd* link);
+  void find_multipliers(int k);
+  void solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
+  double find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
+
+  StagewiseNlp& nlp_;
+  int num_stages_;
+  std::vector<Stage> stages_;
+  Work work_;
+  StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
+  int last_stage_ = 0;
+  bool is_exact_ = true;  ///< no pivot but rounding was left out
+  Hessian hessian_ = Hessian::lagrangian;
+  double delta_ = 0.0;
+  StageVectors weights_;
+  struct Solution {
+    StageVectors steps, on_equalities, on_next, along_inequalities;
+  } sum_;
+  StageVectors residual_gradient_, residual_equalities_, residual_links_, residual_next_, residual_inequalities_;
+  Eigen::MatrixXd no_hessian_;
+};
+
+}  // namespace prowl

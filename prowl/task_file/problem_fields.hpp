@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+#include "prowl/files/text_file.hpp"
+
+namespace prowl {
+
+/// What validate() says of a MotionProblem, in the words of the task file that it comes from:
+/// "task.toml:12:1: start: contact 'lf_foot' ..." for "boundary_conditions[0].q_ref: contact 'lf_foot' ...".
+std::string in_terms_of_the_file(const SourceText& task_file, const std::string& complaint);
+
+}  // namespace prowl

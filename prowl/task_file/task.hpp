@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "prowl/files/text_file.hpp"
+#include "prowl/mesh/mesh.hpp"
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/simulation/simulation_options.hpp"
+#include "prowl/tracking/tracking_options.hpp"
+
+namespace prowl {
+
+/// What the command line puts in place of a task file's values.
+struct TaskOverrides {
+  std::optional<int> intervals;  ///< total, shared out over the phases as in the file; at least one each
+  std::optional<int> max_iterations;
+  std::optional<double> max_seconds;
+  std::optional<double> tolerance;
+};
+
+/// A task file, understood, and all that it was read from: enough to read it again (see plan_folder/plan_folder.hpp).
+struct Task {
+  MotionProblem problem;
+  Mesh mesh;
+  SolverOptions solver;
+  TrackingOptions tracking;
+  SuccessCriteria success = {};                   ///< of a simulation
+  std::optional<double> simulated_friction = {};  ///< of all surfaces in a simulation; else as planned with
+  SourceText task_file;
+  SourceText robot_file;
+  TaskOverrides overrides;
+  std::vector<int> file_intervals;  ///< of each phase, before the overrides
+};
+
+}  // namespace prowl

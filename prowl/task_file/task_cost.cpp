@@ -1,0 +1,100 @@
+#include "prowl/task_file/task_cost.hpp"
+
+#include <algorithm>
+
+#include "prowl/dynamics/static_equilibrium.hpp"
+#include "prowl/task_file/toml/toml_vectors.hpp"
+
+namespace prowl {
+namespace {
+
+const NumberRange kWeight = NumberRange::nonnegative();
+
+ContactPositionCost read_contact_position(const TomlTable& table, const RobotModel& robot) {
+  std::vector<std::string> names;
+  for (const ContactPoint& contact : robot.contacts()) names.push_back(contact.name);
+  ContactPositionCost cost;
+  const TomlValue contact = table.need("contact");
+  const auto found = std::find(names.begin(), names.end(), contact.as_text());
+  if (found == names.end()) contact.fail_unknown_name("contact", names);
+  cost.contact = static_cast<int>(found - names.begin());
+  cost.reference = table.need("reference_m").as_vector3();
+  table.need("weight");
+  Eigen::VectorXd weight(3);
+  read_axes(table, "weight", kWeight, weight);
+  cost.weight = weight;
+  return cost;
+}
+
+QuadraticCost no_cost(const MotionProblem& problem) {
+  const RobotModel& robot = problem.robot;
+  QuadraticCost cost;
+  cost.q_ref = problem.start_configuration();
+  cost.configuration_weight.setZero(robot.nv());
+  cost.velocity_weight.setZero(robot.nv());
+  cost.acceleration_weight.setZero(robot.nv());
+  cost.tau_ref.setZero(robot.nu());
+  cost.torque_weight.setZero(robot.nu());
+  return cost;
+}
+
+/// The keys that both tables have.
+void read_state_cost(const TomlTable& table, const MotionProblem& problem, QuadraticCost& cost) {
+  const RobotModel& robot = problem.robot;
+  if (const auto reference = table.find("reference")) {
+    const std::vector<std::string> known = {"start", "goal"};
+    const std::string name = reference->as_text();
+    if (std::find(known.begin(), known.end(), name) == known.end()) reference->fail_unknown_name("reference", known);
+    if (name == "goal") {
+      if (problem.boundary_conditions.size() < 2) reference->fail("\"goal\" needs a [[goal]]");
+      cost.q_ref = problem.boundary_conditions.back().q_ref;
+    }
+  }
+  read_axes(table, "base_position", kWeight, cost.configuration_weight.segment(0, 3));
+  read_axes(table, "base_orientation", kWeight, cost.configuration_weight.segment(3, 3));
+  read_joints(table, "joint_position", robot, kWeight, cost.configuration_weight.tail(robot.nu()));
+  read_axes(table, "base_linear_velocity", kWeight, cost.velocity_weight.segment(0, 3));
+  read_axes(table, "base_angular_velocity", kWeight, cost.velocity_weight.segment(3, 3));
+  read_joints(table, "joint_velocity", robot, kWeight, cost.velocity_weight.tail(robot.nu()));
+  for (const TomlTable& place : table.find_tables("contact_position")) {
+    cost.contact_positions.push_back(read_contact_position(place, robot));
+  }
+}
+
+/// Torques that hold the start posture on the contacts of the first phase.
+Eigen::VectorXd static_torque(const MotionProblem& problem) {
+  const std::vector<int> contacts = contact_indices(problem.phases.front().contacts);
+  return static_equilibrium(problem.robot, problem.start_configuration(), contacts).tau;
+}
+
+void read_running_cost(const TomlTable& table, const MotionProblem& problem, QuadraticCost& cost) {
+  const RobotModel& robot = problem.robot;
+  read_state_cost(table, problem, cost);
+  read_axes(table, "base_linear_acceleration", kWeight, cost.acceleration_weight.segment(0, 3));
+  read_axes(table, "base_angular_acceleration", kWeight, cost.acceleration_weight.segment(3, 3));
+  read_joints(table, "joint_acceleration", robot, kWeight, cost.acceleration_weight.tail(robot.nu()));
+  read_joints(table, "torque", robot, kWeight, cost.torque_weight);
+  if (const auto time = table.find("time")) cost.time_weight = time->as_number(kWeight);
+  Eigen::VectorXd force = cost.force_weight;
+  read_axes(table, "force", kWeight, force);
+  cost.force_weight = force;
+
+  const auto reference = table.find("torque_reference");
+  const std::string name = reference ? reference->as_text() : "static";
+  if (name == "static") {
+    cost.tau_ref = static_torque(problem);
+  } else if (name != "zero") {
+    reference->fail_unknown_name("torque reference", {"static", "zero"});
+  }
+}
+
+}  // namespace
+
+void read_costs(const TomlTable& root, MotionProblem& problem) {
+  problem.running_cost = no_cost(problem);
+  problem.terminal_cost = no_cost(problem);
+  if (const auto table = root.find_table("cost")) read_running_cost(*table, problem, problem.running_cost);
+  if (const auto table = root.find_table("terminal_cost")) read_state_cost(*table, problem, problem.terminal_cost);
+}
+
+}  // namespace prowl

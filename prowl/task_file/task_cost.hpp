@@ -1,0 +1,12 @@
+#pragma once
+
+// Internal to io: [cost] and [terminal_cost] of a task file.
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/task_file/toml/toml_value.hpp"
+
+namespace prowl {
+
+/// Sets running_cost and terminal_cost of a problem whose robot, phases and boundary conditions are there.
+void read_costs(const TomlTable& root, MotionProblem& problem);
+
+}  // namespace prowl

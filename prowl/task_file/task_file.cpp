@@ -1,0 +1,395 @@
+#include "prowl/task_file/task_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/model/configuration.hpp"
+#include "prowl/task_file/check_overrides.hpp"
+#include "prowl/task_file/duration_range.hpp"
+#include "prowl/task_file/interval_shares.hpp"
+#include "prowl/task_file/problem_fields.hpp"
+#include "prowl/task_file/robot_file.hpp"
+#include "prowl/task_file/task_cost.hpp"
+#include "prowl/task_file/task_gait.hpp"
+#include "prowl/task_file/task_goals.hpp"
+#include "prowl/task_file/task_simulation.hpp"
+#include "prowl/task_file/task_tracking.hpp"
+#include "prowl/task_file/toml/toml_value.hpp"
+#include "prowl/text/name_check.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr int kMostFreeSteps = 200;
+constexpr double kShortestNormal = 1e-6;
+
+std::vector<Eigen::Vector2d> read_patch(const TomlValue& value) {
+  std::vector<Eigen::Vector2d> corners;
+  for (const TomlValue& corner : value.as_list()) {
+    const std::vector<TomlValue> numbers = corner.as_list(2);
+    corners.emplace_back(numbers[0].as_number(), numbers[1].as_number());
+  }
+  if (const std::string fault = Surface::patch_fault(corners); !fault.empty()) value.fail(fault);
+  return corners;
+}
+
+std::vector<Surface> read_surfaces(const TomlTable& root) {
+  std::vector<Surface> surfaces;
+  for (const TomlTable& table : root.find_tables("surface")) {
+    Surface surface;
+    surface.name = table.need("name").as_name();
+    for (const Surface& other : surfaces) {
+      if (other.name == surface.name) table.need("name").fail("\"" + surface.name + "\" is already another surface");
+    }
+    if (const auto point = table.find("point_m")) surface.point = point->as_vector3();
+    if (const auto normal = table.find("normal")) {
+      surface.normal = normal->as_vector3();
+      if (surface.normal.norm() < kShortestNormal) {
+        normal->fail(fmt::format("too short for a direction; need a length of {:g} or more", kShortestNormal));
+      }
+      surface.normal.normalize();
+    }
+    if (const auto patch = table.find("patch_m")) surface.patch = read_patch(*patch);
+    if (const auto friction = table.find("friction")) surface.friction = friction->as_number(NumberRange::positive());
+    surfaces.push_back(surface);
+  }
+  if (surfaces.empty()) surfaces.emplace_back();
+  return surfaces;
+}
+
+/// Throws, naming the joint and where its position was written, unless the posture keeps the joint limits.
+void check_start(const RobotModel& robot, const Eigen::VectorXd& q, const std::optional<TomlValue>& joints,
+                 const SourceText& robot_file) {
+  for (int j = 0; j < robot.nu(); ++j) {
+    const double position = q(7 + j);
+    if (position >= robot.position_lower()(j) && position <= robot.position_upper()(j)) continue;
+    const std::string& name = robot.joint_names()[j];
+    const std::string message = fmt::format("the start posture has {:g} rad, outside the joint's limits [{:g}, {:g}]",
+                                            position, robot.position_lower()(j), robot.position_upper()(j));
+    if (joints) {
+      for (const auto& [key, value] : joints->as_named_values(robot.joint_names(), "joint")) {
+        if (key == name) value.fail(message);
+      }
+    }
+    const std::string path = "nominal.joints." + name;
+    throw InputError(fmt::format("{}{}: {}", locate(robot_file, path), path, message));
+  }
+}
+
+int find_name(const TomlValue& value, const std::string& what, const std::vector<std::string>& names) {
+  const auto found = std::find(names.begin(), names.end(), value.as_text());
+  if (found == names.end()) value.fail_unknown_name(what, names);
+  return static_cast<int>(found - names.begin());
+}
+
+/// Takes a posture from the level ground, z = 0, to a surface: turned the shortest way, what was at the origin at its
+/// point.
+void put_on(const Surface& surface, TaskStart& start) {
+  const Eigen::Matrix3d turn =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), surface.normal).toRotationMatrix();
+  const Eigen::Matrix3d R = turn * base_rotation(start.q);
+  start.q.head<3>() = (surface.point + turn * start.q.head<3>()).eval();
+  set_base_rotation(start.q, R);
+  start.rpy = rpy_from_rotation(R);
+}
+
+TaskStart read_start(const TomlTable& root, const RobotModel& robot, const SourceText& robot_file,
+                     const std::vector<Surface>& surfaces) {
+  TaskStart start{robot.nominal_configuration(), robot.description().nominal_base_rpy};
+  std::optional<TomlValue> joints;
+  if (const auto table = root.find_table("start")) {
+    RobotDescription posture = robot.description();
+    joints = table->find("joints");
+    if (joints) {
+      for (const auto& [name, value] : joints->as_named_values(robot.joint_names(), "joint")) {
+        posture.nominal_joints[name] = value.as_number();
+      }
+    }
+    if (const auto rpy = table->find("base_rpy_rad")) posture.nominal_base_rpy = rpy->as_vector3(angle_range());
+    // A robot with this as its nominal posture puts it on the ground.
+    start = {RobotModel(posture).nominal_configuration(), posture.nominal_base_rpy};
+    const auto position = table->find("base_position_m");
+    if (position) start.q.head<3>() = position->as_vector3();
+    if (const auto on = table->find("on")) {
+      if (position) on->fail("need either on or base_position_m, not both");
+      std::vector<std::string> names;
+      for (const Surface& surface : surfaces) names.push_back(surface.name);
+      put_on(surfaces[find_name(*on, "surface", names)], start);
+    }
+  }
+  check_start(robot, start.q, joints, robot_file);
+  return start;
+}
+
+struct ContactNames {
+  std::vector<std::string> contacts, surfaces;
+};
+
+std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const ContactNames& names) {
+  std::vector<PhaseContact> contacts;
+  if (value.is_text() && value.as_text() == "all") {
+    for (int c = 0; c < static_cast<int>(names.contacts.size()); ++c) contacts.push_back({c, 0});
+    return contacts;
+  }
+  if (!value.is_list()) value.fail("need \"all\" or a list of contacts");
+  for (const TomlValue& entry : value.as_list()) {
+    PhaseContact contact;
+    if (entry.is_table()) {
+      const TomlTable table(entry, task_file_keys(), "phase.contacts");
+      contact.contact = static_cast<int>(table.need("contact").as_one_of("contact", names.contacts));
+      if (const auto surface = table.find("surface")) {
+        contact.surface = static_cast<int>(surface->as_one_of("surface", names.surfaces));
+      }
+      if (const auto place = table.find("place_m")) contact.place = place->as_vector3();
+    } else {
+      contact.contact = static_cast<int>(entry.as_one_of("contact", names.contacts));
+    }
+    for (const PhaseContact& other : contacts) {
+      if (other.contact == contact.contact) entry.fail("this contact is in the list twice");
+    }
+    contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+/// Phases of the file and their mesh; where their steps are free, the key that says so.
+struct FilePhases {
+  std::vector<Phase> phases;
+  Mesh mesh;
+  std::vector<std::optional<TomlValue>> free_steps;
+};
+
+FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
+  root.need("phase");
+  FilePhases read;
+  for (const TomlTable& table : root.find_tables("phase")) {
+    Phase phase;
+    const auto name = table.find("name");
+    phase.name = name ? name->as_name() : fmt::format("phase {}", read.phases.size() + 1);
+    for (const Phase& other : read.phases) {
+      if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
+    }
+    phase.contacts = read_phase_contacts(table.need("contacts"), names);
+    const Bounds duration = table.need("duration_s").as_range(duration_range());
+    phase.duration = {duration.lower, duration.upper};
+    read.mesh.phases.emplace_back(table.need("intervals").as_integer(1, kMostIntervals));
+    auto steps = table.find("steps");
+    if (steps && steps->as_one_of("kind of steps", {"equal", "free"}) == 0) steps.reset();
+    if (steps && phase.duration.is_fixed()) {
+      steps->fail("the steps of a fixed duration are not free; need duration_s = [min, max]");
+    }
+    read.phases.push_back(phase);
+    read.free_steps.push_back(steps);
+  }
+  if (read.phases.empty()) root.need("phase").fail("an empty list is not allowed; need one phase or more");
+  return read;
+}
+
+/// Equal steps, so many intervals a phase.
+Mesh mesh_of(const std::vector<int>& intervals) {
+  Mesh mesh;
+  for (const int count : intervals) mesh.phases.emplace_back(count);
+  return mesh;
+}
+
+/// A phase whose steps are free becomes phases of one interval each, so that each step is a duration of its own between
+/// the phase's bounds / intervals. Conditions go with their nodes.
+void split_free_steps(FilePhases& read, std::vector<BoundaryCondition>& conditions) {
+  std::vector<Phase> pieces;
+  Mesh mesh;
+  std::vector<int> first;
+  for (std::size_t p = 0; p < read.phases.size(); ++p) {
+    const Phase& phase = read.phases[p];
+    first.push_back(static_cast<int>(pieces.size()));
+    if (!read.free_steps[p]) {
+      pieces.push_back(phase);
+      mesh.phases.push_back(read.mesh.phases[p]);
+      continue;
+    }
+    const int n = read.mesh.phases[p].intervals();
+    if (n > kMostFreeSteps) {
+      read.free_steps[p]->fail(fmt::format(
+          "{} free steps are not allowed; need at most {}: each takes the space of a phase", n, kMostFreeSteps));
+    }
+    for (int i = 0; i < n; ++i) {
+      Phase& step = pieces.emplace_back(phase);
+      step.name = fmt::format("{} step {}", phase.name, i + 1);
+      step.duration = {phase.duration.min / n, phase.duration.max / n};
+      mesh.phases.emplace_back(1);
+      if (i == 0) continue;
+      for (PhaseContact& contact : step.contacts) contact.place.reset();  // it landed with the first step
+    }
+  }
+  for (BoundaryCondition& condition : conditions) {
+    const auto p = static_cast<std::size_t>(condition.at.phase);
+    const int node = read.free_steps[p] ? read.mesh.phases[p].node_at(condition.at.fraction).value() : 0;
+    condition.at =
+        node == 0 ? PhaseFraction{first[p], condition.at.fraction} : PhaseFraction::end_of(first[p] + node - 1);
+  }
+  read.phases = std::move(pieces);
+  read.mesh = std::move(mesh);
+}
+
+void check_lengths(const TomlTable& root, const FilePhases& read) {
+  double seconds = 0.0;
+  for (const Phase& phase : read.phases) seconds += phase.duration.max;
+  if (const int total = read.mesh.num_intervals(); total > kMostIntervals) {
+    root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
+  }
+  if (seconds > kLongestMotion) {
+    root.value().fail(
+        fmt::format("phases of {:g} s in all are not allowed; need at most {:g} s", seconds, kLongestMotion));
+  }
+}
+
+SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
+  SolverOptions options;
+  if (const auto table = root.find_table("solver")) {
+    if (const auto value = table->find("tolerance"))
+      options.tolerance = value->as_number({.lower = 1e-12, .upper = 1e-2});
+    if (const auto value = table->find("max_iterations")) {
+      options.max_iterations = value->as_integer(1, std::numeric_limits<int>::max());
+    }
+    if (const auto value = table->find("max_time_s")) options.max_seconds = value->as_number(NumberRange::positive());
+  }
+  options.max_iterations = overrides.max_iterations.value_or(options.max_iterations);
+  options.max_seconds = overrides.max_seconds.value_or(options.max_seconds);
+  options.tolerance = overrides.tolerance.value_or(options.tolerance);
+  return options;
+}
+
+/// A problem with the mesh of its file.
+struct FileProblem {
+  MotionProblem problem;
+  Mesh mesh;
+  std::vector<int> file_intervals;  ///< see Task
+};
+
+FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceText& robot_file,
+                         const TaskOverrides& overrides) {
+  std::vector<Surface> surfaces = read_surfaces(root);
+  ContactNames names;
+  for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
+  for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
+  const TaskStart start = read_start(root, robot, robot_file, surfaces);
+  const std::optional<TaskGait> gait = read_gait(root, robot, surfaces, start);
+  FilePhases read = gait ? FilePhases{gait->phases, gait->mesh, {}} : read_phases(root, names);
+  read.free_steps.resize(read.phases.size());
+  std::vector<int> file_intervals;
+  for (const PhaseMesh& phase : read.mesh.phases) file_intervals.push_back(phase.intervals());
+  if (overrides.intervals) read.mesh = mesh_of(share_intervals(file_intervals, *overrides.intervals));
+  check_lengths(root, read);
+
+  std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
+  for (BoundaryCondition& goal : read_goals(root, robot, start, read.phases, read.mesh))
+    conditions.push_back(std::move(goal));
+  if (gait && gait->displacement) {
+    conditions.push_back(arrival(robot, start, *gait->displacement, static_cast<int>(read.phases.size())));
+  }
+  split_free_steps(read, conditions);
+
+  MotionProblem problem{.name = "",
+                        .robot = std::move(robot),
+                        .surfaces = std::move(surfaces),
+                        .phases = std::move(read.phases),
+                        .boundary_conditions = std::move(conditions),
+                        .running_cost = {},
+                        .terminal_cost = {},
+                        .friction_model = {},
+                        .swing_clearance = 0.0,
+                        .goal_tolerance = {}};
+  constexpr double kSwingClearance =
+      0.05;  // of the standing height: what a legged robot lifts its feet by on flat ground
+  const auto clearance = root.find("swing_clearance_m");
+  problem.swing_clearance = clearance ? clearance->as_number(NumberRange::nonnegative())
+                                      : kSwingClearance * problem.robot.nominal_configuration()(2);
+  if (const auto model = root.find("friction_model")) {
+    problem.friction_model =
+        model->as_one_of("friction model", {"cone", "pyramid"}) == 0 ? FrictionModel::cone : FrictionModel::pyramid;
+  }
+  read_costs(root, problem);
+  return {std::move(problem), std::move(read.mesh), std::move(file_intervals)};
+}
+
+std::filesystem::path robot_path(const SourceText& task_file, const TomlTable& root) {
+  return (task_file.path.parent_path() / root.need("robot").as_text()).lexically_normal();
+}
+
+TomlTable task_root(const TomlDocument& document) {
+  document.refuse_key(
+      "urdf", "this looks like a robot file; need a task file, which names its robot file with robot = \"...\"");
+  return document.root(task_file_keys());
+}
+
+/// The file's name without its ending, with '_' for what no name may have.
+std::string name_of_file(const std::filesystem::path& path) {
+  std::string name = path.stem().string();
+  for (char& c : name) {
+    if (!is_name(std::string(1, c))) c = '_';
+  }
+  return name;
+}
+
+}  // namespace
+
+Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
+                const TaskOverrides& overrides, const std::optional<SourceText>& urdf) {
+  const TomlDocument document(task_file);
+  const TomlTable root = task_root(document);
+  root.need("robot").as_text();
+  check_overrides(task_file, overrides);
+  const SolverOptions solver = read_solver(root, overrides);
+  const TaskSimulation simulation = read_simulation(root);
+  auto [problem, mesh, file_intervals] =
+      read_problem(root, load_robot(robot_file, search, {.urdf_copy = urdf}), robot_file, overrides);
+  const auto name = root.find("name");
+  problem.name = name ? name->as_name() : name_of_file(task_file.path);
+  try {
+    validate(problem);
+  } catch (const InputError& error) {
+    throw InputError(in_terms_of_the_file(task_file, error.what()));
+  }
+  TrackingOptions tracking = read_tracking(root, problem.robot);
+  return {.problem = std::move(problem),
+          .mesh = std::move(mesh),
+          .solver = solver,
+          .tracking = std::move(tracking),
+          .success = simulation.success,
+          .simulated_friction = simulation.friction,
+          .task_file = task_file,
+          .robot_file = robot_file,
+          .overrides = overrides,
+          .file_intervals = std::move(file_intervals)};
+}
+
+Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides) {
+  const TomlDocument document(task_file);
+  const TomlTable root = task_root(document);
+  const std::filesystem::path robot = robot_path(task_file, root);
+  std::error_code unknown;  // which read_text_file then tells
+  if (!std::filesystem::exists(robot, unknown) && !unknown)
+    root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
+  SourceText robot_file;
+  try {
+    robot_file = read_text_file(robot);
+  } catch (const InputError& error) {
+    root.need("robot").fail(error.what());
+  }
+  return parse_task(task_file, robot_file, search, overrides);
+}
+
+Task read_task_file(const std::filesystem::path& path, const PackageSearch& search, const TaskOverrides& overrides) {
+  return read_task_text(read_text_file(path), search, overrides);
+}
+
+std::string task_slug(const std::filesystem::path& task_file) {
+  const std::filesystem::path path = std::filesystem::absolute(task_file).lexically_normal();
+  const std::string folder = path.parent_path().filename().string();
+  return folder.empty() ? path.stem().string() : folder + "_" + path.stem().string();
+}
+
+}  // namespace prowl

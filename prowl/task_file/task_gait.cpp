@@ -1,0 +1,104 @@
+#include "prowl/task_file/task_gait.hpp"
+
+#include <fmt/format.h>
+
+#include "prowl/motion/gait.hpp"
+#include "prowl/task_file/duration_range.hpp"
+
+namespace prowl {
+namespace {
+
+constexpr int kMostStrides = 1000;  // above that a typing mistake, and gigabytes of memory
+constexpr double kLargestDutyFactor = 0.99;
+constexpr double kSteepest = 0.1;  // z of the normal: 84 degrees
+
+Feet need_feet(const TomlTable& table, const RobotModel& robot) {
+  if (const auto feet = find_feet(robot)) return *feet;
+  table.value().fail(fmt::format(
+      "a gait needs four contacts, one fore left, fore right, hind left and hind right in the nominal posture; "
+      "the {} of {} are not that: write the phases out as [[phase]]",
+      robot.contacts().size(), robot.name()));
+}
+
+GaitPattern read_pattern(const TomlTable& table) {
+  std::vector<std::string> names;
+  for (const GaitPattern& pattern : gait_patterns()) names.push_back(pattern.name);
+  return gait_patterns()[table.need("kind").as_one_of("gait", names)];
+}
+
+int read_surface(const TomlTable& table, const std::vector<Surface>& surfaces) {
+  std::vector<std::string> names;
+  for (const Surface& surface : surfaces) names.push_back(surface.name);
+  const auto value = table.find("surface");
+  const std::size_t index = value ? value->as_one_of("surface", names) : 0;
+  if (surfaces[index].normal.z() < kSteepest) {
+    (value ? *value : table.value())
+        .fail("surface '" + names[index] + "' is too steep to walk on; need its normal upward");
+  }
+  return static_cast<int>(index);
+}
+
+Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
+  Gait gait;
+  gait.pattern = read_pattern(table);
+  gait.strides = table.need("strides").as_integer(1, kMostStrides);
+  const Bounds stride = table.need("stride_s").as_range(duration_range());
+  gait.stride = {stride.lower, stride.upper};
+  gait.duty_factor = gait.pattern.duty_factor;
+  if (const auto value = table.find("duty_factor")) {
+    gait.duty_factor = value->as_number({.lower = gait.pattern.least_duty_factor(),
+                                         .upper = kLargestDutyFactor,
+                                         .hint = "; with less, swings overlap: write the phases out as [[phase]]"});
+  }
+  if (const auto value = table.find("start_s")) gait.start = value->as_number(duration_range());
+  if (const auto value = table.find("settle_s")) gait.settle = value->as_number(duration_range());
+  gait.surface = read_surface(table, surfaces);
+  return gait;
+}
+
+/// Of a phase at its longest [1/s].
+double read_intervals_per_second(const TomlTable& table, const Gait& gait) {
+  constexpr double kDefault = 50.0;
+  const auto value = table.find("intervals_per_second");
+  const double rate = value ? value->as_number(NumberRange::positive()) : kDefault;
+  const double seconds = gait.start + gait.strides * gait.stride.max + gait.settle;
+  if (const double intervals = seconds * rate; intervals > kMostIntervals) {
+    table.value().fail(fmt::format("{:.0f} mesh intervals, {:g} s of {:g} a second, are not allowed; need at most {}",
+                                   intervals, seconds, rate, kMostIntervals));
+  }
+  return rate;
+}
+
+/// Of the base over all strides; none if the file says by itself where to go.
+std::optional<Eigen::Vector3d> read_displacement(const TomlTable& root, const TomlTable& table, const Gait& gait,
+                                                 const Surface& surface, const TaskStart& start) {
+  if (root.find("goal")) {
+    for (const char* key : {"stride_length_m", "heading_rad"}) {
+      if (const auto value = table.find(key)) {
+        value->fail("has no use beside [[goal]], which says where to go; need one of the two");
+      }
+    }
+    return std::nullopt;
+  }
+  const double length = table.need("stride_length_m").as_number(NumberRange::nonnegative());
+  const auto heading = table.find("heading_rad");
+  return along_surface(surface, heading ? heading->as_number(angle_range()) : start.rpy.z(), gait.strides * length);
+}
+
+}  // namespace
+
+std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot, const std::vector<Surface>& surfaces,
+                                  const TaskStart& start) {
+  const auto table = root.find_table("gait");
+  if (!table) return std::nullopt;
+  if (root.find("phase")) table->value().fail("the file also has [[phase]]; need one of the two");
+  const Feet feet = need_feet(*table, robot);
+  const Gait gait = read_values(*table, surfaces);
+  const double rate = read_intervals_per_second(*table, gait);
+  std::vector<Phase> phases = expand(gait, robot, feet);
+  Mesh mesh = mesh_with_rate(phases, rate);
+  return TaskGait{std::move(phases), std::move(mesh),
+                  read_displacement(root, *table, gait, surfaces[gait.surface], start)};
+}
+
+}  // namespace prowl

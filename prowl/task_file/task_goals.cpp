@@ -1,0 +1,220 @@
+#include "prowl/task_file/task_goals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "prowl/model/configuration.hpp"
+
+namespace prowl {
+namespace {
+
+struct NodeTime {
+  PhaseFraction at;
+  double time;  ///< [s]
+};
+
+/// All nodes but the start; of the two nodes at a phase switch only the earlier.
+std::vector<NodeTime> node_times(const std::vector<Phase>& phases, const Mesh& mesh) {
+  std::vector<NodeTime> nodes;
+  double begin = 0.0;
+  for (int p = 0; p < static_cast<int>(phases.size()); ++p) {
+    const double duration = phases[p].duration.min;
+    for (int k = 1; k <= mesh.phases[p].intervals(); ++k) {
+      nodes.push_back({{p, mesh.phases[p].node_time(k, 1.0)}, begin + mesh.phases[p].node_time(k, duration)});
+    }
+    begin += duration;
+  }
+  return nodes;
+}
+
+PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& phases, const Mesh& mesh) {
+  constexpr double kSameTime = 1e-6;  // [s]; a decimal fraction in a file is not an exact node time
+  const double time = value.as_number(NumberRange::positive());
+  const std::vector<NodeTime> nodes = node_times(phases, mesh);
+  const auto after =
+      std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
+  if (after == nodes.end()) {
+    value.fail(fmt::format("{:g} is after the end; need 0 < time <= {:g} [s]", time, nodes.back().time));
+  }
+  if (after->time <= time + kSameTime) return after->at;
+  if (after == nodes.begin()) {
+    value.fail(
+        fmt::format("{:g} is not at a node of the mesh; the first after the start is {:.6g} [s]", time, after->time));
+  }
+  value.fail(fmt::format("{:g} is not at a node of the mesh; the nearest are {:.6g} and {:.6g} [s]", time,
+                         std::prev(after)->time, after->time));
+}
+
+/// The part of the phase at the node that is there.
+double fraction_at_node(const TomlValue& value, const PhaseMesh& mesh) {
+  constexpr double kRounding = 1e-6;  // a decimal fraction in a file is not an exact node
+  const int intervals = mesh.intervals();
+  const double node = value.as_number({.lower = 0.0, .upper = 1.0}) * intervals;
+  if (std::abs(node - std::round(node)) > kRounding * intervals) {
+    value.fail(fmt::format("not at a node of the mesh; the nearest are {:.6g} and {:.6g}", std::floor(node) / intervals,
+                           std::ceil(node) / intervals));
+  }
+  return mesh.node_time(static_cast<int>(std::lround(node)), 1.0);
+}
+
+PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phases, const Mesh& mesh) {
+  const auto time = goal.find("time_s");
+  const auto phase = goal.find("phase");
+  const auto fraction = goal.find("fraction");
+  if (time && phase) phase->fail("need either time_s or phase, not both");
+  if (fraction && !phase) fraction->fail("goes with phase only");
+  if (time) {
+    for (const Phase& p : phases) {
+      if (!p.duration.is_fixed()) time->fail("the duration of phase '" + p.name + "' is free: need phase, not time_s");
+    }
+    return moment_at_time(*time, phases, mesh);
+  }
+  if (!phase) goal.need("time_s");
+  std::vector<std::string> names;
+  for (const Phase& p : phases) names.push_back(p.name);
+  const auto found = std::find(names.begin(), names.end(), phase->as_text());
+  if (found == names.end()) phase->fail_unknown_name("phase", names);
+  const auto index = static_cast<int>(found - names.begin());
+  return {index, fraction ? fraction_at_node(*fraction, mesh.phases[index]) : 1.0};
+}
+
+/// Bounds of three entries of the file, less `origin`, as rows first ... first + 2 of lower and upper.
+void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int first, Eigen::VectorXd& lower,
+                  Eigen::VectorXd& upper) {
+  const std::vector<TomlValue> entries = value.as_list(3);
+  for (int i = 0; i < 3; ++i) {
+    const Bounds bounds = entries[i].as_bounds();
+    lower(first + i) = bounds.lower - origin(i);
+    upper(first + i) = bounds.upper - origin(i);
+  }
+}
+
+/// What the robot can do, of each joint.
+struct JointRange {
+  Eigen::VectorXd lower, upper;  ///< nu
+  const char* name;
+};
+
+/// Bounds of the joints that the file names, less `origin` (nu), as the last nu rows of lower and upper.
+void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const JointRange& range,
+                       const Eigen::VectorXd& origin, Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
+  constexpr double kRounding = 1e-9;  // [rad, m, rad/s, m/s, N m]
+  const std::vector<std::string>& names = robot.joint_names();
+  const Eigen::Index first = lower.size() - robot.nu();
+  for (const auto& [name, entry] : value.as_named_values(names, "joint")) {
+    const Eigen::Index joint = std::find(names.begin(), names.end(), name) - names.begin();
+    const Bounds bounds = entry.as_bounds();
+    if (bounds.lower > range.upper(joint) + kRounding || bounds.upper < range.lower(joint) - kRounding) {
+      entry.fail(fmt::format("outside the joint's {} limits; need something from {:.5g} to {:.5g}", range.name,
+                             range.lower(joint), range.upper(joint)));
+    }
+    lower(first + joint) = bounds.lower - origin(joint);
+    upper(first + joint) = bounds.upper - origin(joint);
+  }
+}
+
+void read_base_position(const TomlTable& goal, const TaskStart& start, BoundaryCondition& condition) {
+  const auto position = goal.find("base_position_m");
+  const auto displacement = goal.find("base_displacement_m");
+  if (position && displacement) displacement->fail("need either base_position_m or base_displacement_m, not both");
+  if (!position && !displacement) return;
+  const Eigen::Vector3d origin = position ? base_position(start.q) : Eigen::Vector3d::Zero();
+  Eigen::VectorXd lower(3), upper(3);
+  read_bounds3(position ? *position : *displacement, origin, 0, lower, upper);
+  for (int i = 0; i < 3; ++i) {
+    // A prescribed component becomes part of q_ref, so that q_ref is the pose to reach (the initial guess goes there).
+    const double shift = lower(i) == upper(i) ? lower(i) : 0.0;
+    condition.q_ref(i) += shift;
+    condition.configuration_lower(i) = lower(i) - shift;
+    condition.configuration_upper(i) = upper(i) - shift;
+  }
+}
+
+void read_base_orientation(const TomlValue& value, const TaskStart& start, BoundaryCondition& condition) {
+  const std::vector<TomlValue> entries = value.as_list(3);
+  Eigen::Vector3d rpy = start.rpy;
+  for (int i = 0; i < 3; ++i) {
+    const TomlValue& entry = entries[i];
+    if (entry.is_text() && entry.as_text() == "free") continue;
+    if (!entry.node().is_number()) entry.fail("need a finite number [rad] or \"free\"");
+    rpy(i) = entry.as_number(angle_range());
+    condition.configuration_lower(3 + i) = condition.configuration_upper(3 + i) = 0.0;
+  }
+  set_base_rotation(condition.q_ref, rotation_from_rpy(rpy));
+}
+
+bool binds(const BoundaryCondition& condition) {
+  for (const auto* bounds : {&condition.configuration_lower, &condition.configuration_upper, &condition.velocity_lower,
+                             &condition.velocity_upper, &condition.torque_lower, &condition.torque_upper}) {
+    if (bounds->array().isFinite().any()) return true;
+  }
+  return false;
+}
+
+BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, const RobotModel& robot,
+                            const TaskStart& start, PhaseFraction at) {
+  BoundaryCondition condition = BoundaryCondition::unbounded(robot, name, at, start.q);
+  read_base_position(goal, start, condition);
+  if (const auto rpy = goal.find("base_rpy_rad")) read_base_orientation(*rpy, start, condition);
+  if (const auto joints = goal.find("joints")) {
+    read_joint_bounds(*joints, robot, {robot.position_lower(), robot.position_upper(), "position"},
+                      condition.q_ref.tail(robot.nu()), condition.configuration_lower, condition.configuration_upper);
+  }
+  if (const auto linear = goal.find("base_linear_velocity_mps")) {
+    read_bounds3(*linear, Eigen::Vector3d::Zero(), 0, condition.velocity_lower, condition.velocity_upper);
+  }
+  if (const auto angular = goal.find("base_angular_velocity_radps")) {
+    read_bounds3(*angular, Eigen::Vector3d::Zero(), 3, condition.velocity_lower, condition.velocity_upper);
+  }
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(robot.nu());
+  if (const auto rates = goal.find("joint_velocity_radps")) {
+    read_joint_bounds(*rates, robot, {-robot.velocity_limit(), robot.velocity_limit(), "velocity"}, zero,
+                      condition.velocity_lower, condition.velocity_upper);
+  }
+  if (const auto torques = goal.find("torque_Nm")) {
+    read_joint_bounds(*torques, robot, {-robot.torque_limit(), robot.torque_limit(), "torque"}, zero,
+                      condition.torque_lower, condition.torque_upper);
+  }
+  if (!binds(condition)) goal.value().fail("binds nothing; need one key that prescribes or bounds something");
+  return condition;
+}
+
+}  // namespace
+
+BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q) {
+  BoundaryCondition start = BoundaryCondition::unbounded(robot, "start", PhaseFraction::start_of(0), q);
+  start.configuration_lower.setZero();
+  start.configuration_upper.setZero();
+  start.velocity_lower.setZero();
+  start.velocity_upper.setZero();
+  return start;
+}
+
+BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
+                          int num_phases) {
+  BoundaryCondition goal =
+      BoundaryCondition::unbounded(robot, "goal 1", PhaseFraction::end_of(num_phases - 1), start.q);
+  goal.q_ref.head<3>() += displacement;
+  goal.configuration_lower.head<6>().setZero();
+  goal.configuration_upper.head<6>().setZero();
+  goal.velocity_lower.head<6>().setZero();
+  goal.velocity_upper.head<6>().setZero();
+  return goal;
+}
+
+std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
+                                          const std::vector<Phase>& phases, const Mesh& mesh) {
+  std::vector<BoundaryCondition> goals;
+  for (const TomlTable& goal : root.find_tables("goal")) {
+    const std::string name = fmt::format("goal {}", goals.size() + 1);
+    goals.push_back(read_goal(goal, name, robot, start, read_moment(goal, phases, mesh)));
+    if (std::count_if(goals.begin(), goals.end(), [&](const auto& g) { return g.at == goals.back().at; }) > 1) {
+      goal.value().fail("two goals at one time; put them into one [[goal]]");
+    }
+  }
+  return goals;
+}
+
+}  // namespace prowl

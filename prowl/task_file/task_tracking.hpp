@@ -1,0 +1,12 @@
+#pragma once
+
+// Internal to io: [tracking] of a task file.
+#include "prowl/task_file/toml/toml_value.hpp"
+#include "prowl/tracking/tracking_options.hpp"
+
+namespace prowl {
+
+/// The defaults of the robot with what the file says in their place.
+TrackingOptions read_tracking(const TomlTable& root, const RobotModel& robot);
+
+}  // namespace prowl

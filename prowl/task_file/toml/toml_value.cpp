@@ -1,0 +1,307 @@
+#include "prowl/task_file/toml/toml_value.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "prowl/task_file/toml/toml_shape.hpp"
+#include "prowl/text/name_check.hpp"
+#include "prowl/text/nearest_name.hpp"
+#include "prowl/text/shown_text.hpp"
+
+namespace prowl {
+namespace {
+
+std::string at(const SourceText& source, const toml::source_region& region) {
+  return fmt::format("{}:{}:{}: ", source.path.string(), region.begin.line, region.begin.column);
+}
+
+/// What the user wrote, for messages.
+std::string describe(const toml::node& node) {
+  if (const auto* text = node.as_string()) return fmt::format("\"{}\"", shown(text->get()));
+  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+  if (const auto* number = node.as_floating_point()) return fmt::format("{:g}", number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (const auto* list = node.as_array()) return fmt::format("a list of {}", list->size());
+  if (node.is_table()) return "a table";
+  return "a date or time";
+}
+
+std::string join_path(const std::string& path, const std::string& key) {
+  return path.empty() ? key : fmt::format("{}.{}", path, key);
+}
+
+std::string unknown(const std::string& what, const std::string& name, const std::vector<std::string>& known) {
+  return fmt::format("unknown {}{} Known: {}", what, did_you_mean(name, known), fmt::join(known, ", "));
+}
+
+/// " It is a key of [phase]." for a key that other tables have, else "".
+std::string where_else(const FileKeys& keys, const std::string& name) {
+  std::vector<std::string> tables;
+  for (const FileKey& key : keys) {
+    if (key.name == name) tables.push_back(key.table.empty() ? "the top of the file" : fmt::format("[{}]", key.table));
+  }
+  return tables.empty() ? "" : fmt::format(" It is a key of {}.", fmt::join(tables, ", "));
+}
+
+/// " [s]" for "phase[0].duration_s" or "goal[1].time_s[0]"; "" for a key without unit.
+std::string unit_of(const std::string& path) {
+  static const std::pair<std::string, std::string> kUnits[] = {{"_m", "m"},     {"_s", "s"},         {"_rad", "rad"},
+                                                               {"_mps", "m/s"}, {"_radps", "rad/s"}, {"_Nm", "N m"}};
+  std::string key = path;
+  while (key.ends_with(']')) key.erase(key.rfind('['));
+  for (const auto& [ending, unit] : kUnits) {
+    if (key.ends_with(ending)) return fmt::format(" [{}]", unit);
+  }
+  return "";
+}
+
+/// Where the key is (`with_key`) or its value; of the nearest table around it if it is not there.
+std::optional<std::string> place_of(const SourceText& source, const std::string& path, bool with_key) {
+  const toml::table root = toml::parse(source.text);
+  for (std::string rest = path; !rest.empty();) {
+    const std::size_t end = rest.find_last_of(".[");
+    const std::string parent = rest.substr(0, end == std::string::npos ? 0 : end);
+    if (const auto node = toml::at_path(root, rest)) {
+      const bool is_member = end == std::string::npos || rest[end] == '.';
+      const toml::table* const table = parent.empty() ? &root : toml::at_path(root, parent).as_table();
+      if (with_key && is_member && table)
+        return at(source, table->find(rest.substr(parent.empty() ? 0 : end + 1))->first.source());
+      return at(source, node.node()->source());
+    }
+    rest = parent;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+NumberRange angle_range() { return {.lower = -6.2832, .upper = 6.2832, .hint = "; 5 degrees are 0.087"}; }
+
+std::string NumberRange::to_words() const {
+  const bool has_lower = std::isfinite(lower);
+  const bool has_upper = std::isfinite(upper);
+  if (has_lower && has_upper) return fmt::format("a number from {:g} to {:g}", lower, upper);
+  if (has_lower) return fmt::format("a finite number {} {:g}", above_lower ? ">" : ">=", lower);
+  if (has_upper) return fmt::format("a finite number <= {:g}", upper);
+  return "a finite number";
+}
+
+bool NumberRange::contains(double value) const {
+  return std::abs(value) <= kLargest && value <= upper && (above_lower ? value > lower : value >= lower);
+}
+
+void TomlValue::fail(const std::string& message) const {
+  throw InputError(fmt::format("{}{}{}{}", at(*source_, node_->source()), path_, path_.empty() ? "" : ": ", message));
+}
+
+void TomlValue::fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const {
+  fail(unknown(fmt::format("{} {}", what, describe(*node_)), node_->value_or<std::string>(""), known));
+}
+
+void TomlValue::fail_type(const std::string& needed, const std::string& hint) const {
+  fail(fmt::format("{} is not allowed; need {}{}{}", describe(*node_), needed, unit_of(path_), hint));
+}
+
+double TomlValue::as_number(const NumberRange& range) const {
+  if (!node_->is_number()) fail_type(range.to_words());
+  const double value = node_->value_or(std::numeric_limits<double>::quiet_NaN());
+  if (std::isfinite(value) && std::abs(value) > NumberRange::kLargest) {
+    fail(fmt::format("{:g} is not allowed; need a number of at most {:g} in size", value, NumberRange::kLargest));
+  }
+  if (!range.contains(value)) fail_type(range.to_words(), range.hint);
+  return value;
+}
+
+int TomlValue::as_integer(int lower, int upper) const {
+  const auto* integer = node_->as_integer();
+  if (!integer || integer->get() < lower || integer->get() > upper) {
+    fail_type(upper == std::numeric_limits<int>::max() ? fmt::format("an integer >= {}", lower)
+                                                       : fmt::format("an integer from {} to {}", lower, upper),
+              node_->is_floating_point() ? ", without a point" : "");
+  }
+  return static_cast<int>(integer->get());
+}
+
+std::string TomlValue::as_text() const {
+  const auto* text = node_->as_string();
+  if (!text || text->get().empty()) fail_type("a string in quotes, not empty");
+  return text->get();
+}
+
+std::string TomlValue::as_name() const {
+  if (const std::string name = as_text(); is_name(name)) return name;
+  fail(fmt::format("this name is not allowed; need {}", kNameRule));
+}
+
+std::vector<TomlValue> TomlValue::as_list() const {
+  const auto* list = node_->as_array();
+  if (!list) fail_type("a list in [ ]");
+  constexpr std::size_t kMost =
+      10000;  // a corner, a point, a contact each: a mistake above that, and gigabytes of memory
+  if (list->size() > kMost) fail(fmt::format("a list of {} is not allowed; need at most {}", list->size(), kMost));
+  std::vector<TomlValue> values;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    values.emplace_back(*source_, (*list)[i], fmt::format("{}[{}]", path_, i));
+  }
+  return values;
+}
+
+std::vector<TomlValue> TomlValue::as_list(std::size_t size) const {
+  if (!is_list() || node_->as_array()->size() != size) fail_type(fmt::format("a list of {}", size));
+  return as_list();
+}
+
+Eigen::Vector3d TomlValue::as_vector3(const NumberRange& range) const {
+  const std::vector<TomlValue> entries = as_list(3);
+  return {entries[0].as_number(range), entries[1].as_number(range), entries[2].as_number(range)};
+}
+
+Bounds TomlValue::as_bounds() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (is_text() && node_->as_string()->get() == "free") return {-kInfinity, kInfinity};
+  if (is_list()) {
+    const std::vector<TomlValue> ends = as_list(2);
+    const Bounds bounds{ends[0].as_number(), ends[1].as_number()};
+    if (bounds.lower > bounds.upper) {
+      fail(fmt::format("[{:g}, {:g}] is not allowed; need [min, max] with min <= max", bounds.lower, bounds.upper));
+    }
+    return bounds;
+  }
+  if (!node_->is_number()) fail_type("a finite number, [min, max] or \"free\"");
+  const double value = as_number();
+  return {value, value};
+}
+
+Bounds TomlValue::as_range(const NumberRange& range) const {
+  if (!is_list()) {
+    const double value = as_number(range);
+    return {value, value};
+  }
+  const std::vector<TomlValue> ends = as_list(2);
+  const Bounds bounds{ends[0].as_number(range), ends[1].as_number(range)};
+  if (bounds.lower > bounds.upper) fail("min > max is not allowed; need [min, max]");
+  return bounds;
+}
+
+std::size_t TomlValue::as_one_of(const std::string& what, const std::vector<std::string>& known) const {
+  const auto found = std::find(known.begin(), known.end(), as_text());
+  if (found == known.end()) fail_unknown_name(what, known);
+  return static_cast<std::size_t>(found - known.begin());
+}
+
+std::vector<std::pair<std::string, TomlValue>> TomlValue::as_free_named_values(const std::string& what) const {
+  const auto* table = node_->as_table();
+  if (!table) fail_type(fmt::format("a table {{{} = ...}}", what));
+  std::vector<std::pair<std::string, TomlValue>> values;
+  for (const auto& [key, node] : *table) {
+    const std::string name(key.str());
+    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, shown(name))));
+  }
+  return values;
+}
+
+std::vector<std::pair<std::string, TomlValue>> TomlValue::as_named_values(const std::vector<std::string>& known,
+                                                                          const std::string& what) const {
+  std::vector<std::pair<std::string, TomlValue>> values = as_free_named_values(what);
+  for (const auto& [key, node] : *node_->as_table()) {
+    const std::string name(key.str());
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw InputError(fmt::format("{}{}: {}", at(*source_, key.source()), join_path(path_, shown(name)),
+                                   unknown(what, name, known)));
+    }
+  }
+  return values;
+}
+
+TomlTable::TomlTable(const TomlValue& value, const FileKeys& keys, const std::string& declared)
+    : value_(value), keys_(&keys), declared_(declared) {
+  const std::vector<std::string> names = key_names(keys, declared);
+  if (!value.is_table())
+    value.fail(fmt::format("{} is not allowed; need a table with {}", describe(value.node()), fmt::join(names, ", ")));
+  for (const auto& [key, node] : *value.node().as_table()) {
+    const std::string name(key.str());
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    throw InputError(fmt::format("{}{}: unknown key{}{} Known: {}", at(value.source(), key.source()),
+                                 path_of(shown(name)), did_you_mean(name, names), where_else(keys, name),
+                                 fmt::join(names, ", ")));
+  }
+}
+
+std::string TomlTable::path_of(const std::string& key) const { return join_path(value_.path(), key); }
+
+std::optional<TomlValue> TomlTable::find(const std::string& key) const {
+  const toml::node* node = table().get(key);
+  if (!node) return std::nullopt;
+  return TomlValue(value_.source(), *node, path_of(key));
+}
+
+TomlValue TomlTable::need(const std::string& key) const {
+  if (auto value = find(key)) return *value;
+  for (const FileKey& declared : *keys_) {
+    if (declared.table == declared_ && declared.name == key) {
+      TomlValue(value_.source(), value_.node(), path_of(key))
+          .fail(fmt::format("missing; need {}: {}", declared.value, declared.meaning));
+    }
+  }
+  value_.fail("missing " + key);
+}
+
+std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
+  const auto value = find(key);
+  if (!value) return std::nullopt;
+  return TomlTable(*value, *keys_, declared_.empty() ? key : declared_ + "." + key);
+}
+
+std::vector<TomlTable> TomlTable::find_tables(const std::string& key, std::size_t most) const {
+  const auto value = find(key);
+  if (!value) return {};
+  const std::string declared = declared_.empty() ? key : declared_ + "." + key;
+  if (!value->is_list()) {
+    value->fail(fmt::format("{} is not allowed; need one [[{}]] for each", describe(value->node()), declared));
+  }
+  if (const std::size_t size = value->node().as_array()->size(); size > most) {
+    value->fail(fmt::format("{} [[{}]] are not allowed; need at most {}", size, declared, most));
+  }
+  std::vector<TomlTable> tables;
+  for (const TomlValue& entry : value->as_list()) tables.emplace_back(entry, *keys_, declared);
+  return tables;
+}
+
+TomlDocument::TomlDocument(const SourceText& source) : source_(source) {
+  if (const std::size_t first = source.text.find_first_not_of(" \t\r\n");
+      first != std::string::npos && source.text[first] == '<') {
+    throw InputError(fmt::format("{}:1:1: this looks like XML; need a TOML file (a URDF is named by a robot file)",
+                                 source.path.string()));
+  }
+  check_toml_shape(source_);
+  try {
+    table_ = toml::parse(source_.text, source_.path.string());
+  } catch (const toml::parse_error& error) {
+    throw InputError(at(source_, error.source()) + std::string(error.description()));
+  }
+}
+
+void TomlDocument::refuse_key(const std::string& key, const std::string& message) const {
+  if (const toml::node* node = table_.get(key)) TomlValue(source_, *node, key).fail(message);
+}
+
+TomlTable TomlDocument::root(const FileKeys& keys) const { return TomlTable(TomlValue(source_, table_, ""), keys, ""); }
+
+std::optional<std::string> find_place(const SourceText& source, const std::string& path) {
+  return place_of(source, path, false);
+}
+
+std::string locate(const SourceText& source, const std::string& path) {
+  return place_of(source, path, false).value_or(source.path.string() + ":1:1: ");
+}
+
+std::string locate_key(const SourceText& source, const std::string& path) {
+  return place_of(source, path, true).value_or(source.path.string() + ":1:1: ");
+}
+
+}  // namespace prowl

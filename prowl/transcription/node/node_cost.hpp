@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/transcription/node/node_point.hpp"
+
+namespace prowl {
+
+/// Cost of one node: its share of the running cost, and the terminal cost at the last node. Contact forces count as
+/// variables of their own here; the caller knows how they follow from the others.
+class NodeCost {
+ public:
+  explicit NodeCost(const MotionProblem& problem);
+
+  /// `terms` at the configuration of the point; `forces` 3 per contact of the phase [N].
+  double value(const NodePoint& point, const RigidBodyTerms& terms, const Eigen::VectorXd& forces);
+  /// After value(): the running part of it.
+  double running() const { return running_value_; }
+
+  struct Derivatives {
+    Eigen::VectorXd gradient;  ///< in (tangent of q | v | a | tau)
+    Eigen::VectorXd force_gradient;
+    Eigen::VectorXd running_gradient;  ///< that part of `gradient`; all of force_gradient is running cost
+  };
+  /// After value() at the same point.
+  void derivatives(const NodePoint& point, const Eigen::VectorXd& forces, Derivatives& result);
+  /// After derivatives(): adds factor times the Hessian in (tangent of q | v | a | tau) at fixed forces, which is
+  /// block diagonal, to the first rows and columns of the result.
+  void add_hessian(const NodePoint& point, double factor, Eigen::MatrixXd& result);
+  /// Second derivative of the cost in every force vector.
+  Eigen::Vector3d force_curvature(const NodePoint& point) const {
+    return point.cost_weight * running_.cost.force_weight;
+  }
+
+ private:
+  /// The cost of a state, running or terminal, and what it needs.
+  struct StateCost {
+    explicit StateCost(const QuadraticCost& quadratic);
+    double value(const NodePoint& point, const RigidBodyTerms& terms);
+    void add_gradient(double weight, const NodePoint& point, Eigen::VectorXd& gradient);
+    void add_hessian(double weight, Eigen::MatrixXd& result);
+
+    QuadraticCost cost;
+    ContactKinematics points;  ///< contacts whose place costs something
+    ConfigurationCost configuration;
+    Eigen::VectorXd stiffness, pull;  ///< of their places
+    Eigen::MatrixXd stiff_points;
+  };
+
+  int nv_, nu_;
+  StateCost running_, terminal_;
+  double running_value_ = 0.0;
+};
+
+}  // namespace prowl

@@ -1,0 +1,381 @@
+#include "prowl/transcription/node/node_functions.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "prowl/model/configuration.hpp"
+#include "prowl/model/so3.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
+
+/// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start
+/// of the motion to the one after the node (other phases at the middle of their durations).
+///
+/// Not shorter than the step after: then the explicit half of the trapezoid at most halves an error, and the implicit
+/// half makes it smaller whatever the gain. Gains for the step before let errors grow where steps do. And not shorter
+/// than the steps before: what contacts are off by after long steps would have to be gone within a short one, at a
+/// speed that the certificate sees. docs/transcription.md, "Steps of different length".
+std::vector<double> per_gain_step(const DiscreteProblem& discrete, int phase) {
+  std::vector<double> result;
+  double longest = 0.0;  // [s]
+  for (int p = 0; p <= phase; ++p) {
+    const Duration& range = discrete.problem.phases[p].duration;
+    const PhaseMesh& mesh = discrete.mesh.phases[p];
+    const double duration = 0.5 * (range.min + range.max);
+    result.clear();
+    for (int k = 0; k <= mesh.intervals(); ++k) {
+      longest = std::max(longest, mesh.step(std::min(k, mesh.intervals() - 1), duration));
+      result.push_back(duration / longest);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts) {
+  return problem.robot.weight() * std::min(0.01, 0.2 * friction / static_cast<double>(contacts));
+}
+
+NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
+                             const StabilisationOfStep& stabilisation)
+    : nv_(discrete.problem.robot.nv()),
+      nu_(discrete.problem.robot.nu()),
+      num_chosen_(static_cast<int>(contacts.chosen_rows.size())),
+      intervals_(discrete.mesh.phases[phase].intervals()),
+      free_duration_(!discrete.problem.phases[phase].duration.is_fixed()),
+      stabilisation_(stabilisation),
+      per_gain_step_(per_gain_step(discrete, phase)),
+      torques_(discrete.problem.robot),
+      placement_(discrete, phase, contacts.landing),
+      cost_(discrete.problem),
+      dynamics_(discrete.problem.robot, contact_indices(discrete.problem.phases[phase].contacts),
+                contacts.chosen_rows) {
+  const MotionProblem& problem = discrete.problem;
+  const ContactSchedule& schedule = discrete.schedule;
+  const auto& held = problem.phases[phase].contacts;
+  for (int i = 0; i < static_cast<int>(held.size()); ++i) {
+    const PhaseContact& contact = held[i];
+    const Surface& surface = problem.surfaces[contact.surface];
+    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
+    coefficients_.push_back(surface.friction);
+    contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
+    opens_.push_back(schedule.opens(phase, i));
+    if (schedule.stances()[schedule.stance(phase, i)].lands()) landed_.push_back(i);
+  }
+  for (const int contact : landed_) {
+    const int surface = held[contact].surface;
+    landed_axes_.push_back(problem.surfaces[surface].axes());
+  }
+
+  placement_anchors_.resize(placement_.most_rows(), 3 * num_contacts());
+  rotation_.resize(std::max(num_rows(0), num_rows(intervals_)) + placement_.most_rows(), 3);
+
+  const double size = problem.robot.size();
+  force_scale_ = 1.0 / problem.robot.weight();
+  dynamics_scale_.setConstant(nv_, force_scale_);
+  dynamics_scale_.segment<3>(3) /= size;
+  for (int i = 0; i < 6; ++i) force_names_.push_back(std::string("base ") + kBaseForce[i]);
+  for (int i = 0; i < nu_; ++i) {
+    if (!problem.robot.joint_is_prismatic()[i]) dynamics_scale_(6 + i) /= size;
+    force_names_.push_back(problem.robot.joint_names()[i]);
+  }
+}
+
+int NodeFunctions::contact_row(int k, int contact) const {
+  int row = nv_;
+  for (int i = 0; i < contact; ++i) row += unloads(k, i) ? 3 : friction_[i].count();
+  return row;
+}
+
+double NodeFunctions::lower(int k, int row) const {
+  return row < placement_row(k) ? 0.0 : placement_.lower(k, row - placement_row(k));
+}
+
+double NodeFunctions::upper(int k, int row) const {
+  if (row >= placement_row(k)) return placement_.upper(k, row - placement_row(k));
+  if (row >= torque_row(k)) return std::numeric_limits<double>::infinity();
+  for (int i = 0; i < num_contacts(); ++i) {
+    if (row >= contact_row(k, i) && row < contact_row(k, i + 1) && !unloads(k, i)) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  return 0.0;
+}
+
+std::string NodeFunctions::describe_row(int k, int row) const {
+  if (row < nv_) return force_names_[row] + ", equations of motion";
+  if (row >= placement_row(k)) return placement_.describe(k, row - placement_row(k));
+  if (row >= torque_row(k)) return torques_.describe(row - torque_row(k));
+  int contact = 0;
+  while (row >= contact_row(k, contact + 1)) ++contact;
+  return contact_names_[contact] + (unloads(k, contact) ? ", force before it opens" : ", friction cone");
+}
+
+std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, int k, int row) const {
+  if (row < nv_) return std::nullopt;
+  if (row >= placement_row(k)) {
+    const PlacementRows::Kind kind = placement_.kind(k, row - placement_row(k));
+    if (kind == PlacementRows::Kind::place || kind == PlacementRows::Kind::velocity) return std::nullopt;
+    const int contact = placement_.contact(k, row - placement_row(k));
+    return MotionLimit{.kind = kind == PlacementRows::Kind::inside ? LimitKind::place : LimitKind::clearance,
+                       .subject = robot.contacts()[contact].name,
+                       .unit = "m",
+                       .si = robot.size(),
+                       .size = robot.size()};
+  }
+  if (row >= torque_row(k)) {
+    MotionLimit limit = limit_of_joint(robot, LimitKind::torque, torques_.joint(row - torque_row(k)));
+    limit.si = torques_.largest(row - torque_row(k));
+    return limit;
+  }
+  int contact = 0;
+  while (row >= contact_row(k, contact + 1)) ++contact;
+  if (unloads(k, contact)) return std::nullopt;
+  return MotionLimit{.kind = LimitKind::friction,
+                     .subject = contact_names_[contact],
+                     .unit = "N",
+                     .si = 1.0 / force_scale_,
+                     .size = coefficients_[contact] / force_scale_};
+}
+
+// h = T / n.
+Eigen::Vector2d NodeFunctions::gains(const NodePoint& point, int derivative) const {
+  const double n = per_gain_step_[point.node], T = point.duration;
+  const Eigen::Vector2d at(stabilisation_.rate * n / T, stabilisation_.stiffness * n * n / (T * T));
+  if (derivative == 0) return at + Eigen::Vector2d(stabilisation_.damping, stabilisation_.spring);
+  if (derivative == 1) return {-at(0) / T, -2.0 * at(1) / T};
+  return {2.0 * at(0) / (T * T), 6.0 * at(1) / (T * T)};
+}
+
+void NodeFunctions::set_point(const NodePoint& point) {
+  const Eigen::Vector2d g = gains(point, 0);
+  at_.q = point.q;
+  at_.v = point.v;
+  at_.a = point.a;
+  at_.tau = point.tau;
+  at_.anchors = point.anchors;
+  at_.stabilisation = {g(0), g(1)};
+  at_.chosen_forces = point.w;
+}
+
+void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
+  const int k = point.node;
+  values.forces = dynamics_.forces();
+  values.rows.resize(num_rows(k));
+  values.rows.head(nv_) = dynamics_.residual().cwiseProduct(dynamics_scale_);
+  for (int i = 0; i < num_contacts(); ++i) {
+    const Eigen::Vector3d force = values.forces.segment<3>(3 * i);
+    const int row = contact_row(k, i);
+    if (unloads(k, i)) {
+      values.rows.segment<3>(row) = force_scale_ * force;
+    } else {
+      const FrictionLimit& friction = friction_[i];
+      values.rows.segment(row, friction.count()) = force_scale_ * friction.rows(force);
+    }
+  }
+  torques_.evaluate(point.q.tail(nu_), point.v.tail(nu_), point.tau,
+                    values.rows.segment(torque_row(k), torques_.count()));
+  placement_.evaluate(k, dynamics_.terms(), point.v, point.anchors,
+                      values.rows.segment(placement_row(k), placement_.count(k)));
+  values.cost = cost_.value(point, dynamics_.terms(), values.forces);
+}
+
+void NodeFunctions::evaluate(const NodePoint& point, NodeValues& values) {
+  set_point(point);
+  dynamics_.evaluate(at_);
+  fill_rows(point, values);
+}
+
+void NodeFunctions::evaluate_with_derivatives(const NodePoint& point, NodeValues& values) {
+  set_point(point);
+  dynamics_.evaluate_with_derivatives(at_);
+  fill_rows(point, values);
+  fill_derivatives(point, values);
+}
+
+void NodeFunctions::gather(const PointDerivatives& derivatives, const NodePoint& point,
+                           Eigen::Ref<MatrixXd> result) const {
+  result.leftCols(num_variables()) << derivatives.q, derivatives.v, derivatives.a, derivatives.tau, derivatives.w;
+  if (free_duration_) result.col(num_variables()).noalias() = derivatives.gains.lazyProduct(gains(point, 1));
+  const double kp = gains(point, 0)(1);
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    result.middleCols<2>(first_place() + static_cast<Index>(2 * l)).noalias() =
+        derivatives.e.middleCols<3>(3 * landed_[l]).lazyProduct(-kp * landed_axes_[l]);
+  }
+}
+
+void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values) {
+  const int k = point.node;
+  MatrixXd& jacobian = values.rows_jacobian;
+  jacobian.resize(num_rows(k), num_columns());
+  gather(dynamics_.residual_derivatives(), point, jacobian.topRows(nv_));
+  jacobian.topRows(nv_).array().colwise() *= dynamics_scale_.array();
+  forces_jacobian_.resize(values.forces.size(), num_columns());
+  gather(dynamics_.force_derivatives(), point, forces_jacobian_);
+  for (int i = 0; i < num_contacts(); ++i) {
+    const auto force = forces_jacobian_.middleRows<3>(3 * i);
+    const int row = contact_row(k, i);
+    if (unloads(k, i)) {
+      jacobian.middleRows<3>(row) = force_scale_ * force;
+    } else {
+      const FrictionLimit& friction = friction_[i];
+      const FrictionLimit::Slopes slopes = force_scale_ * friction.slopes(values.forces.segment<3>(3 * i));
+      jacobian.middleRows(row, friction.count()).noalias() = slopes.lazyProduct(force);
+    }
+  }
+  auto limits = jacobian.bottomRows(num_rows(k) - torque_row(k));
+  limits.setZero();
+  auto torque_rows = limits.topRows(torques_.count());
+  torques_.derivatives(point.q.tail(nu_), point.v.tail(nu_), torque_rows.middleCols(6, nu_),
+                       torque_rows.middleCols(nv_ + 6, nu_), torque_rows.middleCols(3 * nv_, nu_));
+  auto placement_rows = limits.bottomRows(placement_.count(k));
+  auto d_anchors = placement_anchors_.topRows(placement_.count(k));
+  placement_.derivatives(k, placement_rows.leftCols(nv_), placement_rows.middleCols(nv_, nv_), d_anchors);
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    placement_rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)).noalias() =
+        d_anchors.middleCols<3>(3 * landed_[l]).lazyProduct(landed_axes_[l]);
+  }
+
+  cost_.derivatives(point, values.forces, cost_derivatives_);
+  force_slope_.noalias() = forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
+  values.cost_gradient = force_slope_;
+  values.cost_gradient.head(3 * nv_ + nu_) += cost_derivatives_.gradient;
+  if (free_duration_) {  // the running cost is in proportion to the duration
+    values.cost_gradient(num_variables()) += cost_.running() / point.duration;
+  }
+
+  const Eigen::Matrix3d Jr = so3::right_jacobian(point.theta);
+  auto rotation = rotation_.topRows(num_rows(k));
+  rotation = jacobian.middleCols<3>(3);
+  jacobian.middleCols<3>(3).noalias() = rotation.lazyProduct(Jr);
+  rotation_gradient_ = values.cost_gradient.segment<3>(3);
+  values.cost_gradient.segment<3>(3).noalias() = Jr.transpose() * rotation_gradient_;
+}
+
+void NodeFunctions::hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers, MatrixXd& result) {
+  linearise(point, cost_factor, multipliers, unused_, result);
+}
+
+void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
+                              NodeValues& values, MatrixXd& hessian) {
+  evaluate_with_derivatives(point, values);
+  hessian.setZero(num_columns(), num_columns());
+  add_cost_hessian(point, cost_factor, hessian);
+  Eigen::Vector3d pull = cost_factor * rotation_gradient_;  // gradient of it all in the tangent of the rotation
+  if (hessian_kind_ == HessianKind::exact) {
+    add_force_hessian(point, cost_factor, multipliers, hessian);
+    add_dynamics_hessian(point, multipliers, hessian);
+    add_limits_hessian(point, multipliers, hessian);
+    for (Index row = 0; row < multipliers.size(); ++row) pull += multipliers(row) * rotation_.row(row).transpose();
+  } else {
+    no_multipliers_.setZero(multipliers.size());
+    add_force_hessian(point, cost_factor, no_multipliers_, hessian);
+  }
+  turn_to_chart(point, pull, hessian);
+  hessian.triangularView<Eigen::StrictlyLower>() = hessian.transpose();
+}
+
+// With forces as variables of their own, but in the duration, in proportion to which the running cost is.
+void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor, MatrixXd& result) {
+  cost_.add_hessian(point, cost_factor, result);
+  if (!free_duration_) return;
+  const int duration = num_variables();
+  const double factor = cost_factor / point.duration;
+  result.col(duration).head(duration) += factor * force_slope_.head(duration);
+  result.col(duration).head(3 * nv_ + nu_) += factor * cost_derivatives_.running_gradient;
+  result.row(duration).tail(num_places()) += factor * force_slope_.tail(num_places()).transpose();
+  result(duration, duration) += 2.0 * factor * force_slope_(duration);
+}
+
+// What bends in the forces themselves: cones and force cost, through f(q, v, a, tau, w, shared).
+void NodeFunctions::add_force_hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
+                                      MatrixXd& result) {
+  const VectorXd& forces = dynamics_.forces();
+  force_pull_ = cost_factor * cost_derivatives_.force_gradient;
+  bending_.resize(forces.size(), num_columns());
+  bent_.resize(forces.size(), num_columns());
+  Index rows = 0;
+  for (int i = 0; i < num_contacts(); ++i) {
+    const Eigen::Vector3d force = forces.segment<3>(3 * i);
+    Eigen::Matrix3d curvature = (cost_factor * cost_.force_curvature(point)).asDiagonal();
+    const int row = contact_row(point.node, i);
+    if (unloads(point.node, i)) {
+      force_pull_.segment<3>(3 * i) += force_scale_ * multipliers.segment<3>(row);
+    } else {
+      const FrictionLimit& friction = friction_[i];
+      const FrictionLimit::Rows on_rows = force_scale_ * multipliers.segment(row, friction.count());
+      force_pull_.segment<3>(3 * i).noalias() += friction.slopes(force).transpose().lazyProduct(on_rows);
+      curvature += friction.curvature(force, on_rows);
+    }
+    if (curvature.isZero(0.0)) continue;
+    bending_.middleRows<3>(rows) = forces_jacobian_.middleRows<3>(3 * i);
+    bent_.middleRows<3>(rows).noalias() = curvature.lazyProduct(forces_jacobian_.middleRows<3>(3 * i));
+    rows += 3;
+  }
+  if (rows == 0) return;
+  result.triangularView<Eigen::Upper>() += bending_.topRows(rows).transpose() * bent_.topRows(rows);
+}
+
+// What bends in c and f.
+void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd& multipliers, MatrixXd& result) {
+  mu_ = dynamics_scale_.cwiseProduct(multipliers.head(nv_));
+  const PointHessian& inner = dynamics_.hessian(at_, mu_, force_pull_);
+  result.topLeftCorner(nv_, nv_) += inner.qq;
+  result.block(nv_, nv_, nv_, nv_) += inner.vv;
+  auto q_rows = result.topRows(nv_);
+  q_rows.middleCols(nv_, nv_) += inner.qv;
+  q_rows.middleCols(2 * nv_, nv_) += inner.qa;
+  q_rows.middleCols(3 * nv_, nu_) += inner.qtau;
+  q_rows.middleCols(3 * nv_ + nu_, num_chosen_) += inner.qw;
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    q_rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)) +=
+        inner.qe.middleCols<3>(3 * landed_[l]).lazyProduct(-at_.stabilisation.kp * landed_axes_[l]);
+  }
+  if (!free_duration_) return;
+  const int duration = num_variables();
+  const Eigen::Vector2d slope = gains(point, 1);
+  q_rows.col(duration).noalias() += inner.qgains.lazyProduct(slope);
+  result.col(duration).segment(nv_, nv_).noalias() += inner.vgains.lazyProduct(slope);
+  for (std::size_t l = 0; l < landed_.size(); ++l) {
+    result.row(duration).segment<2>(first_place() + static_cast<Index>(2 * l)) -=
+        slope(1) * inner.de.segment<3>(3 * landed_[l]).transpose() * landed_axes_[l];
+  }
+  const Eigen::Vector2d on_gains(inner.vgains.col(0).dot(point.v),
+                                 inner.de.dot(dynamics_.kinematics().positions() - point.anchors));
+  result(duration, duration) += on_gains.dot(gains(point, 2));
+}
+
+// Torque limits, and places of contacts.
+void NodeFunctions::add_limits_hessian(const NodePoint& point, const VectorXd& multipliers, MatrixXd& result) {
+  const int k = point.node;
+  joints_.setZero(nu_);
+  rates_.setZero(nu_);
+  torques_.add_hessian(point.q.tail(nu_), point.v.tail(nu_), multipliers.segment(torque_row(k), torques_.count()),
+                       joints_, rates_);
+  result.diagonal().segment(6, nu_) += joints_;
+  result.diagonal().segment(nv_ + 6, nu_) += rates_;
+  placement_.add_hessian(k, multipliers.segment(placement_row(k), placement_.count(k)), result.topLeftCorner(nv_, nv_),
+                         result.block(0, nv_, nv_, nv_));
+}
+
+// From the tangent at R to theta, R = chart exp(theta): x = Jr dtheta + 1/2 (DJr[dtheta]) dtheta.
+void NodeFunctions::turn_to_chart(const NodePoint& point, const Eigen::Vector3d& pull, MatrixXd& result) const {
+  const Eigen::Matrix3d Jr = so3::right_jacobian(point.theta);
+  result.block<3, 3>(0, 3) = (result.block<3, 3>(0, 3) * Jr).eval();
+  const Eigen::Matrix3d rotation = result.block<3, 3>(3, 3).selfadjointView<Eigen::Upper>();
+  result.block<3, 3>(3, 3) = Jr.transpose() * rotation * Jr + so3::right_jacobian_derivative(point.theta, pull);
+  for (Index column = 6; column < result.cols(); ++column) {
+    result.col(column).segment<3>(3) = (Jr.transpose() * result.col(column).segment<3>(3)).eval();
+  }
+}
+
+}  // namespace prowl

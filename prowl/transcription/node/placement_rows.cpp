@@ -1,0 +1,208 @@
+#include "prowl/transcription/node/placement_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace prowl {
+
+namespace {
+
+/// How long these phases last together, those of free duration the middle of their range [s]: progress of a swing must
+/// not depend on the mesh.
+double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
+  double time = 0.0;
+  for (int p = first_phase; p <= last_phase; ++p) {
+    const Duration& duration = problem.phases[p].duration;
+    time += 0.5 * (duration.min + duration.max);
+  }
+  return time;
+}
+
+/// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at the end of one that does
+/// not land. A contact leaves and lands at rest, so that its height can only begin and end with the square of the time;
+/// one that is in the air from the start may begin as low as the start has it.
+double clearance_profile(const Swing& swing, double s) {
+  if (swing.after < 0) return swing.before < 0 ? 0.0 : s * s;
+  return 16.0 * s * s * (1.0 - s) * (1.0 - s);
+}
+
+}  // namespace
+
+PlacementRows::PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
+                             int intervals_at_rest)
+    : length_(discrete.problem.robot.size()),
+      speed_(std::sqrt(RobotModel::kGravity * length_)),
+      kinematics_({}),
+      at_rest_(Eigen::VectorXd::Zero(discrete.problem.robot.nv())),
+      second_(discrete.problem.robot.nv()) {
+  rows_.resize(discrete.mesh.phases[phase].intervals() + 1);
+  add_landing(discrete, phase, landing);
+  for (const Swing& swing : discrete.schedule.swings()) {
+    if (swing.first_phase <= phase && phase <= swing.last_phase)
+      add_clearance(discrete, phase, swing, intervals_at_rest);
+  }
+  kinematics_ = ContactKinematics(points_);
+}
+
+int PlacementRows::point_of(int contact) {
+  const auto found = std::ranges::find(points_, contact);
+  if (found != points_.end()) return static_cast<int>(found - points_.begin());
+  points_.push_back(contact);
+  return static_cast<int>(points_.size()) - 1;
+}
+
+void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing) {
+  const MotionProblem& problem = discrete.problem;
+  const auto& contacts = problem.phases[phase].contacts;
+  for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
+    if (!discrete.schedule.lands(phase, i)) continue;
+    const PhaseContact& contact = contacts[i];
+    const Surface& surface = problem.surfaces[contact.surface];
+    Eigen::Matrix3d axes;
+    axes << surface.axes(), surface.normal;
+    const std::string& name = problem.robot.contacts()[contact.contact].name;
+    const LandingAxes& along = landing[i];
+    for (const int axis : along.place) {
+      rows_[0].push_back({Kind::place, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / length_,
+                          name + ", landing place on " + surface.name});
+    }
+    for (const int axis : along.velocity) {
+      rows_[0].push_back({Kind::velocity, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / speed_,
+                          name + ", velocity at landing"});
+    }
+    if (contact.place) continue;
+    for (std::size_t corner = 0; corner < surface.patch.size(); ++corner) {
+      const Eigen::Vector2d edge = surface.patch[(corner + 1) % surface.patch.size()] - surface.patch[corner];
+      const Eigen::Vector3d inward = surface.axes() * Eigen::Vector2d(-edge.y(), edge.x()).normalized();
+      rows_[0].push_back({Kind::inside, point_of(contact.contact), i, inward,
+                          inward.dot(surface.at(surface.patch[corner])), 0.0, 1.0 / length_,
+                          name + ", landing place inside " + surface.name});
+    }
+  }
+}
+
+// Surfaces without an edge are passed during the whole swing. A patch is passed while the foot is near it, and where
+// that is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the
+// second.
+void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, const Swing& swing,
+                                  int intervals_at_rest) {
+  const MotionProblem& problem = discrete.problem;
+  const double total = time_of(problem, swing.first_phase, swing.last_phase);
+  const double before = time_of(problem, swing.first_phase, phase - 1) / total;
+  const double part = time_of(problem, phase, phase) / total;
+  const PhaseMesh& mesh = discrete.mesh.phases[phase];
+  const int intervals = mesh.intervals();
+  const PhaseMesh& last = discrete.mesh.phases[swing.last_phase];
+  const double last_step =
+      last.step(last.intervals() - 1, time_of(problem, swing.last_phase, swing.last_phase)) / total;
+  const double at_rest = swing.after < 0 ? 0.0 : intervals_at_rest * last_step;
+  const double moving = at_rest < 1.0 ? 1.0 - at_rest : 1.0;
+  const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
+  const auto surface_of = [&](int stance) { return stance < 0 ? -1 : discrete.schedule.stances()[stance].surface; };
+  const ContactPoint& contact = problem.robot.contacts()[swing.contact];
+  for (int k = 0; k <= intervals; ++k) {
+    // The first node of a swing is where it left, the last where it lands; of a switch in between one node is enough.
+    if (k == 0 && phase == swing.first_phase) continue;
+    if (k == intervals && !is_last_phase) continue;
+    const double progress = before + mesh.node_time(k, part);
+    const double risen = std::min(progress / moving, 1.0);
+    for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
+      const Surface& surface = problem.surfaces[s];
+      constexpr double kRounding = 1e-9;  // of a swing: a node in its middle is in both halves
+      const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5 + kRounding) ||
+                          (s == surface_of(swing.after) && progress >= 0.5 - kRounding);
+      if (!passes) continue;
+      const double height = problem.swing_clearance * clearance_profile(swing, risen);
+      rows_[k].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,
+                          surface.normal.dot(surface.point) + contact.radius, height / length_, 1.0 / length_,
+                          contact.name + ", clearance above " + surface.name});
+    }
+  }
+}
+
+int PlacementRows::most_rows() const {
+  std::size_t most = 0;
+  for (const std::vector<Row>& rows : rows_) most = std::max(most, rows.size());
+  return static_cast<int>(most);
+}
+
+double PlacementRows::upper(int k, int row) const {
+  const Kind kind = at(k, row).kind;
+  return kind == Kind::place || kind == Kind::velocity ? at(k, row).lower : std::numeric_limits<double>::infinity();
+}
+
+std::string PlacementRows::describe(int k, int row) const { return at(k, row).what; }
+
+void PlacementRows::evaluate(int k, const RigidBodyTerms& terms, const Eigen::VectorXd& v,
+                             const Eigen::VectorXd& anchors, Eigen::Ref<Eigen::VectorXd> values) {
+  if (count(k) == 0) return;
+  v_ = v;
+  kinematics_.set_configuration(terms);
+  for (int i = 0; i < count(k); ++i) {
+    const Row& row = at(k, i);
+    const Eigen::Index first = 3 * row.point;
+    double value = 0.0;
+    switch (row.kind) {
+      case Kind::place:
+        value = row.axis.dot(kinematics_.positions().segment<3>(first) - anchors.segment<3>(3 * row.held));
+        break;
+      case Kind::velocity:
+        value = row.axis.dot(Eigen::Vector3d(kinematics_.jacobian().middleRows<3>(first).lazyProduct(v)));
+        break;
+      case Kind::inside: value = row.axis.dot(anchors.segment<3>(3 * row.held)) - row.offset; break;
+      case Kind::clearance: value = row.axis.dot(kinematics_.positions().segment<3>(first)) - row.offset; break;
+    }
+    values(i) = row.scale * value;
+  }
+}
+
+void PlacementRows::derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv,
+                                Eigen::Ref<Eigen::MatrixXd> danchors) {
+  dq.setZero();
+  dv.setZero();
+  danchors.setZero();
+  if (count(k) == 0) return;
+  kinematics_.set_motion(at_rest_, v_);
+  kinematics_.acceleration_dq(velocity_dq_);
+  for (int i = 0; i < count(k); ++i) {
+    const Row& row = at(k, i);
+    const Eigen::Index first = 3 * row.point;
+    const Eigen::RowVector3d axis = row.scale * row.axis.transpose();
+    if (row.kind == Kind::velocity) {
+      dq.row(i).noalias() = axis.lazyProduct(velocity_dq_.middleRows<3>(first));
+      dv.row(i).noalias() = axis.lazyProduct(kinematics_.jacobian().middleRows<3>(first));
+      continue;
+    }
+    if (row.kind == Kind::inside) {
+      danchors.row(i).segment<3>(3 * row.held) = axis;
+      continue;
+    }
+    dq.row(i).noalias() = axis.lazyProduct(kinematics_.positions_dq().middleRows<3>(first));
+    if (row.kind == Kind::place) danchors.row(i).segment<3>(3 * row.held) = -axis;
+  }
+}
+
+void PlacementRows::add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers,
+                                Eigen::Ref<Eigen::MatrixXd> qq, Eigen::Ref<Eigen::MatrixXd> qv) {
+  if (count(k) == 0) return;
+  on_position_.setZero(kinematics_.rows());
+  on_velocity_.setZero(kinematics_.rows());
+  bool any_velocity = false;
+  for (int i = 0; i < count(k); ++i) {
+    const Row& row = at(k, i);
+    if (row.kind == Kind::inside) continue;
+    any_velocity |= row.kind == Kind::velocity;
+    (row.kind == Kind::velocity ? on_velocity_ : on_position_).segment<3>(3 * row.point) +=
+        multipliers(i) * row.scale * row.axis;
+  }
+  kinematics_.add_position_hessian(on_position_, 1.0, qq);
+  if (!any_velocity) return;
+  second_.set_zero();
+  kinematics_.set_motion(at_rest_, v_);
+  kinematics_.add_acceleration_hessian(on_velocity_, 0.0, second_);
+  qq += second_.qq;
+  qv += second_.qa;  // J u is the acceleration of a = u at rest
+}
+
+}  // namespace prowl

@@ -1,0 +1,161 @@
+#include "screen/plan_summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "screen/mesh_advice.hpp"
+
+namespace prowl {
+namespace {
+
+const char* in_words(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::converged: return "converged";
+    case SolveStatus::infeasible: return "infeasible: the solver came to rest where the constraints cannot be met";
+    case SolveStatus::iteration_limit: return "not finished: limit of iterations";
+    case SolveStatus::time_limit: return "not finished: limit of time";
+    case SolveStatus::interrupted: return "not finished: interrupted";
+    case SolveStatus::evaluation_failed: return "numerical failure in the problem";
+    case SolveStatus::solver_failed: return "the solver failed";
+  }
+  return "unknown";
+}
+
+/// Whether nothing costs anything: then all motions that keep the constraints are as good.
+bool is_zero(const QuadraticCost& cost) {
+  return cost.configuration_weight.isZero(0.0) && cost.velocity_weight.isZero(0.0) &&
+         cost.acceleration_weight.isZero(0.0) && cost.torque_weight.isZero(0.0) && cost.force_weight.isZero(0.0) &&
+         cost.time_weight == 0.0 && cost.contact_positions.empty();
+}
+
+/// "33 + 9 on 39 + 135 intervals", or the number alone where there was one mesh.
+std::string iterations_in_words(const Plan& plan) {
+  if (plan.levels.size() < 2) return fmt::format("{} iterations", plan.result.iterations);
+  std::vector<int> iterations, intervals;
+  for (const LevelResult& level : plan.levels) {
+    iterations.push_back(level.iterations);
+    intervals.push_back(level.intervals);
+  }
+  return fmt::format("{} iterations on {} intervals", fmt::join(iterations, " + "), fmt::join(intervals, ", "));
+}
+
+}  // namespace
+
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.3g}{}", value, unit.empty() || unit == "-" ? "" : " " + unit);
+}
+
+std::string failed_checks(const Certificate& certificate) {
+  std::string text;
+  for (const CertificateCheck& check : certificate.checks) {
+    if (check.passed) continue;
+    const std::string limit = with_unit(check.limit, ""), worst = with_unit(check.worst, "");
+    text +=
+        fmt::format("{}{} ({} > {})", text.empty() ? "" : ", ", check.name,
+                    worst == limit ? fmt::format("{:.9g}", check.worst) : worst, with_unit(check.limit, check.unit));
+  }
+  return text;
+}
+
+std::string failed_checks_line(const Certificate& certificate) {
+  const std::string checks = failed_checks(certificate);
+  return checks.empty() ? "" : "failed: " + checks + "\n";
+}
+
+std::string plan_summary(const PlanRecord& record, const std::string& when) {
+  const MotionProblem& problem = record.task.problem;
+  const SolveResult& result = record.plan.result;
+  const double duration = record.plan.trajectory.duration();
+  if (!record.plan.reasons.empty()) {
+    std::string text = fmt::format("{} {}{}: infeasible, and certain to be: the solver did not start\n",
+                                   problem.robot.name(), problem.name, when);
+    for (const std::string& reason : record.plan.reasons) text += fmt::format("  reason       {}\n", reason);
+    return text;
+  }
+  std::string text = fmt::format("{} {}{}: {}\n", problem.robot.name(), problem.name, when, in_words(result.status));
+  text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
+                      problem.phases.size(), problem.phases.size() == 1 ? "" : "s", record.plan.mesh.num_intervals(),
+                      duration, record.plan.num_variables, record.plan.num_constraints);
+  text += fmt::format("  solver       {}: {}, {:.2f} s (problem {:.2f} s)\n", record.plan.solver,
+                      iterations_in_words(record.plan), result.seconds, result.times.evaluation());
+  if (!record.warm_start.empty()) text += fmt::format("  started from {}\n", record.warm_start);
+  text += fmt::format("  solution     cost {:.6g}, violation of constraints {:.1e}, dual {:.1e}\n", result.cost,
+                      result.constraint_violation, result.dual_violation);
+  if (is_zero(problem.running_cost) && is_zero(problem.terminal_cost)) {
+    text +=
+        "  note         without [cost] all motions are as good, and what comes out need not be smooth "
+        "(docs/task-file.md)\n";
+  }
+  if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);
+  if (result.status != SolveStatus::converged && record.plan.certificate.passed) {
+    text +=
+        "  note         the motion passes its certificate all the same; only the solver's own tolerance is not met\n";
+  }
+  for (const std::string& hint : record.plan.hints) text += fmt::format("  hint         {}\n", hint);
+  return text;
+}
+
+std::string certificate_summary(const Certificate& certificate) {
+  std::size_t name_width = 5, where_width = 5;
+  for (const CertificateCheck& check : certificate.checks) {
+    name_width = std::max(name_width, check.name.size());
+    where_width = std::max(where_width, check.where.size());
+  }
+  std::string text = fmt::format("certificate: {}, grade: {}\n", certificate.passed ? "passed" : "FAILED",
+                                 to_string(certificate.grade));
+  const auto line = [&](const std::string& name, const std::string& worst, const std::string& limit,
+                        const std::string& time, const std::string& where, const std::string& verdict) {
+    text += fmt::format("  {:<{}}  {:>14}  {:>14}  {:>9}  {:<{}}  {}\n", name, name_width, worst, limit, time, where,
+                        where_width, verdict);
+  };
+  line("check", "worst", "limit", "time", "where", "");
+  for (const CertificateCheck& check : certificate.checks) {
+    line(check.name, with_unit(check.worst, check.unit), with_unit(check.limit, check.unit),
+         fmt::format("{:.3f} s", check.time), check.where,
+         !check.passed                          ? "FAIL"
+         : check.worst <= check.certified_limit ? "pass"
+                                                : "draft");
+  }
+  if (!certificate.redundant_contacts.empty()) {
+    std::vector<std::string> ranks;
+    for (const ContactRank& phase : certificate.contact_ranks) {
+      if (phase.rank < phase.rows)
+        ranks.push_back(fmt::format("'{}' rank {} of {} rows", phase.phase, phase.rank, phase.rows));
+    }
+    text += fmt::format("  forces of {}: a choice, those of other contacts are unique ({})\n",
+                        fmt::join(certificate.redundant_contacts, ", "), fmt::join(ranks, ", "));
+  }
+  text += "A check passes if worst <= limit; where worst is negative, it is what is left to the bound.\n";
+  return text + failed_checks_line(certificate);
+}
+
+std::string feedback_summary(const FeedbackDesign& feedback, double step) {
+  std::string text = fmt::format("feedback: {} gains, one every {:g} ms, {:.2f} s; bandwidth up to {:.0f} rad/s\n",
+                                 feedback.num_samples(), step * 1e3, feedback.seconds, feedback.whole.bandwidth);
+  const auto worst = std::max_element(feedback.decay.begin(), feedback.decay.end(),
+                                      [](const PhaseDecay& a, const PhaseDecay& b) { return a.worst < b.worst; });
+  text += fmt::format("  of a start deviation at most {:.1e} is left at the end ({})\n", feedback.whole.worst,
+                      feedback.whole.worst_direction);
+  if (worst->worst > 1.0) {
+    text += fmt::format("  it grows at most in phase '{}', {:.1f} times ({})\n", worst->name, worst->worst,
+                        worst->worst_direction);
+  }
+  if (!feedback.stands_on) {
+    text += feedback.slowest_rate < 0.0
+                ? "  WARNING: the gains do not hold the robot after the end; tracking.bandwidth_radps leaves too "
+                  "little of them\n"
+                : "  no gains to stand on with after the end: its contacts do not hold the robot\n";
+  }
+  return text;
+}
+
+std::string plan_report(const PlanRecord& record, const std::string& when) {
+  if (!record.plan.reasons.empty()) return plan_summary(record, when);
+  return plan_summary(record, when) + certificate_summary(record.plan.certificate) + mesh_advice(record) +
+         (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
+}
+
+}  // namespace prowl
