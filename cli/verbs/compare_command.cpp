@@ -9,16 +9,15 @@
 #include "cli/options/shared_options.hpp"
 #include "cli/process/interrupt.hpp"
 #include "cli/process/program_files.hpp"
-#include "cli/process/python_script.hpp"
 #include "cli/exit_status.hpp"
 #include "cli/screen/json_result.hpp"
 #include "cli/screen/output.hpp"
 #include "cli/screen/progress_bar.hpp"
 #include "cli/verbs/commands.hpp"
-#include "drake_snopt.hpp"
 #include "prowl/error.hpp"
 #include "prowl/files/atomic_folder.hpp"
 #include "prowl/session/environment.hpp"
+#include "prowl/solvers/foreign/snopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/task_file/task_file.hpp"
 
@@ -33,7 +32,7 @@ struct CompareArguments {
   std::vector<std::string> package_dirs;
   Names dynamics, transcriptions, contacts, orientations, solvers;  ///< empty: the first of those that there are
   std::optional<std::string> snopt_library;
-  std::string python = default_python(), guess = guess_names().front();
+  std::string guess = guess_names().front();
   std::vector<int> intervals;  ///< empty: as in the task file
   TaskOverrides overrides;
   HessianKind hessian = HessianKind::exact;
@@ -50,8 +49,18 @@ Names all_solver_names() {
   return names;
 }
 
+/// SNOPT from the user's own library: the named one, or libsnopt7.so. Throws InputError with the remedy if it cannot be
+/// used.
+std::unique_ptr<NlpSolver> make_snopt(const std::optional<std::string>& library) {
+  auto snopt = library ? std::make_unique<SnoptSolver>(*library) : std::make_unique<SnoptSolver>();
+  const std::optional<std::string>& reason = snopt->why_unavailable();
+  if (!reason) return snopt;
+  if (library) throw InputError("--snopt-library: " + *reason);
+  throw InputError(*reason + "; name it: --snopt-library FILE, or use prowl.snopt in Python (docs/solvers.md#snopt)");
+}
+
 std::unique_ptr<NlpSolver> solver_of(const CompareArguments& arguments, const std::string& name) {
-  return name == kSnopt ? make_snopt(arguments.snopt_library, arguments.python) : make_solver(name);
+  return name == kSnopt ? make_snopt(arguments.snopt_library) : make_solver(name);
 }
 
 /// What was asked for of what there is.
@@ -207,10 +216,8 @@ void add_compare_command(CLI::App& app, int& status) {
       ->check(CLI::IsMember(guess_names()))
       ->type_name("NAME");
   verb->add_option("--snopt-library", arguments->snopt_library,
-                   "Your own SNOPT; default libsnopt7.so if there is one, else Drake's")
+                   "Your own SNOPT, for --solver snopt; default libsnopt7.so")
       ->type_name("FILE");
-  verb->add_option("--python", arguments->python, "Python with Drake, for its SNOPT; default " + arguments->python)
-      ->type_name("PATH");
   add_folder(*verb, "--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);

@@ -9,12 +9,58 @@ SNOPT is commercial; Drake's wheels have it with the permission of its authors, 
 
 from __future__ import annotations
 
+import os
+import re
+import tempfile
+import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from . import _drake_snopt, _prowl
+from . import _prowl
+
+DRAKE = "drake==1.51.1"  # the last with wheels for Python 3.11; SNOPT 7.4-1.2 is in it
+
+# What SNOPT's INFO means (User's Guide 7.4, section 8.6), as a status of Prowl's and in words.
+_INFO = {
+    1: ("converged", "optimality conditions satisfied"),
+    2: ("solver_failed", "feasible, but not shown to be optimal"),
+    3: ("solver_failed", "the accuracy that was asked for could not be reached"),
+    11: ("infeasible", "infeasible linear constraints"),
+    12: ("infeasible", "infeasible linear equalities"),
+    13: ("infeasible", "nonlinear infeasibilities minimised"),
+    14: ("infeasible", "infeasibilities minimised"),
+    21: ("solver_failed", "unbounded objective"),
+    22: ("solver_failed", "constraint violation limit reached"),
+    31: ("iteration_limit", "limit of minor iterations reached"),
+    32: ("iteration_limit", "iteration limit reached"),
+    33: ("solver_failed", "the superbasics limit is too small"),
+    34: ("time_limit", "time limit reached"),
+    41: ("solver_failed", "the current point cannot be improved"),
+    42: ("solver_failed", "singular basis"),
+    43: ("solver_failed", "cannot satisfy the general constraints"),
+    44: ("solver_failed", "ill-conditioned null-space basis"),
+    51: ("solver_failed", "incorrect objective derivatives"),
+    52: ("solver_failed", "incorrect constraint derivatives"),
+}
+
+# A block of rows is evaluated with derivatives in all variables of the block: narrow ones keep those arrays small.
+_WIDEST_BLOCK = 160
+
+# Up to so many variables SNOPT keeps the whole quasi-Newton matrix. It takes half the iterations or fewer than with the last ten updates,
+# its default beyond 75, and where the paper's contact rows slow it down it is what makes it end; on larger programs the n² numbers
+# take more time than that saves (docs/solvers.md).
+_MOST_FOR_FULL_MEMORY = 500
+
+# Drake opens "Print file" as this Fortran unit and lets SNOPT write no more than its name there; the summary, which has the
+# number of iterations, goes to any unit that one names.
+_PRINT_UNIT = 10
+
+
+class _TimeUp(Exception):
+    pass
 
 
 @dataclass(frozen=True)
@@ -32,6 +78,145 @@ class Result:
     multipliers: (
         np.ndarray | None
     )  #: of the constraints, in cost + multipliers . constraints; None unless SNOPT finished
+
+
+def _violation(program: _prowl.Program, z: np.ndarray, rows: np.ndarray) -> float:
+    """Largest of rows and bounds, unscaled."""
+    parts = (
+        program.variable_lower - z,
+        z - program.variable_upper,
+        program.constraint_lower - rows,
+        rows - program.constraint_upper,
+    )
+    return max(float(part.max(initial=0.0)) for part in parts)
+
+
+@dataclass
+class _Block:
+    rows: range
+    columns: np.ndarray  # in order
+    places: slice  # in the Jacobian's values, once they are sorted by row
+    at: tuple[np.ndarray, np.ndarray] = field(repr=False)  # of those places in the block
+
+
+def _blocks(pattern: tuple[np.ndarray, np.ndarray], num_rows: int) -> tuple[np.ndarray, list[_Block]]:
+    """The order that sorts the places by row, and neighbouring rows together as long as they share most of their variables."""
+    order = np.lexsort((pattern[1], pattern[0]))
+    rows, columns = pattern[0][order], pattern[1][order]
+    ends = np.searchsorted(rows, np.arange(num_rows + 1))
+    blocks: list[_Block] = []
+    first, known = 0, np.array([], dtype=columns.dtype)
+    for row in range(num_rows + 1):
+        union = np.union1d(known, columns[ends[row] : ends[row + 1]]) if row < num_rows else known
+        if row > first and (row == num_rows or union.size > _WIDEST_BLOCK):
+            places = slice(ends[first], ends[row])
+            at = (rows[places] - first, np.searchsorted(known, columns[places]))
+            blocks.append(_Block(range(first, row), known, places, at))
+            if row == num_rows:
+                break
+            first, union = row, np.unique(columns[ends[row] : ends[row + 1]])
+        known = union
+    return order, blocks
+
+
+class _Watched:
+    """The program as Drake's functions see it: evaluated once a point, when Drake tells of the whole of it."""
+
+    def __init__(
+        self,
+        program: _prowl.Program,
+        start: np.ndarray,
+        tolerance: float,
+        max_seconds: float,
+        on_evaluation: Callable[[int, float, float], object] | None,
+    ) -> None:
+        self.program, self.tolerance, self.on_evaluation = program, tolerance, on_evaluation
+        self.end = time.perf_counter() + max_seconds
+        self.order, self.blocks = _blocks(program.jacobian_pattern, program.num_constraints)
+        self.count = 0
+        self.z = self.best = start
+        self.best_rank = (np.inf, np.inf)
+        self.error: BaseException | None = None
+
+    def visit(self, z: np.ndarray) -> None:
+        try:
+            if time.perf_counter() > self.end:
+                raise _TimeUp("time limit reached")
+            self.z = z.copy()
+            self.cost, self.gradient = self.program.cost(self.z), self.program.cost_gradient(self.z)
+            self.rows, self.jacobian = self.program.constraints(self.z), self.program.jacobian(self.z)[self.order]
+            self.count += 1
+            worst = _violation(self.program, z, self.rows)
+            rank = (max(worst, self.tolerance), self.cost if worst <= self.tolerance else 0.0)
+            if rank < self.best_rank:
+                self.best, self.best_rank = self.z, rank
+            if self.on_evaluation is not None:
+                self.on_evaluation(self.count, self.cost, worst)
+        except BaseException as error:
+            self.error = error  # Drake passes on no more than its words
+            raise
+
+
+def _add(program: Any, z: np.ndarray, watched: _Watched) -> None:
+    """Cost and constraints to Drake's program, in blocks: Drake gives each function derivatives in all of its variables."""
+    from pydrake.autodiffutils import ExtractValue, InitializeAutoDiff
+
+    def at_the_point(x: np.ndarray, columns: np.ndarray) -> bool:
+        """Whether derivatives are asked for. Drake evaluates all functions at the point that it has just told of."""
+        wants_derivatives = x.dtype == object
+        assert np.array_equal(ExtractValue(x).ravel() if wants_derivatives else x, watched.z[columns])
+        return wants_derivatives
+
+    def add_cost(columns: np.ndarray, has_value: bool) -> None:
+        def cost(x: np.ndarray) -> Any:
+            value = watched.cost if has_value else 0.0  # Drake adds up the blocks
+            if not at_the_point(x, columns):
+                return value
+            return InitializeAutoDiff(np.array([value]), watched.gradient[columns][np.newaxis, :])[0, 0]
+
+        program.AddCost(cost, vars=z[columns])
+
+    def add_rows(block: _Block) -> None:
+        rows = slice(block.rows.start, block.rows.stop)
+        gradient = np.zeros((len(block.rows), block.columns.size))
+
+        def constraint(x: np.ndarray) -> np.ndarray:
+            if not at_the_point(x, block.columns):
+                return watched.rows[rows]
+            gradient[block.at] = watched.jacobian[block.places]
+            return InitializeAutoDiff(watched.rows[rows], gradient).ravel()
+
+        lower, upper = watched.program.constraint_lower[rows], watched.program.constraint_upper[rows]
+        binding = program.AddConstraint(constraint, lb=lower, ub=upper, vars=z[block.columns])
+        binding.evaluator().SetGradientSparsityPattern(list(zip(*(index.tolist() for index in block.at), strict=True)))
+
+    for first in range(0, z.size, _WIDEST_BLOCK):
+        add_cost(np.arange(first, min(first + _WIDEST_BLOCK, z.size)), first == 0)
+    for block in watched.blocks:
+        add_rows(block)
+
+
+def _options(
+    start: np.ndarray, tolerance: float, max_iterations: int, print_file: str, others: Mapping[str, int | float | str]
+) -> dict[str, int | float | str]:
+    return {
+        # SNOPT takes a row for met within this times |z|, and Prowl's tolerance is on the row itself.
+        "Major feasibility tolerance": tolerance / max(1.0, float(np.linalg.norm(start))),
+        "Major optimality tolerance": tolerance,
+        "Major iterations limit": max_iterations,
+        "Iterations limit": 1_000_000,  # minor ones: the limit is on the major ones
+        "Superbasics limit": start.size + 1,  # the default ends programs with more than 500 degrees of freedom
+        "Hessian full memory" if start.size <= _MOST_FOR_FULL_MEMORY else "Hessian limited memory": "",
+        "Derivative option": 1,  # all are given
+        "Verify level": -1,  # and not to be checked by differences
+        "Print file": print_file,
+        "Summary file": _PRINT_UNIT,
+    } | dict(others)
+
+
+def _iterations(summary: str) -> int:
+    found = re.search(r"No\. of major iterations\s+(\d+)", summary)
+    return int(found[1]) if found else 0
 
 
 def solve(
@@ -59,46 +244,58 @@ def solve(
         raise _prowl.InputError(f"start: shape {z.shape} is not allowed; need ({program.num_variables},)")
     if not 0.0 < tolerance < 1.0:
         raise _prowl.InputError(f"tolerance: {tolerance} is not allowed; need a number between 0 and 1")
-
-    def evaluate(z: np.ndarray) -> _drake_snopt.Evaluation:
-        return _drake_snopt.Evaluation(
-            program.cost(z), program.cost_gradient(z), program.constraints(z), program.jacobian(z)
-        )
-
-    problem = _drake_snopt.Program(
-        z,
-        program.variable_lower,
-        program.variable_upper,
-        program.constraint_lower,
-        program.constraint_upper,
-        program.jacobian_pattern,
-        evaluate,
-    )
     try:
-        found = _drake_snopt.minimise(
-            problem,
-            tolerance=tolerance,
-            max_iterations=max_iterations,
-            max_seconds=max_seconds,
-            options=options,
-            on_evaluation=on_evaluation,
-        )
+        from pydrake.solvers import MathematicalProgram, SnoptSolver, SolverOptions
     except ModuleNotFoundError as error:
         if error.name is None or not error.name.startswith("pydrake"):
             raise
-        raise _prowl.InputError(
-            f"SNOPT comes with Drake, which is not installed: pip install {_drake_snopt.DRAKE}"
-        ) from error
-    if found.status == "converged" and not program.judge(found.z).constraint_violation <= tolerance:
-        found.status, found.message = "solver_failed", f"{found.message}, but a constraint is not within tolerance"
-    return Result(
-        found.z,
-        found.status,
-        found.message,
-        found.info,
-        found.iterations,
-        found.evaluations,
-        found.seconds,
-        found.summary,
-        found.multipliers,
-    )
+        raise _prowl.InputError(f"SNOPT comes with Drake, which is not installed: pip install {DRAKE}") from error
+
+    begin = time.perf_counter()
+    watched = _Watched(program, z, tolerance, max_seconds, on_evaluation)
+    drake = MathematicalProgram()
+    variables = drake.NewContinuousVariables(z.size)
+    drake.AddBoundingBoxConstraint(program.variable_lower, program.variable_upper, variables)
+    _add(drake, variables, watched)
+    # Called with each point before all else is evaluated there.
+    drake.AddVisualizationCallback(watched.visit, variables)
+    summary = ""
+
+    def outcome(
+        status: str, message: str, z: np.ndarray, info: int = 0, multipliers: np.ndarray | None = None
+    ) -> Result:
+        seconds = time.perf_counter() - begin
+        return Result(z, status, message, info, _iterations(summary), watched.count, seconds, summary, multipliers)
+
+    with tempfile.TemporaryDirectory() as folder:
+        print_file = os.path.join(folder, "snopt.txt")
+        settings = SolverOptions()
+        for name, value in _options(z, tolerance, max_iterations, print_file, options or {}).items():
+            settings.SetOption(SnoptSolver.id(), name, value)
+        try:
+            found = SnoptSolver().Solve(drake, z, settings)
+        except RuntimeError:
+            # Drake's program keeps our functions where the garbage collector does not look: no cycle must go through it.
+            error, watched.error = watched.error, None
+            if isinstance(error, _TimeUp):
+                return outcome("time_limit", str(error), watched.best)
+            if isinstance(error, ArithmeticError):
+                return outcome("evaluation_failed", str(error), watched.best)
+            if error is None:
+                raise
+            try:
+                raise error from None
+            finally:
+                del error
+        with open(print_file, encoding="utf-8", errors="replace") as file:
+            summary = file.read()
+    details = found.get_solver_details()
+    status, message = _INFO.get(details.info, ("solver_failed", "stopped"))
+    message = f"{message} (SNOPT INFO {details.info})"
+    if status not in ("converged", "infeasible"):
+        return outcome(status, message, watched.best, details.info)
+    solution = found.GetSolution(variables)
+    if status == "converged" and not program.judge(solution).constraint_violation <= tolerance:
+        status, message = "solver_failed", f"{message}, but a constraint is not within tolerance"
+    # SNOPT's multipliers are those of f - pi . rows.
+    return outcome(status, message, solution, details.info, -details.Fmul[1:])

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import prowl
-import prowl._drake_snopt
 import prowl.snopt
 
 
@@ -105,6 +104,30 @@ def test_what_an_evaluation_raises_ends_the_solve(drake):
         prowl.snopt.solve(program, on_evaluation=lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
 
 
+class Failing:
+    """A program whose third evaluation fails."""
+
+    def __init__(self, program: prowl.Program) -> None:
+        self.program, self.calls = program, 0
+
+    def __getattr__(self, name: str):
+        return getattr(self.program, name)
+
+    def constraints(self, z: np.ndarray) -> np.ndarray:
+        self.calls += 1
+        if self.calls == 3:
+            raise prowl.NumericalError("constraint is nan at constraint 1")
+        return self.program.constraints(z)
+
+
+def test_an_evaluation_that_fails_is_a_status(drake):
+    program = prowl.Program(prowl.read_task("hyq/stand", intervals=5), guess="straight")
+    result = prowl.snopt.solve(Failing(program))
+    assert (result.status, result.evaluations) == ("evaluation_failed", 2)
+    assert result.message == "constraint is nan at constraint 1"
+    assert program.judge(result.z).constraint_violation <= program.judge(program.start).constraint_violation
+
+
 def test_options_of_snopt_are_passed_on(drake):
     program = prowl.Program(prowl.read_task("hyq/stand", intervals=5))
     result = prowl.snopt.solve(program, options={"Major iterations limit": 4})
@@ -154,7 +177,7 @@ def test_exact_distances_alone_are_dear(drake):
 
 def test_the_version_to_install_is_the_one_that_is_tested():
     root = Path(__file__).resolve().parents[2]
-    pinned = (root / "cli/snopt/requirements.txt").read_text().split()
-    assert prowl._drake_snopt.DRAKE in pinned
-    for name in ("cli/drake_snopt.cpp", "docs/solvers.md", "docs/python.md"):
-        assert prowl._drake_snopt.DRAKE in (root / name).read_text(), name
+    pinned = (root / "python/snopt-requirements.txt").read_text().split()
+    assert prowl.snopt.DRAKE in pinned
+    for name in ("docs/solvers.md", "docs/python.md"):
+        assert prowl.snopt.DRAKE in (root / name).read_text(), name

@@ -5,6 +5,9 @@ if(PROWL_BUILD_CLI)
     add_dependencies(cli_${name}_test prowl_cli)
   endforeach()
 
+  target_compile_definitions(cli_compare_test PRIVATE PROWL_SNOPT_DOUBLE="$<TARGET_FILE:snopt_double>")
+  add_dependencies(cli_compare_test snopt_double)
+
   # For LD_PRELOAD: an older Ipopt, files that cannot be written.
   add_library(old_ipopt SHARED ${CMAKE_CURRENT_LIST_DIR}/old_ipopt.cpp)
   target_compile_definitions(cli_doctor_test PRIVATE PROWL_OLD_IPOPT="$<TARGET_FILE:old_ipopt>")
@@ -26,21 +29,6 @@ if(PROWL_BUILD_CLI)
   add_test(NAME cli/figures
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/figures_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
   set_tests_properties(cli/figures PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
-
-  # SNOPT in Drake's wheel: scripts/test installs it.
-  if(EXISTS ${PROWL_SITE_PACKAGES}/pydrake)
-    prowl_test(cli/drake_snopt prowl::solvers nlohmann_json::nlohmann_json)
-    set(drake_snopt_sources drake_snopt.cpp process.cpp program_path.cpp python_script.cpp socket_process.cpp)
-    list(TRANSFORM drake_snopt_sources PREPEND ${PROJECT_SOURCE_DIR}/cli/)
-    target_sources(cli_drake_snopt_test PRIVATE ${drake_snopt_sources})
-    target_include_directories(cli_drake_snopt_test PRIVATE ${PROJECT_SOURCE_DIR}/cli)
-    target_compile_definitions(cli_drake_snopt_test PRIVATE PROWL_PYTHON="${PROWL_PYTHON}"
-      PROWL_BARE_PYTHON="${CMAKE_CURRENT_BINARY_DIR}/bare_python" PROWL_SNOPT_DOUBLE="$<TARGET_FILE:snopt_double>")
-    file(CONFIGURE OUTPUT bare_python CONTENT "#!/bin/sh\nexec '${PROWL_PYTHON}' -S \"$@\"\n" @ONLY)
-    file(CHMOD ${CMAKE_CURRENT_BINARY_DIR}/bare_python PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE)
-  else()
-    message(STATUS "Prowl: without the tests of SNOPT, for which Drake is missing: PROWL_WITH_SNOPT=1 scripts/setup")
-  endif()
 
   # Malicious files: docs/reliability.md.
   add_test(NAME cli/bad_input

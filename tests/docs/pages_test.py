@@ -111,7 +111,7 @@ class Pages(unittest.TestCase):
 
     def test_all_requirements_pin_the_same(self):
         pins = {}
-        for name in ("requirements.txt", "site/requirements.txt", "cli/snopt/requirements.txt"):
+        for name in ("requirements.txt", "site/requirements.txt", "python/snopt-requirements.txt"):
             for line in (ROOT / name).read_text(encoding="utf-8").splitlines():
                 if line and not line.startswith("#"):
                     package, _, version = line.partition("==")

@@ -187,7 +187,7 @@ void set_options(Workspace& work, const VectorXd& z_start, const SolverOptions& 
   work.set(fmt::format("Major optimality tolerance {:.3e}", options.tolerance));
   work.set(fmt::format("Major feasibility tolerance {:.3e}", options.tolerance / std::max(1.0, z_start.norm())));
   work.set(fmt::format("Superbasics limit {}", z_start.size() + 1));
-  constexpr int kMostForFullMemory = 500;  // why: _drake_snopt.py, which gives SNOPT the same options
+  constexpr int kMostForFullMemory = 500;  // why: python/prowl/snopt.py, which gives SNOPT the same options
   work.set(z_start.size() <= kMostForFullMemory ? "Hessian full memory" : "Hessian limited memory");
   work.set("Derivative option 1");
   work.set("Verify level -1");

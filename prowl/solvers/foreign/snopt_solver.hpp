@@ -11,7 +11,7 @@ class SnoptLibrary;
 
 /// SNOPT 7 (Gill, Murray, Saunders 2005: sequential quadratic programming, quasi-Newton), with exact sparse first
 /// derivatives, out of the user's own library: SNOPT is commercial. Prowl's authors have no such library; it was tested
-/// against a double with the published interface (tests/solvers/snopt_double.cpp). The SNOPT that is tested for real is
+/// against a double with the published interface (tests/solvers/snopt_double.cpp). The tests of SNOPT itself use
 /// Drake's (python/prowl/snopt.py).
 ///
 /// - The print file and the summary are switched off. Options are SNOPT's own but for limits, tolerances and
