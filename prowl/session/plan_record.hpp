@@ -14,7 +14,7 @@ namespace prowl {
 /// One iteration of the solver, and on which mesh: 0 is the first, the coarsest.
 struct MeshIteration {
   int level = 0;
-  SolveProgress progress;
+  SolveProgress progress = {};
 };
 
 /// A plan, what it was made from, and by what.

@@ -14,8 +14,8 @@ namespace prowl {
 struct PlanStart {
   const PlanRecord* record = nullptr;  ///< null: start from the task alone
   bool resume = false;                 ///< the record is an unfinished solve of the same task: go on with it
-  std::string folder;                  ///< for the record; "" if it is in no folder
-  std::string option;                  ///< that names it, for messages: "--warm-start out/crouch"
+  std::string folder = {};             ///< for the record; "" if it is in no folder
+  std::string option = {};             ///< that names it, for messages: "--warm-start out/crouch"
 };
 
 /// What a user chooses when a task is planned, whatever the front end is.
