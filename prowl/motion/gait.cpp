@@ -29,7 +29,7 @@ class PhaseList {
     phase.intervals = std::max(
         kFewestIntervals, static_cast<int>(std::ceil(duration.max * gait_.intervals_per_second * (1.0 - kRounding))));
     for (int contact = 0; contact < static_cast<int>(robot_.contacts().size()); ++contact) {
-      const auto is_contact = [&](Foot foot) { return feet_[foot] == contact; };
+      const auto is_contact = [&](Foot foot) { return feet_[static_cast<std::size_t>(foot)] == contact; };
       if (std::ranges::none_of(swinging, is_contact)) phase.contacts.push_back({contact, gait_.surface});
     }
     phases_.push_back(std::move(phase));
@@ -42,7 +42,7 @@ class PhaseList {
   std::string sentence(const std::vector<Foot>& group, const std::string& verb) const {
     std::string names;
     for (const Foot foot : group) {
-      const auto contact = static_cast<std::size_t>(feet_[foot]);
+      const auto contact = static_cast<std::size_t>(feet_[static_cast<std::size_t>(foot)]);
       names += (names.empty() ? "" : " and ") + robot_.contacts()[contact].name;
     }
     return names + " " + verb + (group.size() == 1 ? "s" : "");
@@ -76,7 +76,7 @@ std::optional<Feet> find_feet(const RobotModel& robot) {
     const Vector3d from_middle = places[contact] - middle;
     const bool fore = from_middle.x() > 0.0, left = from_middle.y() > 0.0;
     const Foot foot = fore ? (left ? Foot::lf : Foot::rf) : (left ? Foot::lh : Foot::rh);
-    int& place = feet[foot];
+    int& place = feet[static_cast<std::size_t>(foot)];
     if (place >= 0) return std::nullopt;
     place = contact;
   }
