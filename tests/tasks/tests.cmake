@@ -12,7 +12,7 @@ if(PROWL_BUILD_CLI)
   target_compile_definitions(tasks_simulated_tasks_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
   add_dependencies(tasks_simulated_tasks_test prowl_cli)
   set_tests_properties(tasks/simulated_tasks PROPERTIES COST 100)
-  prowl_test(tasks/shipped_tasks prowl::io nlohmann_json::nlohmann_json)
+  prowl_test(tasks/shipped_tasks prowl::io nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus)
   target_compile_definitions(tasks_shipped_tasks_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
   add_dependencies(tasks_shipped_tasks_test prowl_cli)
   # One test a task, the long ones first, so that they keep all cores busy.
