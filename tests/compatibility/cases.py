@@ -104,6 +104,9 @@ CASES = [
             "all_solvers": "--solver all --hessian gauss-newton",
         }.items()
     ),
+    Case(
+        "compare_snopt", "compare tasks/crouch.toml --solver snopt --snopt-library nowhere.so --out got/compare_snopt"
+    ),
     Case("figures", "figures out/crouch --out got/figures --joint lf_kfe"),
     Case("report", "report out/crouch --out got/report.html"),
     Case("report_rollout", "report out/rollout --out got/report_rollout.html"),

@@ -23,9 +23,10 @@ PROWL = sys.argv[1] if len(sys.argv) > 1 else "prowl"
 
 # What was dropped on purpose since, and why: (verb, option or choice). Nothing else may be missing.
 DROPPED = {
-    ("compare", "--solver snopt"): "goes: SNOPT through Drake is prowl.snopt of the Python package",
-    ("compare", "--python"): "goes with it",
-    ("compare", "--snopt-library"): "goes with it",
+    (
+        "compare",
+        "--python",
+    ): "found Drake's SNOPT; that is prowl.snopt of the Python package, compare takes your own library",
 }
 
 CHOICES_OF_KEYS = {  # a line of a kept task file, with each of its choices
