@@ -143,7 +143,7 @@ def judge(task: MotionTask, motion: Motion) -> Verdict:
             share = i / SAMPLES
             time, tau = motion.time[k] + share * step, motion.torque_at(k, share)
             a, forces, speeds = dynamics[phase](q, v, tau)
-            rates[i] = running_cost(task, q, v, a, tau)
+            rates[i] = running_cost(task, q, v, a, tau, forces)
             _see_joints(task, q, v, tau, time, findings)
             _see_contacts(task, phase, robot.places(q), forces, speeds, time, anchors, findings)
             if i == SAMPLES and (k + 2 == len(motion.time) or motion.phase[k + 2] != phase):
@@ -156,13 +156,15 @@ def judge(task: MotionTask, motion: Motion) -> Verdict:
     return Verdict(errors.max(axis=1), float(errors.max()), largest_in_a_second(ends, errors), float(cost), findings)
 
 
-def running_cost(task: MotionTask, q, v, a, tau) -> float:
+def running_cost(task: MotionTask, q, v, a, tau, forces) -> float:
+    """`forces`: one row a contact that holds, in the world."""
     cost = task.cost
     return cost.time + 0.5 * (
         cost.configuration @ difference(task.start, q) ** 2
         + cost.velocity @ v**2
         + cost.acceleration @ a**2
         + cost.torque @ (tau - cost.torque_reference) ** 2
+        + (forces**2 @ cost.force).sum()
     )
 
 

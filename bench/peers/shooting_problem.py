@@ -12,6 +12,7 @@ import pinocchio as pin
 from judge.motion import Motion
 from judge.motion_task import Goal, MotionTask
 from judge.robot import Contact
+from peers.nodes import Node, make_nodes
 
 WORLD = pin.LOCAL_WORLD_ALIGNED
 PLACE, TURN, VELOCITY = 1e5, 1e5, 1e4  # penalties on what has to hold at one node: [1/m²], [1/rad²], [s²/m²]
@@ -22,29 +23,6 @@ NO_FORCE = 1e1  # ... of a force that has to vanish before its contact opens [1/
 FREE = 1e3  # stands for infinity in bounds
 DAMPING = 50.0  # Baumgarte gain of the contacts [1/s], as in crocoddyl.utils.quadruped
 FORCE_WEIGHT = 1e-7  # keeps inverse dynamics' forces determined [1/N²]
-
-
-@dataclass(frozen=True)
-class Node:
-    """Where node k of the shooting problem is: at a share of a phase, with the step that follows it."""
-
-    phase: int
-    share: float
-    step: float  # [s]; 0 at the end of the motion
-    first: bool  # of its phase
-    last: bool  # of its phase: one step before the switch
-
-
-def make_nodes(task: MotionTask, step: float) -> list[Node]:
-    """Every phase in steps as near to `step` as its duration lets them be, and so that its goals are at nodes."""
-    nodes = []
-    for index, phase in enumerate(task.phases):
-        count = max(1, round(phase.duration / step))
-        fractions = [goal.fraction for goal in task.goals if goal.phase == index]
-        while any(abs(count * fraction - round(count * fraction)) > 1e-9 for fraction in fractions):
-            count += 1
-        nodes += [Node(index, k / count, phase.duration / count, k == 0, k == count - 1) for k in range(count)]
-    return nodes + [Node(len(task.phases) - 1, 1.0, 0.0, False, False)]
 
 
 class ShootingProblem:

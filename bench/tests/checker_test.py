@@ -44,6 +44,32 @@ def test_standing_still_has_no_error_and_breaks_nothing(torque):
     assert abs(verdict.cost) < 1e-9
 
 
+def test_the_cost_has_that_of_the_forces():
+    """Standing still, while two feet pull at each other: half of weight x force², all feet, times the duration."""
+    task = standing_task(DURATION)
+    robot, data = task.robot, task.robot.model.createData()
+    gravity = pin.computeGeneralizedGravity(robot.model, data, task.start)
+    frames = [contact.frame for contact in robot.contacts]
+    jacobian = np.vstack(
+        [
+            pin.computeFrameJacobian(robot.model, data, task.start, frame, pin.LOCAL_WORLD_ALIGNED)[:3]
+            for frame in frames
+        ]
+    )
+    forces = np.linalg.lstsq(jacobian[:, :6].T, gravity[:6], rcond=None)[0].reshape(-1, 3)
+    first, last = (robot.places(task.start)[robot.contacts[foot].name] for foot in (0, 3))
+    forces[0] += 40.0 * (last - first)
+    forces[3] -= 40.0 * (last - first)
+    motion = standing_still(task, 4, "held")
+    motion = dataclasses.replace(motion, tau=np.tile((gravity - jacobian.T @ forces.ravel())[6:], (5, 1)))
+    torque_cost = judge(task, motion).cost
+    for axis, weight in enumerate((1e-3, 2e-3, 3e-3)):
+        costly = dataclasses.replace(task, cost=dataclasses.replace(task.cost, force=weight * np.eye(3)[axis]))
+        expected = 0.5 * weight * (forces[:, axis] ** 2).sum() * DURATION
+        assert expected > 1e-2, "no force, so that the test checks nothing"
+        assert judge(costly, motion).cost - torque_cost == pytest.approx(expected, rel=1e-6)
+
+
 def test_standing_with_wrong_torques_has_an_error():
     task = standing_task(DURATION)
     assert judge(task, standing_still(task, 4, "held", factor=0.99)).error > 1e-4

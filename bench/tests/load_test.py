@@ -18,7 +18,13 @@ from judge.contact_dynamics import ContactDynamics, standing_torques
 from judge.motion import Motion
 from judge.motion_task import MotionTask, parse_task
 from load.random_tasks import ROBOTS, draw, folder
-from peers.shooting_problem import ShootingProblem, make_nodes
+from peers.nodes import make_nodes
+
+
+def shooting_problem(*arguments, **options):
+    """A peers.shooting_problem.ShootingProblem, where its peers are."""
+    module = pytest.importorskip("peers.shooting_problem", reason="needs the environment of scripts/bench")
+    return module.ShootingProblem(*arguments, **options)
 
 
 def drawn(count: int, seed: int = 3) -> list[tuple[str, dict, MotionTask]]:
@@ -89,7 +95,7 @@ def test_the_judge_and_the_peers_see_friction_along_the_slope(friction: float):
         task = dataclasses.replace(
             task, friction=friction, goals=(), phases=(dataclasses.replace(task.phases[0], duration=0.1),)
         )
-        shooting = ShootingProblem(task, 0.1, inverse=False, hard=False, joint_bounds=False)
+        shooting = shooting_problem(task, 0.1, inverse=False, hard=False, joint_bounds=False)
         data = shooting.problem.runningDatas[0]
         tau = standing_torques(task.robot, task.start, task.phases[0].contacts)
         shooting.problem.runningModels[0].calc(data, shooting.start, tau)
@@ -115,7 +121,7 @@ def test_feet_are_pulled_back_to_where_they_stood():
         lifted = np.concatenate([task.start, np.zeros(task.robot.model.nv)])
         lifted[2] += 1e-3
         for anchored in (False, True):
-            shooting = ShootingProblem(task, step, inverse=False, hard=False, joint_bounds=False, anchored=anchored)
+            shooting = shooting_problem(task, step, inverse=False, hard=False, joint_bounds=False, anchored=anchored)
             data = shooting.problem.runningDatas[0]
             shooting.problem.runningModels[0].calc(data, lifted, np.zeros(12))
             dynamics = ContactDynamics(task.robot, task.phases[0].contacts)
@@ -157,8 +163,9 @@ def test_limits_of_the_robot_file_replace_those_of_the_urdf():
 PYTHON, MODULE = ROOT / ".venv/bin/python", ROOT / "build/python"
 
 
-@pytest.mark.skipif(not (PYTHON.exists() and MODULE.is_dir()), reason="needs a built Prowl")
+@pytest.mark.skipif(not any(MODULE.glob("prowl/_prowl*.so")), reason="needs a built Prowl")
 def test_plans_that_prowl_certifies_pass_the_judge(tmp_path: pathlib.Path):
+    pytest.importorskip("mim_solvers", reason="needs the environment of scripts/bench")
     records = tmp_path / "records.jsonl"
     subprocess.run(
         [

@@ -9,7 +9,7 @@ from hyq import PACKAGES, ROOT, shipped
 from judge.motion import Motion
 from judge.motion_task import read_task
 from peers.mesh_search import coarsest_mesh
-from peers.shooting_problem import make_nodes
+from peers.nodes import make_nodes
 
 
 def test_start_stands_on_the_floor():

@@ -55,13 +55,11 @@ void Projector::factor_full() {
 void Projector::find_rank(double threshold) {
   rank_ = 0;
   pivot_ratio_ = 1.0;
-  rank_is_ambiguous_ = false;
   if (transposed_.cols() == 0) return;
   const auto pivots = qr_.matrixQR().diagonal();
   if (pivots(0) == 0.0) return;
   for (Eigen::Index i = 0; i < pivots.size(); ++i) {
     const double ratio = std::abs(pivots(i) / pivots(0));
-    rank_is_ambiguous_ |= ratio > kAmbiguousAbove && ratio < kAmbiguousBelow;
     if (ratio <= threshold) continue;
     pivot_ratio_ = ratio;
     ++rank_;

@@ -19,8 +19,6 @@ class Projector {
  public:
   /// Pivots below this part of the largest count as zero. See projector.cpp for why.
   static constexpr double kRankThreshold = 1e-8;
-  /// Pivot ratios in between are too near the threshold: right methods may differ there by several percent.
-  static constexpr double kAmbiguousAbove = 1e-10, kAmbiguousBelow = 1e-6;
 
   /// Throws NumericalError if J is not finite. A larger threshold is for configurations that are a little off their
   /// contacts, where rows that depend on each other do so but for that distance [m].
@@ -28,8 +26,6 @@ class Projector {
 
   int rank() const { return rank_; }
   bool full_rank() const { return rank_ == gram_inverse_.cols(); }
-  /// Some pivot ratio lies between kAmbiguousAbove and kAmbiguousBelow: the rank, and with it the forces, is a choice.
-  bool rank_is_ambiguous() const { return rank_is_ambiguous_; }
   /// Smallest pivot that counts over the largest, in (0, 1]; 1 where there is none. It follows the ratio of the
   /// singular values of J within a small factor, for a fraction of the time.
   double pivot_ratio() const { return pivot_ratio_; }
@@ -50,7 +46,6 @@ class Projector {
   Eigen::MatrixXd upper_inverse_, permuted_gram_;
   int rank_ = 0;
   double pivot_ratio_ = 1.0;
-  bool rank_is_ambiguous_ = false;
 };
 
 }  // namespace prowl

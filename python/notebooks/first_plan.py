@@ -33,7 +33,7 @@ plan
 
 # %% [markdown]
 # ## Is it any good?
-# Converged is a claim of the solver. The certificate is a check of the finished motion by code that shares nothing with it:
+# Converged is a claim of the solver. The certificate is a check of the finished motion by code with other dynamics and no solver:
 # how well it obeys the dynamics, whether contacts hold, whether torques and friction stay within their limits.
 
 # %%

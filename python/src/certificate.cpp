@@ -28,8 +28,8 @@ void bind_certificate(nb::module_& module) {
       });
   nb::class_<Certificate>(
       module, "Certificate",
-      "Whether a finished motion is what was asked for, by code that shares nothing with the planner\n"
-      "(docs/verification.md). print() shows it as a table, and so does a notebook.")
+      "Whether a finished motion is what was asked for, by code that shares neither dynamics nor transcription\n"
+      "with the planner (docs/verification.md). print() shows it as a table, and so does a notebook.")
       .def_ro("passed", &Certificate::passed)
       .def_prop_ro(
           "grade", [](const Certificate& certificate) { return to_string(certificate.grade); },

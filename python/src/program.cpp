@@ -138,7 +138,8 @@ void bind_judged_point(nb::module_& module) {
           "Largest, of the program's rows and bounds, unscaled.")
       .def_prop_ro(
           "certificate", [](const JudgedPoint& p) -> const Certificate& { return p.run.certificate; },
-          nb::rv_policy::reference_internal, "Of the motion, by code that shares nothing with the program.")
+          nb::rv_policy::reference_internal,
+          "Of the motion, by code that shares neither dynamics nor transcription with the program.")
       .def_ro("motion", &JudgedPoint::motion, nb::rv_policy::reference_internal,
               "The motion that the program means by this point, at its nodes.")
       .def(

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/io/robot_file.hpp"
 #include "tests/support/robots.hpp"
 
@@ -39,28 +41,80 @@ TEST_P(ShippedRobot, LoadsAndIsTheOneOfTheTests) {
   EXPECT_EQ(robot.torque_limit(), expected.torque_limit());
 }
 
-/// The geometry that robots/hyq.toml tells, computed here by way of the angle at the cylinder's far end.
-TEST(ShippedHyq, KneesHaveTheTorqueOfACylinderOnALever) {
-  constexpr double a = 0.3218, b = 0.045, force = 16e6 * 2.0106e-4;
-  const auto torque = [&](double angle) {
-    const Eigen::Vector2d knee(0.0, 0.0), far(a, 0.0);
-    const double turned = M_PI - angle - 0.1403 - 0.1047;
-    const Eigen::Vector2d near(b * std::cos(turned), b * std::sin(turned)), along = (near - far).normalized();
-    return force * std::abs((knee - far).x() * along.y() - (knee - far).y() * along.x());
+// HyQ's knee cylinder in Semini et al. 2011, "Design of HyQ": 16 mm bore, 80 mm stroke, 16 MPa, a knee of 120 degrees
+// and 145 N m.
+constexpr double kForce = 16e6 * std::numbers::pi / 4.0 * 0.016 * 0.016;  // [N]
+constexpr double kStroke = 0.080;                                         // [m]
+constexpr double kRange = 120.0 * std::numbers::pi / 180.0;               // [rad]
+constexpr double kLargestTorque = 145.0;                                  // [N m]
+
+/// Distance between the ends of the cylinder at knee position q, in the plane of the leg: the knee is the origin, the
+/// hip lies on the x axis. The shank turns by |q| away from the straight leg. Places of both ends by HyQ's own control
+/// software.
+double cylinder_length(double q) {
+  const auto place = [](double distance, double angle) {
+    return Eigen::Vector2d(distance * std::cos(angle), distance * std::sin(angle));
   };
-  const RobotModel robot = load_robot(read_text_file(std::filesystem::path(PROWL_SOURCE_DIR) / "robots/hyq.toml"),
-                                      PackageSearch{{PROWL_ROBOTS_DATA}, {}});
+  const Eigen::Vector2d on_thigh = place(0.3218, 0.1403);
+  const Eigen::Vector2d on_shank = place(0.045, std::numbers::pi - std::abs(q) - 0.1047);
+  return (on_thigh - on_shank).norm();
+}
+
+/// Torque of the pushing cylinder on the knee, positive towards larger q: virtual work, τ = F ∂c/∂q.
+double pushing_torque(double q) {
+  constexpr double step = 1e-5;
+  return kForce * (cylinder_length(q + step) - cylinder_length(q - step)) / (2.0 * step);
+}
+
+/// Distance of a foot from the axis of its hip joint: a turning hip moves the foot by so much.
+double leg_length(const RobotModel& robot, const std::string& leg, double knee) {
+  RigidBodyTerms terms(robot);
+  Eigen::VectorXd q = robot.nominal_configuration();
+  const auto joint = [&](const std::string& name) -> double& {
+    const auto found = std::ranges::find(robot.joint_names(), leg + name);
+    return q(7 + (found - robot.joint_names().begin()));
+  };
+  joint("_kfe_joint") = knee;
+  const auto foot = [&](double turn) {
+    joint("_hfe_joint") += turn;
+    terms.update_kinematics(q);
+    joint("_hfe_joint") -= turn;
+    return terms.contact_position(robot.contact_index(leg + "_foot"));
+  };
+  constexpr double step = 1e-5;
+  return (foot(step) - foot(-step)).norm() / (2.0 * step);
+}
+
+class ShippedHyq : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Files, ShippedHyq, testing::Values("hyq", "hyq_knees"));
+
+TEST_P(ShippedHyq, KneesAreAsStrongAsTheCylinderThatStretchesTheLeg) {
+  const std::string file = std::string(PROWL_SOURCE_DIR) + "/robots/" + GetParam() + ".toml";
+  const RobotModel robot = load_robot(read_text_file(file), PackageSearch{{PROWL_ROBOTS_DATA}, {}});
   ASSERT_EQ(robot.torque_curves().size(), 4u);
   for (const RobotModel::TorqueCurve& limit : robot.torque_curves()) {
-    EXPECT_TRUE(robot.joint_names()[limit.joint].ends_with("_kfe_joint"));
-    const double lower = robot.position_lower()(limit.joint), upper = robot.position_upper()(limit.joint);
-    double largest = 0.0;
-    for (int i = 0; i <= 100; ++i) {
-      const double q = lower + (upper - lower) * i / 100;
-      EXPECT_NEAR(limit.curve.value(q), torque(std::abs(q)), 0.1) << q;
-      largest = std::max(largest, limit.curve.value(q));
+    const int j = limit.joint;
+    const std::string& name = robot.joint_names()[j];
+    ASSERT_TRUE(name.ends_with("_kfe_joint")) << name;
+    const double lower = robot.position_lower()(j), upper = robot.position_upper()(j);
+    EXPECT_NEAR(upper - lower, kRange, 2e-3) << name;
+
+    constexpr int kSteps = 200;
+    double largest = 0.0, work = 0.0;  // of the limit, over the range
+    for (int i = 0; i <= kSteps; ++i) {
+      const double q = lower + (upper - lower) * i / kSteps, push = pushing_torque(q);
+      const double strongest = push > 0.0 ? robot.torque_upper(j, q, 0.0) : robot.torque_lower(j, q, 0.0);
+      EXPECT_NEAR(strongest, push, 0.1) << name << " at " << q;
+      EXPECT_EQ(robot.torque_lower(j, q, 0.0), -robot.torque_upper(j, q, 0.0)) << name << " at " << q;
+      const std::string leg = name.substr(0, 2);
+      EXPECT_GT(leg_length(robot, leg, q + std::copysign(1e-3, push)), leg_length(robot, leg, q))
+          << name << " at " << q;
+      largest = std::max(largest, std::abs(strongest));
+      work += std::abs(strongest) * (upper - lower) / kSteps * (i == 0 || i == kSteps ? 0.5 : 1.0);
     }
-    EXPECT_NEAR(largest, 145.0, 0.5);
+    EXPECT_NEAR(largest, kLargestTorque, 0.5) << name;
+    EXPECT_LT(work, kForce * kStroke) << name << ": the cylinder is too short for its work";
+    EXPECT_GT(work, 0.95 * kForce * kStroke) << name << ": HyQ's knee takes nearly all of the stroke";
   }
 }
 

@@ -145,5 +145,18 @@ TEST(RobotInspection, WarnsOfContactPointsTooCloseToTellApart) {
   EXPECT_THAT(texts(inspect(test::hyq()), Kind::contacts), IsEmpty());
 }
 
+/// Two points of one foot at distance d leave a singular value of about d. Between 1e-10 and 1e-6 of the largest one,
+/// the rank is a choice.
+TEST(RobotInspection, WarnsOfARankThatIsAmbiguous) {
+  const auto is_ambiguous = [](double d) {
+    RobotDescription robot = test::hyq_description();
+    robot.contacts.push_back({"lf_foot_too", "lf_foot", 0.02175, {d, 0.0, 0.0}});
+    const std::vector<std::string> found = texts(inspect(RobotModel(robot)), Kind::contacts);
+    return std::ranges::any_of(found, [](const std::string& text) { return text.find("ambiguous") != text.npos; });
+  };
+  for (const double d : {1e-7, 1e-8, 1e-9}) EXPECT_TRUE(is_ambiguous(d)) << d;
+  for (const double d : {0.1, 1e-4, 1e-12, 0.0}) EXPECT_FALSE(is_ambiguous(d)) << d;
+}
+
 }  // namespace
 }  // namespace prowl
