@@ -20,9 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kSignalled = 128;  ///< and the number of the signal: exit status of a process that a signal ended
+constexpr int kSignalled = 128;  ///< plus the number of a signal: exit status of a process that it ended
 
-/// What the command alone has to know.
+/// Options of the command itself, which the package does not have.
 bool is_own(const std::string& option) { return option == "json" || option == "quiet" || option == "python"; }
 
 /// The options that were given, as "--name=value"; the argument without a name comes last.

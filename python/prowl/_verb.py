@@ -22,7 +22,7 @@ LIBRARIES = {"figures": "numpy, scipy and matplotlib", "export": "numpy, mcap an
 
 def _say(**line: object) -> None:
     text = json.dumps(line, ensure_ascii=False) + "\n"
-    # Names of files need not be UTF-8, but the command reads nothing else.
+    # Names of files may be no UTF-8, but JSON has to be.
     sys.stdout.buffer.write(text.encode("utf-8", "surrogateescape").decode("utf-8", "replace").encode())
     sys.stdout.buffer.flush()
 
@@ -75,7 +75,7 @@ def _export(options: argparse.Namespace) -> None:
 
 
 def _options() -> argparse.Namespace:
-    """What the command has checked; its --help says what they mean."""
+    """The options, which the command has checked. Its --help explains them."""
     parser = argparse.ArgumentParser()
     parser.error = lambda text: sys.exit(_say(error=text.removeprefix("argument "), kind="input"))
     parser.add_argument("verb", choices=LIBRARIES)

@@ -42,7 +42,7 @@ std::vector<std::string> export_format_names() {
 
 }  // namespace
 
-/// For the package's own functions: what the command, too, says and does with files and names.
+/// For functions of the package that write files as the command does.
 void bind_files(nb::module_& module) {
   module.def("check_replaceable", &check_replaceable, nb::arg("folder"), nb::arg("own_names"),
              "Raises FileError unless the folder is missing or holds only files with these names.");
