@@ -11,7 +11,7 @@
 
 #include "cli/process/process.hpp"
 #include "cli/process/program_files.hpp"
-#include "cli/process/python_script.hpp"
+#include "cli/process/python_verb.hpp"
 #include "prowl/error.hpp"
 #include "prowl/session/environment.hpp"
 #include "prowl/solvers/foreign/fatrop_solver.hpp"
@@ -54,32 +54,26 @@ double load() {
   return ::getloadavg(loads, 1) == 1 ? loads[0] : 0.0;
 }
 
-/// A verb that is drawn or written by a script, and what the script needs.
-Finding check_script(const char* verb, const char* script_name, const char* libraries) {
+/// A verb that the Python package does, and the modules that it needs besides.
+Finding check_python_verb(const char* verb, const std::string& modules) {
   const std::string python = default_python();
   Finding finding{.area = "files", .name = verb, .text = python, .remedy = ""};
-  std::error_code ignored;
-  const fs::path script = share_folder() / script_name;
-  if (!fs::exists(script, ignored)) {
-    finding.state = State::missing;
-    finding.text = script.string() + " is not there";
-    finding.remedy = fmt::format("build or install again; prowl {} needs it", verb);
-    return finding;
-  }
+  std::string missing;
   int status = -1;
   try {
-    status = run_program(
-        {python, "-c",
-         fmt::format("import importlib.util as u, sys; sys.exit(any(u.find_spec(m) is None for m in '{}'.split()))",
-                     libraries)},
-        [](const std::string&) {});
+    status = run_program({python, "-c",
+                          fmt::format("import importlib.util as u, sys; sys.path.insert(0, sys.argv[1])\n"
+                                      "print(*[m for m in '_verb _prowl {}'.split() if u.find_spec(m) is None])",
+                                      modules),
+                          python_package().string()},
+                         [&missing](const std::string& line) { missing = line; });
   } catch (const InputError&) {  // it cannot be started
   }
-  if (status != 0) {
-    finding.state = State::missing;
-    finding.text = python + (status < 0 ? " cannot be started" : fmt::format(" lacks one of: {}", libraries));
-    finding.remedy = fmt::format("scripts/setup makes one in .venv; or prowl {} --python PATH", verb);
-  }
+  if (status == 0 && missing.empty()) return finding;
+  finding.state = State::missing;
+  finding.text = python + (status != 0 ? " cannot be used" : " lacks " + missing);
+  finding.remedy =
+      fmt::format("scripts/setup makes one in .venv and builds Prowl's own modules; or prowl {} --python PATH", verb);
   return finding;
 }
 
@@ -189,8 +183,8 @@ std::vector<Finding> check_machine() {
 }
 
 std::vector<Finding> check_files() {
-  return {check_robots(), check_script("figures", "figures/draw.py", "numpy scipy matplotlib"),
-          check_script("export", "exports/write_mcap.py", "numpy mcap mcap_ros2"), check_page()};
+  return {check_robots(), check_python_verb("figures", "numpy scipy matplotlib"),
+          check_python_verb("export", "numpy mcap mcap_ros2"), check_page()};
 }
 
 }  // namespace prowl::cli

@@ -10,8 +10,8 @@
 
 #include "prowl/error.hpp"
 #include "prowl/files/json_text.hpp"
-#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/nlp/iterate.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 
 namespace prowl {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "prowl/error.hpp"
 #include "prowl/files/json_parse.hpp"
+#include "prowl/plan_folder/motion_points.hpp"
 #include "prowl/plan_folder/plan_json.hpp"
 #include "prowl/report_page/report_json.hpp"
-#include "prowl/plan_folder/motion_points.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/trajectory/phase_span.hpp"
 

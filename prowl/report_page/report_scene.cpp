@@ -5,10 +5,10 @@
 
 #include "prowl/error.hpp"
 #include "prowl/files/base64.hpp"
+#include "prowl/files/visual_mesh.hpp"
 #include "prowl/model/body_placements.hpp"
 #include "prowl/model/urdf/robot_visuals.hpp"
 #include "prowl/report_page/report_json.hpp"
-#include "prowl/files/visual_mesh.hpp"
 
 namespace prowl {
 namespace {

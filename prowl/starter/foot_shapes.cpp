@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "prowl/error.hpp"
-#include "prowl/model/urdf/robot_visuals.hpp"
 #include "prowl/files/visual_mesh.hpp"
+#include "prowl/model/urdf/robot_visuals.hpp"
 
 namespace prowl {
 namespace {

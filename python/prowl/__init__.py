@@ -14,13 +14,17 @@ v has the base twist in the base frame [m/s, rad/s], then the joint rates. SI un
 """
 
 import importlib.util as _util
+import sys as _sys
 
 if _util.find_spec("prowl._prowl") is None:
     raise ImportError(
-        f"prowl: its compiled part is not in {__path__[0]}: scripts/setup builds it, or install the wheel"
+        f"{__path__[0]}: no module _prowl for Python {_sys.version_info.major}.{_sys.version_info.minor}: "
+        "scripts/setup builds it, or install the wheel"
     )
 
 from . import _notebook
+from ._exports import Export, export
+from ._figures import Figures, figures
 from ._files import parse_robot, parse_task, read_robot, read_task, shipped_robots, shipped_tasks
 from ._prowl import (
     Certificate,
@@ -36,6 +40,7 @@ from ._prowl import (
     InputError,
     Interrupted,
     JudgedPoint,
+    Link,
     Motion,
     NumericalError,
     Phase,
@@ -44,6 +49,7 @@ from ._prowl import (
     Progress,
     Robot,
     Simulation,
+    Surface,
     Task,
     Tracker,
     __version__,
@@ -70,10 +76,13 @@ __all__ = [
     "Error",
     "ErrorMeasure",
     "Evaluation",
+    "Export",
+    "Figures",
     "FileError",
     "InputError",
     "Interrupted",
     "JudgedPoint",
+    "Link",
     "Motion",
     "NumericalError",
     "Phase",
@@ -82,11 +91,14 @@ __all__ = [
     "Progress",
     "Robot",
     "Simulation",
+    "Surface",
     "Task",
     "Tracker",
     "__version__",
     "diagnose",
     "difference",
+    "export",
+    "figures",
     "integrate",
     "parse_robot",
     "parse_task",

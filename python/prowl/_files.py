@@ -8,13 +8,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import tomli_w
-
 from . import _prowl
 
 _HERE = Path(__file__).resolve().parent
-# In a wheel beside this file; in a build, build/python/prowl, those of the repository.
-_SHARE = next(folder for folder in (_HERE / "share" / "prowl", _HERE.parents[2]) if (folder / "tasks").is_dir())
+# In a wheel beside this file; installed, share/prowl/python/prowl, above it; in a build, build/python/prowl, those of
+# the repository.
+_PLACES = (_HERE / "share" / "prowl", _HERE.parents[1], _HERE.parents[2])
+_SHARE = next(folder for folder in _PLACES if (folder / "tasks").is_dir())
 
 
 def shipped_tasks() -> list[str]:
@@ -61,6 +61,8 @@ def _folders(package_dirs: Sequence[str | os.PathLike[str]]) -> list[str]:
 def _toml(document: str | Mapping[str, Any]) -> str:
     if isinstance(document, str):
         return document
+    import tomli_w  # figures() and export() do without
+
     try:
         return tomli_w.dumps(document)
     except (TypeError, AttributeError) as error:  # of None, a NumPy array, keys that are no strings

@@ -6,6 +6,7 @@ namespace prowl::python {
 
 // One for each subject, in the order in which they need each other's types.
 void bind_errors(nanobind::module_& module);
+void bind_files(nanobind::module_& module);
 void bind_robot(nanobind::module_& module);
 void bind_task(nanobind::module_& module);
 void bind_certificate(nanobind::module_& module);

@@ -142,6 +142,30 @@ class Dynamics {
     return std::move(p).array();
   }
 
+  Array contact_acceleration(const Argument& q_array, const Argument& v_array, const Argument& a_array) {
+    const Batch q = configurations(q_array), v(v_array, robot_.nv(), "v"), a(a_array, robot_.nv(), "a");
+    check_same_rows(q, {{"v", &v}, {"a", &a}});
+    Results g(q, {count(), 3});
+    for_each(q.rows(), [&](int i) {
+      ContactKinematics kinematics(contacts_);
+      terms().update_kinematics(q.row(i));
+      kinematics.set_configuration(terms());
+      kinematics.set_motion(v.row(i), a.row(i));
+      g.set(i, kinematics.acceleration());
+    });
+    return std::move(g).array();
+  }
+
+  std::vector<std::vector<std::string>> contact_joints() const {
+    std::vector<std::vector<std::string>> joints(count());
+    for (std::size_t c = 0; c < count(); ++c) {
+      for (const int dof : terms_.front().contact_chain(contacts_[c])) {
+        if (dof >= 6) joints[c].push_back(robot_.joint_names()[dof - 6]);
+      }
+    }
+    return joints;
+  }
+
   Array contact_jacobian(const Argument& q_array) {
     const Batch q = configurations(q_array);
     Results J(q, {count(), 3, nv()});
@@ -285,7 +309,11 @@ void bind_dynamics(nb::module_& module) {
            "h(q, v), (nv) [N, N m]: Coriolis, centrifugal and gravity forces; M a + h = S' tau + J' f.")
       .def("contact_positions", &Dynamics::contact_positions, nb::arg("q"), "In the world, (contacts, 3) [m].")
       .def("contact_jacobian", &Dynamics::contact_jacobian, nb::arg("q"),
-           "J, (contacts, 3, nv): velocity of the contact points in the world is J v [m/s].");
+           "J, (contacts, 3, nv): velocity of the contact points in the world is J v [m/s].")
+      .def("contact_acceleration", &Dynamics::contact_acceleration, nb::arg("q"), nb::arg("v"), nb::arg("a"),
+           "J a + Jdot v, (contacts, 3): acceleration of the contact points in the world [m/s^2].")
+      .def_prop_ro("contact_joints", &Dynamics::contact_joints,
+                   "Of each contact, the names of the joints that move it, from the base to the tip.");
   module.def(
       "integrate", &integrate_rows, nb::arg("q"), nb::arg("tangent"),
       "q moved by a tangent (nv): displacement of the base in the WORLD [m], rotation vector in the base frame [rad],\n"

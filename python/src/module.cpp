@@ -11,6 +11,7 @@ NB_MODULE(_prowl, module) {
   bind_errors(module);
   prowl::check_processor();
   prowl::check_libraries();
+  bind_files(module);
   bind_robot(module);
   bind_task(module);
   bind_certificate(module);

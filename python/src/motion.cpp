@@ -3,6 +3,7 @@
 #include "bindings.hpp"
 
 namespace prowl::python {
+
 Motion::Motion(const Trajectory& trajectory)
     : t(static_cast<Eigen::Index>(trajectory.nodes.size())),
       phase(t.size()),
@@ -16,6 +17,15 @@ Motion::Motion(const Trajectory& trajectory)
     t(k) = point.time;
     phase(k) = point.phase;
   }
+}
+
+Trajectory Motion::trajectory() const {
+  Trajectory trajectory;
+  for (Eigen::Index k = 0; k < t.size(); ++k) {
+    trajectory.nodes.push_back({t(k), phase(k), q.row(k).transpose(), v.row(k).transpose(), a.row(k).transpose(),
+                                tau.row(k).transpose(), f.row(k).transpose()});
+  }
+  return trajectory;
 }
 
 void bind_motion(nb::module_& module) {

@@ -11,6 +11,7 @@ namespace prowl::python {
 /// A trajectory as arrays, one row a point.
 struct Motion {
   explicit Motion(const Trajectory& trajectory);
+  Trajectory trajectory() const;
 
   Eigen::VectorXd t;
   Eigen::VectorXi phase;

@@ -10,7 +10,11 @@
 #include "module_files.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
+#include "prowl/files/csv_table.hpp"
+#include "prowl/plan_folder/mujoco_keyframes.hpp"
 #include "prowl/plan_folder/trajectory_csv.hpp"
+#include "prowl/report_page/report_motion.hpp"
+#include "prowl/simulation/simulation.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
 #include "screen/plan_summary.hpp"
 
@@ -21,7 +25,9 @@ std::shared_ptr<const Tracker> make_tracker(const PlanRecord& record,
                                             const std::optional<std::filesystem::path>& directory) {
   if (record.feedback) return std::make_shared<Tracker>(make_tracking_plan(record.task.problem, *record.feedback));
   if (!directory || !std::filesystem::exists(*directory / "tracker.bin")) return nullptr;
-  return std::make_shared<Tracker>(Tracker::read((*directory / "tracker.bin").string()));
+  auto tracker = std::make_shared<Tracker>(Tracker::read((*directory / "tracker.bin").string()));
+  check_fit(record.task.problem, *tracker);
+  return tracker;
 }
 
 std::shared_ptr<PlanObject> read(const std::filesystem::path& directory, const std::vector<std::string>& package_dirs) {
@@ -54,6 +60,24 @@ Motion at_times(const PlanObject& plan, const std::vector<double>& times) {
     sampled.nodes.push_back(sample(trajectory, t));
   }
   return Motion(sampled);
+}
+
+std::string to_csv(const PlanObject& plan, std::optional<double> step) {
+  const Trajectory& nodes = plan.record.plan.trajectory;
+  return trajectory_to_csv(plan.problem(), step ? sample_uniformly(nodes, *step) : nodes);
+}
+
+Motion simulated_motion(const PlanObject& plan, double step) {
+  if (!plan.read_from) throw InputError("this plan was not read from a folder with simulate.csv");
+  const std::filesystem::path file = *plan.read_from / "simulate.csv";
+  if (!std::filesystem::exists(file)) {
+    throw InputError(fmt::format("{}: no such file; first prowl simulate {}", file.string(), plan.read_from->string()));
+  }
+  const CsvTable table = read_csv_table(read_text_file(file, kLongestTable));
+  Trajectory motion{simulated_points(plan.problem().robot, table, step)};
+  if (motion.nodes.empty()) throw InputError(table.file + ": no row of finite numbers");
+  for (TrajectoryPoint& point : motion.nodes) point.phase = sample(plan.record.plan.trajectory, point.time).phase;
+  return Motion(motion);
 }
 
 }  // namespace
@@ -127,10 +151,24 @@ void bind_plan(nb::module_& module) {
       .def_prop_ro(
           "tracker", [](const PlanObject& p) { return p.tracker; }, nb::sig("def tracker(self) -> Tracker | None"),
           "Reference and feedback gains on a fine grid, and the control law; None if there are no gains.")
+      .def_ro("motion", &PlanObject::motion, "The arrays above as one Motion.")
       .def("sample", &sampled, nb::arg("step"),
            "The motion every `step` seconds and at its end, interpolated as transcribed.")
       .def("at", &at_times, nb::arg("times"),
            "The motion at these times [s]; at a change of contacts, that of the later phase.")
+      .def("simulated_motion", &simulated_motion, nb::arg("step") = 0.0,
+           "Of a plan that was read: the true motion in simulate.csv, without a, at rows no less than `step` [s] "
+           "apart.\n"
+           "f is the measured force. The last phase goes on after the end of the plan.")
+      .def("to_csv", &to_csv, nb::arg("step") = nb::none(),
+           "Text of trajectory.csv, at the nodes or every `step` seconds.")
+      .def(
+          "mujoco_keyframes",
+          [](const PlanObject& p, const Motion& motion, const std::string& model_file) {
+            return mujoco_keyframes_xml(p.problem(), motion.trajectory(), model_file);
+          },
+          nb::arg("motion"), nb::arg("model_file"),
+          "An MJCF file that includes `model_file` (Task.mujoco_xml) and has one keyframe an instant of a motion.")
       .def(
           "summary", [](const PlanObject& p) { return plan_report(p.record); }, "What `prowl plan` prints of it.")
       .def(

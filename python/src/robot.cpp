@@ -1,14 +1,18 @@
 #include <fmt/format.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "arrays.hpp"
+#include "batch.hpp"
 #include "bindings.hpp"
 #include "module_files.hpp"
+#include "prowl/model/body_placements.hpp"
 #include "prowl/model/robot_inspection.hpp"
 #include "prowl/model/robot_model.hpp"
+#include "prowl/model/urdf/link_tree.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "screen/robot_summary.hpp"
 
@@ -39,6 +43,78 @@ std::vector<std::string> warnings(const RobotModel& robot) {
   return texts;
 }
 
+/// A link with the name of its parent in place of the index.
+struct LinkView {
+  std::string name;
+  std::optional<std::string> parent;
+  bool fixed = false;
+};
+
+std::vector<LinkView> links(const RobotModel& robot) {
+  const std::vector<RobotLink> tree = link_tree(robot);
+  std::vector<LinkView> views;
+  for (const RobotLink& link : tree) {
+    LinkView& view = views.emplace_back(LinkView{link.name, std::nullopt, link.fixed});
+    if (link.parent >= 0) view.parent = tree[link.parent].name;
+  }
+  return views;
+}
+
+Array placements(const RobotModel& robot, const Argument& q_array, bool in_parent) {
+  const Batch q(q_array, robot.nq(), "q");
+  check_configurations(q, "q");
+  const std::vector<RobotLink> tree = link_tree(robot);
+  BodyPlacements bodies(robot);
+  Results results(q, {tree.size(), 7});
+  for (Eigen::Index i = 0; i < q.rows(); ++i) {
+    const std::vector<Eigen::Isometry3d> world = link_placements(tree, bodies.at(q.row(i)));
+    RowMatrix rows(static_cast<Eigen::Index>(tree.size()), 7);
+    for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+      const int parent = in_parent ? tree[k].parent : -1;
+      const Eigen::Isometry3d placement = parent < 0 ? world[k] : world[parent].inverse() * world[k];
+      const Eigen::Quaterniond turn = Eigen::Quaterniond(placement.linear()).normalized();
+      rows.row(k) << placement.translation().transpose(), turn.coeffs().transpose();
+    }
+    results.set(i, rows);
+  }
+  return std::move(results).array();
+}
+
+/// What is not UTF-8 becomes U+FFFD.
+nb::str urdf_text(const RobotModel& robot) {
+  const std::string& text = robot.description().urdf_text;
+  return nb::steal<nb::str>(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
+}
+
+/// Least and greatest torques.
+std::pair<Array, Array> torque_limits(const RobotModel& robot, const Argument& q_array, const Argument& v_array) {
+  const Batch q(q_array, robot.nq(), "q"), v(v_array, robot.nv(), "v");
+  check_same_rows(q, {{"v", &v}});
+  const auto nu = static_cast<std::size_t>(robot.nu());
+  Results lower(q, {nu}), upper(q, {nu});
+  Eigen::VectorXd least(robot.nu()), greatest(robot.nu());
+  for (Eigen::Index i = 0; i < q.rows(); ++i) {
+    const Eigen::VectorXd positions = q.row(i).tail(robot.nu()), rates = v.row(i).tail(robot.nu());
+    for (int j = 0; j < robot.nu(); ++j) {
+      least(j) = robot.torque_lower(j, positions(j), rates(j));
+      greatest(j) = robot.torque_upper(j, positions(j), rates(j));
+    }
+    lower.set(i, least);
+    upper.set(i, greatest);
+  }
+  return {std::move(lower).array(), std::move(upper).array()};
+}
+
+/// Joints with a torque limit over their position, and the ends of its table.
+nb::dict torque_over_position(const RobotModel& robot) {
+  nb::dict ends;
+  for (const RobotModel::TorqueCurve& limit : robot.torque_curves()) {
+    if (limit.over_velocity) continue;
+    ends[robot.joint_names()[limit.joint].c_str()] = nb::make_tuple(limit.curve.lower_end(), limit.curve.upper_end());
+  }
+  return ends;
+}
+
 /// A property that is a read-only view of a vector of the robot.
 template <const Eigen::VectorXd& (RobotModel::*vector)() const>
 Vector robot_view(nb::handle self) {
@@ -58,6 +134,11 @@ void bind_robot(nb::module_& module) {
           "offset", [](const ContactPoint& c) { return Numbers{c.offset.x(), c.offset.y(), c.offset.z()}; },
           "Of the centre from the frame's origin, in the frame [m].")
       .def("__repr__", [](const ContactPoint& c) { return fmt::format("<prowl.Contact {} at {}>", c.name, c.frame); });
+  nb::class_<LinkView>(module, "Link", "A link of the URDF.")
+      .def_ro("name", &LinkView::name)
+      .def_ro("parent", &LinkView::parent, "Name of the link that it hangs on; None for the root.")
+      .def_ro("fixed", &LinkView::fixed, "Whether a fixed joint holds it to its parent.")
+      .def("__repr__", [](const LinkView& link) { return fmt::format("<prowl.Link {}>", link.name); });
   nb::class_<RobotModel>(
       module, "Robot",
       "A legged robot: rigid bodies on a floating base, and its limits. Immutable.\n\n"
@@ -74,6 +155,8 @@ void bind_robot(nb::module_& module) {
       .def_prop_ro("contact_names", &contact_names, "In the order of contact forces.")
       .def_prop_ro(
           "urdf", [](const RobotModel& robot) { return robot.description().urdf; }, "Path of the URDF.")
+      .def_prop_ro("urdf_text", &urdf_text, "Text of the URDF.")
+      .def_prop_ro("links", &links, "All links of the URDF: the root first, parents before children.")
       .def_prop_ro("nominal_configuration", &robot_view<&RobotModel::nominal_configuration>,
                    "Nominal posture on the ground: q (nq).")
       .def_prop_ro("position_lower", &robot_view<&RobotModel::position_lower>,
@@ -85,6 +168,17 @@ void bind_robot(nb::module_& module) {
       .def_prop_ro("torque_limit", &robot_view<&RobotModel::torque_limit>,
                    "(nu) [N m or N]; inf where there is none. Joints may have further limits that depend on position "
                    "or velocity.")
+      .def_prop_ro("torque_over_position", &torque_over_position,
+                   nb::sig("def torque_over_position(self) -> dict[str, tuple[float, float]]"),
+                   "Joints with a torque limit that depends on the position: least and greatest position of its table "
+                   "[rad].")
+      .def("torque_limits", &torque_limits, nb::arg("q"), nb::arg("v"), nb::rv_policy::reference,
+           "Least and greatest torques of the joints in a state, all limits together: two arrays (nu) [N m or N].\n"
+           "One state, or N rows.")
+      .def("link_placements", &placements, nb::arg("q"), nb::arg("in_parent") = false,
+           "Placements of the links in the world, or in their parents (the root's in the world), (links, 7): position "
+           "[m],\n"
+           "quaternion x y z w. One configuration, or N rows.")
       .def("warnings", &warnings, "What looks wrong with the robot, one sentence each.")
       .def("frames", &contact_frame_names, "Frames of the URDF that a contact may be fixed to.")
       .def(

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -7,6 +8,7 @@
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "module_files.hpp"
+#include "prowl/simulation/mujoco_xml.hpp"
 #include "prowl/task_file/task_file.hpp"
 #include "screen/phase_table.hpp"
 
@@ -16,22 +18,31 @@ namespace {
 /// A phase with names in place of indices.
 struct PhaseView {
   std::string name;
-  std::vector<std::string> contacts;
+  std::vector<std::string> contacts, surfaces;
   double shortest = 0.0, longest = 0.0;  ///< [s]
   int intervals = 0;
 };
 
 std::vector<PhaseView> phases(const Task& task) {
   std::vector<PhaseView> all;
-  for (std::size_t p = 0; p < task.problem.phases.size(); ++p) {
-    const Phase& phase = task.problem.phases[p];
-    PhaseView& view = all.emplace_back(
-        PhaseView{phase.name, {}, phase.duration.min, phase.duration.max, task.mesh.phases[p].intervals()});
-    for (const PhaseContact& contact : phase.contacts) {
-      view.contacts.push_back(task.problem.robot.contacts()[contact.contact].name);
-    }
+  PhaseView& view = all.emplace_back(
+      PhaseView{phase.name, {}, {}, phase.duration.min, phase.duration.max, task.mesh.phases[p].intervals()});
+  for (const PhaseContact& contact : phase.contacts) {
+    view.contacts.push_back(task.problem.robot.contacts()[contact.contact].name);
+    view.surfaces.push_back(task.problem.surfaces[contact.surface].name);
   }
-  return all;
+}
+return all;
+}
+
+using Numbers = std::array<double, 3>;
+
+Numbers numbers(const Eigen::Vector3d& values) { return {values.x(), values.y(), values.z()}; }
+
+std::vector<Numbers> corners(const Surface& surface) {
+  std::vector<Numbers> points;
+  for (const Eigen::Vector2d& corner : surface.patch) points.push_back(numbers(surface.at(corner)));
+  return points;
 }
 
 using Folders = std::vector<std::string>;
@@ -54,6 +65,7 @@ void bind_task(nb::module_& module) {
   nb::class_<PhaseView>(module, "Phase", "A time with one set of contacts, cut into mesh intervals.")
       .def_ro("name", &PhaseView::name)
       .def_ro("contacts", &PhaseView::contacts, "Names of the contacts that hold.")
+      .def_ro("surfaces", &PhaseView::surfaces, "Of each of them, the name of the surface that it touches.")
       .def_ro("shortest", &PhaseView::shortest, "Least duration [s]; the same as `longest` where it is fixed.")
       .def_ro("longest", &PhaseView::longest, "Longest duration [s].")
       .def_ro("intervals", &PhaseView::intervals, "Mesh intervals.")
@@ -61,6 +73,15 @@ void bind_task(nb::module_& module) {
         return fmt::format("<prowl.Phase {}: {} contacts, {} intervals>", phase.name, phase.contacts.size(),
                            phase.intervals);
       });
+  nb::class_<Surface>(module, "Surface", "A plane in the world that contacts may touch, or a convex polygon of it.")
+      .def_ro("name", &Surface::name)
+      .def_prop_ro(
+          "point", [](const Surface& s) { return numbers(s.point); }, "Any point of the plane [m].")
+      .def_prop_ro(
+          "normal", [](const Surface& s) { return numbers(s.normal); }, "Unit vector out of the ground.")
+      .def_ro("friction", &Surface::friction, "Coulomb's coefficient.")
+      .def_prop_ro("patch", &corners, "Corners of the polygon in the world [m]; none for the whole plane.")
+      .def("__repr__", [](const Surface& s) { return fmt::format("<prowl.Surface {}>", s.name); });
   nb::class_<Task>(
       module, "Task",
       "A motion that is asked for: robot, surfaces, phases, goals and costs, as a task file says. Immutable; for\n"
@@ -70,6 +91,8 @@ void bind_task(nb::module_& module) {
           "robot", [](const Task& task) -> const RobotModel& { return task.problem.robot; },
           nb::rv_policy::reference_internal)
       .def_prop_ro("phases", &phases)
+      .def_prop_ro(
+          "surfaces", [](const Task& task) { return task.problem.surfaces; }, "That the phases name.")
       .def_prop_ro(
           "path", [](const Task& task) { return task.task_file.path; }, "The file that it came from.")
       .def_prop_ro(
@@ -83,6 +106,12 @@ void bind_task(nb::module_& module) {
       .def(
           "phase_table", [](const Task& task) { return phase_table({task.problem, task.mesh}); },
           "The phases as a table to print.")
+      .def(
+          "mujoco_xml",
+          [](const Task& task) {
+            return mujoco_xml(task.problem.robot, task.problem.surfaces, {.friction = task.simulated_friction});
+          },
+          "The model that simulate() runs, as an MJCF file.")
       .def("__repr__", [](const Task& task) {
         return fmt::format("<prowl.Task {}: {}, {} phase{}>", task.problem.name, task.problem.robot.name(),
                            task.problem.phases.size(), task.problem.phases.size() == 1 ? "" : "s");

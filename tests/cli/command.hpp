@@ -10,6 +10,9 @@
 
 namespace prowl::test {
 
+/// Whether the Python package is built, which does `figures` and `export`.
+inline constexpr bool kHasPython = PROWL_HAS_PYTHON;
+
 inline const std::string kPhase = R"(robot = "hyq.toml"
 [[phase]]
 contacts = "all"

@@ -2,7 +2,11 @@ if(PROWL_BUILD_CLI)
   foreach(name checkpoint command compare completion doctor faults help json new progress screen simulate sweep)
     prowl_test(cli/${name} prowl::io nlohmann_json::nlohmann_json)
     target_compile_definitions(cli_${name}_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
+    target_compile_definitions(cli_${name}_test PRIVATE PROWL_HAS_PYTHON=$<BOOL:${PROWL_BUILD_PYTHON}>)
     add_dependencies(cli_${name}_test prowl_cli)
+    if(PROWL_BUILD_PYTHON)  # which does some of the verbs
+      add_dependencies(cli_${name}_test prowl_python)
+    endif()
   endforeach()
 
   target_compile_definitions(cli_compare_test PRIVATE PROWL_SNOPT_DOUBLE="$<TARGET_FILE:snopt_double>")
@@ -26,17 +30,17 @@ if(PROWL_BUILD_CLI)
   target_compile_definitions(cli_completion_test PRIVATE PROWL_COMPLETION_TREE="$<TARGET_FILE:cli_completion_tree>")
   add_dependencies(cli_completion_test cli_completion_tree)
 
-  add_test(NAME cli/figures
-    COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/figures_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
-  set_tests_properties(cli/figures PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
-
   # Malicious files: docs/reliability.md.
   add_test(NAME cli/bad_input
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/bad_input_test.py $<TARGET_FILE:prowl_cli>)
   set_tests_properties(cli/bad_input PROPERTIES TIMEOUT 1200 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
 
   # What prowl writes, read by somebody else's code; and a terminal for it that closes.
-  foreach(name determinism exports export_command plan_schema hang_up)
+  set(python_tests determinism plan_schema hang_up)
+  if(PROWL_BUILD_PYTHON)
+    list(APPEND python_tests figures exports export_command)
+  endif()
+  foreach(name ${python_tests})
     add_test(NAME cli/${name}
       COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/${name}_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
     set_tests_properties(cli/${name} PROPERTIES ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")

@@ -1,5 +1,6 @@
 #include "prowl/io/file_keys.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <set>
@@ -10,6 +11,16 @@ namespace prowl {
 namespace {
 
 using testing::HasSubstr;
+
+/// The list as the pages have it.
+std::string markdown_table(const FileKeys& keys) {
+  std::string text = "| table | key | value | meaning |\n|---|---|---|---|\n";
+  for (const FileKey& key : keys) {
+    const std::string table = key.table.empty() ? "(top)" : fmt::format("`{}`", key.table);
+    text += fmt::format("| {} | `{}` | {} | {} |\n", table, key.name, key.value, key.meaning);
+  }
+  return text;
+}
 
 // On a failure, copy the table from the message into the page.
 TEST(FileKeys, DocumentationListsExactlyTheDeclaredKeys) {

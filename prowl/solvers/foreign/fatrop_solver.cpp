@@ -16,10 +16,10 @@ extern "C" {  // the header does not say so itself
 }
 
 #include "prowl/error.hpp"
+#include "prowl/nlp/iterate.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/foreign/library_release.hpp"
-#include "prowl/nlp/iterate.hpp"
 #include "prowl/solvers/remeasure_result.hpp"
 #include "prowl/solvers/thrown_error.hpp"
 

@@ -9,11 +9,11 @@
 #include <mutex>
 
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/nlp/iterate.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/foreign/library_release.hpp"
 #include "prowl/solvers/guarded_nlp.hpp"
-#include "prowl/nlp/iterate.hpp"
 #include "prowl/solvers/remeasure_result.hpp"
 #include "prowl/solvers/thrown_error.hpp"
 

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
+#include "prowl/nlp/iterate.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/nlp/thread_team.hpp"
-#include "prowl/nlp/iterate.hpp"
 #include "prowl/solvers/riccati/filter.hpp"
 #include "prowl/solvers/riccati/slacks.hpp"
 #include "prowl/solvers/riccati/stage_kkt.hpp"

@@ -1,7 +1,5 @@
 #include "prowl/task_file/toml/file_keys.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 
@@ -205,15 +203,6 @@ const std::string& key_meaning(const FileKeys& keys, const std::string& table, c
       std::find_if(keys.begin(), keys.end(), [&](const FileKey& k) { return k.table == table && k.name == name; });
   assert(key != keys.end());
   return key->meaning;
-}
-
-std::string markdown_table(const FileKeys& keys) {
-  std::string text = "| table | key | value | meaning |\n|---|---|---|---|\n";
-  for (const FileKey& key : keys) {
-    const std::string table = key.table.empty() ? "(top)" : fmt::format("`{}`", key.table);
-    text += fmt::format("| {} | `{}` | {} | {} |\n", table, key.name, key.value, key.meaning);
-  }
-  return text;
 }
 
 }  // namespace prowl

@@ -21,7 +21,5 @@ const FileKeys& task_file_keys();
 std::vector<std::string> key_names(const FileKeys& keys, const std::string& table);
 /// What the key means; for --help. The key must be declared.
 const std::string& key_meaning(const FileKeys& keys, const std::string& table, const std::string& name);
-/// The list as a Markdown table, for docs/.
-std::string markdown_table(const FileKeys& keys);
 
 }  // namespace prowl

@@ -1,20 +1,14 @@
-"""Writes a motion as messages of ROS 2. `prowl export` runs it: write_mcap.py MOTION.json OUT.mcap
+"""motion.mcap: a motion as messages of ROS 2."""
 
-The topics are in docs/exports.md. Exit status 3: a library is missing.
-"""
+from __future__ import annotations
 
-import json
-import sys
+import io
 
-try:
-    from mcap.well_known import SchemaEncoding
-    from mcap.writer import CompressionType, Writer
-    from mcap_ros2._dynamic import serialize_dynamic
-except ModuleNotFoundError as missing:
-    print(f"{sys.executable}: {missing.name} is missing", file=sys.stderr)
-    sys.exit(3)
+from mcap.well_known import SchemaEncoding
+from mcap.writer import CompressionType, Writer
+from mcap_ros2._dynamic import serialize_dynamic
 
-import ros2_messages
+from . import ros2_messages
 
 CHUNK = 1 << 20  # [bytes]
 # What rosbag2 needs to publish a message again for whoever comes later: reliable, transient local, the last one.
@@ -33,8 +27,8 @@ LATCHED = """- history: 1
 class Topics:
     """An MCAP file with one channel a topic. mcap_ros2.writer has no way to give a channel its metadata."""
 
-    def __init__(self, path: str):
-        self._writer = Writer(path, chunk_size=CHUNK, compression=CompressionType.ZSTD)
+    def __init__(self, file: io.BytesIO):
+        self._writer = Writer(file, chunk_size=CHUNK, compression=CompressionType.ZSTD)
         self._writer.start(profile="ros2", library="prowl")
         self._encoders, self._schemas, self._channels, self._counts = {}, {}, {}, {}
 
@@ -111,25 +105,27 @@ def world_frame(links: list[str]) -> str:
     return next(name for name in ("world", "map", "prowl_world") if name not in links)
 
 
-def write_start(topics: Topics, motion: dict, first: int) -> None:
-    topics.write("/robot_description", 0, {"data": motion["urdf"]})
+def write_start(topics: Topics, motion: dict, in_parent: list, urdf: str) -> None:
+    topics.write("/robot_description", 0, {"data": urdf})
     held = [
         transform(0, link["parent"], link["name"], placement[:3], placement[3:])
-        for link, placement in zip(motion["links"], motion["link_in_parent"][first])
+        for link, placement in zip(motion["links"], in_parent)
         if link["fixed"]
     ]
     topics.write("/tf_static", 0, {"transforms": held})
 
 
-def write_sample(topics: Topics, motion: dict, world: str, contacts: dict[str, tuple[str, str]], i: int) -> None:
-    """`contacts`: of each its frame and its topic."""
+def write_sample(
+    topics: Topics, motion: dict, in_parent: list, world: str, contacts: dict[str, tuple[str, str]], i: int
+) -> None:
+    """`in_parent`: placements of the links in their parents. `contacts`: of each its frame and its topic."""
     samples = motion["samples"]
     q, v = samples["q"][i], samples["v"][i]
     now = round(1e9 * samples["time_s"][i])
     root = motion["links"][0]["name"]
     moving = [
         transform(now, link["parent"] or world, link["name"], placement[:3], placement[3:])
-        for link, placement in zip(motion["links"], motion["link_in_parent"][i])
+        for link, placement in zip(motion["links"], in_parent)
         if not link["fixed"]
     ]
     moving += [
@@ -163,12 +159,15 @@ def write_sample(topics: Topics, motion: dict, world: str, contacts: dict[str, t
         topics.write(topic, now, {"header": header(now, frame), "wrench": wrench})
 
 
-def write(motion: dict, path: str) -> None:
+def write(motion: dict, in_parent: list, indices: list[int], urdf: str) -> bytes:
+    """`motion` is motion.json, as a dict. `in_parent`: of each sample the placements of the links in their parents.
+    `indices`: of samples, one a time."""
     links = [link["name"] for link in motion["links"]]
     contacts = {
         contact: (contact_frame(contact, links), topic) for contact, topic in contact_topics(motion["contacts"]).items()
     }
-    topics = Topics(path)
+    file = io.BytesIO()
+    topics = Topics(file)
     topics.add("/robot_description", "std_msgs/String", latched=True)
     topics.add("/tf_static", "tf2_msgs/TFMessage", latched=True)
     topics.add("/tf", "tf2_msgs/TFMessage")
@@ -176,14 +175,8 @@ def write(motion: dict, path: str) -> None:
     topics.add("/odom", "nav_msgs/Odometry")
     for _, topic in contacts.values():
         topics.add(topic, "geometry_msgs/WrenchStamped")
-    # A time has one transform: of two samples at one time the later phase's.
-    indices = motion["one_a_time"]
-    write_start(topics, motion, indices[0])
+    write_start(topics, motion, in_parent[indices[0]], urdf)
     for i in indices:
-        write_sample(topics, motion, world_frame(links), contacts, i)
+        write_sample(topics, motion, in_parent[i], world_frame(links), contacts, i)
     topics.finish("prowl", {key: str(motion[key]) for key in ("robot", "task", "motion", "good", "format")})
-
-
-if __name__ == "__main__":
-    with open(sys.argv[1], encoding="utf-8") as file:
-        write(json.load(file), sys.argv[2])
+    return file.getvalue()

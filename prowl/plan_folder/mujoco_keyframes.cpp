@@ -1,8 +1,9 @@
+#include "prowl/plan_folder/mujoco_keyframes.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tinyxml2.h>
 
-#include "prowl/plan_folder/exports.hpp"
 #include "prowl/simulation/mujoco_state.hpp"
 
 namespace prowl {
@@ -12,7 +13,7 @@ std::string numbers(const Eigen::VectorXd& values) { return fmt::format("{}", fm
 
 }  // namespace
 
-std::string mujoco_keyframes_xml(const MotionProblem& problem, const MotionSamples& samples,
+std::string mujoco_keyframes_xml(const MotionProblem& problem, const Trajectory& motion,
                                  const std::string& model_file) {
   tinyxml2::XMLPrinter xml;
   xml.OpenElement("mujoco");
@@ -21,8 +22,8 @@ std::string mujoco_keyframes_xml(const MotionProblem& problem, const MotionSampl
   xml.PushAttribute("file", model_file.c_str());
   xml.CloseElement();
   xml.OpenElement("keyframe");
-  for (std::size_t i = 0; i < samples.points.size(); ++i) {
-    const TrajectoryPoint& point = samples.points[i];
+  for (std::size_t i = 0; i < motion.nodes.size(); ++i) {
+    const TrajectoryPoint& point = motion.nodes[i];
     const std::string& phase = problem.phases[point.phase].name;
     xml.OpenElement("key");
     xml.PushAttribute("name", fmt::format("{}_{}", phase, i).c_str());

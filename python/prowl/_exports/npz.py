@@ -1,16 +1,10 @@
-"""Writes a motion as NumPy arrays. `prowl export` runs it: write_npz.py MOTION.json OUT.npz
+"""motion.npz: a motion as NumPy arrays."""
 
-The arrays are in docs/exports.md. Exit status 3: a library is missing.
-"""
+from __future__ import annotations
 
-import json
-import sys
+import io
 
-try:
-    import numpy as np
-except ModuleNotFoundError as missing:
-    print(f"{sys.executable}: {missing.name} is missing", file=sys.stderr)
-    sys.exit(3)
+import numpy as np
 
 
 def arrays(motion: dict) -> dict[str, np.ndarray]:
@@ -53,7 +47,8 @@ def arrays(motion: dict) -> dict[str, np.ndarray]:
     return result
 
 
-if __name__ == "__main__":
-    with open(sys.argv[1], encoding="utf-8") as file:
-        content = arrays(json.load(file))
-    np.savez_compressed(sys.argv[2], allow_pickle=False, **content)
+def write(motion: dict) -> bytes:
+    """Of motion.json, as a dict."""
+    file = io.BytesIO()
+    np.savez_compressed(file, allow_pickle=False, **arrays(motion))
+    return file.getvalue()

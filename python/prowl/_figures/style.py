@@ -1,10 +1,12 @@
 """How the figures look: one palette that the colour-blind can tell apart, light grids, phases behind the lines."""
 
-import pathlib
+from __future__ import annotations
+
+import io
 
 import matplotlib
-import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.figure import Figure
 
 # Okabe and Ito, "Color universal design", 2008.
 BLUE, VERMILLION, GREEN, SKY, ORANGE, PURPLE = "#0072B2", "#D55E00", "#009E73", "#56B4E9", "#E69F00", "#CC79A7"
@@ -22,8 +24,7 @@ DASHES = (
 
 
 def use() -> None:
-    matplotlib.use("Agg")
-    plt.rcParams.update(
+    matplotlib.rcParams.update(
         {
             "font.size": 8.5,
             "axes.titlesize": 8.5,
@@ -47,7 +48,8 @@ def use() -> None:
 
 
 def grid(rows: int, columns: int, width: float, height: float, **sharing):
-    return plt.subplots(rows, columns, figsize=(width, height), squeeze=False, **{"sharex": True, **sharing})
+    figure = Figure(figsize=(width, height))
+    return figure, figure.subplots(rows, columns, squeeze=False, **{"sharex": True, **sharing})
 
 
 def at_least(axes, half: float) -> None:
@@ -86,9 +88,9 @@ def mark_phases(grid, phases, end: float) -> None:
                 )
 
 
-def finish(figure, title: str, subtitle: str, handles, folder: pathlib.Path, name: str, bottom: float = 0.0) -> None:
-    """Title, legend of the whole figure, and both files. Sizes in inches, so that tall figures look as flat ones do;
-    `bottom` is left free."""
+def finish(figure, title: str, subtitle: str, handles, name: str, table: str, bottom: float = 0.0) -> dict[str, bytes]:
+    """Title and legend of the whole figure; its files by name. Sizes in inches, so that tall figures look as flat ones
+    do; `bottom` is left free."""
     height = figure.get_figheight()
     figure.text(0.012, 1 - 0.08 / height, title, ha="left", va="top", fontweight="bold", fontsize=12)
     figure.text(0.012, 1 - 0.33 / height, subtitle, ha="left", va="top", color="0.35")
@@ -108,9 +110,12 @@ def finish(figure, title: str, subtitle: str, handles, folder: pathlib.Path, nam
         )
         top = 0.84 + lines
     figure.tight_layout(rect=(0, bottom / height, 1, 1 - top / height))
-    figure.savefig(folder / f"{name}.svg", metadata={"Date": None, "Title": title.replace("$", "")})
-    figure.savefig(folder / f"{name}.png", metadata={"Title": title.replace("$", "")})
-    plt.close(figure)
+    files = {f"{name}.csv": table.encode()}
+    for kind, metadata in (("svg", {"Date": None}), ("png", {})):
+        picture = io.BytesIO()
+        figure.savefig(picture, format=kind, metadata={**metadata, "Title": title.replace("$", "")})
+        files[f"{name}.{kind}"] = picture.getvalue()
+    return files
 
 
 def largest(values: np.ndarray) -> float:

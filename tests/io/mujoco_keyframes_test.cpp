@@ -1,11 +1,12 @@
 // Keyframes and their model as MuJoCo loads them: bodies stand and move as in the plan.
+#include "prowl/io/mujoco_keyframes.hpp"
+
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
 #include <array>
 #include <fstream>
 
-#include "prowl/io/exports.hpp"
 #include "prowl/model/body_placements.hpp"
 #include "prowl/model/body_tree.hpp"
 #include "prowl/model/configuration.hpp"
@@ -17,19 +18,19 @@ namespace prowl {
 namespace {
 
 /// Random states in place of a plan's: large angles and velocities show what is mixed up.
-MotionSamples random_samples(const RobotModel& robot) {
+Trajectory random_motion(const RobotModel& robot) {
   test::RandomStates states(robot, 11);
-  MotionSamples samples;
+  Trajectory motion;
   for (int i = 0; i < 20; ++i) {
-    samples.points.push_back({.time = 0.1 * i + 1.0 / 3.0,
-                              .phase = 0,
-                              .q = states.configuration(),
-                              .v = states.velocity(),
-                              .a = {},
-                              .tau = states.torque(),
-                              .force = {}});
+    motion.nodes.push_back({.time = 0.1 * i + 1.0 / 3.0,
+                            .phase = 0,
+                            .q = states.configuration(),
+                            .v = states.velocity(),
+                            .a = {},
+                            .tau = states.torque(),
+                            .force = {}});
   }
-  return samples;
+  return motion;
 }
 
 class Keyframes : public testing::TestWithParam<const char*> {};
@@ -39,23 +40,23 @@ TEST_P(Keyframes, StandAndMoveAsThePlan) {
       read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + GetParam() + ".toml", test::test_search());
   const MotionProblem& problem = task.problem;
   const RobotModel& robot = problem.robot;
-  const MotionSamples samples = random_samples(robot);
+  const Trajectory motion = random_motion(robot);
   test::TempFolder folder;
   folder.write("model.xml", mujoco_xml(robot, problem.surfaces, {}));
-  const auto file = folder.write("keys.xml", mujoco_keyframes_xml(problem, samples, "model.xml"));
+  const auto file = folder.write("keys.xml", mujoco_keyframes_xml(problem, motion, "model.xml"));
 
   std::array<char, 500> error{};
   const std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(
       mj_loadXML(file.c_str(), nullptr, error.data(), error.size()), mj_deleteModel);
   ASSERT_TRUE(model) << error.data();
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model.get()), mj_deleteData);
-  ASSERT_EQ(model->nkey, static_cast<int>(samples.points.size()));
+  ASSERT_EQ(model->nkey, static_cast<int>(motion.nodes.size()));
 
   const BodyTree tree = body_tree(robot);
   BodyPlacements placements(robot), before(robot), after(robot);
   constexpr double kStep = 1e-5;  // [s]
   for (int k = 0; k < model->nkey; ++k) {
-    const TrajectoryPoint& point = samples.points[k];
+    const TrajectoryPoint& point = motion.nodes[k];
     mj_resetDataKeyframe(model.get(), data.get(), k);
     mj_forward(model.get(), data.get());
     EXPECT_EQ(data->time, point.time);

@@ -1,35 +1,27 @@
-"""Draws the figures of a plan. `prowl figures` runs it: draw.py PLAN_FOLDER TABLES_FOLDER JOINT
+"""Draws the figures of a plan: each function gives the files of one figure, by name."""
 
-TABLES_FOLDER holds what the robot's model has to say, as CSV; the figures and their own tables go there, too.
-Prints how many figures are drawn. Exit status 3: a library is missing.
-"""
+from __future__ import annotations
 
 import concurrent.futures
 import multiprocessing
-import pathlib
-import sys
+from collections.abc import Callable
 
-try:
-    import matplotlib  # noqa: F401
-    import numpy as np
-    import scipy  # noqa: F401
-except ModuleNotFoundError as missing:
-    print(f"{sys.executable}: {missing.name} is missing", file=sys.stderr)
-    sys.exit(3)
-
-import series
-import style
+import numpy as np
 from matplotlib.lines import Line2D
+
+from .._processes import die_with_parent
+from . import style, tables
 
 DEGREE = np.pi / 180
 MOST_COLUMNS = 6
 JA, JDOTV = r"$J\,a$", r"$-\dot{J}\,v$"
+Files = dict[str, bytes]
 
 
-def by_leg(plan: series.Plan, row_height: float):
+def by_leg(shown: tables.Shown, row_height: float):
     """Small multiples: a row a leg, a panel a joint. What is longer than MOST_COLUMNS (arms and head) takes several rows. Joints
     of a column share their scale if all rows are alike."""
-    rows = [leg[i : i + MOST_COLUMNS] for leg in plan.legs for i in range(0, len(leg), MOST_COLUMNS)]
+    rows = [leg[i : i + MOST_COLUMNS] for leg in shown.legs for i in range(0, len(leg), MOST_COLUMNS)]
     columns = max(len(row) for row in rows)
     alike = all(len(row) == columns for row in rows)
     figure, grid = style.grid(
@@ -53,17 +45,16 @@ def by_leg(plan: series.Plan, row_height: float):
     return figure, grid, panels  # axes with their joints
 
 
-def end_of(plan: series.Plan) -> float:
-    return float((plan.simulated if plan.simulated is not None else plan.nodes)["time_s"][-1])
+def end_of(shown: tables.Shown) -> float:
+    return float((shown.simulated if shown.simulated is not None else shown.nodes)["time_s"][-1])
 
 
-def draw_torques(plan: series.Plan, folder: pathlib.Path) -> None:
-    table = series.torques(plan)
-    series.write_table(folder / "torques.csv", table)
-    figure, grid, panels = by_leg(plan, 1.9)
-    simulated = plan.simulated is not None
+def draw_torques(shown: tables.Shown) -> Files:
+    table = tables.torques(shown)
+    figure, grid, panels = by_leg(shown, 1.9)
+    simulated = shown.simulated is not None
     for axes, joint in panels:
-        axes.plot(plan.nodes["time_s"], plan.nodes[f"tau_{joint}_Nm"], color="0.72", lw=4, solid_capstyle="butt")
+        axes.plot(shown.nodes["time_s"], shown.nodes[f"tau_{joint}_Nm"], color="0.72", lw=4, solid_capstyle="butt")
         if simulated:
             axes.plot(table["time_s"], table[f"tau_{joint}_Nm"], color=style.BLUE)
             axes.plot(table["time_s"], table[f"feedforward_{joint}_Nm"], color=style.VERMILLION, ls=style.DASHES[1])
@@ -73,12 +64,12 @@ def draw_torques(plan: series.Plan, folder: pathlib.Path) -> None:
         style.at_least(axes, 1.0)
         low, high = axes.get_ylim()  # limits are drawn where torques come near; they do not decide the scale
         for side in ("lower", "upper"):
-            limit = plan.limits[f"{side}_{joint}_Nm"]
-            axes.plot(plan.limits["time_s"], limit, color="black", lw=0.9, ls=style.DASHES[2])
+            limit = shown.nodes[f"{side}_{joint}_Nm"]
+            axes.plot(shown.nodes["time_s"], limit, color="black", lw=0.9, ls=style.DASHES[2])
             limit_seen = limit_seen or bool(np.any((limit > low) & (limit < high)))
     for row in grid:
         row[0].set_ylabel("torque [N m]")
-    style.mark_phases(grid, plan.phases(), end_of(plan))
+    style.mark_phases(grid, shown.phases, end_of(shown))
     handles = [Line2D([], [], color="0.72", lw=4, label="planned")]
     if simulated:
         handles += [
@@ -90,15 +81,17 @@ def draw_torques(plan: series.Plan, folder: pathlib.Path) -> None:
         handles.append(
             Line2D([], [], color="black", lw=0.9, ls=style.DASHES[2], label="limit, where torques come near")
         )
-    style.finish(figure, f"{plan.title}: joint torques", plan.settings(), handles, folder, "torques")
+    return style.finish(
+        figure, f"{shown.title}: joint torques", shown.settings(), handles, "torques", tables.rounded(table)
+    )
 
 
-def draw_contact_acceleration(plan: series.Plan, folder: pathlib.Path) -> None:
-    table = plan.contact_acceleration
-    contacts = plan.contacts
+def draw_contact_acceleration(shown: tables.Shown) -> Files:
+    table = shown.contact_acceleration
+    contacts = shown.contacts
     figure, grid = style.grid(len(contacts), 3, 10.5, 1.1 + 1.6 * len(contacts), sharey=True)
     for row, contact in zip(grid, contacts):
-        for axes, axis in zip(row, series.AXES):
+        for axes, axis in zip(row, tables.AXES):
             from_a, from_v = (table[f"{term}_{contact}_{axis}_mps2"] for term in ("Ja", "minus_Jdotv"))
             axes.plot(table["time_s"], from_a, color=style.SKY, lw=3.5, solid_capstyle="butt")
             axes.plot(table["time_s"], from_v, color="black", lw=0.9, ls=style.DASHES[1])
@@ -107,24 +100,23 @@ def draw_contact_acceleration(plan: series.Plan, folder: pathlib.Path) -> None:
     style.at_least(grid[0, 0], 0.01)
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
-    style.mark_phases(grid, plan.phases(), float(plan.nodes["time_s"][-1]))
+    style.mark_phases(grid, shown.phases, float(shown.nodes["time_s"][-1]))
     handles = [
         Line2D([], [], color=style.SKY, lw=3.5, label=JA),
         Line2D([], [], color="black", lw=0.9, ls=style.DASHES[1], label=JDOTV),
     ]
-    style.finish(
+    return style.finish(
         figure,
-        f"{plan.title}: acceleration of the contacts, {JA} against {JDOTV}",
+        f"{shown.title}: acceleration of the contacts, {JA} against {JDOTV}",
         "as planned, world axes, while the contact holds: there " + r"$J\,a + \dot{J}\,v = 0$",
         handles,
-        folder,
         "contact_acceleration",
+        tables.exact(table),
     )
 
 
-def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
-    table = series.base_error(plan)
-    series.write_table(folder / "base_error.csv", table)
+def draw_base_error(shown: tables.Shown) -> Files:
+    table = tables.base_error(shown)
     figure, grid = style.grid(2, 2, 9.5, 5.6)
     rows = (("error", "simulated − planned"), ("estimate_error", "estimated − simulated"))
     for row, (name, what) in zip(grid, rows):
@@ -132,7 +124,7 @@ def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
             (row[0], "p", "m", 1e3, "position [mm]"),
             (row[1], "r", "rad", 1 / DEGREE, "orientation [deg]"),
         ):
-            values = np.array([table[f"{name}_{kind}{axis}_{unit}"] for axis in series.AXES])
+            values = np.array([table[f"{name}_{kind}{axis}_{unit}"] for axis in tables.AXES])
             for value, colour in zip(values, style.AXIS_COLOURS):
                 axes.plot(table["time_s"], scale * value, color=colour, lw=1.1 if name == "error" else 0.7)
             worst = scale * np.max(np.linalg.norm(values, axis=0))
@@ -141,22 +133,21 @@ def draw_base_error(plan: series.Plan, folder: pathlib.Path) -> None:
             style.at_least(axes, 0.1 if kind == "p" else 0.01)
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
-    style.mark_phases(grid, plan.phases(), end_of(plan))
-    handles = [Line2D([], [], color=c, label=a) for a, c in zip(series.AXES, style.AXIS_COLOURS)]
-    style.finish(
+    style.mark_phases(grid, shown.phases, end_of(shown))
+    handles = [Line2D([], [], color=c, label=a) for a, c in zip(tables.AXES, style.AXIS_COLOURS)]
+    return style.finish(
         figure,
-        f"{plan.title}: errors of the base",
-        plan.settings() + "\npositions in the world, orientation as a rotation vector",
+        f"{shown.title}: errors of the base",
+        shown.settings() + "\npositions in the world, orientation as a rotation vector",
         handles,
-        folder,
         "base_error",
+        tables.rounded(table),
     )
 
 
-def draw_joint_error(plan: series.Plan, folder: pathlib.Path) -> None:
-    table = series.joint_error(plan)
-    series.write_table(folder / "joint_error.csv", table)
-    figure, grid, panels = by_leg(plan, 1.6)
+def draw_joint_error(shown: tables.Shown) -> Files:
+    table = tables.joint_error(shown)
+    figure, grid, panels = by_leg(shown, 1.6)
     for axes, joint in panels:
         axes.plot(table["time_s"], table[f"estimate_error_{joint}_rad"] / DEGREE, color=style.ORANGE, lw=0.8)
         axes.plot(table["time_s"], table[f"error_{joint}_rad"] / DEGREE, color=style.BLUE)
@@ -164,16 +155,18 @@ def draw_joint_error(plan: series.Plan, folder: pathlib.Path) -> None:
         style.at_least(axes, 0.02)
     for row in grid:
         row[0].set_ylabel("angle [deg]")
-    style.mark_phases(grid, plan.phases(), end_of(plan))
+    style.mark_phases(grid, shown.phases, end_of(shown))
     handles = [
         Line2D([], [], color=style.BLUE, label="simulated − planned"),
         Line2D([], [], color=style.ORANGE, lw=0.8, label="estimated − simulated"),
     ]
-    style.finish(figure, f"{plan.title}: errors of the joints", plan.settings(), handles, folder, "joint_error")
+    return style.finish(
+        figure, f"{shown.title}: errors of the joints", shown.settings(), handles, "joint_error", tables.rounded(table)
+    )
 
 
-def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
-    names = [name for name in plan.gains if name not in ("time_s", "segment")]
+def draw_gains(shown: tables.Shown) -> Files:
+    names = [name for name in shown.gains if name not in ("time_s", "segment")]
     half = len(names) // 2
     groups = [
         ("base position [N m/m]", names[0:3]),
@@ -183,7 +176,7 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
         ("base angular velocity [N m s/rad]", names[half + 3 : half + 6]),
         ("joint rates [N m s/rad]", names[half + 6 :]),
     ]
-    legend_rows = -(-len(plan.joints) // 6)
+    legend_rows = -(-len(shown.joints) // 6)
     figure, grid = style.grid(2, 3, 11.5, 6.0 + 0.18 * legend_rows)
     for axes, (title, columns) in zip(grid.flat, groups):
         for i, column in enumerate(columns):
@@ -191,19 +184,19 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
                 colour, dash = style.AXIS_COLOURS[i], style.DASHES[i]
             else:
                 leg, place = next(
-                    (k, leg.index(plan.joints[i])) for k, leg in enumerate(plan.legs) if plan.joints[i] in leg
+                    (k, leg.index(shown.joints[i])) for k, leg in enumerate(shown.legs) if shown.joints[i] in leg
                 )
                 colour, dash = style.LEG_COLOURS[leg % len(style.LEG_COLOURS)], style.DASHES[place % len(style.DASHES)]
-            axes.plot(plan.gains["time_s"], plan.gains[column], color=colour, ls=dash)
+            axes.plot(shown.gains["time_s"], shown.gains[column], color=colour, ls=dash)
         axes.set_title("on " + title, loc="left")
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     for row in grid:
         row[0].set_ylabel("gain")
-    style.mark_phases(grid, plan.phases(), float(plan.nodes["time_s"][-1]))
+    style.mark_phases(grid, shown.phases, float(shown.nodes["time_s"][-1]))
     axes_handles = [
         Line2D([], [], color=c, ls=d, label=f"base {a}")
-        for a, c, d in zip(series.AXES, style.AXIS_COLOURS, style.DASHES)
+        for a, c, d in zip(tables.AXES, style.AXIS_COLOURS, style.DASHES)
     ]
     handles = [
         Line2D(
@@ -213,30 +206,29 @@ def draw_gains(plan: series.Plan, folder: pathlib.Path, joint: str) -> None:
             ls=style.DASHES[i % len(style.DASHES)],
             label=name,
         )
-        for k, leg in enumerate(plan.legs)
+        for k, leg in enumerate(shown.legs)
         for i, name in enumerate(leg)
     ]
     figure.legend(
         handles, [h.get_label() for h in handles], loc="lower center", ncols=min(6, len(handles)), handlelength=2.8
     )
-    style.finish(
+    return style.finish(
         figure,
-        f"{plan.title}: the {len(names)} gains of the torque of {joint}",
+        f"{shown.title}: the {len(names)} gains of the torque of {shown.joint}",
         "torque = planned + gains · (planned − measured state); lines of the joints by leg (colour) and place in it (dashes)",
         axes_handles,
-        folder,
         "gains",
+        tables.exact(shown.gains),
         bottom=0.1 + 0.18 * legend_rows,
     )
 
 
-def draw_torque_over_position(plan: series.Plan, folder: pathlib.Path) -> None:
-    table = series.torque_over_position(plan)
-    series.write_torque_over_position(folder / "torque_over_position.csv", table)
+def draw_torque_over_position(shown: tables.Shown) -> Files:
+    table = tables.torque_over_position(shown)
     rows = (len(table) + 1) // 2
     figure, grid = style.grid(rows, 2, 8.5, 1.2 + 2.5 * rows, sharey=True, sharex=False)
     for axes, (joint, by_series) in zip(grid.flat, table.items()):
-        position, limit = plan.limit_curves[joint]
+        position, limit = shown.limit_curves[joint]
         axes.fill_between(position, -limit, limit, color="0.955", zorder=0)
         for sign in (1, -1):
             axes.plot(position, sign * limit, color="black", lw=1.2)
@@ -261,36 +253,42 @@ def draw_torque_over_position(plan: series.Plan, folder: pathlib.Path) -> None:
         Line2D([], [], color=style.VERMILLION, label="planned"),
         Line2D([], [], color=style.VERMILLION, marker="o", mec="white", ms=6, lw=0, label="start"),
     ]
-    if plan.simulated is not None:
+    if shown.simulated is not None:
         handles.append(Line2D([], [], color=style.SKY, lw=3, label="simulated"))
-    style.finish(
+    files = style.finish(
         figure,
-        f"{plan.title}: torque against position, with its limit",
-        plan.settings(),
+        f"{shown.title}: torque against position, with its limit",
+        shown.settings(),
         handles,
-        folder,
         "torque_over_position",
+        tables.torque_over_position_text(table),
     )
+    return files | {"limit_curves.csv": tables.limit_curves_text(shown.limit_curves).encode()}
 
 
-def main() -> None:
-    folder, tables, joint = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), sys.argv[3]
-    plan = series.Plan(folder, tables)
+def draw(shown: tables.Shown, on_progress: Callable[[int, int], object] | None) -> Files:
+    """All figures, each by a process of its own: they take a second or more each, and Matplotlib's settings are theirs."""
+    drawn: list[Callable[[tables.Shown], Files]] = [draw_torques, draw_contact_acceleration]
+    if shown.simulated is not None:
+        drawn += [draw_base_error, draw_joint_error]
+    if shown.gains is not None:
+        drawn += [draw_gains]
+    if shown.limit_curves:
+        drawn += [draw_torque_over_position]
+    files: Files = {}
+    with concurrent.futures.ProcessPoolExecutor(
+        mp_context=multiprocessing.get_context("fork"), initializer=_begin
+    ) as pool:
+        done = concurrent.futures.as_completed([pool.submit(function, shown) for function in drawn])
+        if on_progress is not None:
+            on_progress(0, len(drawn))
+        for number, figure in enumerate(done, 1):
+            files |= figure.result()
+            if on_progress is not None:
+                on_progress(number, len(drawn))
+    return files
+
+
+def _begin() -> None:
+    die_with_parent()
     style.use()
-    tasks = [(draw_torques,), (draw_contact_acceleration,)]
-    if plan.simulated is not None:
-        tasks += [(draw_base_error,), (draw_joint_error,)]
-    if plan.gains is not None:
-        tasks += [(draw_gains, joint)]
-    if plan.limit_curves:
-        tasks += [(draw_torque_over_position,)]
-    with concurrent.futures.ProcessPoolExecutor(mp_context=multiprocessing.get_context("fork")) as pool:
-        print(f"figures 0 of {len(tasks)}", flush=True)  # read by prowl figures
-        drawn = concurrent.futures.as_completed([pool.submit(draw, plan, tables, *more) for draw, *more in tasks])
-        for number, done in enumerate(drawn, 1):
-            done.result()
-            print(f"figures {number} of {len(tasks)}", flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,0 +1,11 @@
+"""Processes of Linux that end together."""
+
+import ctypes
+import signal
+
+_PR_SET_PDEATHSIG = 1  # of prctl(2)
+
+
+def die_with_parent() -> None:
+    """From now on the kernel kills this process when the thread that started it ends, however it ends."""
+    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -1,0 +1,125 @@
+"""The verbs of the command that this package does. `prowl figures` and `prowl export` run this file (cli/python_verb.cpp):
+
+    _verb.py VERB OPTIONS
+
+Prints one JSON object a line: {"progress": [done, total]}, {"message": text}, and at the end {"error": text, "kind": as in
+docs/command-line.md}, or {"result": object, "text": the same for people}.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import signal
+import sys
+import warnings
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+LIBRARIES = {"figures": "numpy, scipy and matplotlib", "export": "numpy, mcap and mcap-ros2-support"}
+
+
+def _say(**line: object) -> None:
+    text = json.dumps(line, ensure_ascii=False) + "\n"
+    # Names of files may be no UTF-8, but JSON has to be.
+    sys.stdout.buffer.write(text.encode("utf-8", "surrogateescape").decode("utf-8", "replace").encode())
+    sys.stdout.buffer.flush()
+
+
+def _result(plan: object, directory: str, written: list[str], text: str, **more: object) -> None:
+    about = {"directory": os.path.abspath(directory), "name": plan.task.name, "robot": plan.robot.name}
+    _say(result={**about, "written": written, **more}, text=text)
+
+
+def _figures(options: argparse.Namespace) -> None:
+    import prowl
+
+    drawn = prowl.figures(
+        options.directory,
+        out=options.out,
+        joint=options.joint,
+        package_dirs=options.package_dir,
+        on_progress=lambda done, total: _say(progress=[done, total]),
+    )
+    text = f"{', '.join(drawn.names)}\nwritten to {drawn.folder}, each as .svg, .png and .csv\n"
+    paths = [os.path.join(drawn.folder, name) for name in drawn.files]
+    _result(drawn.plan, options.directory, paths, text, figures=drawn.names)
+
+
+def _export(options: argparse.Namespace) -> None:
+    import prowl
+
+    done = prowl.export(
+        options.directory,
+        options.format,
+        out=options.out,
+        rate=options.rate,
+        simulation=options.simulation,
+        package_dirs=options.package_dir,
+    )
+    paths = {os.path.join(done.folder, name): size for name, size in done.files.items()}
+    text = "".join(f"{1e-3 * size:>10.1f} kB  {path}\n" for path, size in paths.items())
+    gains = "with gains" if done.has_gains else "without gains"
+    text += f"{done.samples} samples of the {done.motion}, {done.end:g} s, {gains}\n"
+    _result(
+        done.plan,
+        options.directory,
+        list(paths),
+        text,
+        motion=done.motion,
+        samples=done.samples,
+        has_gains=done.has_gains,
+        files=[{"name": name, "bytes": size} for name, size in done.files.items()],
+    )
+
+
+def _options() -> argparse.Namespace:
+    """The options, which the command has checked. Its --help explains them."""
+    parser = argparse.ArgumentParser()
+    parser.error = lambda text: sys.exit(_say(error=text.removeprefix("argument "), kind="input"))
+    parser.add_argument("verb", choices=LIBRARIES)
+    parser.add_argument("directory")
+    parser.add_argument("--out")
+    parser.add_argument("--package-dir", action="append", default=[])
+    parser.add_argument("--joint")
+    parser.add_argument("--format", action="append")
+    parser.add_argument("--rate", type=float)
+    parser.add_argument("--simulation", action="store_true")
+    return parser.parse_args()
+
+
+def _run(options: argparse.Namespace) -> None:
+    import prowl
+    from prowl._processes import die_with_parent
+
+    die_with_parent()
+    warnings.showwarning = lambda message, *_, **__: _say(message=f"warning: {message}")
+    kinds = {
+        prowl.InputError: "input",
+        prowl.FileError: "files",
+        prowl.NumericalError: "numerical",
+        OSError: "files",
+    }
+    try:
+        {"figures": _figures, "export": _export}[options.verb](options)
+    except tuple(kinds) as error:
+        is_option = str(error).startswith(("format: ", "joint: ", "rate: "))  # to the functions, an argument
+        kind = next(kind for base, kind in kinds.items() if isinstance(error, base))
+        _say(error=f"{'--' if is_option else ''}{error}", kind=kind)
+
+
+def main() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    options = _options()
+    try:
+        _run(options)
+    except ModuleNotFoundError as error:
+        needed = f"need a Python with {LIBRARIES[options.verb]} (scripts/setup makes one in .venv): --python PATH"
+        _say(error=f"{sys.executable}: {error.name} is missing; {needed}", kind="input")
+    except ImportError as error:  # the compiled part is missing, or its libraries
+        _say(error=str(error), kind="files")
+
+
+if __name__ == "__main__":
+    main()
