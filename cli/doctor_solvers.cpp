@@ -84,7 +84,7 @@ Finding check_solver(const NlpSolver& solver, const Task& task) {
   const auto start = std::chrono::steady_clock::now();
   std::string outcome;
   try {
-    const Plan plan = make_plan(task.problem, solver, {.solver = task.solver, .coarse_first = false});
+    const Plan plan = make_plan({task.problem, task.mesh}, solver, {.solver = task.solver, .coarse_first = false});
     if (plan.result.status == SolveStatus::converged && plan.certificate.passed) {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       finding.text = fmt::format("{}: solves and passes a small task in {:.0f} ms", solver.version(), 1e3 * seconds);
