@@ -58,10 +58,9 @@ void second_derivatives_besides(benchmark::State& state) {
 /// A node of a phase with every kind of cost, on four feet with friction cones, of fixed duration.
 template <class Evaluate>
 void run_node(benchmark::State& state, Evaluate evaluate) {
-  const prowl::MotionProblem problem =
-      prowl::test::everything(setup().robot, {prowl::test::phase_on("four", setup().contacts, 0.3, 2)});
-  const prowl::ContactSchedule schedule(problem);
-  prowl::NodeFunctions functions(problem, schedule, 0, {{}, std::vector<prowl::LandingAxes>(4)});
+  const prowl::DiscreteProblem discrete =
+      prowl::test::everything(setup().robot, {prowl::test::phase_on("four", setup().contacts, 0.3, 2)}).discrete();
+  prowl::NodeFunctions functions(discrete, 0, {{}, std::vector<prowl::LandingAxes>(4)});
   std::vector<prowl::NodePoint> points;
   for (const prowl::DynamicsPoint& at : setup().points) {
     points.push_back({.node = 1,

@@ -179,7 +179,7 @@ Outcome reach(const std::string& task_file, const Goal& goal, int intervals) {
   Outcome outcome;
   while (intervals > 0 && outcome.meshes < kMostMeshes) {
     const prowl::Task task = prowl::read_task_file(task_file, search, {.intervals = intervals});
-    outcome.plan = prowl::make_plan(with_goal(task.problem, goal), solver, {.solver = task.solver});
+    outcome.plan = prowl::make_plan({with_goal(task.problem, goal), task.mesh}, solver, {.solver = task.solver});
     outcome.intervals = intervals;
     outcome.iterations += outcome.plan.result.iterations;
     outcome.seconds += outcome.plan.result.seconds;

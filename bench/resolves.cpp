@@ -89,7 +89,7 @@ Tally resolve(const prowl::Task& task, const prowl::Plan& plan, auto disturbed) 
   for (int i = 0; i < kDisturbances; ++i) {
     prowl::PlanOptions options{
         .solver = task.solver, .start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers};
-    tally.add(prowl::make_plan(disturbed(random_direction(random)), prowl::RiccatiSolver(), options));
+    tally.add(prowl::make_plan({disturbed(random_direction(random)), task.mesh}, prowl::RiccatiSolver(), options));
   }
   return tally;
 }
@@ -97,12 +97,12 @@ Tally resolve(const prowl::Task& task, const prowl::Plan& plan, auto disturbed) 
 /// Each from the plan before it, as a receding horizon does.
 Tally shift(const prowl::Task& task, const prowl::Plan& first) {
   Tally tally;
-  MotionProblem problem = task.problem;
+  prowl::DiscreteProblem discrete(task.problem, task.mesh);
   prowl::Plan plan = first;
-  for (int i = 0; i < kMostShifts && problem.phases.front().intervals > 1; ++i) {
-    prowl::ShiftedHorizon next = prowl::shift_horizon(problem, plan.trajectory, plan.result.stage_multipliers);
-    problem = std::move(next.problem);
-    plan = prowl::make_plan(problem, prowl::RiccatiSolver(),
+  for (int i = 0; i < kMostShifts && discrete.mesh.phases.front().intervals() > 1; ++i) {
+    prowl::ShiftedHorizon next = prowl::shift_horizon(discrete, plan.trajectory, plan.result.stage_multipliers);
+    discrete = std::move(next.problem);
+    plan = prowl::make_plan(discrete, prowl::RiccatiSolver(),
                             {.solver = task.solver,
                              .start_from = std::move(next.start_from),
                              .start_multipliers = std::move(next.start_multipliers)});
@@ -122,7 +122,8 @@ int main(int argc, char** argv) try {
   const prowl::PackageSearch search{.folders = {}, .working_directory = std::filesystem::current_path()};
   for (int i = 1; i < argc; ++i) {
     const prowl::Task task = prowl::read_task_file(argv[i], search);
-    const prowl::Plan plan = prowl::make_plan(task.problem, prowl::RiccatiSolver(), {.solver = task.solver});
+    const prowl::Plan plan =
+        prowl::make_plan({task.problem, task.mesh}, prowl::RiccatiSolver(), {.solver = task.solver});
     fmt::print("{} {}: {} iterations from the task alone\n", task.problem.robot.name(), task.problem.name,
                plan.result.iterations);
     resolve(task, plan, [&](const Vector3d& along) {

@@ -9,7 +9,8 @@ int main(int count, char** arguments) try {
   if (count > 2) packages.folders = {arguments[2]};
 
   const prowl::Task task = prowl::read_task_file(arguments[1], packages);
-  const prowl::Plan plan = prowl::make_plan(task.problem, prowl::RiccatiSolver(), {.solver = task.solver});
+  const prowl::DiscreteProblem problem(task.problem, task.mesh);
+  const prowl::Plan plan = prowl::make_plan(problem, prowl::RiccatiSolver(), {.solver = task.solver});
   if (plan.result.status != prowl::SolveStatus::converged || !plan.certificate.passed) {
     std::cerr << "no good plan: " << prowl::to_string(plan.result.status) << '\n';
     return 1;

@@ -12,14 +12,15 @@ int main(int count, char** arguments) try {
   const prowl::Task task = prowl::read_task_file(arguments[1], packages);
   const prowl::RiccatiSolver solver;
 
-  prowl::MotionProblem problem = task.problem;
+  prowl::DiscreteProblem problem(task.problem, task.mesh);
   prowl::Plan plan = prowl::make_plan(problem, solver, {.solver = task.solver});
   std::cout << "first plan: " << plan.result.iterations << " iterations\n";
 
   for (int cycle = 1; cycle <= 20; ++cycle) {
     prowl::ShiftedHorizon next = prowl::shift_horizon(problem, plan.trajectory, plan.result.stage_multipliers);
-    problem = std::move(next.problem);
-    problem.boundary_conditions.back().q_ref(0) += 0.001;  // the goal moves on by 1 mm along x
+    prowl::MotionProblem later = std::move(next.problem.problem);
+    later.boundary_conditions.back().q_ref(0) += 0.001;  // the goal moves on by 1 mm along x
+    problem = {std::move(later), std::move(next.problem.mesh)};
     plan = prowl::make_plan(problem, solver,
                             {.solver = task.solver,
                              .start_from = std::move(next.start_from),

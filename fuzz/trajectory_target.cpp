@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static const Task task = parse_task({"task.toml", fuzz::kTask}, {"robot.toml", fuzz::kRobot}, {}, {},
                                       SourceText{"small.urdf", fuzz::kUrdf});
   const SourceText source{"trajectory.csv", fuzz::text_of(data, size)};
-  fuzz::takes_or_refuses([&] { trajectory_from_csv(task.problem, source); });
+  fuzz::takes_or_refuses([&] { trajectory_from_csv(task.problem, task.mesh, source); });
   fuzz::takes_or_refuses([&] { read_csv_table(source); });
   return 0;
 }

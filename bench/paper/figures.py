@@ -4,10 +4,9 @@ import pathlib
 import shutil
 
 import numpy as np
-import series
 import style
 from matplotlib.lines import Line2D
-from motions import HEIGHT, Motion, base_positions
+from motions import AXES, HEIGHT, Motion, base_positions, read_table
 from plans import Planner
 from scipy.spatial.transform import Rotation
 
@@ -21,6 +20,11 @@ GAINS_OF = "lh_kfe_joint"
 
 def handle(label: str, **look) -> Line2D:
     return Line2D([], [], label=label, **look)
+
+
+def save(pictures: dict[str, bytes], out: pathlib.Path) -> None:
+    for name, picture in pictures.items():
+        (out / name).write_bytes(picture)
 
 
 def model_tables(planner: Planner, motion: Motion, *options: str) -> pathlib.Path:
@@ -47,9 +51,8 @@ def draw_knee_limit(motions: dict[str, Motion], tables: pathlib.Path, out: pathl
         handles.append(handle(motion.subject.name, color=colour))
     axes.set(xlabel="knee flexion |q| [rad]", ylabel="torque |τ| [N m]", xlim=(0.349, 2.4435), ylim=(0, None))
     title = "Largest torque of HyQ's knee over its angle"
-    style.finish(
-        figure, title, "lines below the limit: the four knees in each motion", handles, out, "fig_01_knee_torque_limit"
-    )
+    subtitle = "lines below the limit: the four knees in each motion"
+    save(style.finish(figure, title, subtitle, handles, "fig_01_knee_torque_limit"), out)
 
 
 def draw_phases(motion: Motion, out: pathlib.Path) -> None:
@@ -81,7 +84,7 @@ def draw_phases(motion: Motion, out: pathlib.Path) -> None:
         for axes in grid[:, 0]:
             axes.axvline(start, color="0.45", lw=0.8, ls=style.DASHES[2])
     subtitle = f"HyQ's {motion.subject.name} on the mesh of its task file; dots are nodes, two of them at each switch"
-    style.finish(figure, "Phases of a motion, and the switches between them", subtitle, [], out, "fig_02_phases")
+    save(style.finish(figure, "Phases of a motion, and the switches between them", subtitle, [], "fig_02_phases"), out)
 
 
 def take_gains(tables: pathlib.Path, out: pathlib.Path) -> None:
@@ -109,17 +112,17 @@ def draw_standing_torques(motion: Motion, out: pathlib.Path) -> None:
     ]
     nodes = len(table["time_s"])
     subtitle = f"N = {nodes} nodes for T = {table['time_s'][-1]:g} s; the trapezoid has torques linear between them"
-    style.finish(figure, "Output of the optimisation: standing", subtitle, handles, out, "fig_05_standing_torques")
+    save(style.finish(figure, "Output of the optimisation: standing", subtitle, handles, "fig_05_standing_torques"), out)
 
 
 def draw_contact_acceleration(motion: Motion, tables: pathlib.Path, out: pathlib.Path) -> None:
     """Figure 6: both parts of the acceleration of each foot, at the nodes."""
-    table = series.read_table(tables / "contact_acceleration.csv")
+    table = read_table(tables / "contact_acceleration.csv")
     nodes = np.searchsorted(table["time_s"], motion.coarse.trajectory["time_s"] - 1e-9)
     figure, grid = style.grid(2, 4, 11.0, 4.6, sharey=True)
     for column, leg in zip(grid.T, LEGS):
         terms = [
-            sign * np.array([table[f"{term}_{leg}_foot_{axis}_mps2"] for axis in series.AXES])
+            sign * np.array([table[f"{term}_{leg}_foot_{axis}_mps2"] for axis in AXES])
             for sign, term in ((1, "Ja"), (-1, "minus_Jdotv"))
         ]
         for axes, values in zip(column, terms):
@@ -131,10 +134,10 @@ def draw_contact_acceleration(motion: Motion, tables: pathlib.Path, out: pathlib
         column[1].set_xlabel("time [s]")
     grid[0, 0].set_ylabel(r"$J\,\ddot{q}$ [m/s²]")
     grid[1, 0].set_ylabel(r"$\dot{J}\,\dot{q}$ [m/s²]")
-    handles = [handle(a, color=c, marker=m, lw=0.6) for a, c, m in zip(series.AXES, style.AXIS_COLOURS, "osd")]
+    handles = [handle(a, color=c, marker=m, lw=0.6) for a, c, m in zip(AXES, style.AXIS_COLOURS, "osd")]
     title = r"Contacts keep their acceleration: $J\,\ddot{q} + \dot{J}\,\dot{q} = 0$"
     subtitle = "standing on six nodes, world axes; marks at the nodes, lines between them"
-    style.finish(figure, title, subtitle, handles, out, "fig_06_contact_acceleration")
+    save(style.finish(figure, title, subtitle, handles, "fig_06_contact_acceleration"), out)
 
 
 def _joint_lines(axes, time: np.ndarray, value_of, width: float = 0.9) -> None:
@@ -150,7 +153,7 @@ def _draw_base(grid_row, motion: Motion) -> None:
     position, orientation = grid_row
     turns = Rotation.from_quat(np.column_stack([simulated[f"true_base_q{c}"] for c in "xyzw"])).as_rotvec()
     coarse = base_positions(motion.coarse)
-    for i, (axis, colour) in enumerate(zip(series.AXES, style.AXIS_COLOURS)):
+    for i, (axis, colour) in enumerate(zip(AXES, style.AXIS_COLOURS)):
         position.plot(simulated["time_s"], 100 * (simulated[f"true_base_p{axis}_m"] - asked[i]), color=colour)
         position.plot(motion.coarse.trajectory["time_s"], 100 * (coarse[:, i] - asked[i]), "o", color=colour, ms=4)
         orientation.plot(simulated["time_s"], turns[:, i] / DEGREE, color=colour)
@@ -190,7 +193,7 @@ def draw_simulation(motion: Motion, out: pathlib.Path, name: str) -> None:
     for axes in grid[-1]:
         axes.set_xlabel("time [s]")
     style.mark_phases(grid, motion.phases(motion.fine), float(motion.simulated["time_s"][-1]))
-    handles = [handle(f"base {axis}", color=colour) for axis, colour in zip(series.AXES, style.AXIS_COLOURS)]
+    handles = [handle(f"base {axis}", color=colour) for axis, colour in zip(AXES, style.AXIS_COLOURS)]
     handles.append(handle("plan on six nodes", color="0.4", marker="o", ms=4, lw=0))
     joints = [handle(LEG_NAMES[leg], color=colour) for leg, colour in zip(LEGS, style.LEG_COLOURS)]
     joints += [handle(kind.upper(), color="0.3", ls=dash) for kind, dash in zip(KINDS, style.DASHES)]
@@ -201,4 +204,4 @@ def draw_simulation(motion: Motion, out: pathlib.Path, name: str) -> None:
         f"MuJoCo, sensor noise, state estimator, delay {1e3 * options['delay_s']:g} ms; TVLQR about the plan of "
         f"{intervals} intervals that the certificate passes"
     )
-    style.finish(figure, f"Simulation of {motion.subject.title.lower()}", subtitle, handles, out, name, bottom=0.25)
+    save(style.finish(figure, f"Simulation of {motion.subject.title.lower()}", subtitle, handles, name, bottom=0.25), out)

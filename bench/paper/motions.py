@@ -1,16 +1,26 @@
 """The motions of tasks/paper: planned on the meshes of their files, planned again on meshes that pass the certificate, and
 run in both simulations."""
 
+import csv
 import dataclasses
 import json
+import pathlib
 import tomllib
 
 import numpy as np
-import series
 from plans import Plan, Planner
 from scene import Scene
 
+AXES = ("x", "y", "z")
 HEIGHT = 2  # of the base's position: its z
+
+
+def read_table(path: pathlib.Path) -> dict[str, np.ndarray]:
+    """A CSV of numbers with a heading, column by column."""
+    with open(path, newline="", encoding="utf-8") as file:
+        names = next(csv.reader(file))
+        values = np.loadtxt(file, delimiter=",", ndmin=2)
+    return {name: values[:, i] for i, name in enumerate(names)}
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,7 +50,7 @@ class Motion:
         self.fine = planner.plan(f"paper/{subject.name}", "--refine")
         self.rollout = self._simulate(planner, "--engine", "rollout")
         self.simulation = self._simulate(planner)
-        self.simulated = series.read_table(self.fine.folder / "simulate.csv")
+        self.simulated = read_table(self.fine.folder / "simulate.csv")
         planner.run("report", self.fine.folder)
         planner.run("report", self.coarse.folder)
         self.scene = Scene(self.fine.folder / "report.html")

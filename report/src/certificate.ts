@@ -3,7 +3,7 @@ import type { Clock } from "./clock";
 import type { Check, ReportData } from "./data";
 import { el, short } from "./dom";
 
-const kDraft = 1e-4; // CertificateLimits of prowl/trajectory/certificate.hpp
+const kDraft = 1e-4; // CertificateLimits of prowl/certificate/certificate.hpp
 const kCertified = 1e-6;
 
 /// The checks of the finished plan; each goes to its worst moment.

@@ -43,15 +43,15 @@ torque = 1e-4
 
 class DiagnosisTest : public test::TaskTest {
  protected:
-  static Diagnosis diagnosis(const MotionProblem& problem) {
-    return diagnose(problem, RiccatiSolver(), IpoptSolver(), {});
+  static Diagnosis diagnosis(const DiscreteProblem& discrete) {
+    return diagnose(discrete, RiccatiSolver(), IpoptSolver(), {});
   }
 };
 
 TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
   std::vector<std::string> steps;
   const auto keep = [&](const std::string& what) { steps.push_back(what); };
-  const Diagnosis found = diagnose(problem(kCrouch), RiccatiSolver(), IpoptSolver(), {.on_step = keep});
+  const Diagnosis found = diagnose(prepared(kCrouch), RiccatiSolver(), IpoptSolver(), {.on_step = keep});
   EXPECT_THAT(steps, testing::ElementsAre("solving as it is, 8 intervals", "planning as it is"))
       << "a small mesh is solved once";
   EXPECT_TRUE(found.solvable);
@@ -61,17 +61,18 @@ TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
 
 /// A mesh too coarse is no matter of the task, and needs no search.
 TEST_F(DiagnosisTest, OfAPlanThatFailsItsCertificateNamesTheChecks) {
-  const MotionProblem coarse = problem(kCrouch);
+  const DiscreteProblem coarse = prepared(kCrouch);
   const Diagnosis found = diagnosis(coarse);
   EXPECT_TRUE(found.solvable);
   EXPECT_FALSE(found.certificate.passed);
-  EXPECT_THAT(diagnosis_headline(found, coarse),
+  EXPECT_THAT(diagnosis_headline(found, coarse.problem),
               AllOf(HasSubstr("fails its certificate: local integration error ("), HasSubstr(" > 0.0001"),
                     testing::EndsWith("; its mesh is too coarse: prowl plan --refine")));
 }
 
 TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
-  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const DiscreteProblem stiff =
+      prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   const Diagnosis found = diagnosis(stiff);
   EXPECT_FALSE(found.solvable);
   EXPECT_EQ(found.kind, "joint_position");
@@ -87,7 +88,7 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
   EXPECT_NEAR(change.to, std::stod(fmt::format("{:.3g}", change.to)), 1e-9) << "what is printed is not what was proved";
   EXPECT_NEAR(0.5 * (change.to - change.from), breach.amount, 0.05)
       << "two ways to the same: a range wider on both sides";
-  EXPECT_THAT(diagnosis_headline(found, stiff),
+  EXPECT_THAT(diagnosis_headline(found, stiff.problem),
               AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
                     HasSubstr("rad beyond its bound; solved but for the error of its mesh (--refine) with position "
                               "range of lh_kfe_joint ["),
@@ -95,15 +96,15 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
 }
 
 TEST_F(DiagnosisTest, NamesWeakJoints) {
-  const MotionProblem weak = problem(kCrouch, test::kWeakHyqFile);
+  const DiscreteProblem weak = prepared(kCrouch, test::kWeakHyqFile);
   const Diagnosis found = diagnosis(weak);
-  EXPECT_EQ(found.kind, "torque") << diagnosis_text(found, weak);
+  EXPECT_EQ(found.kind, "torque") << diagnosis_text(found, weak.problem);
   EXPECT_THAT(found.subject,
               AllOf(HasSubstr("f_kfe_joint"), testing::Not(HasSubstr("haa")), testing::Not(HasSubstr("lh_kfe"))));
 }
 
 TEST_F(DiagnosisTest, OfASlopeNamesFrictionAndHowMuchIsNeeded) {
-  const MotionProblem slope = problem(
+  const DiscreteProblem slope = prepared(
       "robot = \"hyq.toml\"\n[[surface]]\nname = \"slope\"\nnormal = [-0.5, 0, 0.8660254]\nfriction = 0.4\n"
       "[start]\non = \"slope\"\n" +
       test::replaced(test::replaced(kCrouch, "robot = \"hyq.toml\"\n", ""), "base_rpy_rad = [0, 0, 0]\n", ""));
@@ -118,25 +119,26 @@ TEST_F(DiagnosisTest, OfASlopeNamesFrictionAndHowMuchIsNeeded) {
 }
 
 TEST_F(DiagnosisTest, StopsWhenTheTimeIsUp) {
-  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const DiscreteProblem stiff =
+      prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   const Diagnosis found = diagnose(stiff, RiccatiSolver(), IpoptSolver(), {.max_seconds = 1e-3});
   EXPECT_TRUE(found.out_of_time);
   EXPECT_FALSE(found.solvable);
   EXPECT_TRUE(found.kind.empty());
-  EXPECT_THAT(diagnosis_text(found, stiff), HasSubstr("the time is up"));
+  EXPECT_THAT(diagnosis_text(found, stiff.problem), HasSubstr("the time is up"));
 }
 
 /// The search has a part of the time, and what comes after it takes less than the rest.
 TEST_F(DiagnosisTest, SaysThatASearchWasCutOff) {
-  const MotionProblem high = problem(test::replaced(kCrouch, "[0, 0, -0.1]", "[0, 0, 0.35]"));
+  const DiscreteProblem high = prepared(test::replaced(kCrouch, "[0, 0, -0.1]", "[0, 0, 0.35]"));
   const RiccatiSolver solver;
   const ChangeSearch search(solver, {}, 1000.0);
-  const std::vector<Knob> knobs = knobs_of(high);
-  const ChangesFound cut_off = search.within(0.0).smallest(knobs, {});
+  const std::vector<Knob> knobs = knobs_of(high.problem);
+  const ChangesFound cut_off = search.within(0.0).smallest(knobs, high.mesh, {});
   EXPECT_TRUE(cut_off.out_of_time);
   EXPECT_EQ(cut_off.tried, 0);
   EXPECT_TRUE(cut_off.found.empty());
-  const ChangesFound whole = search.smallest(knobs, {});
+  const ChangesFound whole = search.smallest(knobs, high.mesh, {});
   EXPECT_FALSE(whole.out_of_time);
   EXPECT_EQ(whole.tried, static_cast<int>(knobs.size()));
   EXPECT_FALSE(whole.found.empty());
@@ -145,7 +147,7 @@ TEST_F(DiagnosisTest, SaysThatASearchWasCutOff) {
 
 /// A change of something that has been solved would be a lie.
 TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
-  const MotionProblem crouch = problem(kCrouch);
+  const DiscreteProblem crouch = prepared(kCrouch);
   for (const SolveStatus status : {SolveStatus::time_limit, SolveStatus::solver_failed}) {
     const Diagnosis found = diagnose(crouch, test::FailingSolver(1, status), IpoptSolver(), {});
     EXPECT_TRUE(found.solvable) << "a motion on its own mesh is at hand";
@@ -156,50 +158,51 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
     EXPECT_TRUE(found.changes.empty());
     EXPECT_FALSE(found.needs_one_mesh)
         << "eight intervals have no coarser mesh, and this one was seen not to be solved";
-    EXPECT_THAT(diagnosis_headline(found, crouch),
+    EXPECT_THAT(diagnosis_headline(found, crouch.problem),
                 AllOf(testing::StartsWith("the task has a plan (its mesh was solved from the initial guess), but not "
                                           "as prowl plan goes about it: "),
                       HasSubstr(status == SolveStatus::time_limit ? "the time was up after " : "optimal"),
                       HasSubstr("local integration error")))
         << "eight intervals are few";
-    EXPECT_THAT(diagnosis_json(found, crouch), HasSubstr("\"solvable\": true"));
+    EXPECT_THAT(diagnosis_json(found, crouch.problem), HasSubstr("\"solvable\": true"));
   }
 }
 
 TEST_F(DiagnosisTest, NamesOneMeshWhereThatWasSeenToDo) {
-  const MotionProblem crouch = problem(test::replaced(kCrouch, "intervals = 8", "intervals = 60"));
-  ASSERT_EQ(mesh_levels(crouch).size(), 2u);
+  const DiscreteProblem crouch = prepared(test::replaced(kCrouch, "intervals = 8", "intervals = 60"));
+  ASSERT_EQ(mesh_levels(crouch.problem, crouch.mesh).size(), 2u);
   constexpr int kSearch = 2;  // solves before, on 20 and 60 intervals
   const Diagnosis found =
       diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed, 2), IpoptSolver(), {});
   EXPECT_TRUE(found.solvable);
   EXPECT_TRUE(found.needs_one_mesh);
   EXPECT_THAT(
-      diagnosis_headline(found, crouch),
+      diagnosis_headline(found, crouch.problem),
       testing::StartsWith("the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes, "));
   const Diagnosis neither =
       diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed), IpoptSolver(), {});
   EXPECT_TRUE(neither.solvable);
   EXPECT_FALSE(neither.needs_one_mesh);
-  EXPECT_THAT(diagnosis_headline(neither, crouch), HasSubstr("but not as prowl plan goes about it: "));
+  EXPECT_THAT(diagnosis_headline(neither, crouch.problem), HasSubstr("but not as prowl plan goes about it: "));
 }
 
 /// A task that takes longer than its part of the time may have a plan, whatever a coarse mesh says.
 TEST_F(DiagnosisTest, OfATaskThatWasCutOffIsThatItIsNotKnown) {
-  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const DiscreteProblem stiff =
+      prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   const Diagnosis found = diagnose(stiff, test::FailingSolver(0, SolveStatus::time_limit), IpoptSolver(), {});
   EXPECT_TRUE(found.is_undecided());
-  EXPECT_THAT(diagnosis_headline(found, stiff),
+  EXPECT_THAT(diagnosis_headline(found, stiff.problem),
               AllOf(testing::StartsWith("not known whether the task has a plan, the time was up after "),
                     HasSubstr("on 8 mesh intervals phase 1 'crouch', "), HasSubstr("beyond its bound")));
-  EXPECT_THAT(diagnosis_json(found, stiff), HasSubstr("\"solvable\": null"));
+  EXPECT_THAT(diagnosis_json(found, stiff.problem), HasSubstr("\"solvable\": null"));
 }
 
 TEST_F(DiagnosisTest, GoesOnWithATaskThatWasCutOff) {
   std::vector<std::string> steps;
   const auto keep = [&](const std::string& what) { steps.push_back(what); };
   const test::FailingSolver solver(0, SolveStatus::time_limit, 2);
-  const Diagnosis found = diagnose(problem(kCrouch), solver, IpoptSolver(), {.on_step = keep});
+  const Diagnosis found = diagnose(prepared(kCrouch), solver, IpoptSolver(), {.on_step = keep});
   EXPECT_EQ(steps.back(), "planning as it is, from where it was stopped");
   const auto off = [&](const Eigen::VectorXd& start) { return (start - solver.ends[1]).lpNorm<Eigen::Infinity>(); };
   EXPECT_LT(off(solver.starts.back()), 1e-3 * off(solver.starts[1])) << "it began anew";
@@ -210,7 +213,8 @@ TEST_F(DiagnosisTest, GoesOnWithATaskThatWasCutOff) {
 }
 
 TEST_F(DiagnosisTest, KeepsWhatWasFoundBeforeAnInterrupt) {
-  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const DiscreteProblem stiff =
+      prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   std::atomic<bool> stop = false;
   DiagnosisOptions options;
   options.solver.interrupt = &stop;
@@ -218,15 +222,15 @@ TEST_F(DiagnosisTest, KeepsWhatWasFoundBeforeAnInterrupt) {
   const Diagnosis found = diagnose(stiff, RiccatiSolver(), IpoptSolver(), options);
   EXPECT_TRUE(found.interrupted);
   EXPECT_FALSE(found.changes.empty());
-  EXPECT_THAT(diagnosis_text(found, stiff), AllOf(HasSubstr("perhaps"), HasSubstr("interrupted: not all")));
+  EXPECT_THAT(diagnosis_text(found, stiff.problem), AllOf(HasSubstr("perhaps"), HasSubstr("interrupted: not all")));
 }
 
 /// On 20 intervals a walk is solved with feet that drift by centimetres; on its own mesh it is another motion.
 TEST(ChangeSearch, TakesNoMotionInWhichFeetDrift) {
   const auto on_20 = [](const std::string& name) {
-    return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml", test::test_search(),
-                          {.intervals = 20})
-        .problem;
+    const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml",
+                                     test::test_search(), {.intervals = 20});
+    return DiscreteProblem(task.problem, task.mesh);
   };
   const RiccatiSolver solver;
   const ChangeSearch search(solver, {}, 1000.0);
@@ -238,13 +242,14 @@ TEST(ChangeSearch, TakesNoMotionInWhichFeetDrift) {
 
 /// The limit of iterations is no property of the task.
 TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
-  const MotionProblem stiff = problem(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const DiscreteProblem stiff =
+      prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   DiagnosisOptions options;
   options.solver.max_iterations = 2;
   EXPECT_THAT(
-      diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff),
+      diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff.problem),
       testing::StartsWith("not known whether the task has a plan, stopped after its solver.max_iterations (2); "));
-  const Diagnosis found = diagnose(problem(kCrouch), RiccatiSolver(), IpoptSolver(), options);
+  const Diagnosis found = diagnose(prepared(kCrouch), RiccatiSolver(), IpoptSolver(), options);
   EXPECT_TRUE(found.solvable) << "the search has iterations of its own";
   EXPECT_FALSE(found.needs_one_mesh) << "it has the same limit";
   EXPECT_THAT(diagnosis_headline(found, problem(kCrouch)),
@@ -256,7 +261,7 @@ TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
 TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
   const MotionProblem crouch = problem(kCrouch);
   Diagnosis found;
-  found.search_intervals = 8;
+  found.task_intervals = found.search_intervals = 8;
   found.message = "stalled";
   const auto change = [](double to, bool passes) {
     return Change{
@@ -279,8 +284,9 @@ TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
   EXPECT_THAT(diagnosis_text(found, crouch),
               HasSubstr("(solved from the initial guess, but prowl plan's motion is none that passes its certificate)"))
       << "8 are its own";
-  EXPECT_THAT(diagnosis_text(found, problem(test::replaced(kCrouch, "intervals = 8", "intervals = 60"))),
-              HasSubstr("(solved on 8 mesh intervals, but not on the task's own)"));
+  found.task_intervals = 60;
+  EXPECT_THAT(diagnosis_text(found, crouch), HasSubstr("(solved on 8 mesh intervals, but not on the task's own)"));
+  found.task_intervals = 8;
   EXPECT_EQ(diagnosis_headline(found, crouch),
             "not solved (stalled); solvable with swing clearance 3 m instead of 1 m");
   found.changes.pop_back();

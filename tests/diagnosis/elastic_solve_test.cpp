@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "prowl/solvers/ipopt_solver.hpp"
+#include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 
 namespace prowl {
@@ -16,14 +17,14 @@ std::function<bool(const MotionLimit&)> only(LimitKind kind) {
   return [kind](const MotionLimit& limit) { return limit.kind == kind; };
 }
 
-MotionProblem on_slope(double degrees, double friction) {
+DiscreteProblem on_slope(double degrees, double friction) {
   MotionProblem problem =
       test::with_base_goal(test::standing_problem(test::hyq(), degrees, friction), Eigen::Vector3d::Zero());
   problem.running_cost.acceleration_weight.setOnes();
   BoundaryCondition& goal = problem.boundary_conditions.back();
   goal.velocity_lower.head<6>().setZero();
   goal.velocity_upper.head<6>().setZero();
-  return problem;
+  return test::on_even_mesh(std::move(problem), 8);
 }
 
 /// From rest to rest at the same place the mean force is the weight, so that along the slope at least W (sin α - µ cos
@@ -58,7 +59,8 @@ TEST(ElasticSolve, FindsNothingWhereNothingIsMissing) {
 TEST(ElasticSolve, FindsHowFarAGoalIsOutOfReach) {
   MotionProblem high = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.4});
   high.running_cost.acceleration_weight.setOnes();
-  const ElasticResult result = elastic_solve(high, IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::goal));
+  const ElasticResult result =
+      elastic_solve(test::on_even_mesh(high, 8), IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::goal));
   ASSERT_EQ(result.status, SolveStatus::converged);
   ASSERT_EQ(result.breaches.size(), 1u);
   EXPECT_EQ(result.breaches.front().subject, high.boundary_conditions.back().name + ", base z");
@@ -72,7 +74,8 @@ TEST(ElasticSolve, TellsTimesOfItsOwnMotion) {
   MotionProblem high = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.4});
   high.running_cost.acceleration_weight.setOnes();
   high.phases.front().duration = {1.0, 3.0};
-  const ElasticResult result = elastic_solve(high, IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::goal));
+  const ElasticResult result =
+      elastic_solve(test::on_even_mesh(high, 8), IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::goal));
   ASSERT_EQ(result.status, SolveStatus::converged);
   ASSERT_EQ(result.breaches.size(), 1u);
   EXPECT_NEAR(result.breaches.front().time, 3.0, 0.05) << "the slower the less it accelerates";

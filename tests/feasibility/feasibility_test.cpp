@@ -61,29 +61,31 @@ torque = 1e-4
 
 class Feasibility : public test::TaskTest {
  protected:
-  static std::vector<std::string> doubts_of(const MotionProblem& problem) {
-    return doubts(problem, initial_guess(problem, make_mesh(problem)), IpoptSolver());
+  static std::vector<std::string> doubts_of(const DiscreteProblem& discrete) {
+    return doubts(discrete, initial_guess(discrete), IpoptSolver());
+  }
+  static std::vector<std::string> proofs_of(const DiscreteProblem& discrete) {
+    return proofs_of_infeasibility(discrete.problem, discrete.schedule);
   }
 };
 
 TEST_F(Feasibility, OfASlopeIsAMatterOfFriction) {
   for (const auto& [degrees, friction, needed] :
        {std::tuple{30.0, 0.5, "0.5 and needs 0.577"}, {15.0, 0.2, "0.2 and needs 0.268"}}) {
-    const MotionProblem slope = problem(on_a_slope(degrees, friction));
-    EXPECT_THAT(
-        proofs_of_infeasibility(slope),
-        ElementsAre(AllOf(HasSubstr("phase 'stand'"), HasSubstr(std::string("surface 'slope' has ") + needed))));
+    const DiscreteProblem slope = prepared(on_a_slope(degrees, friction));
+    EXPECT_THAT(proofs_of(slope), ElementsAre(AllOf(HasSubstr("phase 'stand'"),
+                                                    HasSubstr(std::string("surface 'slope' has ") + needed))));
     const Plan plan = make_plan(slope, IpoptSolver(), {});
     EXPECT_EQ(plan.result.status, SolveStatus::infeasible);
     EXPECT_EQ(plan.result.iterations, 0);
-    EXPECT_EQ(plan.reasons, proofs_of_infeasibility(slope));
+    EXPECT_EQ(plan.reasons, proofs_of(slope));
     EXPECT_FALSE(plan.certificate.passed);
   }
 }
 
 TEST_F(Feasibility, OfAGentleSlopeIsNotDoubted) {
-  const MotionProblem slope = problem(on_a_slope(15.0, 0.5));
-  EXPECT_THAT(proofs_of_infeasibility(slope), IsEmpty());
+  const DiscreteProblem slope = prepared(on_a_slope(15.0, 0.5));
+  EXPECT_THAT(proofs_of(slope), IsEmpty());
   EXPECT_THAT(doubts_of(slope), IsEmpty());
   const Plan plan = make_plan(slope, IpoptSolver(), {});
   EXPECT_EQ(plan.result.status, SolveStatus::converged);
@@ -91,8 +93,9 @@ TEST_F(Feasibility, OfAGentleSlopeIsNotDoubted) {
 }
 
 TEST_F(Feasibility, OfAGoalOutOfReachNamesTheFeet) {
-  const MotionProblem high = problem(test::replaced(kStand, "[0, 0, -0.05]", "[0, 0, 0.5]\nbase_rpy_rad = [0, 0, 0]"));
-  const auto reasons = proofs_of_infeasibility(high);
+  const DiscreteProblem high =
+      prepared(test::replaced(kStand, "[0, 0, -0.05]", "[0, 0, 0.5]\nbase_rpy_rad = [0, 0, 0]"));
+  const auto reasons = proofs_of(high);
   ASSERT_THAT(reasons, SizeIs(4));
   for (const std::string& reason : reasons) {
     EXPECT_THAT(reason, AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("_foot is out of reach")));
@@ -116,15 +119,15 @@ phase = "land"
 base_displacement_m = [0.1, 0, 0]
 base_rpy_rad = [0, 0, 0]
 )";
-  EXPECT_THAT(proofs_of_infeasibility(problem(kStand + test::replaced(step, "PLACE", "0.5"))), IsEmpty());
-  EXPECT_THAT(proofs_of_infeasibility(problem(kStand + test::replaced(step, "PLACE", "1.5"))),
+  EXPECT_THAT(proofs_of(prepared(kStand + test::replaced(step, "PLACE", "0.5"))), IsEmpty());
+  EXPECT_THAT(proofs_of(prepared(kStand + test::replaced(step, "PLACE", "1.5"))),
               ElementsAre(AllOf(HasSubstr("goal 2, phase 'land'"), HasSubstr("lf_foot"))));
 }
 
 /// Too weak a joint may still do, in a posture or a motion that nobody has thought of: a hint, and only after a solve.
 TEST_F(Feasibility, OfWeakJointsIsDoubted) {
-  const MotionProblem stand = problem(kStand, test::kWeakHyqFile);
-  EXPECT_THAT(proofs_of_infeasibility(stand), IsEmpty());
+  const DiscreteProblem stand = prepared(kStand, test::kWeakHyqFile);
+  EXPECT_THAT(proofs_of(stand), IsEmpty());
   const Plan plan = make_plan(stand, IpoptSolver(), {.solver = {.max_iterations = 3}});
   EXPECT_NE(plan.result.status, SolveStatus::converged);
   ASSERT_THAT(plan.hints, SizeIs(2)) << "both ends of the phase";
@@ -135,7 +138,7 @@ TEST_F(Feasibility, OfWeakJointsIsDoubted) {
 
 /// A solver that stops short of an optimum nobody needs leaves nothing to doubt in a motion that passes.
 TEST_F(Feasibility, OfAMotionThatPassesIsNotDoubted) {
-  const MotionProblem stand = problem(test::replaced(kStand, "intervals = 4", "intervals = 40"));
+  const DiscreteProblem stand = prepared(test::replaced(kStand, "intervals = 4", "intervals = 40"));
   const Plan plan = make_plan(stand, IpoptSolver(), {.solver = {.tolerance = 1e-16, .max_iterations = 50}});
   EXPECT_NE(plan.result.status, SolveStatus::converged);
   EXPECT_TRUE(plan.certificate.passed);
@@ -145,15 +148,15 @@ TEST_F(Feasibility, OfAMotionThatPassesIsNotDoubted) {
 TEST_F(Feasibility, OfAGoalInTheMiddleOfAPhaseIsDoubtedToo) {
   const std::string wide = test::replaced(kStand, "time_s = 1.0", "time_s = 0.5");
   const auto hints =
-      doubts_of(problem(test::replaced(wide, "[0, 0, -0.05]", "[0.35, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]")));
+      doubts_of(prepared(test::replaced(wide, "[0, 0, -0.05]", "[0.35, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]")));
   EXPECT_THAT(hints, testing::Contains(AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("no posture found"))));
 }
 
 TEST_F(Feasibility, OfAPostureThatIsNotFoundIsDoubted) {
   // Within the length of the legs, but not within what their joints do.
-  const MotionProblem low =
-      problem(test::replaced(kStand, "[0, 0, -0.05]", "[0.55, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]"));
-  EXPECT_THAT(proofs_of_infeasibility(low), IsEmpty());
+  const DiscreteProblem low =
+      prepared(test::replaced(kStand, "[0, 0, -0.05]", "[0.55, 0, -0.05]\nbase_rpy_rad = [0, 0, 0]"));
+  EXPECT_THAT(proofs_of(low), IsEmpty());
   EXPECT_THAT(doubts_of(low), testing::Contains(AllOf(HasSubstr("end of phase 'stand'"), HasSubstr("no posture found"),
                                                       HasSubstr("h_foot"))));
 }
@@ -163,8 +166,8 @@ TEST_F(Feasibility, OfTheShippedTasksIsNeverDisproven) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(std::string(PROWL_SOURCE_DIR) + "/tasks")) {
     if (entry.path().extension() != ".toml") continue;
     ++tasks;
-    EXPECT_THAT(proofs_of_infeasibility(read_task_file(entry.path(), test::test_search(), {}).problem), IsEmpty())
-        << entry.path();
+    const MotionProblem problem = read_task_file(entry.path(), test::test_search(), {}).problem;
+    EXPECT_THAT(proofs_of_infeasibility(problem, ContactSchedule(problem)), IsEmpty()) << entry.path();
   }
   EXPECT_GE(tasks, 10);
 }

@@ -73,9 +73,9 @@ TEST(LostRank, IsOneDirectionOfFourStretchedLegs) {
 }
 
 TEST(LostRank, IsToldOfThePhaseThatStartsThere) {
-  const MotionProblem problem = test::everything(
+  const auto [problem, mesh] = test::everything(
       test::solo12(), {test::phase_on("three", {0, 1, 2}, 0.3, 2), test::phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
-  Trajectory guess = initial_guess(problem, make_mesh(problem));
+  Trajectory guess = initial_guess({problem, mesh});
   EXPECT_THAT(postures_that_lose_rank(problem, guess), IsEmpty());
   for (TrajectoryPoint& point : guess.nodes) point.q = stretched(problem.robot);
   EXPECT_THAT(postures_that_lose_rank(problem, guess),

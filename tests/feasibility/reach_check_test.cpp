@@ -17,6 +17,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
+std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem) {
+  return contacts_out_of_reach(problem, ContactSchedule(problem));
+}
+
 TEST(ReachCheck, LetsPassWhatTheLegsReach) {
   EXPECT_THAT(contacts_out_of_reach(test::standing_problem()), IsEmpty());
   EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.1, 0.0, -0.15})), IsEmpty());

@@ -10,6 +10,10 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
+std::optional<std::string> why_it_slides(const MotionProblem& problem) {
+  return why_it_slides(problem, ContactSchedule(problem));
+}
+
 TEST(SlideCheck, LetsPassWhereFrictionSuffices) {
   EXPECT_FALSE(why_it_slides(test::standing_problem(test::hyq(), 0.0, 0.01)));
   EXPECT_FALSE(why_it_slides(test::standing_problem(test::hyq(), 15.0, 0.27)));

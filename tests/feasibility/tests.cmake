@@ -1,6 +1,6 @@
 prowl_test(feasibility/friction_support prowl::feasibility)
 prowl_test(feasibility/plausibility prowl::feasibility)
-prowl_test(feasibility/rank_check prowl::feasibility prowl::transcription)
+prowl_test(feasibility/rank_check prowl::feasibility prowl::guess)
 prowl_test(feasibility/reach_check prowl::feasibility)
 prowl_test(feasibility/slide_check prowl::feasibility)
 prowl_test(feasibility/standing_load prowl::feasibility prowl::solvers)

@@ -16,6 +16,7 @@
 #include "prowl/nlp/derivative_check.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "tests/support/everything_problem.hpp"
+#include "tests/support/meshed_problem.hpp"
 #include "tests/support/random_vector.hpp"
 #include "tests/support/standing_problem.hpp"
 
@@ -26,27 +27,26 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using test::everything;
 using test::free_phase;
+using test::MeshedProblem;
 using test::phase_on;
 
 constexpr std::size_t kContacts = 4;
 
-CentroidalNlp make_nlp(const MotionProblem& problem) {
-  const Mesh mesh = make_mesh(problem);
-  return {problem, mesh, initial_guess(problem, mesh)};
+CentroidalNlp make_nlp(const DiscreteProblem& discrete) { return {discrete, initial_guess(discrete)}; }
+
+MeshedProblem task_problem(const std::string& name) {
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test::test_search());
+  return {task.problem, task.mesh};
 }
 
-MotionProblem task_problem(const std::string& name) {
-  return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test::test_search()).problem;
+FormulationRun solve(const DiscreteProblem& discrete, const std::string& dynamics) {
+  return run_formulation(discrete, {.dynamics = dynamics}, IpoptSolver(), {});
 }
 
-FormulationRun solve(const MotionProblem& problem, const std::string& dynamics) {
-  return run_formulation(problem, {.dynamics = dynamics}, IpoptSolver(), {});
-}
-
-void expect_derivatives(const MotionProblem& problem, double size_of_multipliers = 2.0) {
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  CentroidalNlp nlp(problem, mesh, guess);
+void expect_derivatives(const MeshedProblem& of, double size_of_multipliers = 2.0) {
+  const DiscreteProblem discrete = of.discrete();
+  const Trajectory guess = initial_guess(discrete);
+  CentroidalNlp nlp(discrete, guess);
   std::mt19937 rng(5);
   const VectorXd z = nlp.pack(guess) + test::random_vector(rng, nlp.num_variables(), 0.1);
   const VectorXd multipliers = test::random_vector(rng, nlp.num_constraints(), size_of_multipliers);
@@ -63,16 +63,17 @@ TEST(CentroidalNlp, DerivativesAndPatternsAreThoseOfDifferences) {
 }
 
 TEST(CentroidalNlp, DerivativesHoldForVelocitiesThatTheTaskBinds) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
-  problem.boundary_conditions[1].velocity_lower.head<6>().setZero();
-  problem.boundary_conditions[1].velocity_upper.head<6>().setZero();
-  EXPECT_EQ(make_nlp(problem).num_constraints(),
-            make_nlp(everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)})).num_constraints() + 3);
-  expect_derivatives(problem);
+  MeshedProblem of = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  const DiscreteProblem without = of.discrete();
+  of.problem.boundary_conditions[1].velocity_lower.head<6>().setZero();
+  of.problem.boundary_conditions[1].velocity_upper.head<6>().setZero();
+  const DiscreteProblem with = of.discrete();
+  EXPECT_EQ(make_nlp(with).num_constraints(), make_nlp(without).num_constraints() + 3);
+  expect_derivatives(of);
 }
 
 TEST(CentroidalNlp, DerivativesHoldForFreeDurationsAndContactsThatOpenAndLand) {
-  MotionProblem problem =
+  auto [problem, mesh] =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                                free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)});
   problem.running_cost.time_weight = 2.3;
@@ -82,25 +83,25 @@ TEST(CentroidalNlp, DerivativesHoldForFreeDurationsAndContactsThatOpenAndLand) {
                               .normal = {0.1, 0.0, 1.0},
                               .patch = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}});
   problem.surfaces[1].normal.normalize();
-  problem.phases[2].contacts[0].surface = 1;
-  expect_derivatives(problem);
+  problem.phases[2].contacts[0].surface = problem.phases[3].contacts[0].surface = 1;
+  expect_derivatives({problem, mesh});
   problem.friction_model = FrictionModel::pyramid;
   problem.phases[2].contacts[0].place = problem.surfaces[1].point;
-  expect_derivatives(problem);
+  expect_derivatives({problem, mesh});
 }
 
 TEST(CentroidalNlp, DerivativesHoldForFlatFeet) {
-  MotionProblem problem = everything(
+  auto [problem, mesh] = everything(
       test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1), free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});
   problem.running_cost.force_weight *= 0.1;  // heavier than HyQ: a cost of the same size, against rounding
-  expect_derivatives(problem, 0.5);
+  expect_derivatives({problem, mesh}, 0.5);
 }
 
 TEST(CentroidalNlp, WithoutItsRowsTheHessianIsThatOfTheCost) {
-  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  CentroidalNlp nlp(problem, mesh, guess);
+  const auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);
+  CentroidalNlp nlp(discrete, guess);
   const VectorXd z = nlp.pack(guess);
   VectorXd exact(nlp.hessian_pattern().size()), gauss_newton = exact, of_cost = exact;
   std::mt19937 rng(5);
@@ -132,10 +133,10 @@ void PrintTo(const Counts& counts, std::ostream* out) { *out << counts.variables
 Counts counts_of_a_node(const Formulation& formulation, bool with_knee_curves = true) {
   const auto counts = [&](int intervals) {
     const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml";
-    MotionProblem problem = read_task_file(file, test::test_search(), {.intervals = intervals}).problem;
-    if (!with_knee_curves) problem.robot = test::hyq();
-    const Mesh mesh = make_mesh(problem);
-    const auto nlp = make_formulation(formulation, problem, mesh, initial_guess(problem, mesh));
+    Task task = read_task_file(file, test::test_search(), {.intervals = intervals});
+    if (!with_knee_curves) task.problem.robot = test::hyq();
+    const DiscreteProblem discrete(task.problem, task.mesh);
+    const auto nlp = make_formulation(formulation, discrete, initial_guess(discrete));
     return Counts{nlp->num_variables(), nlp->num_constraints()};
   };
   const Counts few = counts(40), many = counts(80);
@@ -159,7 +160,8 @@ TEST(Formulations, CountsOfANodeBesideThoseOfThePaper) {
 
 /// The sums of both lists are Prowl's counts above.
 TEST(CentroidalNlp, GroupsOfANodeSayWhatItsCountsAre) {
-  CentroidalNlp nlp = make_nlp(task_problem("hyq/crouch"));
+  const DiscreteProblem discrete = task_problem("hyq/crouch").discrete();
+  CentroidalNlp nlp = make_nlp(discrete);
   const std::vector<RowGroup> variables = nlp.variable_groups(7), constraints = nlp.constraint_groups(7);
   EXPECT_THAT(variables,
               testing::ElementsAre(group("q", 18), group("v", 18), group("r", 3), group("r'", 3), group("h", 3),
@@ -175,12 +177,13 @@ TEST(CentroidalNlp, GroupsOfANodeSayWhatItsCountsAre) {
 }
 
 TEST(CentroidalNlp, GroupsAreAllThatThereIs) {
-  const MotionProblem problem =
+  const auto [problem, mesh] =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                                phase_on("landed", {0, 1, 2, 3}, 0.2, 2)});
-  CentroidalNlp nlp = make_nlp(problem);
+  const DiscreteProblem discrete(problem, mesh);
+  CentroidalNlp nlp = make_nlp(discrete);
   int variables = 1, constraints = 0;  // the free duration
-  for (int k = 0; k < make_mesh(problem).size(); ++k) {
+  for (int k = 0; k < discrete.num_nodes(); ++k) {
     variables += sum(nlp.variable_groups(k));
     constraints += sum(nlp.constraint_groups(k));
   }
@@ -189,9 +192,10 @@ TEST(CentroidalNlp, GroupsAreAllThatThereIs) {
 }
 
 TEST(CentroidalNlp, SaysInWordsWhatRowsAndVariablesAre) {
-  const MotionProblem problem =
+  const auto [problem, mesh] =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2)});
-  CentroidalNlp nlp = make_nlp(problem);
+  const DiscreteProblem discrete(problem, mesh);
+  CentroidalNlp nlp = make_nlp(discrete);
   std::vector<std::string> rows, variables;
   for (int i = 0; i < nlp.num_constraints(); ++i) rows.push_back(nlp.describe_constraint(i));
   for (int i = 0; i < nlp.num_variables(); ++i) variables.push_back(nlp.describe_variable(i));
@@ -208,18 +212,18 @@ TEST(CentroidalNlp, SaysInWordsWhatRowsAndVariablesAre) {
 }
 
 TEST(CentroidalNlp, UnpackUndoesPack) {
-  const MotionProblem problem =
+  const auto [problem, mesh] =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 3), phase_on("two", {0, 3}, 0.2, 2)});
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  CentroidalNlp nlp(problem, mesh, guess);
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);
+  CentroidalNlp nlp(discrete, guess);
   const Trajectory motion = nlp.unpack(nlp.pack(guess));
-  for (int k = 0; k < mesh.size(); ++k) {
+  for (int k = 0; k < discrete.num_nodes(); ++k) {
     const TrajectoryPoint &was = guess.nodes[k], &is = motion.nodes[k];
     EXPECT_NEAR(is.time, was.time, 1e-12);
     EXPECT_LT((is.q - was.q).norm(), 1e-12);
     EXPECT_LT((is.v - was.v).norm(), 1e-12);
-    if (mesh.nodes[k].node > 0) EXPECT_LT((is.force - was.force).norm(), 1e-9);
+    if (discrete.nodes[k].node > 0) EXPECT_LT((is.force - was.force).norm(), 1e-9);
   }
   VectorXd z = nlp.pack(guess);
   z(3) = std::numeric_limits<double>::quiet_NaN();
@@ -228,12 +232,13 @@ TEST(CentroidalNlp, UnpackUndoesPack) {
 
 TEST(CentroidalNlp, RefusesWhatItCannotSay) {
   MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, -0.05});
-  EXPECT_NO_THROW(make_nlp(problem));
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  EXPECT_THROW(make_centroidal({.dynamics = "centroidal", .transcription = "rk4"}, problem, mesh, guess), InputError);
+  const DiscreteProblem discrete = test::on_even_mesh(problem, 8);
+  EXPECT_NO_THROW(make_nlp(discrete));
+  const Trajectory guess = initial_guess(discrete);
+  EXPECT_THROW(make_centroidal({.dynamics = "centroidal", .transcription = "rk4"}, discrete, guess), InputError);
   problem.boundary_conditions[1].torque_upper.setConstant(10.0);
-  EXPECT_THROW(make_nlp(problem), InputError);
+  const DiscreteProblem with_torques = test::on_even_mesh(problem, 8);
+  EXPECT_THROW(make_nlp(with_torques), InputError);
 }
 
 /// Forces, moments and momenta of a motion by its q, v and forces alone.
@@ -289,8 +294,8 @@ double drift(const MotionProblem& problem, const Trajectory& motion) {
 
 TEST(CentroidalNlp, StandsAndCrouchesWithTheForcesThatItsMomentumNeeds) {
   for (const char* name : {"hyq/stand", "hyq/crouch"}) {
-    const MotionProblem problem = task_problem(name);
-    const FormulationRun run = solve(problem, "centroidal");
+    const auto [problem, mesh] = task_problem(name);
+    const FormulationRun run = solve({problem, mesh}, "centroidal");
     ASSERT_EQ(run.result.status, SolveStatus::converged) << name;
     expect_balance(problem, run.motion);
     EXPECT_LT(drift(problem, run.motion), 1e-5) << name;
@@ -310,38 +315,34 @@ TEST(CentroidalNlp, StandsAndCrouchesWithTheForcesThatItsMomentumNeeds) {
 /// Its motion costs a whole robot hardly more than the best that a whole-body program finds, and what it leaves on the
 /// base goes down with the step.
 TEST(CentroidalNlp, InverseDynamicsAgreeWithItBetterOnAFinerMesh) {
-  MotionProblem problem = task_problem("hyq/stand");
-  const FormulationRun whole_body = solve(problem, "inverse");
+  auto [problem, mesh] = task_problem("hyq/stand");
+  const FormulationRun whole_body = solve({problem, mesh}, "inverse");
   const InverseDynamicsCheck itself = check_by_inverse_dynamics(problem, whole_body.motion);
   EXPECT_NEAR(itself.cost, whole_body.result.cost, 1e-5 * whole_body.result.cost);
   EXPECT_LT(itself.worst_base_force, 1e-5);
   EXPECT_LT(itself.worst_base_moment, 1e-5);
 
-  const InverseDynamicsCheck coarse = check_by_inverse_dynamics(problem, solve(problem, "centroidal").motion);
+  const InverseDynamicsCheck coarse = check_by_inverse_dynamics(problem, solve({problem, mesh}, "centroidal").motion);
   EXPECT_GT(coarse.cost, whole_body.result.cost);
   EXPECT_LT(coarse.cost, 1.03 * whole_body.result.cost);
   EXPECT_GT(coarse.mean_base_force, 0.0);
-  problem.phases[0].intervals *= 2;
-  problem.boundary_conditions[1].at.node *= 2;
-  const InverseDynamicsCheck fine = check_by_inverse_dynamics(problem, solve(problem, "centroidal").motion);
+  mesh.phases[0] = PhaseMesh(2 * mesh.phases[0].intervals());
+  const InverseDynamicsCheck fine = check_by_inverse_dynamics(problem, solve({problem, mesh}, "centroidal").motion);
   EXPECT_LT(fine.mean_base_force, 0.6 * coarse.mean_base_force);
   EXPECT_LT(fine.cost, coarse.cost);
 }
 
 /// A fifth of the step's mesh: its contact opens, swings over its clearance, and lands at rest where the task has it.
 TEST(CentroidalNlp, Steps) {
-  MotionProblem problem = task_problem("hyq/step");
-  for (Phase& phase : problem.phases) phase.intervals /= 5;
-  problem.boundary_conditions[1].at.node /= 5;
-  const FormulationRun run = solve(problem, "centroidal");
+  auto [problem, mesh] = task_problem("hyq/step");
+  for (PhaseMesh& phase : mesh.phases) phase = PhaseMesh(phase.intervals() / 5);
+  const DiscreteProblem discrete(problem, mesh);
+  const FormulationRun run = solve(discrete, "centroidal");
   ASSERT_EQ(run.result.status, SolveStatus::converged);
-  const Mesh mesh = make_mesh(problem);
   const int lf = problem.robot.contact_index("lf_foot");
-  const auto at = [&](int phase, int node) -> const TrajectoryPoint& {
-    return run.motion.nodes[mesh.index({phase, node})];
-  };
-  const TrajectoryPoint &landing = at(2, 0), &before = at(0, problem.phases[0].intervals);
-  const TrajectoryPoint& middle = at(1, problem.phases[1].intervals / 2);
+  const std::vector<TrajectoryPoint>& nodes = run.motion.nodes;
+  const TrajectoryPoint &landing = nodes[discrete.mesh.first_node(2)], &before = nodes[discrete.mesh.last_node(0)];
+  const TrajectoryPoint& middle = nodes[discrete.mesh.node(1, discrete.mesh.phases[1].intervals() / 2)];
   RigidBodyTerms terms(problem.robot);
   ContactKinematics foot({lf});
   terms.update_kinematics(landing.q);
@@ -352,7 +353,7 @@ TEST(CentroidalNlp, Steps) {
   EXPECT_LT(before.force.segment<3>(3 * lf).norm(), 1e-3);
   terms.update_kinematics(middle.q);
   EXPECT_GT(terms.contact_position(lf).z() - radius, 0.95 * problem.swing_clearance);
-  const double best = solve(problem, "inverse").result.cost;
+  const double best = solve(discrete, "inverse").result.cost;
   EXPECT_NEAR(check_by_inverse_dynamics(problem, run.motion).cost, best, 0.02 * best);
 }
 

@@ -19,28 +19,28 @@ using test::everything;
 using test::free_phase;
 using test::phase_on;
 
-MotionProblem two_phases() {
-  return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 1), phase_on("three", {0, 1, 3}, 0.2, 1)});
+DiscreteProblem two_phases() {
+  return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 1), phase_on("three", {0, 1, 3}, 0.2, 1)})
+      .discrete();
 }
 
 // Steps of 0.1 s: an explicit rule bends so much over longer ones that differences are not good to 1e-6.
-MotionProblem one_phase() { return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.1, 1)}); }
+DiscreteProblem one_phase() { return everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.1, 1)}).discrete(); }
 
 /// Contacts that open and land, durations and places that are variables.
-MotionProblem a_step() {
-  MotionProblem problem =
+DiscreteProblem a_step() {
+  auto [problem, mesh] =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 1), phase_on("lifted", {1, 2, 3}, 0.1, 1),
                                free_phase("landed", {0, 1, 2, 3}, 1)});
   problem.phases.front().duration = problem.phases.back().duration = {0.05, 0.15};
   problem.swing_clearance = 0.05;
   problem.running_cost.time_weight = 2.3;
-  return problem;
+  return {std::move(problem), std::move(mesh)};
 }
 
-void expect_derivatives(const MotionProblem& problem, const Formulation& formulation) {
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  const auto nlp = make_collocation(formulation, problem, mesh, guess);
+void expect_derivatives(const DiscreteProblem& discrete, const Formulation& formulation) {
+  const Trajectory guess = initial_guess(discrete);
+  const auto nlp = make_collocation(formulation, discrete, guess);
   std::mt19937 rng(5);
   const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.02);
   const Eigen::VectorXd multipliers = test::random_vector(rng, nlp->num_constraints(), 2.0);
@@ -91,12 +91,11 @@ TEST(Collocation, DerivativesHoldForFreeDurationsAndPlaces) {
 
 /// Without the bending of the rows it is the same at all multipliers.
 TEST(Collocation, GaussNewtonLeavesOutTheRows) {
-  const MotionProblem problem = a_step();
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
+  const DiscreteProblem discrete = a_step();
+  const Trajectory guess = initial_guess(discrete);
   for (const std::string dynamics : {"inverse", "forward", "kkt"}) {
     SCOPED_TRACE(dynamics);
-    const auto nlp = make_collocation({.dynamics = dynamics, .orientation = "euler"}, problem, mesh, guess);
+    const auto nlp = make_collocation({.dynamics = dynamics, .orientation = "euler"}, discrete, guess);
     nlp->use_hessian(HessianKind::gauss_newton);
     std::mt19937 rng(7);
     const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.02);
@@ -114,10 +113,9 @@ TEST(Collocation, GaussNewtonLeavesOutTheRows) {
 
 /// What a rule has in the middle of an interval comes back too, where the motion has it: cubics, and the torque there.
 TEST(Collocation, PacksWhatItUnpacked) {
-  const MotionProblem problem = a_step();
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  const auto nlp = make_collocation({.dynamics = "forward", .transcription = "hermite-simpson"}, problem, mesh, guess);
+  const DiscreteProblem discrete = a_step();
+  const Trajectory guess = initial_guess(discrete);
+  const auto nlp = make_collocation({.dynamics = "forward", .transcription = "hermite-simpson"}, discrete, guess);
   std::mt19937 rng(8);
   const Eigen::VectorXd z = nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.05);
   // Of places only the nodes know, where the contact is.
@@ -127,12 +125,11 @@ TEST(Collocation, PacksWhatItUnpacked) {
 
 /// A motion in and out again is the same motion.
 TEST(Collocation, UnpacksWhatItPacked) {
-  const MotionProblem problem = a_step();
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
+  const DiscreteProblem discrete = a_step();
+  const Trajectory guess = initial_guess(discrete);
   for (const std::string& orientation : orientation_names()) {
     for (const std::string rule : {"trapezoid", "hermite-simpson-separated"}) {
-      const auto nlp = make_collocation({.transcription = rule, .orientation = orientation}, problem, mesh, guess);
+      const auto nlp = make_collocation({.transcription = rule, .orientation = orientation}, discrete, guess);
       const Trajectory back = nlp->unpack(nlp->pack(guess));
       ASSERT_EQ(back.nodes.size(), guess.nodes.size());
       for (std::size_t k = 0; k < back.nodes.size(); ++k) {
@@ -148,14 +145,13 @@ TEST(Collocation, UnpacksWhatItPacked) {
 
 /// The acceleration that the forward form eliminates is that of the paper's formula, where contacts are not stabilised.
 TEST(Collocation, ForwardFormHasThePapersAcceleration) {
-  const MotionProblem problem = two_phases();
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  const auto nlp = make_collocation({.dynamics = "forward", .contact = "distance"}, problem, mesh, guess);
+  const DiscreteProblem discrete = two_phases();
+  const Trajectory guess = initial_guess(discrete);
+  const auto nlp = make_collocation({.dynamics = "forward", .contact = "distance"}, discrete, guess);
   std::mt19937 rng(6);
   const Trajectory motion = nlp->unpack(nlp->pack(guess) + test::random_vector(rng, nlp->num_variables(), 0.2));
   for (const TrajectoryPoint& point : motion.nodes) {
-    ForwardDynamics dynamics(problem.robot, point.phase == 0 ? std::vector{0, 1, 2, 3} : std::vector{0, 1, 3});
+    ForwardDynamics dynamics(discrete.problem.robot, point.phase == 0 ? std::vector{0, 1, 2, 3} : std::vector{0, 1, 3});
     dynamics.evaluate(point.q, point.v, point.tau);
     EXPECT_LT((point.a - dynamics.acceleration()).norm(), 1e-9 * dynamics.acceleration().norm());
   }
@@ -164,48 +160,44 @@ TEST(Collocation, ForwardFormHasThePapersAcceleration) {
 /// HyQ on four feet, a node inside: 36 states and 12 torques, and nothing else but the step that the paper counts with
 /// them.
 TEST(Collocation, ForwardFormHasThePapersVariables) {
-  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 1.0, 5)});
-  const Mesh mesh = make_mesh(problem);
-  const auto nlp =
-      make_collocation({.dynamics = "forward", .contact = "distance"}, problem, mesh, initial_guess(problem, mesh));
+  const DiscreteProblem discrete = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 1.0, 5)}).discrete();
+  const auto nlp = make_collocation({.dynamics = "forward", .contact = "distance"}, discrete, initial_guess(discrete));
   EXPECT_EQ(nlp->num_variables(), 6 * 48);
   // Over each interval 36 defects; a node 4 cones, and each but the first 4 distances.
   EXPECT_EQ(nlp->num_constraints(), 5 * 36 + 6 * 4 + 5 * 4);
 }
 
 TEST(Collocation, RefusesWhatDoesNotGoTogether) {
-  const MotionProblem problem = two_phases();
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  EXPECT_THROW(make_formulation({.transcription = "rk4"}, problem, mesh, guess), InputError);
-  EXPECT_THROW(make_formulation({.transcription = "simpson"}, problem, mesh, guess), InputError);
+  const DiscreteProblem discrete = two_phases();
+  const Trajectory guess = initial_guess(discrete);
+  EXPECT_THROW(make_formulation({.transcription = "rk4"}, discrete, guess), InputError);
+  EXPECT_THROW(make_formulation({.transcription = "simpson"}, discrete, guess), InputError);
 }
 
 /// The four corners of a flat foot: eight points with 24 rows, 12 of which are new.
 TEST(Collocation, TakesContactsThatDependOnEachOtherOnlyStabilisedAndWithoutForces) {
-  const MotionProblem problem = everything(test::talos(), {phase_on("feet", {0, 1, 2, 3, 4, 5, 6, 7}, 0.1, 1)});
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  expect_derivatives(problem, {.orientation = "euler"});
-  EXPECT_THROW(make_formulation({.dynamics = "kkt"}, problem, mesh, guess), InputError);
-  EXPECT_THROW(make_formulation({.dynamics = "forward", .contact = "distance"}, problem, mesh, guess), InputError);
+  const DiscreteProblem discrete =
+      everything(test::talos(), {phase_on("feet", {0, 1, 2, 3, 4, 5, 6, 7}, 0.1, 1)}).discrete();
+  const Trajectory guess = initial_guess(discrete);
+  expect_derivatives(discrete, {.orientation = "euler"});
+  EXPECT_THROW(make_formulation({.dynamics = "kkt"}, discrete, guess), InputError);
+  EXPECT_THROW(make_formulation({.dynamics = "forward", .contact = "distance"}, discrete, guess), InputError);
 }
 
 TEST(Collocation, RefusesStepsOfDifferentLength) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.1, 2)});
-  problem.phases.front().shares = {0.25, 0.75};
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  EXPECT_NO_THROW(make_formulation({}, problem, mesh, guess));
-  EXPECT_THROW(make_formulation({.dynamics = "forward"}, problem, mesh, guess), InputError);
-  EXPECT_THROW(make_formulation({.dynamics = "centroidal"}, problem, mesh, guess), InputError);
+  auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.1, 2)});
+  mesh.phases.front() = PhaseMesh({0.25, 0.75});
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);
+  EXPECT_NO_THROW(make_formulation({}, discrete, guess));
+  EXPECT_THROW(make_formulation({.dynamics = "forward"}, discrete, guess), InputError);
+  EXPECT_THROW(make_formulation({.dynamics = "centroidal"}, discrete, guess), InputError);
 }
 
 TEST(Collocation, SaysWhatRowsAndVariablesAre) {
-  const MotionProblem problem = a_step();
-  const Mesh mesh = make_mesh(problem);
-  const auto nlp = make_collocation({.dynamics = "kkt", .transcription = "hermite-simpson"}, problem, mesh,
-                                    initial_guess(problem, mesh));
+  const DiscreteProblem discrete = a_step();
+  const auto nlp =
+      make_collocation({.dynamics = "kkt", .transcription = "hermite-simpson"}, discrete, initial_guess(discrete));
   std::vector<std::string> rows, variables;
   for (int i = 0; i < nlp->num_constraints(); ++i) rows.push_back(nlp->describe_constraint(i));
   for (int i = 0; i < nlp->num_variables(); ++i) variables.push_back(nlp->describe_variable(i));

@@ -23,7 +23,7 @@ void expect_order(double order, const Formulation& formulation, const Trajectory
 
 TEST(Order, TrapezoidIsOfOrderTwoHermiteSimpsonAndRungeKuttaOfOrderFour) {
   const TrajectoryPoint truth = end_of_given_motion({.transcription = "hermite-simpson"}, 128);
-  const MotionProblem problem = test::given_motion(1);
+  const MotionProblem problem = test::given_motion(1).problem;
   const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(problem.robot.nv());
   EXPECT_GT(state_error(truth, {.q = problem.start_configuration(), .v = at_rest}).q, 0.02) << "nothing moves";
   expect_order(2.0, {}, truth);

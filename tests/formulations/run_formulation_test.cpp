@@ -9,23 +9,24 @@
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
 #include "prowl/transcription/transcription.hpp"
+#include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 
 namespace prowl {
 namespace {
 
 /// HyQ moves its base by 5 cm with little torque.
-MotionProblem shift() {
+DiscreteProblem shift() {
   MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.05, 0.0, -0.02});
   problem.running_cost.torque_weight.setConstant(1e-3);
   problem.running_cost.velocity_weight.setConstant(1e-1);
-  return problem;
+  return test::on_even_mesh(std::move(problem), 8);
 }
 
 TEST(RunFormulation, OfTheDefaultIsWhatMakePlanDoes) {
-  const MotionProblem problem = shift();
-  const FormulationRun run = run_formulation(problem, {}, RiccatiSolver(), {});
-  const Plan plan = make_plan(problem, RiccatiSolver(), {.coarse_first = false});
+  const DiscreteProblem discrete = shift();
+  const FormulationRun run = run_formulation(discrete, {}, RiccatiSolver(), {});
+  const Plan plan = make_plan(discrete, RiccatiSolver(), {.coarse_first = false});
   ASSERT_EQ(run.result.status, SolveStatus::converged) << run.result.message;
   EXPECT_EQ(run.result.cost, plan.result.cost);
   EXPECT_EQ(run.result.iterations, plan.result.iterations);
@@ -45,10 +46,10 @@ TEST(RunFormulation, OfTheDefaultIsWhatMakePlanDoes) {
 }
 
 TEST(RunFormulation, TakesTheHessianThatIsAskedFor) {
-  const MotionProblem problem = shift();
+  const DiscreteProblem discrete = shift();
   const SolverOptions options{.max_iterations = 500};
-  const FormulationRun exact = run_formulation(problem, {}, IpoptSolver(), options);
-  const FormulationRun other = run_formulation(problem, {}, IpoptSolver(), options, HessianKind::gauss_newton);
+  const FormulationRun exact = run_formulation(discrete, {}, IpoptSolver(), options);
+  const FormulationRun other = run_formulation(discrete, {}, IpoptSolver(), options, HessianKind::gauss_newton);
   ASSERT_EQ(exact.result.status, SolveStatus::converged);
   ASSERT_EQ(other.result.status, SolveStatus::converged);
   EXPECT_NE(exact.result.iterations, other.result.iterations);

@@ -43,7 +43,8 @@ const std::map<std::string, Read> kReaders = {
     {"plan", [](const SourceText& s) { plan_from_json(s, {}); }},
     {"trajectory",
      [](const SourceText& s) {
-       trajectory_from_csv(parse_task({"task.toml", fuzz::kTask}, kRobot, {}, {}, kUrdf).problem, s);
+       const Task task = parse_task({"task.toml", fuzz::kTask}, kRobot, {}, {}, kUrdf);
+       trajectory_from_csv(task.problem, task.mesh, s);
      }},
     {"tracker", [](const SourceText& s) {
        try {

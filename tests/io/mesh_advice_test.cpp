@@ -36,10 +36,9 @@ class MeshAdvice : public testing::Test {
   /// A plan that converged with this largest integration error.
   PlanRecord record(double error, const TaskOverrides& overrides = {}) const {
     PlanRecord record{.task = read(overrides), .plan = {}, .versions = {}};
-    for (const Phase& phase : record.task.problem.phases) {
-      for (int i = 0; i < phase.intervals; ++i)
-        record.plan.certificate.interval_errors.push_back({0.0, 0.1, 1e-9, "v"});
-    }
+    record.plan.mesh = record.task.mesh;
+    for (int i = 0; i < record.plan.mesh.num_intervals(); ++i)
+      record.plan.certificate.interval_errors.push_back({0.0, 0.1, 1e-9, "v"});
     record.plan.certificate.interval_errors[3].error = error;
     record.plan.result.status = SolveStatus::converged;
     return record;
@@ -78,8 +77,7 @@ TEST_F(MeshAdvice, SpeaksOfWhatIsMissingOnly) {
 /// Of a mesh of steps that differ no number of equal ones follows.
 TEST_F(MeshAdvice, OfAnUnevenMeshIsToRefineIt) {
   PlanRecord plan = record(5e-5);
-  Phase& phase = plan.task.problem.phases[0];
-  phase.shares.assign(static_cast<std::size_t>(phase.intervals), 1.0 / phase.intervals);
+  plan.plan.mesh.phases[0] = PhaseMesh({1.0, 1.0, 1.0, 1.0, 2.0});
   EXPECT_THAT(
       mesh_advice(plan),
       testing::EndsWith(

@@ -4,19 +4,22 @@
 
 #include <nlohmann/json.hpp>
 
-#include "tests/support/robots.hpp"
+#include "tests/support/standing_problem.hpp"
 
 namespace prowl {
 namespace {
 
 /// A foot goes from the floor to a step; another one hangs in the air all the time.
-MotionProblem step_up() {
-  MotionProblem problem{.name = "step up", .robot = test::hyq()};
-  problem.surfaces = {Surface{}, Surface{.name = "step", .point = {0.0, 0.0, 0.1}}};
-  problem.phases = {{"stand", {{1, 0}, {0, 0}, {2, 0}}, {0.5, 0.5}, 10},
-                    {"swing", {{1, 0}, {2, 0}}, {0.25, 1.0}, 8},
-                    {"land", {{0, 1, Eigen::Vector3d(0.4, 0.3, 0.1)}, {1, 0}, {2, 0}}, {1.0, 1.0}, 12}};
-  return problem;
+DiscreteProblem step_up() {
+  MotionProblem problem = test::standing_problem();
+  problem.name = "step up";
+  const Surface step{
+      .name = "step", .point = {0.4, 0.3, 0.1}, .patch = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}};
+  problem.surfaces = {Surface{}, step};
+  problem.phases = {{"stand", {{1, 0}, {0, 0}, {2, 0}}, {0.5, 0.5}},
+                    {"swing", {{1, 0}, {2, 0}}, {0.25, 1.0}},
+                    {"land", {{0, 1, step.point}, {1, 0}, {2, 0}}, {1.0, 1.0}}};
+  return {std::move(problem), {{PhaseMesh(10), PhaseMesh(8), PhaseMesh(12)}}};
 }
 
 TEST(PhaseTable, SaysWhoHoldsWhatAndWhen) {

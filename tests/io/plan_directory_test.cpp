@@ -5,8 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "prowl/io/trajectory_csv.hpp"
-#include "prowl/transcription/mesh.hpp"
-#include "prowl/transcription/remesh.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "test_files.hpp"
 
 namespace prowl {
@@ -22,11 +21,12 @@ PlanRecord make_record(const std::filesystem::path& folder) {
                                {folder / "hyq.toml", test::kHyqFile}, test::test_search());
   std::srand(7);  // Eigen's random vectors
   Plan plan;
+  plan.mesh = task.mesh;
   double begin = 0.0;
   for (int p = 0; p < 2; ++p) {
     const Phase& phase = task.problem.phases[p];
-    for (int i = 0; i <= phase.intervals; ++i) {
-      TrajectoryPoint point{.time = begin + phase.duration.min * i / phase.intervals,
+    for (int i = 0; i <= task.mesh.phases[p].intervals(); ++i) {
+      TrajectoryPoint point{.time = begin + phase.duration.min * i / task.mesh.phases[p].intervals(),
                             .phase = p,
                             .q = task.problem.start_configuration(),
                             .v = Eigen::VectorXd::Random(18),
@@ -247,12 +247,13 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
 }
 
-/// Another mesh than the task has: steps that differ, goals at other nodes.
+/// Another mesh than the task has: steps that differ, goals at other nodes of it.
 TEST_F(PlanDirectory, ReadsTheMeshThatAPlanWasRefinedTo) {
   PlanRecord record = record_;
-  record.task.problem = on_mesh(record_.task.problem, {{1.0, 2.0, 4.0}, {1.0, 1.0}});
+  record.plan.mesh = {{PhaseMesh({1.0, 2.0, 4.0}), PhaseMesh(2)}};
   record.plan.trajectory = {};
-  for (const MeshNode& node : make_mesh(record.task.problem).nodes) {
+  const DiscreteProblem discrete(record.task.problem, record.plan.mesh);
+  for (const MeshNode& node : discrete.nodes) {
     record.plan.trajectory.nodes.push_back(record_.plan.trajectory.nodes[node.phase == 0 ? 0u : 6u]);
     record.plan.trajectory.nodes.back().time = node.time;
   }
@@ -262,11 +263,12 @@ TEST_F(PlanDirectory, ReadsTheMeshThatAPlanWasRefinedTo) {
   for (std::size_t i = 0; i < 7; ++i)
     EXPECT_EQ(read.plan.trajectory.nodes[i].time, record.plan.trajectory.nodes[i].time);
   EXPECT_NEAR(read.plan.trajectory.nodes[1].time, 2.0 / 7.0, 1e-12);
-  EXPECT_EQ(read.task.problem.phases[0].intervals, 3);
-  EXPECT_THAT(read.task.problem.phases[0].shares,
+  EXPECT_EQ(read.plan.mesh.phases[0].intervals(), 3);
+  EXPECT_THAT(read.plan.mesh.phases[0].shares(),
               testing::Pointwise(testing::DoubleNear(1e-15), {1 / 7.0, 2 / 7.0, 4 / 7.0}));
-  EXPECT_EQ(read.task.problem.phases[1].intervals, 2);
-  EXPECT_TRUE(read.task.problem.phases[1].shares.empty());
+  EXPECT_EQ(read.plan.mesh.phases[1].intervals(), 2);
+  EXPECT_TRUE(read.plan.mesh.phases[1].is_even());
+  EXPECT_EQ(read.task.mesh.phases[0].intervals(), 5) << "that of the task stays";
   for (std::size_t i = 0; i < read.task.problem.boundary_conditions.size(); ++i) {
     EXPECT_EQ(read.task.problem.boundary_conditions[i].at, record.task.problem.boundary_conditions[i].at);
   }

@@ -30,6 +30,7 @@ const PlanRecord& stand() {
   static const PlanRecord record = [] {
     test::SolvedTask solved = test::solve_task("hyq/stand");
     PlanRecord made{.task = std::move(solved.task), .plan = {}, .versions = {{"prowl", "1.2.3"}}};
+    made.plan.mesh = made.task.mesh;
     made.plan.trajectory = std::move(solved.trajectory);
     made.plan.solver = "Riccati";
     return made;

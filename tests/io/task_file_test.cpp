@@ -33,7 +33,7 @@ TEST_F(TaskFile, GivesTheProblemThatItDescribes) {
   ASSERT_EQ(problem.phases.size(), 1u);
   EXPECT_EQ(problem.phases[0].contacts.size(), 4u);
   EXPECT_EQ(problem.phases[0].duration.min, 2.0);
-  EXPECT_EQ(problem.phases[0].intervals, 5);
+  EXPECT_EQ(task.mesh.phases[0].intervals(), 5);
   ASSERT_EQ(problem.surfaces.size(), 1u);
   EXPECT_EQ(problem.surfaces[0].friction, 0.5);
   EXPECT_EQ(problem.running_cost.torque_weight, Eigen::VectorXd::Constant(12, 1e-3));
@@ -50,17 +50,19 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
   const auto goal_at = [&](const std::string& fraction) {
     return read(test::replaced(with_steps, "[start]", fraction + "\n[start]")).problem.boundary_conditions[1].at;
   };
-  const MotionProblem problem = read(with_steps).problem;
+  const Task task = read(with_steps);
+  const MotionProblem& problem = task.problem;
   ASSERT_EQ(problem.phases.size(), 5u);
+  ASSERT_EQ(task.mesh.phases.size(), 5u);
+  for (const PhaseMesh& phase : task.mesh.phases) EXPECT_EQ(phase.intervals(), 1);
   for (const Phase& phase : problem.phases) {
-    EXPECT_EQ(phase.intervals, 1);
     EXPECT_EQ(phase.duration.min, 0.2);
     EXPECT_EQ(phase.duration.max, 0.4);
   }
   EXPECT_EQ(problem.phases[3].name, "stand step 4");
-  EXPECT_EQ(problem.boundary_conditions[1].at, (NodeRef{4, 1})) << "the goal is at the end of the whole phase";
-  EXPECT_EQ(goal_at("fraction = 0.4"), (NodeRef{1, 1}));
-  EXPECT_EQ(goal_at("fraction = 0"), (NodeRef{0, 0}));
+  EXPECT_EQ(problem.boundary_conditions[1].at, PhaseFraction::end_of(4)) << "the goal is at the end of the whole phase";
+  EXPECT_EQ(goal_at("fraction = 0.4"), PhaseFraction::end_of(1));
+  EXPECT_EQ(goal_at("fraction = 0"), PhaseFraction::start_of(0));
   EXPECT_EQ(read(with_steps, kHyqFile, {.intervals = 8}).problem.phases.size(), 8u);
   EXPECT_THAT(message_of(test::replaced(with_steps, "intervals = 5", "intervals = 201")),
               HasSubstr("phase[0].steps: 201 free steps are not allowed; need at most 200"));
@@ -75,7 +77,7 @@ TEST_F(TaskFile, StartIsFixedAndGoalBindsWhatIsNamed) {
   EXPECT_TRUE(problem.start().velocity_lower.isZero(0.0) && problem.start().velocity_upper.isZero(0.0));
 
   const BoundaryCondition& goal = problem.boundary_conditions[1];
-  EXPECT_EQ(goal.at, (NodeRef{0, 5}));
+  EXPECT_EQ(goal.at, PhaseFraction::end_of(0));
   const Eigen::Vector3d shift = base_position(goal.q_ref) - base_position(problem.start_configuration());
   EXPECT_NEAR((shift - Eigen::Vector3d(0.05, 0.0, -0.05)).norm(), 0.0, 1e-15);
   EXPECT_EQ(goal.configuration_lower(0), 0.0);
@@ -169,7 +171,7 @@ joints = { rf_kfe_joint = -1.2 }
   EXPECT_EQ(problem.phases[2].contacts[1].contact, problem.robot.contact_index("lf_foot"));
   EXPECT_EQ(problem.phases[2].contacts[1].surface, 1);
   EXPECT_NEAR(problem.surfaces[1].normal.norm(), 1.0, 1e-15);
-  EXPECT_EQ(problem.boundary_conditions[2].at, (NodeRef{2, 2}));
+  EXPECT_EQ(problem.boundary_conditions[2].at, PhaseFraction::end_of(2));
 }
 
 TEST_F(TaskFile, TrackingReplacesTheRobotsDefaults) {
@@ -215,8 +217,8 @@ TEST_F(TaskFile, RefusesTrackingThatMakesNoSense) {
 TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
   const Task task =
       read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5, .tolerance = 1e-9});
-  EXPECT_EQ(task.problem.phases[0].intervals, 40);
-  EXPECT_EQ(task.problem.boundary_conditions[1].at, (NodeRef{0, 40})) << "the goal stays at its time";
+  EXPECT_EQ(task.mesh.phases[0].intervals(), 40);
+  EXPECT_EQ(task.problem.boundary_conditions[1].at, PhaseFraction::end_of(0)) << "the goal stays at its time";
   EXPECT_EQ(task.solver.max_iterations, 7);
   EXPECT_EQ(task.solver.tolerance, 1e-9);
   EXPECT_EQ(task.solver.max_seconds, 1.5);

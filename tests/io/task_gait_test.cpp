@@ -32,16 +32,18 @@ class TaskGait : public test::TaskTest {
 };
 
 TEST_F(TaskGait, StandsForPhasesAndAGoal) {
-  const MotionProblem problem = read(kGaitFile).problem;
+  const Task task = read(kGaitFile);
+  const MotionProblem& problem = task.problem;
   ASSERT_EQ(problem.phases.size(), 1u + 3 * 4 - 1 + 1);
   EXPECT_EQ(problem.phases[1].name, "stride 1: lf_foot and rh_foot swing");
   EXPECT_NEAR(problem.phases[1].duration.min, 0.4 * 0.8, 1e-12);
-  EXPECT_EQ(problem.phases[1].intervals, 16);
+  EXPECT_EQ(task.mesh.phases[1].intervals(), 16);
 
   ASSERT_EQ(problem.boundary_conditions.size(), 2u);
   const BoundaryCondition& goal = problem.boundary_conditions[1];
   EXPECT_EQ(goal.name, "goal 1");
-  EXPECT_EQ(goal.at, (NodeRef{12, 25}));
+  EXPECT_EQ(goal.at, PhaseFraction::end_of(12));
+  EXPECT_EQ(task.mesh.phases[12].intervals(), 25);
   const Eigen::VectorXd moved = difference(problem.start_configuration(), goal.q_ref);
   EXPECT_NEAR((moved.head<3>() - Eigen::Vector3d(0.6, 0.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR(moved.tail(15).norm(), 0.0, 1e-12);
@@ -99,7 +101,7 @@ TEST_F(TaskGait, ClimbsASlope) {
 }
 
 TEST_F(TaskGait, TakesAllItsKeys) {
-  const MotionProblem problem = read(R"(robot = "hyq.toml"
+  const Task task = read(R"(robot = "hyq.toml"
 [[surface]]
 name = "wall"
 point_m = [-2, 0, 0]
@@ -116,14 +118,14 @@ start_s = 0.3
 settle_s = 0.7
 surface = "ground"
 intervals_per_second = 20
-)")
-                                    .problem;
+)");
+  const MotionProblem& problem = task.problem;
   ASSERT_EQ(problem.phases.size(), 6u);
   EXPECT_EQ(problem.phases[0].duration.min, 0.3);
   EXPECT_EQ(problem.phases[5].duration.max, 0.7);
   EXPECT_EQ(problem.phases[1].duration.min, 0.5);
   EXPECT_EQ(problem.phases[1].duration.max, 0.75);
-  EXPECT_EQ(problem.phases[1].intervals, 15);
+  EXPECT_EQ(task.mesh.phases[1].intervals(), 15);
   EXPECT_EQ(problem.phases[1].contacts[0].surface, 1);
 }
 
@@ -133,8 +135,8 @@ TEST_F(TaskGait, OverridesShareOutItsIntervals) {
   int intervals = 0;
   for (const int count : task.file_intervals) intervals += count;
   EXPECT_EQ(intervals, 25 + 3 * (2 * 16 + 2 * 4) - 4 + 25);
-  EXPECT_EQ(task.problem.phases[1].intervals, 34) << "of 166 in all 16 are this phase's";
-  EXPECT_EQ(task.problem.boundary_conditions[1].at, (NodeRef{12, task.problem.phases[12].intervals}));
+  EXPECT_EQ(task.mesh.phases[1].intervals(), 34) << "of 166 in all 16 are this phase's";
+  EXPECT_EQ(task.problem.boundary_conditions[1].at, PhaseFraction::end_of(12));
 }
 
 TEST_F(TaskGait, RefusesPhasesBesideIt) {

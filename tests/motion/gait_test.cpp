@@ -139,19 +139,6 @@ TEST(Gait, GivesEveryPhaseItsShareOfAFreeDuration) {
   EXPECT_NEAR(least, 2 * 0.5 - 0.1 * 0.5, 1e-12);
 }
 
-TEST(Gait, MeshIsNoCoarserThanAskedFor) {
-  Gait gait = gait_of("walk");
-  gait.intervals_per_second = 30.0;
-  for (const Phase& phase : hyq_phases(gait)) {
-    EXPECT_GE(phase.intervals, phase.duration.max * 30.0 - 1e-9) << phase.name;
-    EXPECT_LE(phase.intervals, std::max(2.0, phase.duration.max * 30.0 + 1.0)) << phase.name;
-    EXPECT_GE(phase.intervals, 2) << phase.name;
-  }
-  gait.start = 0.3;
-  gait.intervals_per_second = 50.0;
-  EXPECT_EQ(hyq_phases(gait).front().intervals, 15) << "rounding makes no interval";
-}
-
 TEST(Gait, NamesArePhaseNamesAndUnique) {
   for (const GaitPattern& pattern : gait_patterns()) {
     std::set<std::string> names;

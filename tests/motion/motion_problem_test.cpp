@@ -7,33 +7,29 @@
 
 #include "prowl/error.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/support/zero_cost.hpp"
 
 namespace prowl {
 namespace {
 
+using test::zero_cost;
 using testing::HasSubstr;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-QuadraticCost zero_cost(const RobotModel& robot) {
-  QuadraticCost cost;
-  cost.q_ref = robot.nominal_configuration();
-  cost.configuration_weight = cost.velocity_weight = cost.acceleration_weight = Eigen::VectorXd::Zero(robot.nv());
-  cost.tau_ref = cost.torque_weight = Eigen::VectorXd::Zero(robot.nu());
-  return cost;
-}
-
 /// HyQ stands for a second.
 MotionProblem standing() {
   const RobotModel robot = test::hyq();
-  BoundaryCondition start = BoundaryCondition::unbounded(robot, "start", {0, 0}, robot.nominal_configuration());
+  BoundaryCondition start =
+      BoundaryCondition::unbounded(robot, "start", PhaseFraction::start_of(0), robot.nominal_configuration());
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
   start.velocity_upper.setZero();
-  const BoundaryCondition goal = BoundaryCondition::unbounded(robot, "goal", {0, 5}, robot.nominal_configuration());
-  const Phase phase{"stand", {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {1.0, 1.0}, 5};
+  const BoundaryCondition goal =
+      BoundaryCondition::unbounded(robot, "goal", PhaseFraction::end_of(0), robot.nominal_configuration());
+  const Phase phase{"stand", {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {1.0, 1.0}};
   return {"stand", robot, {Surface{}}, {phase}, {start, goal}, zero_cost(robot), zero_cost(robot), {}};
 }
 
@@ -57,9 +53,9 @@ TEST(MotionProblem, StandingIsAccepted) { EXPECT_EQ(message_for(standing()), "ac
 
 TEST(MotionProblem, AnUnboundedConditionBindsNothing) {
   const RobotModel robot = test::hyq();
-  const auto condition = BoundaryCondition::unbounded(robot, "goal", {1, 2}, robot.nominal_configuration());
+  const auto condition = BoundaryCondition::unbounded(robot, "goal", {1, 0.4}, robot.nominal_configuration());
   EXPECT_EQ(condition.name, "goal");
-  EXPECT_EQ(condition.at, (NodeRef{1, 2}));
+  EXPECT_EQ(condition.at, (PhaseFraction{1, 0.4}));
   EXPECT_EQ(condition.q_ref, robot.nominal_configuration());
   EXPECT_EQ(condition.configuration_lower, Eigen::VectorXd::Constant(18, -kInfinity));
   EXPECT_EQ(condition.configuration_upper, Eigen::VectorXd::Constant(18, kInfinity));
@@ -96,7 +92,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "phases[0].duration: 0 to 1 is not allowed; need 0 < min <= max [s]"},
         Mistake{"duration_order", [](P& p) { p.phases[0].duration = {2.0, 1.0}; }, "phases[0].duration: 2 to 1"},
         Mistake{"duration_nan", [](P& p) { p.phases[0].duration = {kNan, kNan}; }, "phases[0].duration: nan"},
-        Mistake{"intervals", [](P& p) { p.phases[0].intervals = 0; }, "phases[0].intervals: 0"},
         Mistake{"contact", [](P& p) { p.phases[0].contacts[1].contact = 4; },
                 "phases[0].contacts[1].contact: 4 is not allowed; need 0 to 3"},
         Mistake{"surface", [](P& p) { p.phases[0].contacts[1].surface = -1; },
@@ -110,8 +105,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"none", [](P& p) { p.boundary_conditions.clear(); }, "boundary_conditions: an empty list"},
         Mistake{"phase", [](P& p) { p.boundary_conditions[1].at.phase = 1; },
                 "boundary_conditions[1].at.phase: 1 is not allowed; need 0 to 0"},
-        Mistake{"node", [](P& p) { p.boundary_conditions[1].at.node = 6; },
-                "boundary_conditions[1].at.node: 6 is not allowed; need 0 to 5"},
+        Mistake{"fraction", [](P& p) { p.boundary_conditions[1].at.fraction = 1.2; },
+                "boundary_conditions[1].at.fraction: 1.2 is not allowed; need 0 to 1"},
+        Mistake{"fraction_below", [](P& p) { p.boundary_conditions[1].at.fraction = -0.2; },
+                "boundary_conditions[1].at.fraction: -0.2 is not allowed; need 0 to 1"},
+        Mistake{"fraction_nan", [](P& p) { p.boundary_conditions[1].at.fraction = kNan; },
+                "boundary_conditions[1].at.fraction: nan is not allowed"},
         Mistake{"size", [](P& p) { p.boundary_conditions[1].velocity_lower.setZero(12); },
                 "boundary_conditions[1].velocity_lower: 12 entries are not allowed; need 18"},
         Mistake{"order", [](P& p) { p.boundary_conditions[1].torque_lower(3) = kInfinity; },
@@ -134,7 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Start, MotionProblemMistake,
     testing::Values(
-        Mistake{"elsewhere", [](P& p) { p.boundary_conditions[0].at.node = 1; }, "the first condition is the start"},
+        Mistake{"elsewhere", [](P& p) { p.boundary_conditions[0].at.fraction = 0.2; },
+                "the first condition is the start"},
         Mistake{"free_base", [](P& p) { p.boundary_conditions[0].configuration_upper(0) = 0.1; },
                 "the start must be fixed at its q_ref"},
         Mistake{"free_velocity", [](P& p) { p.boundary_conditions[0].velocity_upper(0) = 0.1; },
@@ -189,7 +189,8 @@ INSTANTIATE_TEST_SUITE_P(
                   p.phases.push_back(p.phases[0]);
                   p.boundary_conditions[1].configuration_lower.segment<3>(3).setZero();
                   p.boundary_conditions.push_back(p.boundary_conditions[1]);
-                  p.boundary_conditions[2].at = {1, 0};  // the other side of the switch: the same time
+                  p.boundary_conditions[2].at =
+                      PhaseFraction::start_of(1);  // the other side of the switch: the same time
                 },
                 "boundary_conditions[2].configuration: it binds the base's rotation at the time at which"},
         Mistake{"terminal", [](P& p) { p.terminal_cost.force_weight.setOnes(); },

@@ -11,6 +11,7 @@
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
+#include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 
 /// What a rule of integration makes of given torques: they are linear in time over all of the motion, so that every
@@ -27,34 +28,40 @@ inline Eigen::VectorXd given_torques(const MotionProblem& problem, double t) {
   return 0.95 * tau + t / kGivenDuration * change;
 }
 
-inline MotionProblem given_motion(int intervals) {
+inline DiscreteProblem given_motion(int intervals) {
   MotionProblem problem = standing_problem(hyq(), 0.0, 2.0);
   problem.phases[0].duration = {kGivenDuration, kGivenDuration};
-  problem.phases[0].intervals = intervals;
   BoundaryCondition& start = problem.boundary_conditions.front();
   start.torque_lower = start.torque_upper = given_torques(problem, 0.0);
   for (int k = 1; k <= intervals; ++k) {
-    auto given = BoundaryCondition::unbounded(problem.robot, "torque", {0, k}, problem.start_configuration());
+    auto given =
+        BoundaryCondition::unbounded(problem.robot, "torque", {0, 1.0 * k / intervals}, problem.start_configuration());
     given.torque_lower = given.torque_upper = given_torques(problem, kGivenDuration * k / intervals);
     problem.boundary_conditions.push_back(given);
   }
-  return problem;
+  return on_even_mesh(std::move(problem), intervals);
 }
 
 /// The program with the torques in the middle of intervals given, too.
 struct GivenTorques : MotionNlp {
-  GivenTorques(std::unique_ptr<MotionNlp> program, const MotionProblem& problem)
-      : MotionNlp(*program), inner(std::move(program)) {
-    const int intervals = problem.phases[0].intervals;
+  GivenTorques(std::unique_ptr<MotionNlp> program, const DiscreteProblem& discrete)
+      : MotionNlp(discrete), inner(std::move(program)) {
+    variable_lower_ = inner->variable_lower();
+    variable_upper_ = inner->variable_upper();
+    constraint_lower_ = inner->constraint_lower();
+    constraint_upper_ = inner->constraint_upper();
+    jacobian_pattern_ = inner->jacobian_pattern();
+    hessian_pattern_ = inner->hessian_pattern();
+    const int intervals = discrete.mesh.num_intervals();
     for (int k = 0; k < intervals; ++k) {
-      const Eigen::VectorXd tau = given_torques(problem, kGivenDuration * (k + 0.5) / intervals);
+      const Eigen::VectorXd tau = given_torques(problem(), kGivenDuration * (k + 0.5) / intervals);
       for (int j = 0; j < num_variables(); ++j) {
         const std::string name = describe_variable(j), at = "node " + std::to_string(k) + ",";
         if (name.find(at) == std::string::npos || name.find("in the interval after it, torque") == std::string::npos) {
           continue;
         }
         for (int i = 0; i < tau.size(); ++i) {
-          if (!name.ends_with(problem.robot.joint_names()[i])) continue;
+          if (!name.ends_with(problem().robot.joint_names()[i])) continue;
           variable_lower_(j) = variable_upper_(j) = tau(i);
         }
       }
@@ -74,14 +81,16 @@ struct GivenTorques : MotionNlp {
   std::string describe_variable(int index) const override { return inner->describe_variable(index); }
 
   std::unique_ptr<MotionNlp> inner;
+
+ private:
+  void evaluate_all(const Eigen::VectorXd&, bool) override {}  // the program does
 };
 
 /// Where the motion is at its end. Throws std::runtime_error if the equations are not solved.
 inline TrajectoryPoint end_of_given_motion(const Formulation& formulation, int intervals) {
-  const MotionProblem problem = given_motion(intervals);
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  GivenTorques nlp(make_collocation(formulation, problem, mesh, guess), problem);
+  const DiscreteProblem discrete = given_motion(intervals);
+  const Trajectory guess = initial_guess(discrete);
+  GivenTorques nlp(make_collocation(formulation, discrete, guess), discrete);
   const SolveResult result = IpoptSolver().solve(nlp, nlp.pack(guess), {.tolerance = 1e-11, .max_iterations = 60});
   if (result.status != SolveStatus::converged)
     throw std::runtime_error(formulation.transcription + ": " + result.message);

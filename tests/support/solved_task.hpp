@@ -19,7 +19,7 @@ struct SolvedTask {
 /// A shipped task ("hyq/stand"), planned.
 inline SolvedTask solve_task(const std::string& name) {
   Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test_search());
-  Plan plan = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
+  Plan plan = make_plan({task.problem, task.mesh}, RiccatiSolver(), {.solver = task.solver});
   if (!is_good(plan)) throw std::runtime_error(name + " has no good plan");
   return {std::move(task), std::move(plan.trajectory)};
 }

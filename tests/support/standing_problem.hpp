@@ -7,6 +7,7 @@
 #include "prowl/model/configuration.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/support/zero_cost.hpp"
 
 namespace prowl::test {
 
@@ -18,7 +19,7 @@ inline MotionProblem standing_problem(RobotModel robot = hyq(), double degrees =
   Surface surface{.name = "slope", .friction = friction};
   surface.normal = {-std::sin(angle), 0.0, std::cos(angle)};
   problem.surfaces = {surface};
-  Phase phase{.name = "stand", .duration = {2.0, 2.0}, .intervals = 8};
+  Phase phase{.name = "stand", .duration = {2.0, 2.0}};
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) phase.contacts.push_back({c, 0});
   problem.phases = {phase};
 
@@ -26,19 +27,16 @@ inline MotionProblem standing_problem(RobotModel robot = hyq(), double degrees =
   Eigen::VectorXd q = problem.robot.nominal_configuration();
   q.head<3>() = (turn * q.head<3>()).eval();
   set_base_rotation(q, turn * base_rotation(problem.robot.nominal_configuration()));
-  BoundaryCondition start = BoundaryCondition::unbounded(problem.robot, "start", {0, 0}, q);
+  BoundaryCondition start = BoundaryCondition::unbounded(problem.robot, "start", PhaseFraction::start_of(0), q);
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
   start.velocity_upper.setZero();
   problem.boundary_conditions = {start};
 
-  const int nv = problem.robot.nv(), nu = problem.robot.nu();
-  for (QuadraticCost* cost : {&problem.running_cost, &problem.terminal_cost}) {
-    cost->q_ref = q;
-    cost->configuration_weight = cost->velocity_weight = cost->acceleration_weight = Eigen::VectorXd::Zero(nv);
-    cost->tau_ref = cost->torque_weight = Eigen::VectorXd::Zero(nu);
-  }
+  problem.running_cost = zero_cost(problem.robot);
+  problem.running_cost.q_ref = q;
+  problem.terminal_cost = problem.running_cost;
   return problem;
 }
 
@@ -47,8 +45,7 @@ inline MotionProblem with_base_goal(MotionProblem problem, const Eigen::Vector3d
   Eigen::VectorXd q = problem.start_configuration();
   q.head<3>() += displacement;
   const int last = static_cast<int>(problem.phases.size()) - 1;
-  BoundaryCondition goal =
-      BoundaryCondition::unbounded(problem.robot, "goal 1", {last, problem.phases.back().intervals}, q);
+  BoundaryCondition goal = BoundaryCondition::unbounded(problem.robot, "goal 1", PhaseFraction::end_of(last), q);
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
   problem.boundary_conditions.push_back(goal);

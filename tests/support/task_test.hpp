@@ -5,6 +5,7 @@
 #include <string>
 
 #include "prowl/io/task_file.hpp"
+#include "prowl/mesh/discrete_problem.hpp"
 #include "tests/io/test_files.hpp"
 
 namespace prowl::test {
@@ -18,6 +19,11 @@ class TaskTest : public testing::Test {
   }
   MotionProblem problem(const std::string& task, const std::string& robot = kHyqFile) const {
     return read(task, robot).problem;
+  }
+  /// On its mesh.
+  DiscreteProblem prepared(const std::string& task, const std::string& robot = kHyqFile) const {
+    const Task as_read = read(task, robot);
+    return {as_read.problem, as_read.mesh};
   }
   std::string message_of(const std::string& task, const std::string& robot = kHyqFile) const {
     return test::message_of(folder_.path(), [&] { read(task, robot); });

@@ -14,7 +14,7 @@ namespace {
 FormulationRun crouch(const Formulation& formulation, int intervals) {
   const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml";
   const Task task = read_task_file(file, test::test_search(), {.intervals = intervals});
-  return run_formulation(task.problem, formulation, IpoptSolver(), task.solver);
+  return run_formulation({task.problem, task.mesh}, formulation, IpoptSolver(), task.solver);
 }
 
 void expect_agreement(const Formulation& formulation, int intervals, double cost) {
@@ -40,15 +40,15 @@ TEST(FormulationsAgree, OnTheCostOfCrouchAndPassTheCertificate) {
 TEST(FormulationsAgree, ByBothCodesOfTheDefault) {
   const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml";
   const Task task = read_task_file(file, test::test_search(), {.intervals = 20});
-  const Mesh mesh = make_mesh(task.problem);
-  const Trajectory guess = initial_guess(task.problem, mesh);
+  const DiscreteProblem discrete(task.problem, task.mesh);
+  const Trajectory guess = initial_guess(discrete);
   const auto solved = [&](MotionNlp& nlp) {
     const SolveResult result = IpoptSolver().solve(nlp, nlp.pack(guess), task.solver);
     EXPECT_EQ(result.status, SolveStatus::converged) << result.message;
     return std::pair(result.cost, nlp.unpack(result.z));
   };
-  const auto [cost, motion] = solved(*make_formulation({}, task.problem, mesh, guess));
-  const auto [cost_again, motion_again] = solved(*make_collocation({}, task.problem, mesh, guess));
+  const auto [cost, motion] = solved(*make_formulation({}, discrete, guess));
+  const auto [cost_again, motion_again] = solved(*make_collocation({}, discrete, guess));
   EXPECT_NEAR(cost_again, cost, 1e-5 * cost);
   for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
     EXPECT_LT((motion.nodes[k].q - motion_again.nodes[k].q).cwiseAbs().maxCoeff(), 1e-4);

@@ -33,7 +33,7 @@ joint_acceleration = 0.01
 torque = 1e-5
 )");
   const Task task = read_task_file(folder.path() / "up.toml", test::test_search(), {});
-  Plan plan = make_plan(task.problem, IpoptSolver(), {.solver = task.solver});
+  Plan plan = make_plan({task.problem, task.mesh}, IpoptSolver(), {.solver = task.solver});
   EXPECT_EQ(plan.result.status, SolveStatus::converged) << duration;
   return plan;
 }

@@ -15,9 +15,9 @@ namespace {
 TEST(RiccatiSolver, AllocatesNothingAfterTheSecondIteration) {
   const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/stand.toml";
   const Task task = read_task_file(file, test::test_search(), {.intervals = 24});
-  const Mesh mesh = make_mesh(task.problem);
-  const Trajectory guess = initial_guess(task.problem, mesh);
-  Transcription nlp(task.problem, mesh, guess);
+  const DiscreteProblem discrete(task.problem, task.mesh);
+  const Trajectory guess = initial_guess(discrete);
+  Transcription nlp(discrete, guess);
 
   std::vector<long> counts(static_cast<std::size_t>(task.solver.max_iterations) + 1, 0);
   long ended = 0;

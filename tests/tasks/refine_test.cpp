@@ -15,7 +15,6 @@
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/remesh.hpp"
 
 namespace prowl {
 namespace {
@@ -30,7 +29,7 @@ Task read(const std::string& name, std::optional<int> intervals = std::nullopt) 
 RefinedPlan refine(const Task& task, const NlpSolver& solver = RiccatiSolver(), PlanOptions options = {},
                    RefineOptions refine = {.tolerance = mesh_tolerance(Grade::draft)}) {
   options.solver = task.solver;
-  return make_refined_plan(task.problem, solver, options, refine);
+  return make_refined_plan({task.problem, task.mesh}, solver, options, refine);
 }
 
 void expect_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
@@ -49,27 +48,24 @@ TEST(Refine, MeetsTheToleranceWithFewerIntervalsThanEqualSteps) {
     EXPECT_TRUE(refined.plan.certificate.passed) << name;
     EXPECT_TRUE(refined.plan.hints.empty()) << name;
     expect_within(mesh_errors(refined.plan.certificate), mesh_tolerance(Grade::draft));
-    const int count = count_intervals(refined.problem);
-    EXPECT_LT(count, 0.8 * count_intervals(task.problem)) << name;
+    const int count = refined.plan.mesh.num_intervals();
+    EXPECT_LT(count, 0.8 * task.mesh.num_intervals()) << name;
 
     Task equal = read(name, count);  // as many, equal
-    const Plan plan = make_plan(equal.problem, RiccatiSolver(), {.solver = equal.solver});
+    const Plan plan = make_plan({equal.problem, equal.mesh}, RiccatiSolver(), {.solver = equal.solver});
     EXPECT_GT(mesh_errors(plan.certificate).local, mesh_tolerance(Grade::draft).local) << name;
   }
 }
 
 TEST(Refine, GoalsKeepTheirTimes) {
   const Task task = read("rear");  // a goal in the middle of a phase
-  const RefinedPlan refined = refine(task);
+  const Mesh mesh = refine(task).plan.mesh;
+  const std::vector<int> nodes = nodes_of_conditions(task.problem, mesh);
   int inside = 0;
-  for (std::size_t i = 0; i < task.problem.boundary_conditions.size(); ++i) {
-    const NodeRef before = task.problem.boundary_conditions[i].at, after = refined.problem.boundary_conditions[i].at;
-    ASSERT_EQ(after.phase, before.phase);
-    const auto part = [&](const MotionProblem& problem, NodeRef at) {
-      return problem.phases[at.phase].node_time(at.node, 1.0);
-    };
-    EXPECT_NEAR(part(refined.problem, after), part(task.problem, before), 1e-9);
-    inside += before.node != 0 && before.node != task.problem.phases[before.phase].intervals;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto [phase, fraction] = task.problem.boundary_conditions[i].at;
+    EXPECT_NEAR(mesh.phases[phase].node_time(nodes[i] - mesh.first_node(phase), 1.0), fraction, 1e-9);
+    inside += fraction > 0.0 && fraction < 1.0;
   }
   EXPECT_EQ(inside, 1);
 }
@@ -83,8 +79,8 @@ TEST(Refine, MergesWhatIsTooFine) {
   EXPECT_TRUE(refined.meets_tolerance);
   EXPECT_TRUE(refined.plan.certificate.passed);
   EXPECT_EQ(intervals.front(), 320);
-  EXPECT_LT(count_intervals(refined.problem), 110);
-  EXPECT_EQ(count_intervals(refined.problem), *std::ranges::min_element(intervals))
+  EXPECT_LT(refined.plan.mesh.num_intervals(), 110);
+  EXPECT_EQ(refined.plan.mesh.num_intervals(), *std::ranges::min_element(intervals))
       << "the smallest that meets the tolerance";
   EXPECT_EQ(refined.plan.levels.size(), intervals.size());
 }
@@ -95,7 +91,7 @@ TEST(Refine, TakesEverySolverOfPlan) {
     const RefinedPlan refined = refine(task, *make_solver(name));
     EXPECT_TRUE(refined.meets_tolerance) << name;
     EXPECT_TRUE(refined.plan.certificate.passed) << name;
-    EXPECT_LT(count_intervals(refined.problem), 125) << name;
+    EXPECT_LT(refined.plan.mesh.num_intervals(), 125) << name;
   }
 }
 
@@ -126,7 +122,7 @@ TEST(Refine, TellsWhatItDidNotReach) {
       refine(task, RiccatiSolver(), {}, {.tolerance = mesh_tolerance(Grade::certified), .max_rounds = 2});
   EXPECT_FALSE(refined.meets_tolerance);
   EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
-  EXPECT_EQ(count_intervals(refined.problem), refined.plan.levels.back().intervals);
+  EXPECT_EQ(refined.plan.mesh.num_intervals(), refined.plan.levels.back().intervals);
   ASSERT_EQ(refined.plan.hints.size(), 1u);
   EXPECT_THAT(refined.plan.hints[0], HasSubstr("mesh refinement stopped, 2 meshes: "));
 }
@@ -143,7 +139,7 @@ TEST(Refine, KeepsTheLastMotionThatConverged) {
     EXPECT_FALSE(refined.meets_tolerance);
     EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
     EXPECT_EQ(refined.interrupted, status == SolveStatus::interrupted);
-    EXPECT_EQ(count_intervals(refined.problem), intervals[1]);
+    EXPECT_EQ(refined.plan.mesh.num_intervals(), intervals[1]);
     EXPECT_EQ(refined.plan.certificate.interval_errors.size(), static_cast<std::size_t>(intervals[1]));
     EXPECT_EQ(refined.plan.levels.size(), 3u);
     ASSERT_EQ(refined.plan.hints.size(), 1u);
@@ -160,13 +156,13 @@ TEST(Refine, BeginsOnTheFirstMeshThatConverges) {
   const RefinedPlan begun = refine(task, test::FailingSolver(0, SolveStatus::solver_failed, 1), {}, options);
   EXPECT_TRUE(begun.meets_tolerance);
   ASSERT_FALSE(intervals.empty());
-  EXPECT_EQ(intervals.front(), count_intervals(mesh_levels(task.problem).at(1)));
+  EXPECT_EQ(intervals.front(), mesh_levels(task.problem, task.mesh).at(1).num_intervals());
   EXPECT_EQ(begun.plan.levels.at(0).status, SolveStatus::solver_failed);
 
   const RefinedPlan failed = refine(task, test::FailingSolver(0, SolveStatus::iteration_limit));
   EXPECT_EQ(failed.plan.result.status, SolveStatus::iteration_limit);
-  EXPECT_EQ(failed.plan.levels.size(), mesh_levels(task.problem).size());
-  EXPECT_EQ(count_intervals(failed.problem), count_intervals(task.problem));
+  EXPECT_EQ(failed.plan.levels.size(), mesh_levels(task.problem, task.mesh).size());
+  EXPECT_EQ(failed.plan.mesh.num_intervals(), task.mesh.num_intervals());
 }
 
 /// No mesh is solved twice, also where the sum of errors over a second is what holds the mesh.
@@ -189,7 +185,7 @@ TEST(Refine, BeginsNoMeshWhenTheTimeIsUp) {
   const RefinedPlan refined = refine(task);
   EXPECT_EQ(refined.plan.result.status, SolveStatus::time_limit);
   EXPECT_EQ(refined.plan.levels.size(), 1u);
-  EXPECT_EQ(count_intervals(refined.problem), count_intervals(mesh_levels(task.problem).front()));
+  EXPECT_EQ(refined.plan.mesh.num_intervals(), mesh_levels(task.problem, task.mesh).front().num_intervals());
 }
 
 /// An uneven mesh is as good as any: no drift, the same motion.
@@ -197,15 +193,14 @@ TEST(Refine, AMeshOfRandomStepsGivesTheSameMotion) {
   const Task task = read("crouch", 160);
   std::mt19937 rng(29);
   std::uniform_real_distribution<double> step(1.0, 4.0);
-  Steps steps(160);
+  std::vector<double> steps(160);
   for (double& h : steps) h = step(rng);
   // The goal is in the middle of the phase, and of the steps.
   const auto middle = steps.begin() + 80;
   const double first = std::accumulate(steps.begin(), middle, 0.0), second = std::accumulate(middle, steps.end(), 0.0);
   std::for_each(middle, steps.end(), [&](double& h) { h *= first / second; });
-  const MotionProblem uneven = on_mesh(task.problem, {steps});
-  const Plan expected = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
-  const Plan plan = make_plan(uneven, RiccatiSolver(), {.solver = task.solver});
+  const Plan expected = make_plan({task.problem, task.mesh}, RiccatiSolver(), {.solver = task.solver});
+  const Plan plan = make_plan({task.problem, {{PhaseMesh(steps)}}}, RiccatiSolver(), {.solver = task.solver});
   ASSERT_EQ(plan.result.status, SolveStatus::converged);
   EXPECT_TRUE(plan.certificate.passed);
   EXPECT_NEAR(plan.result.cost, expected.result.cost, 2e-3 * expected.result.cost);

@@ -11,8 +11,6 @@
 #include "prowl/mesh/receding_horizon.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/riccati_solver.hpp"
-#include "prowl/transcription/mesh.hpp"
-#include "prowl/transcription/remesh.hpp"
 
 namespace prowl {
 namespace {
@@ -22,9 +20,13 @@ Task read(const std::string& name, int intervals) {
                         {.intervals = intervals});
 }
 
-Plan solve(const MotionProblem& problem, const Task& task, PlanOptions options = {}) {
+Plan solve(const DiscreteProblem& discrete, const Task& task, PlanOptions options = {}) {
   options.solver = task.solver;
-  return make_plan(problem, RiccatiSolver(), options);
+  return make_plan(discrete, RiccatiSolver(), options);
+}
+
+Plan solve(const Task& task, PlanOptions options = {}) {
+  return solve({task.problem, task.mesh}, task, std::move(options));
 }
 
 double duration(const MotionProblem& problem) {
@@ -35,18 +37,19 @@ double duration(const MotionProblem& problem) {
 
 /// Solves it three times more, each a step later, and returns the iterations of each.
 std::vector<int> run_three_steps(const Task& task, bool with_multipliers) {
-  MotionProblem problem = task.problem;
-  Plan plan = solve(problem, task);
+  DiscreteProblem discrete(task.problem, task.mesh);
+  Plan plan = solve(discrete, task);
   EXPECT_EQ(plan.result.status, SolveStatus::converged);
   std::vector<int> iterations;
   for (int i = 0; i < 3; ++i) {
-    ShiftedHorizon next = shift_horizon(problem, plan.trajectory, plan.result.stage_multipliers);
-    EXPECT_NEAR(duration(next.problem), duration(problem), 1e-9);
+    ShiftedHorizon next = shift_horizon(discrete, plan.trajectory, plan.result.stage_multipliers);
+    const MotionProblem& problem = next.problem.problem;
+    EXPECT_NEAR(duration(problem), duration(discrete.problem), 1e-9);
     const TrajectoryPoint second = plan.trajectory.nodes[1];
-    EXPECT_EQ(next.problem.start_configuration(), second.q);
-    EXPECT_EQ(next.problem.start().velocity_lower, second.v);
-    problem = next.problem;
-    plan = solve(problem, task,
+    EXPECT_EQ(problem.start_configuration(), second.q);
+    EXPECT_EQ(problem.start().velocity_lower, second.v);
+    discrete = next.problem;
+    plan = solve(discrete, task,
                  {.start_from = next.start_from,
                   .start_multipliers = with_multipliers ? next.start_multipliers : std::vector<StageMultipliers>{}});
     EXPECT_EQ(plan.result.status, SolveStatus::converged) << plan.result.message;
@@ -58,16 +61,16 @@ std::vector<int> run_three_steps(const Task& task, bool with_multipliers) {
   return iterations;
 }
 
-MotionProblem with_goal_moved(const Task& task, int axis, double by) {
+DiscreteProblem with_goal_moved(const Task& task, int axis, double by) {
   MotionProblem problem = task.problem;
   problem.boundary_conditions.back().q_ref(axis) += by;
-  return problem;
+  return {std::move(problem), task.mesh};
 }
 
 /// Each direction of the goal, also those in which a filter would halve Newton's first step.
 TEST(SolveAgain, TakesFewIterationsWithTheGoalElsewhere) {
   const Task task = read("balance", 120);
-  const Plan plan = solve(task.problem, task);
+  const Plan plan = solve(task);
   ASSERT_EQ(plan.result.status, SolveStatus::converged);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double by : {-0.02, 0.02}) {
@@ -82,11 +85,11 @@ TEST(SolveAgain, TakesFewIterationsWithTheGoalElsewhere) {
 /// So far that Newton's first steps lead nowhere.
 TEST(SolveAgain, FindsAGoalThatIsFarFromTheOldOne) {
   const Task task = read("crouch", 40);
-  const Plan plan = solve(task.problem, task);
-  const MotionProblem problem = with_goal_moved(task, 0, -0.2);
+  const Plan plan = solve(task);
+  const DiscreteProblem moved = with_goal_moved(task, 0, -0.2);
   const Plan again =
-      solve(problem, task, {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
-  const Plan alone = solve(problem, task);
+      solve(moved, task, {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
+  const Plan alone = solve(moved, task);
   EXPECT_EQ(alone.result.status, SolveStatus::converged) << alone.result.message;
   EXPECT_EQ(again.result.status, SolveStatus::converged) << again.result.message;
 }
@@ -94,11 +97,11 @@ TEST(SolveAgain, FindsAGoalThatIsFarFromTheOldOne) {
 TEST(SolveAgain, FindsWhatTheTaskAloneFinds) {
   Task task = read("balance", 60);
   task.solver.tolerance = 1e-9;  // the barrier's part of the cost goes with it
-  const Plan plan = solve(task.problem, task);
-  const MotionProblem problem = with_goal_moved(task, 0, 0.02);
-  const Plan alone = solve(problem, task);
+  const Plan plan = solve(task);
+  const DiscreteProblem moved = with_goal_moved(task, 0, 0.02);
+  const Plan alone = solve(moved, task);
   const Plan again =
-      solve(problem, task, {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
+      solve(moved, task, {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
   ASSERT_EQ(again.result.status, SolveStatus::converged) << again.result.message;
   EXPECT_NEAR(again.result.cost, alone.result.cost, 1e-7 * alone.result.cost);
   for (std::size_t k = 0; k < alone.trajectory.nodes.size(); ++k) {
@@ -118,26 +121,29 @@ TEST(ShiftHorizon, MultipliersHelp) {
 }
 
 TEST(ShiftHorizon, KeepsGoalsAtTheirTimes) {
-  Task task = read("balance", 60);
-  MotionProblem& problem = task.problem;
-  const Plan plan = solve(problem, task);
+  const Task task = read("balance", 60);
+  MotionProblem problem = task.problem;
+  const Mesh& mesh = task.mesh;
+  const Plan plan = solve(task);
   BoundaryCondition goal = problem.boundary_conditions.back();
-  const int last = static_cast<int>(problem.phases.size()) - 1, end = problem.phases.back().intervals;
+  const int last = static_cast<int>(problem.phases.size()) - 1, end = mesh.phases.back().intervals();
   ASSERT_GT(last, 0);
   problem.boundary_conditions.resize(1);
-  for (const NodeRef at : {NodeRef{0, 1}, NodeRef{0, 3}, NodeRef{1, 2}, NodeRef{last, end - 1}, NodeRef{last, end}}) {
-    goal.at = at;
+  for (const auto& [phase, node] : {std::pair{0, 1}, {0, 3}, {1, 2}, {last, end - 1}, {last, end}}) {
+    goal.at = {phase, 1.0 * node / mesh.phases[phase].intervals()};
     problem.boundary_conditions.push_back(goal);
   }
-  const MotionProblem shifted = shift_horizon(problem, plan.trajectory, {}).problem;
-  std::vector<NodeRef> places;
-  for (const BoundaryCondition& condition : shifted.boundary_conditions) places.push_back(condition.at);
-  EXPECT_EQ(places, (std::vector<NodeRef>{{0, 0}, {0, 2}, {1, 2}, {last, end - 1}, {last, end + 1}}));
-  EXPECT_EQ(shifted.phases.front().intervals, problem.phases.front().intervals - 1);
-  EXPECT_EQ(shifted.phases.back().intervals, end + 1);
-  for (std::size_t p = 0; p < problem.phases.size(); ++p) {  // all intervals as long as they were
-    const Phase &before = problem.phases[p], &after = shifted.phases[p];
-    EXPECT_NEAR(after.duration.max / after.intervals, before.duration.max / before.intervals, 1e-12) << "phase " << p;
+  const DiscreteProblem before(problem, mesh), after = shift_horizon(before, plan.trajectory, {}).problem;
+  std::vector<std::pair<int, int>> places;
+  for (const int k : after.condition_nodes) places.emplace_back(after.nodes[k].phase, after.nodes[k].node);
+  EXPECT_EQ(places, (std::vector<std::pair<int, int>>{{0, 0}, {0, 2}, {1, 2}, {last, end - 1}, {last, end + 1}}));
+  EXPECT_EQ(after.mesh.phases.front().intervals(), mesh.phases.front().intervals() - 1);
+  EXPECT_EQ(after.mesh.phases.back().intervals(), end + 1);
+  for (int p = 0; p <= last; ++p) {  // all intervals as long as they were
+    const auto interval = [p](const DiscreteProblem& of) {
+      return of.problem.phases[p].duration.max / of.mesh.phases[p].intervals();
+    };
+    EXPECT_NEAR(interval(after), interval(before), 1e-12) << "phase " << p;
   }
 }
 
@@ -145,38 +151,44 @@ TEST(ShiftHorizon, KeepsGoalsAtTheirTimes) {
 /// long as the last.
 TEST(ShiftHorizon, KeepsStepsOfDifferentLength) {
   for (const char* name : {"crouch", "balance"}) {
-    Task task = read(name, 30);
-    std::vector<Steps> steps;
-    for (const Phase& phase : task.problem.phases) {
-      Steps& of_phase = steps.emplace_back();
-      for (int i = 0; i < phase.intervals; ++i) of_phase.push_back(1.0 + i % 3);
+    const Task task = read(name, 30);
+    Mesh mesh;
+    for (const PhaseMesh& phase : task.mesh.phases) {
+      std::vector<double> steps;
+      for (int i = 0; i < phase.intervals(); ++i) steps.push_back(1.0 + i % 3);
+      mesh.phases.emplace_back(steps);
     }
-    const MotionProblem problem = on_mesh(task.problem, steps);
-    const Plan plan = solve(problem, task);
+    const DiscreteProblem before(task.problem, mesh);
+    const Plan plan = solve(before, task);
     ASSERT_EQ(plan.result.status, SolveStatus::converged) << plan.result.message;
-    const ShiftedHorizon shifted = shift_horizon(problem, plan.trajectory, {});
-    const Mesh before = make_mesh(problem), after = make_mesh(shifted.problem);
-    ASSERT_EQ(after.size(), before.size());
-    const auto step = [](const Mesh& mesh, int k) { return mesh.nodes[k].h_out; };
-    for (int k = 0; k + 2 < before.size(); ++k)
+    const ShiftedHorizon shifted = shift_horizon(before, plan.trajectory, {});
+    const DiscreteProblem& after = shifted.problem;
+    ASSERT_EQ(after.num_nodes(), before.num_nodes());
+    const auto step = [](const DiscreteProblem& of, int k) { return of.nodes[k].h_out; };
+    for (int k = 0; k + 2 < before.num_nodes(); ++k)
       EXPECT_NEAR(step(after, k), step(before, k + 1), 1e-9) << name << ", node " << k;
-    const bool is_single = problem.phases.size() == 1;
-    EXPECT_NEAR(step(after, after.size() - 2), step(before, is_single ? 0 : before.size() - 2), 1e-9) << name;
+    const bool is_single = task.problem.phases.size() == 1;
+    EXPECT_NEAR(step(after, after.num_nodes() - 2), step(before, is_single ? 0 : before.num_nodes() - 2), 1e-9) << name;
     for (std::size_t k = 0; k < after.nodes.size(); ++k) {
       EXPECT_NEAR(shifted.start_from.nodes[k].time, after.nodes[k].time, 1e-9) << name << ", node " << k;
     }
-    EXPECT_NO_THROW(validate(shifted.problem));
+    EXPECT_NO_THROW(validate(after.problem));
   }
 }
 
 TEST(ShiftHorizon, RefusesWhatIsOver) {
-  Task task = read("crouch", 40);
-  const Plan plan = solve(task.problem, task);
+  const Task task = read("crouch", 40);
+  const Plan plan = solve(task);
   Trajectory cut = plan.trajectory;
   cut.nodes.pop_back();
-  EXPECT_THROW(shift_horizon(task.problem, cut, {}), InputError);
-  task.problem.phases.front().intervals = 1;
-  EXPECT_THROW(shift_horizon(task.problem, plan.trajectory, {}), InputError);
+  EXPECT_THROW(shift_horizon({task.problem, task.mesh}, cut, {}), InputError);
+  MotionProblem problem = task.problem;
+  std::erase_if(problem.boundary_conditions, [](const BoundaryCondition& condition) {
+    return condition.at.fraction > 0.0 && condition.at.fraction < 1.0;
+  });
+  const DiscreteProblem one_interval(problem, {{PhaseMesh(1)}});
+  const Trajectory two_nodes{{plan.trajectory.nodes.front(), plan.trajectory.nodes.back()}};
+  EXPECT_THROW(shift_horizon(one_interval, two_nodes, {}), InputError);
 }
 
 }  // namespace

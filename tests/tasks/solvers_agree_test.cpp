@@ -29,10 +29,10 @@ void expect_agreement(const std::string& name, int intervals, const std::vector<
   const std::string file = std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml";
   Task task = read_task_file(file, test::test_search(), {.intervals = intervals});
   task.solver.tolerance = 1e-8;
-  const Plan ipopt = make_plan(task.problem, IpoptSolver(), {.solver = task.solver});
+  const Plan ipopt = make_plan({task.problem, task.mesh}, IpoptSolver(), {.solver = task.solver});
   ASSERT_EQ(ipopt.result.status, SolveStatus::converged) << ipopt.result.message;
   for (const std::string& solver : solvers)
-    expect_same_motion(make_plan(task.problem, *make_solver(solver), {.solver = task.solver}), ipopt);
+    expect_same_motion(make_plan({task.problem, task.mesh}, *make_solver(solver), {.solver = task.solver}), ipopt);
 }
 
 TEST_P(SolversAgree, OnTheMotion) { expect_agreement(GetParam(), 24, {"fatrop", "riccati", "ipopt-spral"}); }
@@ -49,8 +49,8 @@ TEST(Spral, DoesTheSameTwice) {
   const Task task =
       read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml", test::test_search(), {.intervals = 24});
   const std::unique_ptr<NlpSolver> solver = make_solver("ipopt-spral");
-  const Plan first = make_plan(task.problem, *solver, {.solver = task.solver});
-  const Plan second = make_plan(task.problem, *solver, {.solver = task.solver});
+  const Plan first = make_plan({task.problem, task.mesh}, *solver, {.solver = task.solver});
+  const Plan second = make_plan({task.problem, task.mesh}, *solver, {.solver = task.solver});
   ASSERT_EQ(first.result.status, SolveStatus::converged) << first.result.message;
   EXPECT_EQ(first.result.iterations, second.result.iterations);
   EXPECT_EQ(first.result.z, second.result.z);
@@ -60,9 +60,9 @@ TEST(Spral, DoesTheSameTwice) {
 TEST(GaussNewton, FindsTheSameMotion) {
   const Task task =
       read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/crouch.toml", test::test_search(), {.intervals = 24});
-  const Plan exact = make_plan(task.problem, RiccatiSolver(), {.solver = task.solver});
-  const Plan other =
-      make_plan(task.problem, RiccatiSolver(), {.solver = task.solver, .hessian = HessianKind::gauss_newton});
+  const Plan exact = make_plan({task.problem, task.mesh}, RiccatiSolver(), {.solver = task.solver});
+  const Plan other = make_plan({task.problem, task.mesh}, RiccatiSolver(),
+                               {.solver = task.solver, .hessian = HessianKind::gauss_newton});
   ASSERT_EQ(other.result.status, SolveStatus::converged) << other.result.message;
   EXPECT_NEAR(other.result.cost, exact.result.cost, 1e-6 * exact.result.cost);
   EXPECT_GT(other.result.iterations, exact.result.iterations);

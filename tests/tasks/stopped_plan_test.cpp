@@ -20,11 +20,11 @@ class StoppedPlan : public testing::Test {
     options_.solver = task_.solver;
     options_.on_level = [this](int intervals) { meshes_.push_back(intervals); };
   }
-  Plan plan() const { return make_plan(task_.problem, RiccatiSolver(), options_); }
+  Plan plan() const { return make_plan({task_.problem, task_.mesh}, RiccatiSolver(), options_); }
 
   Task task_ = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/balance.toml", test::test_search(),
                               {.intervals = 120});
-  int coarsest_ = count_intervals(mesh_levels(task_.problem).front());
+  int coarsest_ = mesh_levels(task_.problem, task_.mesh).front().num_intervals();
   PlanOptions options_;
   std::vector<int> meshes_;
 };
@@ -42,9 +42,8 @@ TEST_F(StoppedPlan, StaysOnTheMeshWhereItWasInterrupted) {
   EXPECT_EQ(meshes_, std::vector{coarsest_});
   EXPECT_LE(stopped.result.constraint_violation, violation) << "further off than the last iterate";
 
-  const MotionProblem mesh = mesh_of(task_.problem, stopped);
-  EXPECT_EQ(count_intervals(mesh), coarsest_);
-  EXPECT_EQ(stopped.trajectory.nodes.size(), static_cast<std::size_t>(coarsest_) + mesh.phases.size());
+  EXPECT_EQ(stopped.mesh.num_intervals(), coarsest_);
+  EXPECT_EQ(stopped.trajectory.nodes.size(), static_cast<std::size_t>(coarsest_) + stopped.mesh.phases.size());
   EXPECT_EQ(static_cast<int>(stopped.certificate.interval_errors.size()), coarsest_) << "judged on another mesh";
 
   stop = false;
@@ -55,7 +54,7 @@ TEST_F(StoppedPlan, StaysOnTheMeshWhereItWasInterrupted) {
   const Plan resumed = plan();
   EXPECT_EQ(resumed.result.status, SolveStatus::converged) << resumed.result.message;
   EXPECT_EQ(meshes_.front(), coarsest_);
-  EXPECT_EQ(count_intervals(mesh_of(task_.problem, resumed)), 120);
+  EXPECT_EQ(resumed.mesh.num_intervals(), 120);
 }
 
 TEST_F(StoppedPlan, StaysOnTheMeshWhereTheTimeRanOut) {
@@ -63,7 +62,7 @@ TEST_F(StoppedPlan, StaysOnTheMeshWhereTheTimeRanOut) {
   const Plan stopped = plan();
   EXPECT_EQ(stopped.result.status, SolveStatus::time_limit);
   EXPECT_EQ(meshes_, std::vector{coarsest_});
-  EXPECT_EQ(count_intervals(mesh_of(task_.problem, stopped)), coarsest_);
+  EXPECT_EQ(stopped.mesh.num_intervals(), coarsest_);
 }
 
 /// Iterations are counted on each mesh anew.
@@ -72,7 +71,7 @@ TEST_F(StoppedPlan, GoesOnToTheNextMeshAfterItsIterations) {
   const Plan stopped = plan();
   EXPECT_EQ(stopped.result.status, SolveStatus::iteration_limit);
   EXPECT_EQ(meshes_.back(), 120);
-  EXPECT_EQ(count_intervals(mesh_of(task_.problem, stopped)), 120);
+  EXPECT_EQ(stopped.mesh.num_intervals(), 120);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "prowl/plan.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
+#include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 
 namespace prowl {
@@ -17,15 +18,14 @@ using testing::HasSubstr;
 
 /// Up by `rise` [m] after one second, and down again. The legs are straight at 0.0985 m, and no limit keeps them from
 /// it.
-MotionProblem stretch(double rise) {
+DiscreteProblem stretch(double rise) {
   RobotDescription description = test::solo12_description();
   description.limits.clear();
   MotionProblem problem = test::with_base_goal(test::standing_problem(RobotModel(description)), {0.0, 0.0, rise});
-  problem.phases[0].intervals = 16;
-  problem.boundary_conditions.back().at.node = 8;
+  problem.boundary_conditions.back().at.fraction = 0.5;
   problem.running_cost.velocity_weight.tail(problem.robot.nu()).setConstant(0.1);
   problem.running_cost.acceleration_weight.setConstant(0.01);
-  return problem;
+  return test::on_even_mesh(std::move(problem), 16);
 }
 
 std::string all_words(const Plan& plan) {

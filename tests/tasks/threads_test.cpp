@@ -22,11 +22,11 @@ Task step_task() {
 void expect_same_with_more_threads(const NlpSolver& solver) {
   const Task task = step_task();
   SolverOptions options = task.solver;
-  const SolveResult one = make_plan(task.problem, solver, {.solver = options}).result;
+  const SolveResult one = make_plan({task.problem, task.mesh}, solver, {.solver = options}).result;
   ASSERT_EQ(one.status, SolveStatus::converged) << one.message;
   for (const int threads : {2, 3}) {
     options.threads = threads;
-    const SolveResult more = make_plan(task.problem, solver, {.solver = options}).result;
+    const SolveResult more = make_plan({task.problem, task.mesh}, solver, {.solver = options}).result;
     EXPECT_EQ(more.status, one.status) << more.message;
     EXPECT_EQ(more.iterations, one.iterations);
     EXPECT_EQ(more.cost, one.cost);
@@ -45,10 +45,10 @@ TEST(Threads, IpoptFindsTheSame) { expect_same_with_more_threads(IpoptSolver());
 
 TEST(Threads, WhatFailsIsTheSame) {
   const Task task = step_task();
-  const Mesh mesh = make_mesh(task.problem);
-  const Trajectory guess = initial_guess(task.problem, mesh);
+  const DiscreteProblem discrete(task.problem, task.mesh);
+  const Trajectory guess = initial_guess(discrete);
   const auto failure = [&](int threads, std::vector<double> places) {
-    Transcription nlp(task.problem, mesh, guess);
+    Transcription nlp(discrete, guess);
     Eigen::VectorXd start = nlp.pack(guess);
     for (const double place : places) {
       start(static_cast<Eigen::Index>(place * static_cast<double>(start.size()))) =

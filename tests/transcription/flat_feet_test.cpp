@@ -12,6 +12,7 @@
 #include "prowl/model/pinocchio_model.hpp"
 #include "prowl/solvers/ipopt_solver.hpp"
 #include "prowl/transcription/transcription.hpp"
+#include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 
 namespace prowl {
@@ -96,16 +97,16 @@ struct Solved {
 };
 
 Solved solve(const MotionProblem& problem, bool on_six_rows = false, double tolerance = 1e-9) {
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Transcription nlp(problem, mesh, guess);
+  const DiscreteProblem discrete = test::on_even_mesh(problem, 8);
+  const Trajectory guess = initial_guess(discrete);
+  Transcription nlp(discrete, guess);
   SolverOptions options;
   options.tolerance = tolerance;
   Solved solved;
   if (on_six_rows) {
     SixRowsAFoot six(nlp);
-    EXPECT_EQ(six.num_chosen, 12 * mesh.size());
-    EXPECT_EQ(six.num_cones, 8 * mesh.size());
+    EXPECT_EQ(six.num_chosen, 12 * discrete.num_nodes());
+    EXPECT_EQ(six.num_cones, 8 * discrete.num_nodes());
     solved.result = IpoptSolver().solve(six, nlp.pack(guess), options);
   } else {
     solved.result = IpoptSolver().solve(nlp, nlp.pack(guess), options);

@@ -7,6 +7,7 @@
 
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/motion/friction_cone.hpp"
+#include "prowl/transcription/motion_limits.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/robots.hpp"
@@ -22,20 +23,22 @@ class Limits : public testing::Test {
     RobotDescription description = test::hyq_description();
     description.limits["lf_kfe_joint"].torque_over_position = {
         {-2.5, 70.0}, {-2.0, 120.0}, {-1.4, 145.0}, {-1.0, 130.0}, {-0.3, 70.0}};
-    problem_ = test::everything(RobotModel(description), {test::phase_on("four", {0, 1, 2, 3}, 0.4, 2),
-                                                          test::phase_on("swing", {1, 2, 3}, 0.4, 4),
-                                                          test::phase_on("down", {0, 1, 2, 3}, 0.4, 2)});
-    Surface& surface = problem_->surfaces[0];
-    surface.normal = {0.0, 0.0, 1.0};
-    problem_->swing_clearance = 0.05;
-    problem_->phases[2].contacts[0].place = Eigen::Vector3d(0.45, 0.32, 0.0);
-    const Mesh mesh = make_mesh(*problem_);
-    const Trajectory guess = initial_guess(*problem_, mesh);
-    nlp_.emplace(*problem_, mesh, guess);
+    auto [problem, mesh] =
+        test::everything(RobotModel(description),
+                         {test::phase_on("four", {0, 1, 2, 3}, 0.4, 2), test::phase_on("swing", {1, 2, 3}, 0.4, 4),
+                          test::phase_on("down", {0, 1, 2, 3}, 0.4, 2)},
+                         Surface{});
+    problem.swing_clearance = 0.05;
+    problem.phases[2].contacts[0].place = Eigen::Vector3d(0.45, 0.32, 0.0);
+    discrete_.emplace(problem, mesh);
+    const Trajectory guess = initial_guess(*discrete_);
+    nlp_.emplace(*discrete_, guess);
     z_ = nlp_->pack(guess);
   }
 
-  std::optional<MotionProblem> problem_;
+  const MotionProblem& problem() const { return discrete_->problem; }
+
+  std::optional<DiscreteProblem> discrete_;
   std::optional<Transcription> nlp_;
   Eigen::VectorXd z_;
 };
@@ -43,7 +46,7 @@ class Limits : public testing::Test {
 TEST_F(Limits, AreEachThereOnceWithABoundAndItsName) {
   std::set<std::pair<bool, int>> seen;
   std::map<LimitKind, int> count;
-  for (const MotionLimit& limit : nlp_->limits()) {
+  for (const MotionLimit& limit : motion_limits(nlp_->nodes())) {
     EXPECT_TRUE(seen.insert({limit.is_row, limit.index}).second) << limit.subject;
     ++count[limit.kind];
     const double lower = limit.is_row ? nlp_->constraint_lower()(limit.index) : nlp_->variable_lower()(limit.index);
@@ -57,7 +60,7 @@ TEST_F(Limits, AreEachThereOnceWithABoundAndItsName) {
     if (limit.kind == LimitKind::friction) EXPECT_THAT(words, HasSubstr("friction cone"));
     if (limit.kind == LimitKind::clearance) EXPECT_THAT(words, HasSubstr("clearance"));
   }
-  const int nodes = 3 + 5 + 3, nu = problem_->robot.nu();
+  const int nodes = 3 + 5 + 3, nu = problem().robot.nu();
   EXPECT_EQ(count[LimitKind::friction], 3 * 4 - 1 + 5 * 3 + 3 * 4) << "a foot that opens has a force of zero there";
   EXPECT_EQ(count[LimitKind::torque], nodes * nu + 2 * nodes) << "the curve has a row for each side";
   EXPECT_EQ(count[LimitKind::joint_position], (nodes - 1) * nu) << "the start is as it is";
@@ -73,18 +76,18 @@ TEST_F(Limits, AreInTheirUnits) {
   nlp_->constraints(z_, g);
   const Trajectory motion = nlp_->unpack(z_);
   int looked_at = 0, upper = 0, lower = 0;
-  for (const MotionLimit& limit : nlp_->limits()) {
+  for (const MotionLimit& limit : motion_limits(nlp_->nodes())) {
     const TrajectoryPoint& point = motion.nodes[limit.node];
     if (limit.kind == LimitKind::friction) {
-      const int contact = problem_->robot.contact_index(limit.subject);
+      const int contact = problem().robot.contact_index(limit.subject);
       const Eigen::Vector3d force = point.force.segment<3>(3 * contact);
-      const double friction = problem_->surfaces[0].friction;
-      const std::size_t held = problem_->phases[limit.phase].contacts.size();
-      const FrictionCone cone{.mu = friction, .smoothing = cone_smoothing(*problem_, friction, held)};
+      const double friction = problem().surfaces[0].friction;
+      const std::size_t held = problem().phases[limit.phase].contacts.size();
+      const FrictionCone cone{.mu = friction, .smoothing = cone_smoothing(problem(), friction, held)};
       EXPECT_NEAR(g(limit.index) * limit.si, cone.value(force), 1e-6) << limit.subject;
       ++looked_at;
     } else if (limit.kind == LimitKind::torque && limit.is_row) {
-      const double most = problem_->robot.torque_curves()[0].curve.value(point.q(9)), left = g(limit.index) * limit.si;
+      const double most = problem().robot.torque_curves()[0].curve.value(point.q(9)), left = g(limit.index) * limit.si;
       const bool is_upper = std::abs(left - (most - point.tau(2))) < 1e-9;
       EXPECT_TRUE(is_upper || std::abs(left - (most + point.tau(2))) < 1e-9)
           << left << " of " << most << " and " << point.tau(2);

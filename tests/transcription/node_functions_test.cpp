@@ -17,7 +17,7 @@ namespace {
 
 struct Case {
   std::string name;
-  MotionProblem problem;
+  DiscreteProblem discrete;
   int phase = 0;
 };
 
@@ -33,18 +33,18 @@ RobotModel hyq_with_torque_curves() {
 /// dependent contacts, flight.
 std::vector<Case> cases() {
   std::vector<Case> result;
-  MotionProblem steps = test::everything(
+  auto [steps, mesh] = test::everything(
       hyq_with_torque_curves(), {test::free_phase("four", {0, 1, 2, 3}, 2), test::phase_on("lifted", {1, 2, 3}, 0.2, 2),
                                  test::free_phase("landed", {0, 1, 2, 3}, 2), test::phase_on("flight", {}, 0.2, 1)});
   steps.swing_clearance = 0.05;
   steps.surfaces.front().patch = {{-2.0, -2.0}, {2.0, -2.0}, {2.0, 2.0}, {-2.0, 2.0}};
-  for (int phase = 0; phase < 4; ++phase) result.push_back({"steps", steps, phase});
+  for (int phase = 0; phase < 4; ++phase) result.push_back({"steps", {steps, mesh}, phase});
   steps.friction_model = FrictionModel::pyramid;
   steps.running_cost.force_weight.setZero();
-  result.push_back({"pyramid", steps, 2});
+  result.push_back({"pyramid", {steps, mesh}, 2});
   const std::vector<int> corners = {0, 1, 2, 3, 4, 5, 6, 7};
-  MotionProblem talos = test::everything(test::talos(), {test::phase_on("both feet", corners, 0.3, 2)});
-  result.push_back({"talos", talos, 0});
+  const test::MeshedProblem talos = test::everything(test::talos(), {test::phase_on("both feet", corners, 0.3, 2)});
+  result.push_back({"talos", talos.discrete(), 0});
   return result;
 }
 
@@ -55,12 +55,11 @@ struct Node {
 };
 
 Node node_of(const Case& test, int k) {
-  const MotionProblem& problem = test.problem;
-  const ContactSchedule schedule(problem);
-  NodeFunctions functions(problem, schedule, test.phase,
-                          phase_contacts(problem, schedule, test.phase, problem.robot.nominal_configuration()));
+  const RobotModel& robot = test.discrete.problem.robot;
+  NodeFunctions functions(test.discrete, test.phase,
+                          phase_contacts(test.discrete, test.phase, robot.nominal_configuration()));
   std::mt19937 rng(17);
-  const DynamicsPoint at = test::random_point(problem.robot, functions.contacts(), rng, functions.chosen_rows().size());
+  const DynamicsPoint at = test::random_point(robot, functions.contacts(), rng, functions.chosen_rows().size());
   NodePoint point{.node = k,
                   .q = at.q,
                   .v = at.v,
@@ -142,23 +141,22 @@ std::vector<double> random_steps(std::mt19937& rng, int count) {
 /// Gains (kd, kp) at each node of phases with these steps, half of them each.
 std::vector<Eigen::Vector2d> gains_on(const std::vector<double>& steps) {
   const auto half = static_cast<std::ptrdiff_t>(steps.size() / 2);
-  MotionProblem problem =
-      test::everything(test::hyq(), {test::phase_on("first", {0, 1, 2, 3}, 1.0, static_cast<int>(half)),
-                                     test::phase_on("second", {0, 1}, 1.0, static_cast<int>(half))});
+  std::vector<test::MeshedPhase> phases;
+  for (const bool is_first : {true, false}) {
+    const auto start = steps.begin() + (is_first ? 0 : half);
+    const std::vector<double> of_phase(start, start + half);
+    const double duration = std::accumulate(of_phase.begin(), of_phase.end(), 0.0);
+    phases.push_back(is_first ? test::phase_on("first", {0, 1, 2, 3}, duration, 1)
+                              : test::phase_on("second", {0, 1}, duration, 1));
+    phases.back().mesh = PhaseMesh(of_phase);
+  }
+  const DiscreteProblem discrete = test::everything(test::hyq(), phases).discrete();
   std::vector<Eigen::Vector2d> gains;
   for (int p = 0; p < 2; ++p) {
-    Phase& phase = problem.phases[p];
-    phase.shares.assign(steps.begin() + p * half, steps.begin() + (p + 1) * half);
-    const double duration = std::accumulate(phase.shares.begin(), phase.shares.end(), 0.0);
-    for (double& share : phase.shares) share /= duration;
-    phase.duration = {duration, duration};
-  }
-  const ContactSchedule schedule(problem);
-  for (int p = 0; p < 2; ++p) {
-    const NodeFunctions functions(problem, schedule, p,
-                                  phase_contacts(problem, schedule, p, problem.robot.nominal_configuration()));
+    const NodeFunctions functions(discrete, p,
+                                  phase_contacts(discrete, p, discrete.problem.robot.nominal_configuration()));
     for (int k = 0; k <= half; ++k) {
-      gains.push_back(functions.gains({.node = k, .duration = problem.phases[p].duration.min}, 0));
+      gains.push_back(functions.gains({.node = k, .duration = discrete.problem.phases[p].duration.min}, 0));
     }
   }
   return gains;

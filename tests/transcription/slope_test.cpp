@@ -8,6 +8,7 @@
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/transcription/transcription.hpp"
+#include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 
 namespace prowl {
@@ -35,8 +36,7 @@ class OnASlope : public testing::Test {
     forces_ = on_base.completeOrthogonalDecomposition().solve(gravity.head(6));
     EXPECT_LT((on_base * forces_ - gravity.head(6)).norm(), 1e-6);
 
-    mesh_ = make_mesh(problem_);
-    motion_ = initial_guess(problem_, mesh_);
+    motion_ = initial_guess(on_slope(0.5));
     for (TrajectoryPoint& point : motion_.nodes) {
       point.q = q;
       point.v = point.a = rest;
@@ -45,10 +45,15 @@ class OnASlope : public testing::Test {
     }
   }
 
+  DiscreteProblem on_slope(double friction) {
+    problem_.surfaces[0].friction = friction;
+    return test::on_even_mesh(problem_, 8);
+  }
+
   /// Rows of the friction cones at the first node, in newtons.
   Vector4d cone_rows(double friction) {
-    problem_.surfaces[0].friction = friction;
-    Transcription nlp(problem_, mesh_, motion_);
+    const DiscreteProblem discrete = on_slope(friction);
+    Transcription nlp(discrete, motion_);
     VectorXd g(nlp.num_constraints());
     nlp.constraints(nlp.pack(motion_), g);
     EXPECT_LT(g.head(problem_.robot.nv()).cwiseAbs().maxCoeff(), 1e-9) << "at rest, with these torques";
@@ -63,8 +68,7 @@ class OnASlope : public testing::Test {
   }
 
   CertificateCheck certified_friction(double friction) {
-    problem_.surfaces[0].friction = friction;
-    for (const CertificateCheck& check : certify(problem_, motion_).checks) {
+    for (const CertificateCheck& check : certify(on_slope(friction), motion_).checks) {
       if (check.name == "friction cone") return check;
     }
     ADD_FAILURE() << "no such check";
@@ -72,7 +76,6 @@ class OnASlope : public testing::Test {
   }
 
   MotionProblem problem_;
-  Mesh mesh_;
   Trajectory motion_;
   Vector4d forces_;
 };

@@ -15,17 +15,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using test::everything;
 using test::free_phase;
+using test::MeshedProblem;
 using test::phase_on;
 
 constexpr const char* kFirstRow = "base force x, equations of motion";  ///< of each node
 
 /// A transcription near its guess, with both forms.
 struct Forms {
-  explicit Forms(const MotionProblem& problem)
-      : mesh(make_mesh(problem)),
-        guess(initial_guess(problem, mesh)),
-        nlp(problem, mesh, guess),
-        stages(*nlp.stagewise()) {
+  explicit Forms(const MeshedProblem& of)
+      : discrete(of.discrete()), guess(initial_guess(discrete)), nlp(discrete, guess), stages(*nlp.stagewise()) {
     start = nlp.pack(guess);
     for (int i = 0; i < nlp.num_variables(); ++i) {  // as a solver would put what is fixed
       if (nlp.variable_lower()(i) == nlp.variable_upper()(i)) start(i) = nlp.variable_lower()(i);
@@ -37,7 +35,7 @@ struct Forms {
     return result;
   }
 
-  Mesh mesh;
+  DiscreteProblem discrete;
   Trajectory guess;
   Transcription nlp;
   StagewiseNlp& stages;
@@ -45,9 +43,9 @@ struct Forms {
 };
 
 /// Every problem that has a kind of stage of its own.
-std::vector<MotionProblem> problems() {
+std::vector<MeshedProblem> problems() {
   const RobotModel hyq = test::hyq();
-  std::vector<MotionProblem> all = {
+  std::vector<MeshedProblem> all = {
       everything(hyq, {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("flight", {}, 0.2, 1)}),
       everything(hyq, {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                        free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)}),
@@ -55,13 +53,11 @@ std::vector<MotionProblem> problems() {
                  {phase_on("left", {0, 1, 2, 3}, 0.3, 1), free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)}),
       everything(hyq, {free_phase("four", {0, 1, 2, 3}, 3), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                        free_phase("landed", {0, 1, 2, 3}, 2)})};
-  all[1].running_cost.time_weight = 2.3;
-  all[1].swing_clearance = 0.05;
-  all[2].running_cost.force_weight *= 0.1;
-  all[3].swing_clearance = 0.05;
-  all[3].phases[0].shares = {0.2, 0.7, 0.1};
-  all[3].phases[1].shares = {0.8, 0.2};
-  all[3].phases[2].shares = {0.4, 0.6};
+  all[1].problem.running_cost.time_weight = 2.3;
+  all[1].problem.swing_clearance = 0.05;
+  all[2].problem.running_cost.force_weight *= 0.1;
+  all[3].problem.swing_clearance = 0.05;
+  all[3].mesh.phases = {PhaseMesh({0.2, 0.7, 0.1}), PhaseMesh({0.8, 0.2}), PhaseMesh({0.4, 0.6})};
   return all;
 }
 
@@ -98,8 +94,8 @@ MatrixXd differences(const VectorXd& at, Function function) {
 
 TEST(StagewiseTranscription, DerivativesAreThoseOfDifferences) {
   std::mt19937 rng(7);
-  for (const MotionProblem& problem : problems()) {
-    Forms forms(problem);
+  for (const MeshedProblem& of : problems()) {
+    Forms forms(of);
     const std::vector<VectorXd> point = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
       const VectorXd& ux = point[k];
@@ -151,8 +147,8 @@ VectorXd linear_functions(StagewiseNlp& nlp, int k, const MatrixXd& next_hessian
 TEST(StagewiseTranscription, LinearisedStagesAreTheirDenseMatrices) {
   std::mt19937 rng(11);
   int carried = 0;
-  for (const MotionProblem& problem : problems()) {
-    Forms forms(problem), dense(problem);
+  for (const MeshedProblem& of : problems()) {
+    Forms forms(of), dense(of);
     const std::vector<VectorXd> point = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
       const VectorXd& ux = point[k];
@@ -189,7 +185,7 @@ TEST(StagewiseTranscription, LinearisedStagesAreTheirDenseMatrices) {
       const MatrixXd& hessian = dense.stages.hessian(k, ux, 1.7, at);
       EXPECT_LT(test::relative_error(forms.stages.lagrangian_hessian(k), hessian), 1e-10) << where;
       EXPECT_GT(slopes.inequalities.norm(), 0.0) << where;
-      carried += slopes.next.rows() > 2 * problem.robot.nv();
+      carried += slopes.next.rows() > 2 * of.problem.robot.nv();
     }
   }
   EXPECT_GT(carried, 0) << "no stage hands on what a phase shares";
@@ -197,8 +193,8 @@ TEST(StagewiseTranscription, LinearisedStagesAreTheirDenseMatrices) {
 
 TEST(StagewiseTranscription, FirstOrderIsTheSameWithoutTheHessian) {
   std::mt19937 rng(13);
-  for (const MotionProblem& problem : problems()) {
-    Forms forms(problem), other(problem);
+  for (const MeshedProblem& of : problems()) {
+    Forms forms(of), other(of);
     const std::vector<VectorXd> here = forms.random_stages(rng, 0.05), there = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
       const auto i = static_cast<std::size_t>(k);
@@ -220,8 +216,8 @@ TEST(StagewiseTranscription, FirstOrderIsTheSameWithoutTheHessian) {
 
 TEST(StagewiseTranscription, TheHessianOfTheCostAloneKnowsNoMultipliers) {
   std::mt19937 rng(14);
-  for (const MotionProblem& problem : problems()) {
-    Forms forms(problem);
+  for (const MeshedProblem& of : problems()) {
+    Forms forms(of);
     const std::vector<VectorXd> here = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
       const VectorXd& ux = here[k];
@@ -235,7 +231,7 @@ TEST(StagewiseTranscription, TheHessianOfTheCostAloneKnowsNoMultipliers) {
       EXPECT_EQ(forms.stages.hessian(k, ux, 0.0, at).norm(), 0.0) << forms.stages.describe_stage(k);
       forms.nlp.use_hessian(HessianKind::exact);
       const MatrixXd unbent = forms.stages.hessian(k, ux, 1.7, none);
-      const Eigen::Index nv = problem.robot.nv(), nu = problem.robot.nu();  // torques come after accelerations
+      const Eigen::Index nv = of.problem.robot.nv(), nu = of.problem.robot.nu();  // torques come after accelerations
       EXPECT_LT(test::relative_error(of_cost.block(nv, nv, nu, nu), unbent.block(nv, nv, nu, nu)), 1e-10)
           << forms.stages.describe_stage(k) << ": forces are linear in torques, so that nothing bends";
       EXPECT_GT(of_cost.block(nv, nv, nu, nu).norm(), 0.0) << forms.stages.describe_stage(k);
@@ -247,8 +243,8 @@ TEST(StagewiseTranscription, TheHessianOfTheCostAloneKnowsNoMultipliers) {
 /// As when a line search looks elsewhere, and then a second order correction takes the same matrices again.
 TEST(StagewiseTranscription, LinearisedStagesStayWhateverIsEvaluated) {
   std::mt19937 rng(12);
-  for (const MotionProblem& problem : problems()) {
-    Forms forms(problem);
+  for (const MeshedProblem& of : problems()) {
+    Forms forms(of);
     const std::vector<VectorXd> here = forms.random_stages(rng, 0.05), there = forms.random_stages(rng, 0.05);
     for (int k = 0; k < forms.stages.num_stages(); ++k) {
       const auto i = static_cast<std::size_t>(k);
@@ -272,8 +268,8 @@ TEST(StagewiseTranscription, LinearisedStagesStayWhateverIsEvaluated) {
 
 TEST(StagewiseTranscription, ChangesOfFormAreInverse) {
   std::mt19937 rng(7);
-  for (const MotionProblem& problem : problems()) {
-    Forms forms(problem);
+  for (const MeshedProblem& of : problems()) {
+    Forms forms(of);
     VectorXd z = forms.start + test::random_vector(rng, forms.start.size(), 0.1);
     for (Eigen::Index i = 0; i < z.size(); ++i) {
       if (forms.nlp.variable_lower()(i) == forms.nlp.variable_upper()(i)) z(i) = forms.start(i);
@@ -285,8 +281,8 @@ TEST(StagewiseTranscription, ChangesOfFormAreInverse) {
 /// The states that follow from random inputs, stage after stage, make no defect: both are the same trapezoid.
 TEST(StagewiseTranscription, MotionsOfStagesHaveNoDefects) {
   std::mt19937 rng(7);
-  for (const MotionProblem& problem : problems()) {
-    Forms forms(problem);
+  for (const MeshedProblem& of : problems()) {
+    Forms forms(of);
     std::vector<VectorXd> motion = forms.random_stages(rng, 0.05);
     for (std::size_t k = 0; k + 1 < motion.size(); ++k) {
       const VectorXd& next = forms.stages.values(static_cast<int>(k), motion[k]).next;
@@ -295,7 +291,7 @@ TEST(StagewiseTranscription, MotionsOfStagesHaveNoDefects) {
     const VectorXd z = forms.stages.flat(motion);
     VectorXd rows(forms.nlp.num_constraints());
     forms.nlp.constraints(z, rows);
-    const int links = 2 * problem.robot.nv() * (forms.mesh.size() - 1);
+    const int links = 2 * of.problem.robot.nv() * (forms.discrete.num_nodes() - 1);
     EXPECT_LT(rows.tail(links).cwiseAbs().maxCoeff(), 1e-12);
 
     double cost = 0.0, worst = 0.0;
@@ -311,7 +307,7 @@ TEST(StagewiseTranscription, MotionsOfStagesHaveNoDefects) {
     for (int row = 0; row < rows.size(); ++row) {
       if (forms.nlp.describe_constraint(row).find(kFirstRow) == std::string::npos) continue;
       const VectorXd& here = forms.stages.values(k, motion[k]).equalities;
-      for (int i = 0; i < problem.robot.nv(); ++i) EXPECT_NEAR(here(i), rows(row + i), 1e-9);
+      for (int i = 0; i < of.problem.robot.nv(); ++i) EXPECT_NEAR(here(i), rows(row + i), 1e-9);
       ++k;
     }
     EXPECT_EQ(k, forms.stages.num_stages());

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "prowl/error.hpp"
 #include "prowl/guess/initial_guess.hpp"
@@ -18,12 +19,13 @@ namespace {
 
 using test::everything;
 using test::free_phase;
+using test::MeshedProblem;
 using test::phase_on;
 
-void expect_derivatives(const MotionProblem& problem, double size_of_multipliers = 2.0) {
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Transcription nlp(problem, mesh, guess);
+void expect_derivatives(const MeshedProblem& of, double size_of_multipliers = 2.0) {
+  const DiscreteProblem discrete = of.discrete();
+  const Trajectory guess = initial_guess(discrete);
+  Transcription nlp(discrete, guess);
   std::mt19937 rng(5);
   const Eigen::VectorXd z = nlp.pack(guess) + test::random_vector(rng, nlp.num_variables(), 0.1);
   const Eigen::VectorXd multipliers = test::random_vector(rng, nlp.num_constraints(), size_of_multipliers);
@@ -35,10 +37,10 @@ void expect_derivatives(const MotionProblem& problem, double size_of_multipliers
 /// A motion with every joint at its lower limits is the lower bound of the variables, one at the upper limits the upper
 /// one.
 TEST(Transcription, BoundsOfJointsAreTheRobotsLimitsOnBothSides) {
-  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 4)});
+  const auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 4)});
   const RobotModel& robot = problem.robot;
-  const Mesh mesh = make_mesh(problem);
-  Trajectory lowest = initial_guess(problem, mesh), highest = lowest;
+  const DiscreteProblem discrete(problem, mesh);
+  Trajectory lowest = initial_guess(discrete), highest = lowest;
   for (std::size_t k = 0; k < lowest.nodes.size(); ++k) {
     TrajectoryPoint &low = lowest.nodes[k], &high = highest.nodes[k];
     low.q.tail(robot.nu()) = robot.position_lower();
@@ -48,7 +50,7 @@ TEST(Transcription, BoundsOfJointsAreTheRobotsLimitsOnBothSides) {
     low.tau = -robot.torque_limit();
     high.tau = robot.torque_limit();
   }
-  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const Transcription nlp(discrete, initial_guess(discrete));
   const Eigen::VectorXd low = nlp.pack(lowest), high = nlp.pack(highest);
   int bounded = 0;
   for (int i = 0; i < nlp.num_variables(); ++i) {
@@ -72,57 +74,55 @@ TEST(Transcription, DerivativesHoldForASmallRobotToo) {
 }
 
 TEST(Transcription, DerivativesHoldForFreeDurations) {
-  MotionProblem problem = everything(
+  MeshedProblem of = everything(
       test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("two", {0, 3}, 0.2, 1), free_phase("flight", {}, 2)});
-  problem.running_cost.time_weight = 2.3;
-  expect_derivatives(problem);
+  of.problem.running_cost.time_weight = 2.3;
+  expect_derivatives(of);
 }
 
 TEST(Transcription, DerivativesHoldForStepsOfDifferentLength) {
-  MotionProblem problem =
+  MeshedProblem of =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 3), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                                free_phase("landed", {0, 1, 2, 3}, 2)});
-  problem.swing_clearance = 0.05;
-  problem.running_cost.time_weight = 2.3;
-  problem.phases[0].shares = {0.2, 0.7, 0.1};
-  problem.phases[1].shares = {0.8, 0.2};
-  problem.phases[2].shares = {0.4, 0.6};
-  expect_derivatives(problem);
+  of.problem.swing_clearance = 0.05;
+  of.problem.running_cost.time_weight = 2.3;
+  of.mesh.phases = {PhaseMesh({0.2, 0.7, 0.1}), PhaseMesh({0.8, 0.2}), PhaseMesh({0.4, 0.6})};
+  expect_derivatives(of);
 }
 
 TEST(Transcription, DerivativesHoldForContactsThatOpenAndLand) {
-  MotionProblem problem =
+  MeshedProblem of =
       everything(test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                                free_phase("landed", {0, 1, 2, 3}, 2), free_phase("on it", {0, 3}, 1)});
-  problem.swing_clearance = 0.05;
-  problem.surfaces.push_back({.name = "wall", .point = {1.0, 0.0, 0.0}, .normal = {-1.0, 0.0, 0.0}});
-  problem.phases[2].contacts[0].surface = 1;
-  expect_derivatives(problem);
+  of.problem.swing_clearance = 0.05;
+  of.problem.surfaces.push_back({.name = "wall", .point = {1.0, 0.0, 0.0}, .normal = {-1.0, 0.0, 0.0}});
+  of.problem.phases[2].contacts[0].surface = of.problem.phases[3].contacts[0].surface = 1;
+  expect_derivatives(of);
 }
 
 TEST(Transcription, DerivativesHoldForAPatchThatAContactLandsIn) {
-  MotionProblem problem =
+  MeshedProblem of =
       everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.2, 2), free_phase("landed", {0, 1, 2, 3}, 2)});
-  problem.swing_clearance = 0.05;
-  problem.surfaces.push_back({.name = "step",
-                              .point = {0.4, 0.3, 0.1},
-                              .normal = {0.1, 0.0, 1.0},
-                              .patch = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}});
-  problem.surfaces[1].normal.normalize();
-  problem.phases[1].contacts[0].surface = 1;
-  expect_derivatives(problem);
+  of.problem.swing_clearance = 0.05;
+  of.problem.surfaces.push_back({.name = "step",
+                                 .point = {0.4, 0.3, 0.1},
+                                 .normal = {0.1, 0.0, 1.0},
+                                 .patch = {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}});
+  of.problem.surfaces[1].normal.normalize();
+  of.problem.phases[1].contacts[0].surface = 1;
+  expect_derivatives(of);
 }
 
 /// Rows that say a contact's landing place is inside a patch are zero on an edge, positive inside.
 TEST(Transcription, LandsInsideThePatch) {
-  MotionProblem problem =
+  auto [problem, mesh] =
       everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.2, 2), phase_on("landed", {0, 1, 2, 3}, 0.2, 2)});
   problem.surfaces.push_back(
       {.name = "step", .point = {0.4, 0.3, 0.0}, .patch = {{-0.1, -0.2}, {0.1, -0.2}, {0.1, 0.2}, {-0.1, 0.2}}});
   problem.phases[1].contacts[0].surface = 1;
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Transcription nlp(problem, mesh, guess);
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);
+  Transcription nlp(discrete, guess);
   Eigen::VectorXd z = nlp.pack(guess), g(nlp.num_constraints());
   const auto inside = [&](double x, double y) {  // place on the surface, the last two variables
     z.tail<2>() << x, y;
@@ -144,11 +144,11 @@ TEST(Transcription, LandsInsideThePatch) {
 
 /// A contact that the start has in the air, on the ground here, is not asked to be higher at once.
 TEST(Transcription, ClearanceGrowsFromTheStart) {
-  MotionProblem problem =
+  auto [problem, mesh] =
       everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.2, 10), phase_on("landed", {0, 1, 2, 3}, 0.2, 2)});
   problem.swing_clearance = 0.05;
-  const Mesh mesh = make_mesh(problem);
-  Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const DiscreteProblem discrete(problem, mesh);
+  Transcription nlp(discrete, initial_guess(discrete));
   std::vector<double> heights;  // [m]
   for (int row = 0; row < nlp.num_constraints(); ++row) {
     if (nlp.describe_constraint(row).find("clearance") == std::string::npos) continue;
@@ -160,26 +160,26 @@ TEST(Transcription, ClearanceGrowsFromTheStart) {
   EXPECT_NEAR(heights[8], heights[0], 1e-12);
 }
 
-std::vector<double> clearances(const MotionProblem& problem) {
-  const Mesh mesh = make_mesh(problem);
-  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+std::vector<double> clearances(const DiscreteProblem& discrete) {
+  const Transcription nlp(discrete, initial_guess(discrete));
   std::vector<double> heights;  // [m]
   for (int row = 0; row < nlp.num_constraints(); ++row) {
     if (nlp.describe_constraint(row).find("clearance") == std::string::npos) continue;
-    heights.push_back(nlp.constraint_lower()(row) * problem.robot.size());
+    heights.push_back(nlp.constraint_lower()(row) * discrete.problem.robot.size());
   }
   return heights;
 }
 
 /// Through two phases, the first a quarter of the swing: whatever the nodes, a foot has to be at a height at a time.
 TEST(Transcription, ClearanceIsAMatterOfTimeNotOfNodes) {
-  MotionProblem problem =
+  auto [problem, mesh] =
       everything(test::hyq(), {phase_on("lifted", {1, 2, 3}, 0.1, 2), phase_on("still", {1, 2, 3}, 0.3, 2),
                                phase_on("landed", {0, 1, 2, 3}, 0.2, 1)});
   problem.swing_clearance = 0.05;
-  problem.phases[0].shares = {0.8, 0.2};
+  mesh.phases[0] = PhaseMesh({0.8, 0.2});
   const auto at = [](double s) { return 0.05 * 16.0 * s * s * (1.0 - s) * (1.0 - s); };
-  EXPECT_THAT(clearances(problem), testing::Pointwise(testing::DoubleNear(1e-12), {at(0.2), at(0.25), at(0.625)}));
+  EXPECT_THAT(clearances({problem, mesh}),
+              testing::Pointwise(testing::DoubleNear(1e-12), {at(0.2), at(0.25), at(0.625)}));
 }
 
 TEST(Transcription, DerivativesHoldForTorqueCurves) {
@@ -193,43 +193,43 @@ TEST(Transcription, DerivativesHoldForTorqueCurves) {
 }
 
 TEST(Transcription, DerivativesHoldForThePyramid) {
-  MotionProblem problem =
+  MeshedProblem of =
       everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)});
-  problem.friction_model = FrictionModel::pyramid;
-  expect_derivatives(problem);
+  of.problem.friction_model = FrictionModel::pyramid;
+  expect_derivatives(of);
 }
 
 TEST(Transcription, DerivativesHoldForFlatFeetThatStandAndLand) {
-  MotionProblem problem = everything(
+  MeshedProblem of = everything(
       test::talos(), {phase_on("left", {0, 1, 2, 3}, 0.3, 1), free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)});
-  problem.running_cost.force_weight *= 0.1;  // heavier than HyQ: a cost of the same size, against rounding
-  expect_derivatives(problem,
+  of.problem.running_cost.force_weight *= 0.1;  // heavier than HyQ: a cost of the same size, against rounding
+  expect_derivatives(of,
                      0.5);  // single corners carry little: forces near the tips of their cones, where they bend
 }
 
 TEST(Transcription, PackAndUnpackAreInverse) {
-  const MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 3)});
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Transcription nlp(problem, mesh, guess);
+  const auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 3)});
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);
+  Transcription nlp(discrete, guess);
   std::mt19937 rng(5);
   const Eigen::VectorXd z = nlp.pack(guess) + test::random_vector(rng, nlp.num_variables(), 0.3);
   EXPECT_LT(test::relative_error(nlp.pack(nlp.unpack(z)), z), 1e-12);
 }
 
 TEST(Transcription, QuaternionsDoNotJump) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("flight", {}, 2.0, 20)});
+  auto [problem, mesh] = everything(test::hyq(), {phase_on("flight", {}, 2.0, 20)}, Surface{});
   problem.boundary_conditions.resize(1);
   Eigen::VectorXd turn = Eigen::VectorXd::Zero(problem.robot.nv());
   turn(5) = -2.4;  // beyond the half turn at which a quaternion made from a matrix changes its sign
-  auto turned = BoundaryCondition::unbounded(problem.robot, "turned", {0, 20},
+  auto turned = BoundaryCondition::unbounded(problem.robot, "turned", PhaseFraction::end_of(0),
                                              integrate(problem.robot.nominal_configuration(), turn));
   turned.configuration_lower.head<6>().setZero();
   turned.configuration_upper.head<6>().setZero();
   problem.boundary_conditions.push_back(turned);
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Transcription nlp(problem, mesh, guess);
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);
+  Transcription nlp(discrete, guess);
   const Trajectory motion = nlp.unpack(nlp.pack(guess));
   for (std::size_t k = 1; k < motion.nodes.size(); ++k) {
     EXPECT_GT(motion.nodes[k].q.segment<4>(3).dot(motion.nodes[k - 1].q.segment<4>(3)), 0.9);
@@ -237,32 +237,51 @@ TEST(Transcription, QuaternionsDoNotJump) {
 }
 
 TEST(Transcription, ALimitCountsAgainstTheRoundingOfAGoal) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
   problem.boundary_conditions.resize(1);
   Eigen::VectorXd q = problem.robot.nominal_configuration();
   q(7) = problem.robot.position_upper()(0) + 5e-10;
-  auto goal = BoundaryCondition::unbounded(problem.robot, "goal", {0, 2}, q);
+  auto goal = BoundaryCondition::unbounded(problem.robot, "goal", PhaseFraction::end_of(0), q);
   goal.configuration_lower(6) = goal.configuration_upper(6) = 0.0;
   problem.boundary_conditions.push_back(goal);
-  const Mesh mesh = make_mesh(problem);
-  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const DiscreteProblem discrete(problem, mesh);
+  const Transcription nlp(discrete, initial_guess(discrete));
   const int first = 2 * (3 * problem.robot.nv() + problem.robot.nu()) + 6;
   EXPECT_EQ(nlp.variable_lower()(first), problem.robot.position_upper()(0));
   EXPECT_EQ(nlp.variable_upper()(first), problem.robot.position_upper()(0));
 
   problem.boundary_conditions[1].q_ref(7) += 1e-3;
-  EXPECT_THROW(Transcription(problem, mesh, initial_guess(problem, mesh)), InputError);
+  EXPECT_THROW(DiscreteProblem(problem, mesh), InputError);
+}
+
+/// Each of them is possible, and both are not: within rounding they may miss each other.
+TEST(Transcription, GoalsThatContradictEachOtherAreRefused) {
+  auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
+  problem.boundary_conditions.push_back(problem.boundary_conditions[1]);
+  problem.boundary_conditions[2].configuration_lower.segment<3>(3).setConstant(
+      -std::numeric_limits<double>::infinity());
+  problem.boundary_conditions[2].configuration_upper.segment<3>(3).setConstant(std::numeric_limits<double>::infinity());
+  for (const double by : {0.0, 1e-3}) {
+    problem.boundary_conditions[2].q_ref(0) = problem.boundary_conditions[1].q_ref(0) + by;
+    const DiscreteProblem discrete(problem, mesh);
+    const Trajectory guess = initial_guess(discrete);
+    if (by > 0.0) {
+      EXPECT_THROW(Transcription(discrete, guess), InputError);
+    } else {
+      EXPECT_NO_THROW(Transcription(discrete, guess));
+    }
+  }
 }
 
 /// Bounds of all variables at a node that say more than the robot's limits.
 TEST(Transcription, LimitsAndGoalsAreBounds) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 3)});
+  auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 3)});
   auto& goal = problem.boundary_conditions[1];
   goal.velocity_lower(2) = -0.1;
   goal.velocity_upper(2) = 0.2;
   goal.torque_lower(4) = 3.0;
-  const Mesh mesh = make_mesh(problem);
-  const Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const DiscreteProblem discrete(problem, mesh);
+  const Transcription nlp(discrete, initial_guess(discrete));
   const RobotModel& robot = problem.robot;
   const int nv = robot.nv(), nu = robot.nu(), size = 3 * nv + nu;
   for (int k = 1; k < 4; ++k) {
@@ -282,15 +301,15 @@ TEST(Transcription, LimitsAndGoalsAreBounds) {
 
 /// The running cost is integrated by the trapezoid: a motion that stands still costs its rate times the time.
 TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
-  MotionProblem problem =
+  auto [problem, mesh] =
       everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.3, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
   problem.boundary_conditions.resize(1);
   problem.running_cost.force_weight.setZero();
   problem.running_cost.contact_positions.clear();
   problem.terminal_cost.contact_positions.clear();
   problem.running_cost.time_weight = 0.7;
-  const Mesh mesh = make_mesh(problem);
-  Trajectory guess = initial_guess(problem, mesh);
+  const DiscreteProblem discrete(problem, mesh);
+  Trajectory guess = initial_guess(discrete);
   for (TrajectoryPoint& point : guess.nodes) {
     point.q = problem.start_configuration();
     point.v.setConstant(0.2);
@@ -304,16 +323,16 @@ TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
   const double running = 0.7 + state_cost(problem.running_cost) +
                          0.5 * 0.09 * problem.running_cost.acceleration_weight.sum() +
                          0.5 * 4.0 * problem.running_cost.torque_weight.sum();
-  Transcription nlp(problem, mesh, guess);
+  Transcription nlp(discrete, guess);
   const double expected = 0.7 * running + state_cost(problem.terminal_cost);
   EXPECT_NEAR(nlp.cost(nlp.pack(guess)), expected, 1e-12 * expected);
 }
 
 /// Each interval with its own step.
 TEST(Transcription, CostIsTheTrapezoidOfStepsOfDifferentLength) {
-  MotionProblem problem = everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.4, 3)});
+  auto [problem, mesh] = everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.4, 3)});
   problem.boundary_conditions.resize(1);
-  problem.phases[0].shares = {0.5, 0.2, 0.3};
+  mesh.phases[0] = PhaseMesh({0.5, 0.2, 0.3});
   for (QuadraticCost* cost : {&problem.running_cost, &problem.terminal_cost}) {
     cost->configuration_weight.setZero();
     cost->velocity_weight.setZero();
@@ -323,23 +342,23 @@ TEST(Transcription, CostIsTheTrapezoidOfStepsOfDifferentLength) {
   }
   problem.running_cost.tau_ref.setZero();
   problem.running_cost.torque_weight.setConstant(2.0);
-  const Mesh mesh = make_mesh(problem);
-  Trajectory guess = initial_guess(problem, mesh);
+  const DiscreteProblem discrete(problem, mesh);
+  Trajectory guess = initial_guess(discrete);
   for (int k = 0; k < 4; ++k) {
     guess.nodes[k].tau.setZero();
     guess.nodes[k].tau(0) = k + 1.0;  // costs its square
   }
-  Transcription nlp(problem, mesh, guess);
+  Transcription nlp(discrete, guess);
   const double expected = 0.5 * (0.2 * (1.0 + 4.0) + 0.08 * (4.0 + 9.0) + 0.12 * (9.0 + 16.0));
   EXPECT_NEAR(nlp.cost(nlp.pack(guess)), expected, 1e-12);
 }
 
 TEST(Transcription, UnpacksTheTimesOfItsMesh) {
-  MotionProblem problem = everything(test::hyq(), {free_phase("a", {0, 1, 2, 3}, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
-  problem.phases[0].shares = {0.5, 0.2, 0.3};
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);
-  Transcription nlp(problem, mesh, guess);
+  auto [problem, mesh] = everything(test::hyq(), {free_phase("a", {0, 1, 2, 3}, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
+  mesh.phases[0] = PhaseMesh({0.5, 0.2, 0.3});
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);
+  Transcription nlp(discrete, guess);
   Eigen::VectorXd z = nlp.pack(guess);
   const int duration = static_cast<int>(z.size()) - 1;
   ASSERT_EQ(nlp.describe_variable(duration), "phase 1 'a', duration");
@@ -351,9 +370,9 @@ TEST(Transcription, UnpacksTheTimesOfItsMesh) {
 
 /// What satisfies the defects is what interpolate() means: the certificate and the transcription read one trapezoid.
 TEST(Transcription, DefectsVanishWhereTheInterpolationMeetsTheNextNode) {
-  const MotionProblem problem = everything(test::hyq(), {phase_on("flight", {}, 0.3, 1)});
-  const Mesh mesh = make_mesh(problem);
-  Trajectory motion = initial_guess(problem, mesh);
+  const auto [problem, mesh] = everything(test::hyq(), {phase_on("flight", {}, 0.3, 1)});
+  const DiscreteProblem discrete(problem, mesh);
+  Trajectory motion = initial_guess(discrete);
   std::mt19937 rng(13);
   for (TrajectoryPoint& point : motion.nodes) {
     point.v = test::random_vector(rng, problem.robot.nv(), 1.0);
@@ -362,7 +381,7 @@ TEST(Transcription, DefectsVanishWhereTheInterpolationMeetsTheNextNode) {
   motion.nodes[1].v = motion.nodes[0].v + 0.15 * (motion.nodes[0].a + motion.nodes[1].a);
   // Twice: the place at the end depends on the rotation there.
   for (int i = 0; i < 2; ++i) motion.nodes[1].q = interpolate(motion.nodes[0], motion.nodes[1], 0.3).q;
-  Transcription nlp(problem, mesh, motion);
+  Transcription nlp(discrete, motion);
   Eigen::VectorXd g(nlp.num_constraints());
   nlp.constraints(nlp.pack(motion), g);
   EXPECT_LT(g.tail(2 * problem.robot.nv()).cwiseAbs().maxCoeff(), 1e-13);
@@ -374,12 +393,12 @@ TEST(Transcription, DefectsVanishWhereTheInterpolationMeetsTheNextNode) {
 
 TEST(Transcription, StandingStillInBalanceSatisfiesEverything) {
   const RobotModel robot = test::hyq();
-  MotionProblem problem = everything(robot, {phase_on("a", {0, 1, 2, 3}, 0.4, 2), phase_on("b", {0, 1, 2, 3}, 0.4, 2)});
-  problem.surfaces = {Surface{}};
+  auto [problem, mesh] =
+      everything(robot, {phase_on("a", {0, 1, 2, 3}, 0.4, 2), phase_on("b", {0, 1, 2, 3}, 0.4, 2)}, Surface{});
   problem.boundary_conditions.resize(1);
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory guess = initial_guess(problem, mesh);  // static: there is nowhere to go
-  Transcription nlp(problem, mesh, guess);
+  const DiscreteProblem discrete(problem, mesh);
+  const Trajectory guess = initial_guess(discrete);  // static: there is nowhere to go
+  Transcription nlp(discrete, guess);
   const Eigen::VectorXd z = nlp.pack(guess);
   Eigen::VectorXd g(nlp.num_constraints());
   nlp.constraints(z, g);
@@ -396,10 +415,10 @@ TEST(Transcription, StandingStillInBalanceSatisfiesEverything) {
 }
 
 TEST(Transcription, NamesEveryConstraintAndVariable) {
-  const MotionProblem problem =
+  const auto [problem, mesh] =
       everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2), phase_on("three", {0, 1, 3}, 0.2, 1)});
-  const Mesh mesh = make_mesh(problem);
-  Transcription nlp(problem, mesh, initial_guess(problem, mesh));
+  const DiscreteProblem discrete(problem, mesh);
+  Transcription nlp(discrete, initial_guess(discrete));
   EXPECT_EQ(nlp.describe_constraint(0), "phase 1 'four', node 0, base force x, equations of motion, t = 0.000 s");
   EXPECT_EQ(nlp.describe_constraint(18 + 1), "phase 1 'four', node 0, lh_foot, friction cone, t = 0.000 s");
   EXPECT_EQ(nlp.describe_constraint(nlp.num_constraints() - 1),

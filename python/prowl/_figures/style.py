@@ -88,9 +88,11 @@ def mark_phases(grid, phases, end: float) -> None:
                 )
 
 
-def finish(figure, title: str, subtitle: str, handles, name: str, table: str, bottom: float = 0.0) -> dict[str, bytes]:
-    """Title and legend of the whole figure; its files by name. Sizes in inches, so that tall figures look as flat ones
-    do; `bottom` is left free."""
+def finish(
+    figure, title: str, subtitle: str, handles, name: str, table: str | None = None, bottom: float = 0.0
+) -> dict[str, bytes]:
+    """Title and legend of the whole figure; its files by name: pictures, and the table if there is one. Sizes in inches,
+    so that tall figures look as flat ones do; `bottom` is left free."""
     height = figure.get_figheight()
     figure.text(0.012, 1 - 0.08 / height, title, ha="left", va="top", fontweight="bold", fontsize=12)
     figure.text(0.012, 1 - 0.33 / height, subtitle, ha="left", va="top", color="0.35")
@@ -110,7 +112,7 @@ def finish(figure, title: str, subtitle: str, handles, name: str, table: str, bo
         )
         top = 0.84 + lines
     figure.tight_layout(rect=(0, bottom / height, 1, 1 - top / height))
-    files = {f"{name}.csv": table.encode()}
+    files = {} if table is None else {f"{name}.csv": table.encode()}
     for kind, metadata in (("svg", {"Date": None}), ("png", {})):
         picture = io.BytesIO()
         figure.savefig(picture, format=kind, metadata={**metadata, "Title": title.replace("$", "")})

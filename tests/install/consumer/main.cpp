@@ -6,6 +6,6 @@
 
 int main(int, char** argv) {
   const prowl::Task task = prowl::read_task_file(argv[1], {.folders = {argv[2]}, .working_directory = {}});
-  const prowl::Plan plan = prowl::make_plan(task.problem, prowl::IpoptSolver(), {.solver = task.solver});
+  const prowl::Plan plan = prowl::make_plan({task.problem, task.mesh}, prowl::IpoptSolver(), {.solver = task.solver});
   std::cout << prowl::to_string(plan.result.status) << ", cost " << plan.result.cost << '\n';
 }

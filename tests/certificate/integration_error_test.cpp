@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "prowl/certificate/reintegration.hpp"
+#include "tests/certificate/stance_motion.hpp"
 #include "tests/support/robots.hpp"
-#include "tests/trajectory/stance_motion.hpp"
 
 namespace prowl {
 namespace {

@@ -3,9 +3,10 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "prowl/certificate/certificate.hpp"
-#include "tests/trajectory/stance_motion.hpp"
+#include "tests/certificate/stance_motion.hpp"
 
 namespace prowl::test {
 
@@ -24,24 +25,29 @@ inline const CertificateCheck& find(const Certificate& certificate, const std::s
   throw std::out_of_range(name);
 }
 
-/// A problem and a motion that solves it.
+/// A problem and a motion that solves it. Faults of the problem are put into it once it is prepared: before, it would
+/// be refused for some of them.
 struct Case {
-  MotionProblem problem;
+  DiscreteProblem discrete;
   Trajectory trajectory;
 };
+
+/// The problem that `trajectory` (one phase, all contacts) solves, on the mesh that it has.
+inline Case stance_case(const RobotModel& robot, Trajectory trajectory) {
+  const PhaseMesh mesh(static_cast<int>(trajectory.nodes.size()) - 1);
+  return {{problem_of(robot, trajectory), {{mesh}}}, std::move(trajectory)};
+}
 
 /// All feet on the ground, nothing moves.
 inline Case standing(const RobotModel& robot, int intervals = 10, double duration = 1.0) {
   StanceMotion motion(robot, duration, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
-  Trajectory trajectory = motion.on_mesh(intervals);
-  return {problem_of(robot, trajectory), std::move(trajectory)};
+  return stance_case(robot, motion.on_mesh(intervals));
 }
 
 /// A crouch and back in two seconds that also leans and turns.
 inline Case crouching(const RobotModel& robot, int intervals) {
   StanceMotion motion(robot, 2.0, {0.03, 0.02, -0.05}, {0.03, 0.05, 0.04});
-  Trajectory trajectory = motion.by_trapezoid(intervals);
-  return {problem_of(robot, trajectory), std::move(trajectory)};
+  return stance_case(robot, motion.by_trapezoid(intervals));
 }
 
 }  // namespace prowl::test

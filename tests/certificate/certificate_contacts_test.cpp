@@ -5,8 +5,8 @@
 
 #include <functional>
 
+#include "tests/certificate/stepping_motion.hpp"
 #include "tests/support/robots.hpp"
-#include "tests/trajectory/stepping_motion.hpp"
 
 namespace prowl {
 namespace {
@@ -24,7 +24,7 @@ struct Sabotage {
   Names fails;
 };
 
-Surface& patch(Case& c) { return c.problem.surfaces[1]; }
+Surface& patch(Case& c) { return c.discrete.problem.surfaces[1]; }
 
 /// Surface coordinates of the patch have their origin at the foot's place.
 void move_patch(Case& c, double x) {
@@ -34,9 +34,9 @@ void move_patch(Case& c, double x) {
 /// A block with its wall at the given distance from the foot, on the side to which the knee moves it.
 void add_block(Case& c, double distance) {
   Surface block{.name = "block", .point = patch(c).point + Eigen::Vector3d(0.0, 0.0, 0.5)};
-  const double far = c.problem.robot.contacts()[0].radius + 1.0;
+  const double far = c.discrete.problem.robot.contacts()[0].radius + 1.0;
   block.patch = {{-far, -0.1}, {-distance, -0.1}, {-distance, 0.1}, {-far, 0.1}};
-  c.problem.surfaces.push_back(block);
+  c.discrete.problem.surfaces.push_back(block);
 }
 
 std::vector<Sabotage> landing_sabotage() {
@@ -44,16 +44,16 @@ std::vector<Sabotage> landing_sabotage() {
       {"patch 2 mm lower than the foot",
        [](Case& c) {
          patch(c).point.z() -= 2e-3;
-         c.problem.phases[2].contacts[0].place->z() -= 2e-3;
+         c.discrete.problem.phases[2].contacts[0].place->z() -= 2e-3;
        },
        {"contact gap at closing", "contact away from its place"}},
       {"foot 2 mm beside its patch", [](Case& c) { move_patch(c, 0.032); }, {"contact outside its patch"}},
       {"foot 2 mm from its place",
-       [](Case& c) { c.problem.phases[2].contacts[0].place->y() += 2e-3; },
+       [](Case& c) { c.discrete.problem.phases[2].contacts[0].place->y() += 2e-3; },
        {"contact away from its place"}},
-      {"swing too low", [](Case& c) { c.problem.swing_clearance = 0.2; }, {"swing clearance missing"}},
+      {"swing too low", [](Case& c) { c.discrete.problem.swing_clearance = 0.2; }, {"swing clearance missing"}},
       {"foot under a plane without an edge",
-       [](Case& c) { c.problem.surfaces.push_back({.name = "high", .point = {0.0, 0.0, 0.04}}); },
+       [](Case& c) { c.discrete.problem.surfaces.push_back({.name = "high", .point = {0.0, 0.0, 0.04}}); },
        {"penetration"}},
       {"foot in the side of a block", [](Case& c) { add_block(c, 0.0197); }, {"penetration"}},
   };
@@ -62,14 +62,14 @@ std::vector<Sabotage> landing_sabotage() {
 void expect_caught(const Sabotage& sabotage, Case c) {
   SCOPED_TRACE(sabotage.name);
   sabotage.commit(c);
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), sabotage.fails);
   EXPECT_EQ(certificate.grade, Grade::failed);
 }
 
 TEST(CertificateContacts, AStepPasses) {
   const Case c = SteppingMotion(test::hyq()).make();
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{});
   EXPECT_TRUE(certificate.passed);
   for (const char* check : {"contact gap at closing", "contact outside its patch", "contact away from its place",
@@ -88,8 +88,8 @@ TEST(CertificateContacts, CatchesFaultsOfLanding) {
 
 TEST(CertificateContacts, ABlockBesideTheFootIsNotInTheWay) {
   Case c = SteppingMotion(test::hyq()).make();
-  add_block(c, c.problem.robot.contacts()[0].radius + 1e-3);
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  add_block(c, c.discrete.problem.robot.contacts()[0].radius + 1e-3);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{});
 }
 
@@ -100,10 +100,10 @@ TEST(CertificateContacts, AContactThatOpensUnderLoadFails) {
     nodes[k].tau = nodes[0].tau;
     nodes[k].force = nodes[0].force;
   }
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{"force before opening"});
   EXPECT_EQ(find(certificate, "force before opening").where, "lf_foot");
-  EXPECT_GT(find(certificate, "force before opening").worst, 0.1 * c.problem.robot.weight());
+  EXPECT_GT(find(certificate, "force before opening").worst, 0.1 * c.discrete.problem.robot.weight());
 }
 
 TEST(CertificateContacts, AContactThatClosesWhileItMovesFails) {
@@ -116,13 +116,15 @@ TEST(CertificateContacts, AContactThatClosesWhileItMovesFails) {
   const int new_switch = old_switch - kEarly;
   nodes.insert(nodes.begin() + new_switch, nodes[new_switch]);
   for (std::size_t k = new_switch + 1; k < nodes.size(); ++k) nodes[k].phase = 2;
+  MotionProblem problem = c.discrete.problem;
   for (auto [phase, sign] : {std::pair{1, -1}, {2, 1}}) {
-    c.problem.phases[phase].intervals += sign * kEarly;
-    c.problem.phases[phase].duration.min += sign * kEarly * h;
-    c.problem.phases[phase].duration.max = c.problem.phases[phase].duration.min;
+    problem.phases[phase].duration.min += sign * kEarly * h;
+    problem.phases[phase].duration.max = problem.phases[phase].duration.min;
   }
-  c.problem.boundary_conditions[1].at.node += kEarly;
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  c.discrete = {std::move(problem),
+                {{PhaseMesh(SteppingMotion::kShift), PhaseMesh(SteppingMotion::kSwing - kEarly),
+                  PhaseMesh(SteppingMotion::kShift + kEarly)}}};
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_THAT(failed_checks(certificate), testing::IsSupersetOf({"contact velocity", "contact gap at closing"}));
 }
 
@@ -145,7 +147,7 @@ Case talos_with(const Eigen::VectorXd& forces) {
 TEST(CertificateContacts, ForcesOfRedundantContactsAreAChoice) {
   const RobotModel robot = test::talos();
   const Case c = talos_with(twist(robot, {0.0, 0.0, 0.05 * robot.weight()}));
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{});
   EXPECT_LT(find(certificate, "planned contact force").worst, 1e-6);
   EXPECT_EQ(certificate.redundant_contacts.size(), 8u);
@@ -157,9 +159,9 @@ TEST(CertificateContacts, ForcesOfRedundantContactsAreAChoice) {
 TEST(CertificateContacts, TheChosenForcesHaveToBePossible) {
   const RobotModel robot = test::talos();
   const Case pull = talos_with(twist(robot, {0.0, 0.0, 0.2 * robot.weight()}));
-  EXPECT_EQ(failed_checks(certify(pull.problem, pull.trajectory)), Names{"unilateral force"});
+  EXPECT_EQ(failed_checks(certify(pull.discrete, pull.trajectory)), Names{"unilateral force"});
   const Case slip = talos_with(twist(robot, {0.1 * robot.weight(), 0.0, 0.0}));
-  EXPECT_THAT(failed_checks(certify(slip.problem, slip.trajectory)), testing::Contains("friction cone"));
+  EXPECT_THAT(failed_checks(certify(slip.discrete, slip.trajectory)), testing::Contains("friction cone"));
 }
 
 TEST(CertificateContacts, ForcesOfRedundantContactsThatDoNotCarryTheRobotFail) {
@@ -167,7 +169,7 @@ TEST(CertificateContacts, ForcesOfRedundantContactsThatDoNotCarryTheRobotFail) {
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(24);
   forces(2) = 0.5 * robot.weight();
   const Case c = talos_with(forces);
-  EXPECT_THAT(failed_checks(certify(c.problem, c.trajectory)), testing::Contains("planned contact force"));
+  EXPECT_THAT(failed_checks(certify(c.discrete, c.trajectory)), testing::Contains("planned contact force"));
 }
 
 }  // namespace

@@ -2,26 +2,30 @@
 
 #include <gmock/gmock.h>
 
-#include "../support/robots.hpp"
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "tests/support/standing_problem.hpp"
 
 namespace prowl {
 namespace {
 
 /// Two phases, 0.4 s and 0.6 s; the second may take what `second` says.
-MotionProblem two_phases(int intervals, Duration second) {
-  MotionProblem problem{.robot = test::hyq()};
-  problem.phases = {{.name = "first", .duration = {0.4, 0.4}, .intervals = intervals},
-                    {.name = "second", .duration = second, .intervals = intervals}};
-  return problem;
+DiscreteProblem two_phases(const Mesh& mesh, Duration second) {
+  MotionProblem problem = test::standing_problem();
+  problem.phases = {{.name = "first", .contacts = {}, .duration = {0.4, 0.4}},
+                    {.name = "second", .contacts = {}, .duration = second}};
+  return {std::move(problem), mesh};
+}
+DiscreteProblem two_phases(int intervals, Duration second) {
+  return two_phases({{PhaseMesh(intervals), PhaseMesh(intervals)}}, second);
 }
 
 /// A motion that the trapezoid meets exactly: each phase of constant acceleration and torque of its own.
-Trajectory smooth_motion(const MotionProblem& problem, const Mesh& mesh) {
+Trajectory smooth_motion(const DiscreteProblem& discrete) {
+  const MotionProblem& problem = discrete.problem;
   const int nv = problem.robot.nv(), nu = problem.robot.nu();
   Trajectory motion;
-  for (const MeshNode& node : mesh.nodes) {
+  for (const MeshNode& node : discrete.nodes) {
     TrajectoryPoint point;
     point.time = node.time;
     point.phase = node.phase;
@@ -44,10 +48,9 @@ Trajectory smooth_motion(const MotionProblem& problem, const Mesh& mesh) {
 }
 
 TEST(Resample, IsTheSameMotionOnAnotherMesh) {
-  const MotionProblem coarse = two_phases(3, {0.6, 0.6}), fine = two_phases(7, {0.6, 0.6});
-  const Mesh mesh = make_mesh(fine);
-  const Trajectory expected = smooth_motion(fine, mesh);
-  const Trajectory found = resample(smooth_motion(coarse, make_mesh(coarse)), fine, mesh);
+  const DiscreteProblem coarse = two_phases(3, {0.6, 0.6}), fine = two_phases(7, {0.6, 0.6});
+  const Trajectory expected = smooth_motion(fine);
+  const Trajectory found = resample(smooth_motion(coarse), fine);
   ASSERT_EQ(found.nodes.size(), expected.nodes.size());
   for (std::size_t k = 0; k < found.nodes.size(); ++k) {
     const TrajectoryPoint &a = found.nodes[k], &b = expected.nodes[k];
@@ -59,13 +62,11 @@ TEST(Resample, IsTheSameMotionOnAnotherMesh) {
 }
 
 TEST(Resample, IsTheSameMotionOnUnevenMeshes) {
-  MotionProblem coarse = two_phases(3, {0.6, 0.6}), fine = two_phases(4, {0.6, 0.6});
-  coarse.phases[0].shares = {0.5, 0.2, 0.3};
-  fine.phases[0].shares = {0.1, 0.2, 0.3, 0.4};
-  fine.phases[1].shares = {0.4, 0.1, 0.1, 0.4};
-  const Mesh mesh = make_mesh(fine);
-  const Trajectory expected = smooth_motion(fine, mesh);
-  const Trajectory found = resample(smooth_motion(coarse, make_mesh(coarse)), fine, mesh);
+  const DiscreteProblem coarse = two_phases({{PhaseMesh({0.5, 0.2, 0.3}), PhaseMesh(3)}}, {0.6, 0.6});
+  const DiscreteProblem fine =
+      two_phases({{PhaseMesh({0.1, 0.2, 0.3, 0.4}), PhaseMesh({0.4, 0.1, 0.1, 0.4})}}, {0.6, 0.6});
+  const Trajectory expected = smooth_motion(fine);
+  const Trajectory found = resample(smooth_motion(coarse), fine);
   for (std::size_t k = 0; k < expected.nodes.size(); ++k) {
     EXPECT_NEAR(found.nodes[k].time, expected.nodes[k].time, 1e-15);
     EXPECT_LT((found.nodes[k].q - expected.nodes[k].q).norm() + (found.nodes[k].v - expected.nodes[k].v).norm(), 1e-13)
@@ -74,9 +75,9 @@ TEST(Resample, IsTheSameMotionOnUnevenMeshes) {
 }
 
 TEST(Resample, StretchesAPhaseToWhatIsAllowed) {
-  const MotionProblem problem = two_phases(4, {0.6, 0.6}), longer = two_phases(4, {0.9, 1.5});
-  const Trajectory motion = smooth_motion(problem, make_mesh(problem));
-  const Trajectory found = resample(motion, longer, make_mesh(longer));
+  const DiscreteProblem discrete = two_phases(4, {0.6, 0.6}), longer = two_phases(4, {0.9, 1.5});
+  const Trajectory motion = smooth_motion(discrete);
+  const Trajectory found = resample(motion, longer);
   EXPECT_DOUBLE_EQ(found.duration(), 0.4 + 0.9);
   const TrajectoryPoint &last = found.nodes.back(), &before = motion.nodes.back();
   EXPECT_LT((last.q - before.q).norm(), 1e-15);
@@ -85,12 +86,11 @@ TEST(Resample, StretchesAPhaseToWhatIsAllowed) {
 }
 
 TEST(Resample, RefusesAMotionOfAnotherProblem) {
-  const MotionProblem problem = two_phases(4, {0.6, 0.6});
-  const Mesh mesh = make_mesh(problem);
-  const Trajectory motion = smooth_motion(problem, mesh);
+  const DiscreteProblem discrete = two_phases(4, {0.6, 0.6});
+  const Trajectory motion = smooth_motion(discrete);
   const auto message = [&](const Trajectory& other) -> std::string {
     try {
-      resample(other, problem, mesh);
+      resample(other, discrete);
     } catch (const InputError& error) {
       return error.what();
     }

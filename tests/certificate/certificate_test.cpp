@@ -6,9 +6,9 @@
 #include <cmath>
 #include <functional>
 
+#include "tests/certificate/certificate_cases.hpp"
+#include "tests/certificate/stance_motion.hpp"
 #include "tests/support/robots.hpp"
-#include "tests/trajectory/certificate_cases.hpp"
-#include "tests/trajectory/stance_motion.hpp"
 
 namespace prowl {
 namespace {
@@ -20,12 +20,12 @@ using test::find;
 using test::Names;
 using test::standing;
 
-void set_robot(Case& c, const RobotDescription& description) { c.problem.robot = RobotModel(description); }
+void set_robot(Case& c, const RobotDescription& description) { c.discrete.problem.robot = RobotModel(description); }
 
 TEST(Certificate, StandingStillIsCertifiedForEveryRobot) {
   for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2(), test::talos()}) {
     const Case c = standing(robot);
-    const Certificate certificate = certify(c.problem, c.trajectory);
+    const Certificate certificate = certify(c.discrete, c.trajectory);
     EXPECT_EQ(failed_checks(certificate), Names{}) << robot.name();
     EXPECT_EQ(certificate.grade, Grade::certified) << robot.name();
     EXPECT_GE(certificate.checks.size(), 18u);
@@ -35,7 +35,7 @@ TEST(Certificate, StandingStillIsCertifiedForEveryRobot) {
 
 TEST(Certificate, AMotionOnAFineMeshPasses) {
   const Case c = crouching(test::hyq(), 400);
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{});
   EXPECT_TRUE(certificate.passed);
   EXPECT_NE(certificate.grade, Grade::failed);
@@ -44,7 +44,7 @@ TEST(Certificate, AMotionOnAFineMeshPasses) {
 
 TEST(Certificate, AMotionOnACoarseMeshFailsByItsIntegration) {
   const Case c = crouching(test::hyq(), 4);
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_FALSE(certificate.passed);
   EXPECT_EQ(certificate.grade, Grade::failed);
   EXPECT_FALSE(find(certificate, "local integration error").passed);
@@ -53,9 +53,9 @@ TEST(Certificate, AMotionOnACoarseMeshFailsByItsIntegration) {
 
 TEST(Certificate, ForcesDecideNotWhatThePlannerSaysOfThem) {
   Case c = standing(test::hyq());
-  const double truth = find(certify(c.problem, c.trajectory), "friction cone").worst;
+  const double truth = find(certify(c.discrete, c.trajectory), "friction cone").worst;
   for (TrajectoryPoint& node : c.trajectory.nodes) node.force.array() += 3.0;
-  EXPECT_EQ(find(certify(c.problem, c.trajectory), "friction cone").worst, truth);
+  EXPECT_EQ(find(certify(c.discrete, c.trajectory), "friction cone").worst, truth);
 }
 
 // --- Sabotage: each fault of a standing HyQ fails the check that is there for it, and no other ---
@@ -69,20 +69,20 @@ struct Sabotage {
 /// Adds internal forces (they balance each other on the body) of world direction (x, y, z) with the sign pattern lf +,
 /// lh s, rf t, rh u, and the torques that go with them.
 void squeeze(Case& c, const Eigen::Vector3d& force, const Eigen::Vector4d& signs) {
-  test::StanceMotion motion(c.problem.robot, 1.0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  test::StanceMotion motion(c.discrete.problem.robot, 1.0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   Eigen::VectorXd internal(12);
   for (int foot = 0; foot < 4; ++foot) internal.segment<3>(3 * foot) = signs(foot) * force;
   const Eigen::MatrixXd J = motion.jacobian(c.trajectory.nodes.front().q);
   ASSERT_LT((J.leftCols(6).transpose() * internal).norm(), 1e-6) << "the forces must balance";
   for (TrajectoryPoint& node : c.trajectory.nodes) {
     node.force += internal;
-    node.tau -= J.rightCols(c.problem.robot.nu()).transpose() * internal;
+    node.tau -= J.rightCols(c.discrete.problem.robot.nu()).transpose() * internal;
   }
 }
 
 /// One leg swings outwards at its hip at a constant rate, while the torques go on carrying the robot.
 void drift(Case& c, double duration, double rate) {
-  test::StanceMotion motion(c.problem.robot, 1.0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
+  test::StanceMotion motion(c.discrete.problem.robot, 1.0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero());
   for (std::size_t k = 0; k < c.trajectory.nodes.size(); ++k) {
     TrajectoryPoint& node = c.trajectory.nodes[k];
     node.time *= duration;
@@ -90,34 +90,35 @@ void drift(Case& c, double duration, double rate) {
     node.v(6) = rate;
     motion.add_forces(node);
   }
-  const int last = c.problem.phases[0].intervals;
-  c.problem.phases[0].duration = {duration, duration};
-  c.problem.boundary_conditions = {
-      test::fixed_state(c.problem.robot, "start", {0, 0}, c.trajectory.nodes[0].q, c.trajectory.nodes[0].v),
-      test::free_condition(c.problem.robot, "goal", {0, last}, c.trajectory.nodes[0].q)};
+  MotionProblem& problem = c.discrete.problem;
+  for (Phase& phase : problem.phases) phase.duration = {phase.duration.min * duration, phase.duration.max * duration};
+  problem.boundary_conditions = {
+      test::fixed_state(problem.robot, "start", PhaseFraction::start_of(0), c.trajectory.nodes[0].q,
+                        c.trajectory.nodes[0].v),
+      test::free_condition(problem.robot, "goal", problem.boundary_conditions[1].at, c.trajectory.nodes[0].q)};
 }
 
 /// Cuts the only phase in two of the same contacts.
 void split_phase(Case& c) {
-  auto& phases = c.problem.phases;
+  MotionProblem problem = c.discrete.problem;
+  auto& phases = problem.phases;
   auto& nodes = c.trajectory.nodes;
-  const int half = phases[0].intervals / 2;
+  const int intervals = c.discrete.mesh.num_intervals(), half = intervals / 2;
   const double switch_time = nodes[half].time;
   const double end = nodes.back().time;
   nodes.insert(nodes.begin() + half, nodes[half]);
   for (std::size_t k = half + 1; k < nodes.size(); ++k) nodes[k].phase = 1;
   phases.push_back(phases[0]);
-  phases[1].intervals -= half;
-  phases[0].intervals = half;
   phases[0].duration = {switch_time, switch_time};
   phases[1].duration = {end - switch_time, end - switch_time};
-  c.problem.boundary_conditions[1].at = {1, phases[1].intervals};
+  problem.boundary_conditions[1].at = PhaseFraction::end_of(1);
+  c.discrete = {std::move(problem), {{PhaseMesh(half), PhaseMesh(intervals - half)}}};
 }
 
 constexpr const char* kFinite = "finite numbers, unit quaternions";
 constexpr const char* kNodes = "nodes fit the problem";
 
-BoundaryCondition& goal(Case& c) { return c.problem.boundary_conditions[1]; }
+BoundaryCondition& goal(Case& c) { return c.discrete.problem.boundary_conditions[1]; }
 
 std::vector<Sabotage> state_sabotage() {
   return {
@@ -129,7 +130,7 @@ std::vector<Sabotage> state_sabotage() {
       {"no nodes", [](Case& c) { c.trajectory.nodes.clear(); }, {kNodes}},
       {"time goes back", [](Case& c) { c.trajectory.nodes[4].time = 0.0; }, {kNodes}},
       {"velocity of wrong size", [](Case& c) { c.trajectory.nodes[4].v.resize(3); }, {kNodes}},
-      {"other start", [](Case& c) { c.problem.boundary_conditions[0].q_ref(9) += 1e-3; }, {"start state"}},
+      {"other start", [](Case& c) { c.discrete.problem.boundary_conditions[0].q_ref(9) += 1e-3; }, {"start state"}},
       {"goal 2 mm away", [](Case& c) { goal(c).q_ref(1) -= 2e-3; }, {"goal position"}},
       {"goal 2 mrad away", [](Case& c) { goal(c).q_ref(12) += 2e-3; }, {"goal angle"}},
       {"goal still turned",
@@ -139,7 +140,7 @@ std::vector<Sabotage> state_sabotage() {
       {"goal torque",
        [](Case& c) { goal(c).torque_upper(4) = c.trajectory.nodes.back().tau(4) - 1.0; },
        {"goal torque"}},
-      {"phase too long", [](Case& c) { c.problem.phases[0].duration = {0.5, 0.99}; }, {"phase duration"}},
+      {"phase too long", [](Case& c) { c.discrete.problem.phases[0].duration = {0.5, 0.99}; }, {"phase duration"}},
       {"node out of line", [](Case& c) { c.trajectory.nodes[5].q(0) += 1e-4; }, {"defect", "total defect"}},
       {"jump at a phase switch",
        [](Case& c) {
@@ -171,26 +172,28 @@ std::vector<Sabotage> limit_sabotage() {
       {"foot slips sideways", [](Case& c) { drift(c, 1.0, 3e-3); }, {"contact drift"}},
       {"foot slips across a phase switch",  // by less than the limit in each phase
        [](Case& c) {
-         drift(c, 1.0, 2.5e-3);
          split_phase(c);
+         drift(c, 1.0, 2.5e-3);
        },
        {"contact drift"}},
       {"foot slips fast but not far", [](Case& c) { drift(c, 0.1, 12e-3); }, {"contact velocity"}},
       {"feet push outwards", [](Case& c) { squeeze(c, {0, 120, 0}, {1, 1, -1, -1}); }, {"friction cone"}},
       {"ground has to pull", [](Case& c) { squeeze(c, {0, 0, 220}, {1, -1, -1, 1}); }, {"unilateral force"}},
       {"planner's forces are wrong",
-       [](Case& c) { c.trajectory.nodes[2].force(5) += 0.06 * c.problem.robot.weight(); },
+       [](Case& c) { c.trajectory.nodes[2].force(5) += 0.06 * c.discrete.problem.robot.weight(); },
        {"planned contact force"}},
-      {"ground is 2 mm lower", [](Case& c) { c.problem.surfaces[0].point.z() -= 2e-3; }, {"contact gap at closing"}},
+      {"ground is 2 mm lower",
+       [](Case& c) { c.discrete.problem.surfaces[0].point.z() -= 2e-3; },
+       {"contact gap at closing"}},
       {"ground is 2 mm higher",
-       [](Case& c) { c.problem.surfaces[0].point.z() += 2e-3; },
+       [](Case& c) { c.discrete.problem.surfaces[0].point.z() += 2e-3; },
        {"contact gap at closing", "penetration"}},
       {"a contact that is open is in the ground",
        [](Case& c) {
          RobotDescription description = test::hyq_description();
          description.contacts.push_back({"belly", "trunk", c.trajectory.nodes[0].q(2) + 2e-3});
          set_robot(c, description);
-         c.problem.phases[0].contacts.resize(4);
+         c.discrete.problem.phases[0].contacts.resize(4);
          for (TrajectoryPoint& node : c.trajectory.nodes) {
            node.force.conservativeResize(15);
            node.force.tail<3>().setZero();
@@ -210,7 +213,7 @@ void expect_caught(const std::vector<Sabotage>& all) {
     SCOPED_TRACE(sabotage.name);
     Case c = standing(test::hyq());
     sabotage.commit(c);
-    const Certificate certificate = certify(c.problem, c.trajectory);
+    const Certificate certificate = certify(c.discrete, c.trajectory);
     EXPECT_EQ(failed_checks(certificate), sabotage.fails);
     EXPECT_FALSE(certificate.passed);
     EXPECT_EQ(certificate.grade, Grade::failed);
@@ -225,7 +228,7 @@ TEST(Certificate, CatchesJointsThatAreTooFast) {
   RobotDescription description = test::hyq_description();
   description.limits["rh_kfe_joint"].velocity = 0.01;
   set_robot(c, description);
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{"joint velocity"});
   EXPECT_EQ(find(certificate, "joint velocity").where, "rh_kfe_joint");
 }
@@ -233,11 +236,11 @@ TEST(Certificate, CatchesJointsThatAreTooFast) {
 TEST(Certificate, SaysWhenAndWhere) {
   Case c = standing(test::hyq());
   c.trajectory.nodes[6].force(3 * 2) += 100.0;
-  const Certificate certificate = certify(c.problem, c.trajectory);
+  const Certificate certificate = certify(c.discrete, c.trajectory);
   const CertificateCheck& check = find(certificate, "planned contact force");
   EXPECT_NEAR(check.worst, 100.0, 1e-6);
   EXPECT_NEAR(check.time, 0.6, 1e-12);
-  EXPECT_EQ(check.where, c.problem.robot.contacts()[2].name);
+  EXPECT_EQ(check.where, c.discrete.problem.robot.contacts()[2].name);
   EXPECT_EQ(check.unit, "N");
 }
 
@@ -258,7 +261,7 @@ TEST(Certificate, AFlightHasNoContactChecks) {
   }
   MotionProblem problem = test::problem_of(robot, trajectory);
   problem.phases[0].contacts.clear();
-  const Certificate certificate = certify(problem, trajectory);
+  const Certificate certificate = certify({problem, {{PhaseMesh(100)}}}, trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{});
   EXPECT_EQ(certificate.grade, Grade::certified);
   EXPECT_THROW(find(certificate, "contact drift"), std::out_of_range);

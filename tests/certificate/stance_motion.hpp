@@ -15,6 +15,7 @@
 #include "prowl/model/so3.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/trajectory/trajectory.hpp"
+#include "tests/support/zero_cost.hpp"
 
 namespace prowl::test {
 
@@ -144,7 +145,7 @@ class StanceMotion {
   Eigen::VectorXd q_;
 };
 
-inline BoundaryCondition free_condition(const RobotModel& robot, std::string name, NodeRef at,
+inline BoundaryCondition free_condition(const RobotModel& robot, std::string name, PhaseFraction at,
                                         const Eigen::VectorXd& q_ref) {
   const double inf = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd state = Eigen::VectorXd::Constant(robot.nv(), inf);
@@ -153,7 +154,7 @@ inline BoundaryCondition free_condition(const RobotModel& robot, std::string nam
 }
 
 /// Prescribes q = q_ref and v.
-inline BoundaryCondition fixed_state(const RobotModel& robot, std::string name, NodeRef at,
+inline BoundaryCondition fixed_state(const RobotModel& robot, std::string name, PhaseFraction at,
                                      const Eigen::VectorXd& q_ref, const Eigen::VectorXd& v) {
   BoundaryCondition condition = free_condition(robot, std::move(name), at, q_ref);
   condition.configuration_lower.setZero();
@@ -168,16 +169,15 @@ inline MotionProblem problem_of(const RobotModel& robot, const Trajectory& traje
   phase.name = "stance";
   for (std::size_t c = 0; c < robot.contacts().size(); ++c) phase.contacts.push_back({static_cast<int>(c), 0});
   phase.duration = {trajectory.duration(), trajectory.duration()};
-  phase.intervals = static_cast<int>(trajectory.nodes.size()) - 1;
   const TrajectoryPoint &first = trajectory.nodes.front(), &last = trajectory.nodes.back();
   return {.name = "stance",
           .robot = robot,
           .surfaces = {Surface{}},
           .phases = {phase},
-          .boundary_conditions = {fixed_state(robot, "start", {0, 0}, first.q, first.v),
-                                  fixed_state(robot, "goal", {0, phase.intervals}, last.q, last.v)},
-          .running_cost = {},
-          .terminal_cost = {},
+          .boundary_conditions = {fixed_state(robot, "start", PhaseFraction::start_of(0), first.q, first.v),
+                                  fixed_state(robot, "goal", PhaseFraction::end_of(0), last.q, last.v)},
+          .running_cost = zero_cost(robot),
+          .terminal_cost = zero_cost(robot),
           .goal_tolerance = {}};
 }
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "prowl/certificate/constrained_dynamics_oracle.hpp"
-#include "tests/trajectory/certificate_cases.hpp"
+#include "tests/certificate/certificate_cases.hpp"
 
 namespace prowl::test {
 
@@ -30,19 +30,18 @@ class SteppingMotion {
     add_swing(trajectory);
     add_shift(trajectory, 2, 0.0, 1.0);
     MotionProblem problem = problem_of(motion_.robot(), trajectory);
-    problem.boundary_conditions[1].at = {2, kShift};
+    problem.boundary_conditions[1].at = PhaseFraction::end_of(2);
     const Phase stance = problem.phases[0];
     problem.phases = {stance, stance, stance};
     problem.phases[1].contacts.erase(problem.phases[1].contacts.begin());
-    problem.phases[0].intervals = problem.phases[2].intervals = kShift;
     problem.phases[0].duration = problem.phases[2].duration = {kShiftTime, kShiftTime};
-    problem.phases[1].intervals = kSwing;
     problem.phases[1].duration = {kSwingTime, kSwingTime};
     problem.phases[2].contacts[0].surface = 1;
     problem.phases[2].contacts[0].place = foot_place();
     problem.surfaces.push_back(patch_around(foot_place(), 0.03));
     problem.swing_clearance = 0.05;
-    return {std::move(problem), std::move(trajectory)};
+    Mesh mesh{{PhaseMesh(kShift), PhaseMesh(kSwing), PhaseMesh(kShift)}};
+    return {{std::move(problem), std::move(mesh)}, std::move(trajectory)};
   }
 
   /// Where the foot's ball touches the floor.

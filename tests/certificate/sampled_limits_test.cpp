@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/certificate/certificate_cases.hpp"
 #include "tests/support/robots.hpp"
-#include "tests/trajectory/certificate_cases.hpp"
 
 namespace prowl {
 namespace {
@@ -23,15 +23,15 @@ constexpr int kKnee = 2;  // lf_kfe_joint
 TEST(SampledLimits, TorqueLimitsOverPositionHoldAtThePosture) {
   Case c = standing(test::hyq());
   const double torque = std::abs(c.trajectory.nodes[0].tau(kKnee)), knee = c.trajectory.nodes[0].q(7 + kKnee);
-  const RobotModel& robot = c.problem.robot;
+  const RobotModel& robot = c.discrete.problem.robot;
   const double lower = robot.position_lower()(kKnee), upper = robot.position_upper()(kKnee);
   for (const double part : {1.02, 0.98}) {
     RobotDescription description = test::hyq_description();
     for (const double x : {lower, 0.5 * (lower + knee), knee, 0.5 * (knee + upper), upper}) {
       description.limits["lf_kfe_joint"].torque_over_position.push_back({x, torque * (part + std::abs(x - knee))});
     }
-    c.problem.robot = RobotModel(description);
-    const Certificate certificate = certify(c.problem, c.trajectory);
+    c.discrete.problem.robot = RobotModel(description);
+    const Certificate certificate = certify(c.discrete, c.trajectory);
     EXPECT_EQ(failed_checks(certificate), part > 1.0 ? Names{} : Names{"joint torque"});
     EXPECT_NEAR(find(certificate, "joint torque").worst, 1.0 / part, 1e-6);
   }
@@ -43,13 +43,13 @@ TEST(SampledLimits, HoldBetweenTheNodes) {
   RobotDescription description = test::hyq_description();
   const double knee = c.trajectory.nodes[0].q(7 + kKnee), u = 0.4;
   description.limits["lf_kfe_joint"].position_upper = knee;
-  c.problem.robot = RobotModel(description);
-  EXPECT_NEAR(find(certify(c.problem, c.trajectory), "joint position beyond limit").worst, 0.0, 1e-12);
+  c.discrete.problem.robot = RobotModel(description);
+  EXPECT_NEAR(find(certify(c.discrete, c.trajectory), "joint position beyond limit").worst, 0.0, 1e-12);
   TrajectoryPoint &left = c.trajectory.nodes[0], &right = c.trajectory.nodes[1];  // before them nothing is
   left.v(6 + kKnee) = u;
   right.v(6 + kKnee) = -u;
   const double there = 0.25 * u * (right.time - left.time);
-  EXPECT_NEAR(find(certify(c.problem, c.trajectory), "joint position beyond limit").worst, there, 0.2 * there);
+  EXPECT_NEAR(find(certify(c.discrete, c.trajectory), "joint position beyond limit").worst, there, 0.2 * there);
 }
 
 /// A motor: less torque the faster the knee turns in the direction of the torque (v > 0) [N m], of one that gives
@@ -70,21 +70,21 @@ double largest_ratio(const Trajectory& trajectory, double strength, double direc
 TEST(SampledLimits, TorqueLimitsOverVelocityCountInTheDirectionOfTheTorque) {
   Case c = test::crouching(test::hyq(), 160);
   c.trajectory.nodes.resize(81);  // only down, so that driving and braking are not the same
-  c.problem = test::problem_of(test::hyq(), c.trajectory);
+  c = test::stance_case(test::hyq(), c.trajectory);
   double largest = 0.0;
   for (const TrajectoryPoint& node : c.trajectory.nodes) largest = std::max(largest, std::abs(node.tau(kKnee)));
-  const double fastest = c.problem.robot.velocity_limit()(kKnee), strength = 1.2 * largest;
+  const double fastest = c.discrete.problem.robot.velocity_limit()(kKnee), strength = 1.2 * largest;
   RobotDescription description = test::hyq_description();
   for (int i = -50; i <= 50; ++i) {
     const double v = fastest * i / 50;
     description.limits["lf_kfe_joint"].torque_over_velocity.push_back({v, motor_limit(strength, v)});
   }
-  c.problem.robot = RobotModel(description);
+  c.discrete.problem.robot = RobotModel(description);
 
   const double expected = largest_ratio(c.trajectory, strength, 1.0);
   EXPECT_GT(std::abs(largest_ratio(c.trajectory, strength, -1.0) - expected), 0.05)
       << "the direction makes no difference here";
-  const CertificateCheck check = find(certify(c.problem, c.trajectory), "joint torque");
+  const CertificateCheck check = find(certify(c.discrete, c.trajectory), "joint torque");
   EXPECT_NEAR(check.worst, expected, 1e-3);
   EXPECT_EQ(check.where, "lf_kfe_joint");
 }

@@ -2,22 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/certificate/stance_motion.hpp"
 #include "tests/support/robots.hpp"
-#include "tests/trajectory/stance_motion.hpp"
 
 namespace prowl {
 namespace {
 
 constexpr int kStep = 0, kNever = 1, kStays = 2;  // contacts: steps from surface 0 to 1, never touches, always on 0
 
-struct Stepping {
-  MotionProblem problem;
-  Trajectory trajectory;
-  ContactPlaces places;
-};
-
 /// Three phases of one interval; the base moves 1 cm a node along x, and all contacts with it.
-Stepping stepping() {
+ContactPlaces stepping() {
   const RobotModel robot = test::hyq();
   Trajectory trajectory;
   for (int node = 0; node < 6; ++node) {
@@ -30,47 +24,46 @@ Stepping stepping() {
     trajectory.nodes.push_back(point);
   }
   MotionProblem problem = test::problem_of(robot, trajectory);
-  Phase phase{"", {{kStays, 0}}, {0.5, 0.5}, 1};
+  Phase phase{"", {{kStays, 0}}, {0.5, 0.5}};
   problem.phases.assign(3, phase);
   problem.phases[0].contacts.push_back({kStep, 0});
   problem.phases[2].contacts.push_back({kStep, 1});
   problem.surfaces.assign(3, Surface{});
 
   PhaseDynamics dynamics;
-  for (int p = 0; p < 3; ++p) dynamics.emplace_back(problem.robot, std::vector<int>{});
-  ContactPlaces places = contact_places(problem, trajectory, dynamics);
-  return {std::move(problem), std::move(trajectory), std::move(places)};
+  for (int p = 0; p < 3; ++p) dynamics.emplace_back(robot, std::vector<int>{});
+  return contact_places({std::move(problem), {std::vector(3, PhaseMesh(1))}}, trajectory, dynamics);
 }
 
 TEST(ContactPlaces, AContactThatStaysKeepsItsAnchor) {
-  const Stepping s = stepping();
+  const ContactPlaces places = stepping();
   for (int p = 1; p < 3; ++p) {
-    EXPECT_FALSE(s.places[p][kStays].closes);
-    EXPECT_EQ(s.places[p][kStays].anchor, s.places[0][kStays].anchor);
-    EXPECT_EQ(s.places[p][kStays].time, 0.0);
+    EXPECT_FALSE(places[p][kStays].closes);
+    EXPECT_EQ(places[p][kStays].anchor, places[0][kStays].anchor);
+    EXPECT_EQ(places[p][kStays].time, 0.0);
   }
 }
 
 TEST(ContactPlaces, AContactThatClosesIsAnchoredAtTheFirstNodeOfThatPhase) {
-  const Stepping s = stepping();
-  const ContactPlace &before = s.places[0][kStep], &after = s.places[2][kStep];
+  const ContactPlaces places = stepping();
+  const ContactPlace &before = places[0][kStep], &after = places[2][kStep];
   EXPECT_TRUE(before.closes);
   EXPECT_TRUE(after.closes);
-  EXPECT_FALSE(s.places[1][kStep].surface.has_value());
+  EXPECT_FALSE(places[1][kStep].surface.has_value());
   EXPECT_EQ(after.time, 1.0);
   EXPECT_NEAR((after.anchor - before.anchor).x(), 0.04, 1e-12);  // four nodes later
 }
 
 TEST(ContactPlaces, AContactOpensAtTheEndOfItsStanceAndSwingsToTheNext) {
-  const Stepping s = stepping();
-  EXPECT_TRUE(s.places[0][kStep].opens);
-  EXPECT_FALSE(s.places[0][kStep].swings);
-  EXPECT_FALSE(s.places[1][kStep].opens);
-  EXPECT_TRUE(s.places[1][kStep].swings);
-  EXPECT_FALSE(s.places[2][kStep].opens) << "the end of the motion opens nothing";
+  const ContactPlaces places = stepping();
+  EXPECT_TRUE(places[0][kStep].opens);
+  EXPECT_FALSE(places[0][kStep].swings);
+  EXPECT_FALSE(places[1][kStep].opens);
+  EXPECT_TRUE(places[1][kStep].swings);
+  EXPECT_FALSE(places[2][kStep].opens) << "the end of the motion opens nothing";
   for (int p = 0; p < 3; ++p) {
-    EXPECT_FALSE(s.places[p][kStays].opens || s.places[p][kStays].swings);
-    EXPECT_FALSE(s.places[p][kNever].opens || s.places[p][kNever].swings);
+    EXPECT_FALSE(places[p][kStays].opens || places[p][kStays].swings);
+    EXPECT_FALSE(places[p][kNever].opens || places[p][kNever].swings);
   }
 }
 

@@ -4,10 +4,12 @@
 
 #include <numeric>
 
-#include "../support/robots.hpp"
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
+#include "tests/support/meshed_problem.hpp"
+#include "tests/support/robots.hpp"
+#include "tests/support/zero_cost.hpp"
 
 namespace prowl {
 namespace {
@@ -15,26 +17,30 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// A motion of 2 s and 40 intervals on all contacts, from rest in the nominal posture, heading away from the x axis.
+constexpr int kIntervals = 40;  // of each phase, if not said otherwise
+
+/// A motion of 2 s on all contacts, from rest in the nominal posture, heading away from the x axis.
 MotionProblem standing(const RobotDescription& description) {
   MotionProblem problem{.robot = RobotModel(description)};
   problem.surfaces = {Surface{}};
-  Phase phase{.name = "stand", .duration = {2.0, 2.0}, .intervals = 40};
+  Phase phase{.name = "stand", .duration = {2.0, 2.0}};
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) phase.contacts.push_back({c, 0});
   problem.phases = {phase};
   const VectorXd turn = 1.2 * VectorXd::Unit(problem.robot.nv(), 5);
-  auto start = BoundaryCondition::unbounded(problem.robot, "start", {0, 0},
+  auto start = BoundaryCondition::unbounded(problem.robot, "start", PhaseFraction::start_of(0),
                                             integrate(problem.robot.nominal_configuration(), turn));
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
   start.velocity_upper.setZero();
   problem.boundary_conditions = {start};
+  problem.running_cost = problem.terminal_cost = test::zero_cost(problem.robot);
   return problem;
 }
 
-/// Asks the base to be displaced from the start by (world displacement, rotation vector) and at rest at a node.
-BoundaryCondition base_goal(const MotionProblem& problem, NodeRef at, const Vector3d& shift, const Vector3d& turn) {
+/// Asks the base to be displaced from the start by (world displacement, rotation vector) and at rest at a moment.
+BoundaryCondition base_goal(const MotionProblem& problem, PhaseFraction at, const Vector3d& shift,
+                            const Vector3d& turn) {
   VectorXd displacement = VectorXd::Zero(problem.robot.nv());
   displacement.head<3>() = shift;
   displacement.segment<3>(3) = turn;
@@ -52,11 +58,13 @@ MotionProblem reaching(const RobotDescription& description) {
   MotionProblem problem = standing(description);
   const double height = problem.start_configuration()(2);
   problem.boundary_conditions.push_back(
-      base_goal(problem, {0, 40}, height * Vector3d(0.07, 0.05, -0.1), Vector3d(0.05, 0.1, 0.1)));
+      base_goal(problem, PhaseFraction::end_of(0), height * Vector3d(0.07, 0.05, -0.1), Vector3d(0.05, 0.1, 0.1)));
   return problem;
 }
 
-Trajectory guess_of(const MotionProblem& problem) { return initial_guess(problem, make_mesh(problem)); }
+Trajectory guess_of(const MotionProblem& problem, int intervals = kIntervals) {
+  return initial_guess(test::on_even_mesh(problem, intervals));
+}
 
 Vector3d place(const RobotModel& robot, const VectorXd& q, int contact) {
   RigidBodyTerms terms(robot);
@@ -64,14 +72,15 @@ Vector3d place(const RobotModel& robot, const VectorXd& q, int contact) {
   return terms.contact_position(contact);
 }
 
-void expect_meets_conditions(const MotionProblem& problem, const Trajectory& guess) {
+void expect_meets_conditions(const MotionProblem& problem, const Trajectory& guess, int intervals = kIntervals) {
   const auto expect_between = [](const VectorXd& x, const VectorXd& lower, const VectorXd& upper) {
     EXPECT_GE((x - lower).minCoeff(), -1e-12);
     EXPECT_GE((upper - x).minCoeff(), -1e-12);
   };
-  const Mesh mesh = make_mesh(problem);
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    const TrajectoryPoint& point = guess.nodes[mesh.index(condition.at)];
+  const std::vector<int> nodes = nodes_of_conditions(problem, test::even_mesh(problem, intervals));
+  for (std::size_t c = 0; c < nodes.size(); ++c) {
+    const BoundaryCondition& condition = problem.boundary_conditions[c];
+    const TrajectoryPoint& point = guess.nodes[nodes[c]];
     SCOPED_TRACE(condition.name);
     expect_between(difference(condition.q_ref, point.q), condition.configuration_lower, condition.configuration_upper);
     expect_between(point.v, condition.velocity_lower, condition.velocity_upper);
@@ -79,9 +88,10 @@ void expect_meets_conditions(const MotionProblem& problem, const Trajectory& gue
   }
 }
 
-void expect_finite_and_within_limits(const MotionProblem& problem, const Trajectory& guess) {
+void expect_finite_and_within_limits(const MotionProblem& problem, const Trajectory& guess,
+                                     int intervals = kIntervals) {
   const RobotModel& robot = problem.robot;
-  ASSERT_EQ(static_cast<int>(guess.nodes.size()), make_mesh(problem).size());
+  ASSERT_EQ(static_cast<int>(guess.nodes.size()), test::even_mesh(problem, intervals).num_nodes());
   for (const TrajectoryPoint& point : guess.nodes) {
     ASSERT_TRUE(point.q.allFinite() && point.v.allFinite() && point.a.allFinite() && point.tau.allFinite() &&
                 point.force.allFinite());
@@ -150,7 +160,7 @@ TEST_P(InitialGuessOf, IsFiniteAndWithinLimitsForAGoalOutOfReach) {
     MotionProblem problem = standing(GetParam());
     const double height = problem.start_configuration()(2);
     problem.boundary_conditions.push_back(
-        base_goal(problem, {0, 40}, Vector3d(0.0, 0.0, rise * height), Vector3d(3.0, 0.0, 0.0)));
+        base_goal(problem, PhaseFraction::end_of(0), Vector3d(0.0, 0.0, rise * height), Vector3d(3.0, 0.0, 0.0)));
     const Trajectory guess = guess_of(problem);
     expect_finite_and_within_limits(problem, guess);
     expect_meets_conditions(problem, guess);
@@ -165,8 +175,9 @@ INSTANTIATE_TEST_SUITE_P(Robots, InitialGuessOf,
 
 TEST(InitialGuess, GoesDownAndUpAgainForACrouchWithoutOvershoot) {
   MotionProblem problem = standing(test::hyq_description());
-  problem.boundary_conditions.push_back(base_goal(problem, {0, 20}, Vector3d(0.0, 0.0, -0.17), Vector3d::Zero()));
-  problem.boundary_conditions.push_back(base_goal(problem, {0, 40}, Vector3d::Zero(), Vector3d::Zero()));
+  problem.boundary_conditions.push_back(base_goal(problem, {0, 0.5}, Vector3d(0.0, 0.0, -0.17), Vector3d::Zero()));
+  problem.boundary_conditions.push_back(
+      base_goal(problem, PhaseFraction::end_of(0), Vector3d::Zero(), Vector3d::Zero()));
   const Trajectory guess = guess_of(problem);
   expect_meets_conditions(problem, guess);
   const double top = problem.start_configuration()(2);
@@ -181,11 +192,12 @@ TEST(InitialGuess, GoesDownAndUpAgainForACrouchWithoutOvershoot) {
 TEST(InitialGuess, LetsFreeCoordinatesPassAWaypoint) {
   MotionProblem problem = standing(test::hyq_description());
   auto halfway = BoundaryCondition::unbounded(
-      problem.robot, "height only", {0, 20},
+      problem.robot, "height only", {0, 0.5},
       integrate(problem.start_configuration(), VectorXd::Unit(problem.robot.nv(), 2) * -0.1));
   halfway.configuration_lower(2) = halfway.configuration_upper(2) = 0.0;
   problem.boundary_conditions.push_back(halfway);
-  problem.boundary_conditions.push_back(base_goal(problem, {0, 40}, Vector3d(0.08, 0.0, -0.1), Vector3d::Zero()));
+  problem.boundary_conditions.push_back(
+      base_goal(problem, PhaseFraction::end_of(0), Vector3d(0.08, 0.0, -0.1), Vector3d::Zero()));
   const Trajectory guess = guess_of(problem);
   expect_meets_conditions(problem, guess);
   EXPECT_NEAR(guess.nodes[20].q(0), problem.start_configuration()(0) + 0.04, 1e-9) << "forward is halfway at half time";
@@ -193,11 +205,12 @@ TEST(InitialGuess, LetsFreeCoordinatesPassAWaypoint) {
 
 TEST(InitialGuess, PassesAWaypointAtThePrescribedVelocity) {
   MotionProblem problem = standing(test::hyq_description());
-  BoundaryCondition passing = base_goal(problem, {0, 20}, Vector3d(0.02, 0.03, -0.03), Vector3d::Zero());
+  BoundaryCondition passing = base_goal(problem, {0, 0.5}, Vector3d(0.02, 0.03, -0.03), Vector3d::Zero());
   const Vector3d velocity(0.06, -0.02, -0.03);  // in the base frame
   passing.velocity_lower.head<3>() = passing.velocity_upper.head<3>() = velocity;
   problem.boundary_conditions.push_back(passing);
-  problem.boundary_conditions.push_back(base_goal(problem, {0, 40}, Vector3d(0.04, 0.06, -0.06), Vector3d::Zero()));
+  problem.boundary_conditions.push_back(
+      base_goal(problem, PhaseFraction::end_of(0), Vector3d(0.04, 0.06, -0.06), Vector3d::Zero()));
   const Trajectory guess = guess_of(problem);
   expect_meets_conditions(problem, guess);
   const Vector3d moved = guess.nodes[21].q.head<3>() - guess.nodes[19].q.head<3>();
@@ -207,15 +220,14 @@ TEST(InitialGuess, PassesAWaypointAtThePrescribedVelocity) {
 TEST(InitialGuess, KeepsThePostureOfLegsInTheAir) {
   MotionProblem problem = standing(test::hyq_description());
   const int lf = problem.robot.contact_index("lf_foot");
-  Phase& stand = problem.phases[0];
-  stand.intervals = 20;
-  Phase lifted = stand;
+  Phase lifted = problem.phases[0];
   std::erase_if(lifted.contacts, [&](const PhaseContact& c) { return c.contact == lf; });
   problem.phases.push_back(lifted);
-  problem.boundary_conditions.push_back(base_goal(problem, {1, 20}, Vector3d(-0.04, -0.04, 0.02), {0.0, -0.05, 0.0}));
-  const Trajectory guess = guess_of(problem);
-  expect_finite_and_within_limits(problem, guess);
-  expect_meets_conditions(problem, guess);
+  problem.boundary_conditions.push_back(
+      base_goal(problem, PhaseFraction::end_of(1), Vector3d(-0.04, -0.04, 0.02), {0.0, -0.05, 0.0}));
+  const Trajectory guess = guess_of(problem, 20);
+  expect_finite_and_within_limits(problem, guess, 20);
+  expect_meets_conditions(problem, guess, 20);
 
   const TrajectoryPoint &before = guess.nodes[20], &after = guess.nodes[21];  // both sides of the phase switch
   EXPECT_LT(difference(before.q, after.q).norm(), 1e-12);
@@ -233,8 +245,8 @@ TEST(InitialGuess, BringsJointsToAPrescribedPosture) {
   MotionProblem problem = standing(test::hyq_description());
   problem.phases[0].contacts.clear();
   const VectorXd change = VectorXd::Unit(problem.robot.nv(), 7) * 0.3;
-  auto posture =
-      BoundaryCondition::unbounded(problem.robot, "posture", {0, 40}, integrate(problem.start_configuration(), change));
+  auto posture = BoundaryCondition::unbounded(problem.robot, "posture", PhaseFraction::end_of(0),
+                                              integrate(problem.start_configuration(), change));
   posture.configuration_lower.tail(problem.robot.nu()).setZero();
   posture.configuration_upper.tail(problem.robot.nu()).setZero();
   problem.boundary_conditions.push_back(posture);
@@ -246,7 +258,7 @@ TEST(InitialGuess, BringsJointsToAPrescribedPosture) {
 TEST(InitialGuess, PutsAPrescribedJointBeforeTheFeet) {
   MotionProblem problem = standing(test::hyq_description());
   const VectorXd change = VectorXd::Unit(problem.robot.nv(), 7) * 0.3;
-  auto posture = BoundaryCondition::unbounded(problem.robot, "one joint", {0, 40},
+  auto posture = BoundaryCondition::unbounded(problem.robot, "one joint", PhaseFraction::end_of(0),
                                               integrate(problem.start_configuration(), change));
   posture.configuration_lower(7) = posture.configuration_upper(7) = 0.0;
   problem.boundary_conditions.push_back(posture);

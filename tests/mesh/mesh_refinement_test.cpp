@@ -1,0 +1,127 @@
+#include "prowl/mesh/mesh_refinement.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "prowl/mesh/discrete_problem.hpp"
+#include "tests/support/meshed_problem.hpp"
+#include "tests/support/robots.hpp"
+
+namespace prowl {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::Pointwise;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// One phase of a second in so many equal intervals, with goals at these nodes.
+test::MeshedProblem one_phase(int intervals, const std::vector<int>& goals = {}) {
+  MotionProblem problem{.robot = test::hyq()};
+  problem.phases = {{.name = "p", .contacts = {}, .duration = {1.0, 1.0}}};
+  for (const int node : goals) {
+    problem.boundary_conditions.push_back(BoundaryCondition::unbounded(
+        problem.robot, "goal", {0, 1.0 * node / intervals}, problem.robot.nominal_configuration()));
+  }
+  return {std::move(problem), {{PhaseMesh(intervals)}}};
+}
+
+Mesh refined(const test::MeshedProblem& of, const std::vector<double>& parts) {
+  return refined(of.problem, of.mesh, parts);
+}
+
+std::vector<double> steps(const Mesh& mesh, std::size_t phase = 0) {
+  std::vector<double> steps;
+  const PhaseMesh& of = mesh.phases[phase];
+  for (int i = 0; i < of.intervals(); ++i) steps.push_back(of.step(i, 1.0));
+  return steps;
+}
+
+TEST(MeshRefinement, SplitsIntoWhatTheOrderOfTheTrapezoidTakes) {
+  // A step of a half leaves an eighth, and two thirds are aimed at: 5 * 1.5 < 8 = 2^3 < 6 * 1.5 < 27 = 3^3 < 20 * 1.5.
+  const Mesh mesh = refined(one_phase(6), {0.5, 5.0, 6.0, 20.0, 1e9, kInfinity});
+  std::vector<double> expected = {1.0, 0.5, 0.5};
+  expected.insert(expected.end(), 3, 1.0 / 3.0);
+  expected.insert(expected.end(), 12, 0.25);
+  for (double& step : expected) step /= 6.0;
+  EXPECT_THAT(steps(mesh), Pointwise(DoubleNear(1e-12), expected));
+}
+
+/// With an error of K h³, the largest of any mesh that it asks for is within the tolerance, and K may differ a
+/// thousandfold.
+TEST(MeshRefinement, MeetsTheToleranceOfASmoothMotion) {
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> exponent(0.0, 3.0);
+  test::MeshedProblem of = one_phase(40);
+  std::vector<double> K(40);
+  for (double& k : K) k = std::pow(10.0, 4.0 + exponent(rng));
+  const auto parts_on = [&](const Mesh& on) {
+    std::vector<double> parts;
+    double time = 0.0;
+    for (const double h : steps(on)) {
+      const auto from = static_cast<std::size_t>(40.0 * (time + 1e-9)),
+                 to = static_cast<std::size_t>(40.0 * (time + h - 1e-9));
+      const double k = *std::max_element(K.begin() + static_cast<long>(from), K.begin() + static_cast<long>(to) + 1);
+      parts.push_back(k * h * h * h);
+      time += h;
+    }
+    return parts;
+  };
+  int rounds = 0;
+  std::vector<double> parts = parts_on(of.mesh);
+  ASSERT_GT(*std::ranges::max_element(parts), 64.0) << "more than one round";
+  for (; *std::ranges::max_element(parts) > 1.0; parts = parts_on(of.mesh)) {
+    ASSERT_LT(++rounds, 4);
+    of.mesh = refined(of, parts);
+  }
+  EXPECT_LT(of.mesh.num_intervals(), 40.0 * std::cbrt(1e7 / 64e3)) << "as many equal ones as the largest K takes";
+}
+
+TEST(MeshRefinement, MergesWhatIsFarBelow) {
+  // Two as one are off by eight times as much, three by 27 times, four by 64; a quarter of the tolerance is allowed.
+  EXPECT_THAT(steps(refined(one_phase(12), std::vector<double>(12, 0.25 / 7.9))), testing::SizeIs(12));
+  EXPECT_THAT(steps(refined(one_phase(12), std::vector<double>(12, 0.25 / 8.1))), testing::SizeIs(6));
+  EXPECT_THAT(steps(refined(one_phase(12), std::vector<double>(12, 0.25 / 27.1))), testing::SizeIs(4));
+  EXPECT_THAT(steps(refined(one_phase(40), std::vector<double>(40, 0.0))), testing::SizeIs(10)) << "four at most";
+  EXPECT_THAT(steps(refined(one_phase(8), std::vector<double>(8, 0.0))), testing::SizeIs(4))
+      << "a quarter of the phase at most";
+  EXPECT_THAT(steps(refined(one_phase(3), std::vector<double>(3, 0.0))), testing::SizeIs(3));
+}
+
+TEST(MeshRefinement, DoesNotMergeOverAGoalNorOverAPhaseSwitch) {
+  const test::MeshedProblem of = one_phase(20, {0, 5, 20});
+  const Mesh mesh = refined(of, std::vector<double>(20, 0.0));
+  EXPECT_THAT(steps(mesh), Pointwise(DoubleNear(1e-12), {0.2, 0.05, 0.2, 0.2, 0.2, 0.15}));
+  EXPECT_THAT(nodes_of_conditions(of.problem, mesh), ElementsAre(0, 2, 6));
+
+  test::MeshedProblem two = one_phase(6);
+  two.problem.phases.push_back({.name = "q", .contacts = {}, .duration = {0.2, 0.5}});
+  two.mesh.phases.emplace_back(2);
+  two.mesh = refined(two, {0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.9, 0.0});
+  EXPECT_THAT(steps(two.mesh, 0),
+              Pointwise(DoubleNear(1e-12), {1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 6.0, 1 / 12.0, 1 / 12.0}));
+  EXPECT_THAT(steps(two.mesh, 1), Pointwise(DoubleNear(1e-12), {0.25, 0.25, 0.5}));
+}
+
+/// The gains of contacts are good for steps that grow by up to four.
+TEST(MeshRefinement, StepsGrowByAtMostFour) {
+  test::MeshedProblem of = one_phase(3);
+  of.mesh.phases = {PhaseMesh({0.02, 0.18, 0.8})};
+  EXPECT_THAT(steps(refined(of, {0.5, 0.5, 0.5})),
+              Pointwise(DoubleNear(1e-12), {0.02, 0.06, 0.06, 0.06, 0.2, 0.2, 0.2, 0.2}));
+  of.mesh.phases = {PhaseMesh({0.8, 0.18, 0.02})};
+  EXPECT_THAT(steps(refined(of, {0.5, 0.5, 0.5})), testing::SizeIs(3)) << "they may shrink";
+}
+
+TEST(MeshRefinement, LeavesAMeshThatIsRight) {
+  test::MeshedProblem of = one_phase(4);
+  of.mesh.phases = {PhaseMesh({0.1, 0.2, 0.3, 0.4})};
+  EXPECT_THAT(steps(refined(of, {0.3, 0.6, 0.5, 0.4})), Pointwise(DoubleNear(1e-15), {0.1, 0.2, 0.3, 0.4}));
+}
+
+}  // namespace
+}  // namespace prowl
