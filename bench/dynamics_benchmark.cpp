@@ -7,7 +7,7 @@
 
 #include "prowl/dynamics/projected_residual.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/transcription/node_functions.hpp"
+#include "prowl/transcription/node/node_functions.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"

@@ -16,10 +16,10 @@
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/error.hpp"
-#include "prowl/io/task_file.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 
 namespace {
 

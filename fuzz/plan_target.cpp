@@ -1,6 +1,6 @@
 // plan.json, with the texts of task, robot and URDF in it.
 #include "input.hpp"
-#include "prowl/io/plan_json.hpp"
+#include "prowl/plan_folder/plan_json.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace prowl;

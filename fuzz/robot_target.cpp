@@ -1,6 +1,6 @@
 // A robot file, with the URDF of sample.hpp: in a folder that is not there, so that package:// finds no other.
 #include "input.hpp"
-#include "prowl/io/robot_file.hpp"
+#include "prowl/task_file/robot_file.hpp"
 #include "sample.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,6 +1,6 @@
 // A task file with its scene ([[surface]]), for the robots of sample.hpp.
 #include "input.hpp"
-#include "prowl/io/task_file.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "sample.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

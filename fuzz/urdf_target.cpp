@@ -1,8 +1,8 @@
 // A URDF: the check of its text, Pinocchio's model, and the shapes for reports and simulations.
 #include "input.hpp"
 #include "prowl/model/robot_model.hpp"
-#include "prowl/model/robot_visuals.hpp"
-#include "prowl/model/urdf_outline.hpp"
+#include "prowl/model/urdf/robot_visuals.hpp"
+#include "prowl/model/urdf/urdf_outline.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace prowl;

@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <csignal>
 
-#include "cli/screen/exit_status.hpp"
+#include "cli/exit_status.hpp"
 
 namespace prowl::cli {
 namespace {

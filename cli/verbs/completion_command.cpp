@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "cli/options/shared_options.hpp"
-#include "cli/screen/exit_status.hpp"
+#include "cli/exit_status.hpp"
 #include "cli/screen/output.hpp"
 #include "cli/verbs/commands.hpp"
 

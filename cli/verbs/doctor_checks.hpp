@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/screen/exit_status.hpp"
+#include "cli/exit_status.hpp"
 
 namespace prowl::cli {
 

@@ -5,7 +5,7 @@
 
 #include "cli/verbs/doctor_checks.hpp"
 #include "prowl/error.hpp"
-#include "prowl/plan.hpp"
+#include "prowl/session/plan_task.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/task_file/task_file.hpp"
 
@@ -84,8 +84,8 @@ Finding check_solver(const NlpSolver& solver, const Task& task) {
   const auto start = std::chrono::steady_clock::now();
   std::string outcome;
   try {
-    const Plan plan = make_plan({task.problem, task.mesh}, solver, {.solver = task.solver, .coarse_first = false});
-    if (plan.result.status == SolveStatus::converged && plan.certificate.passed) {
+    const Plan plan = plan_task(task, {.solver = solver.name(), .coarse_first = false, .gains = false}).record.plan;
+    if (is_good(plan)) {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       finding.text = fmt::format("{}: solves and passes a small task in {:.0f} ms", solver.version(), 1e3 * seconds);
       if (seconds > kLongest) {

@@ -13,7 +13,7 @@
 ///            else 0 torque curves: joint, over_velocity, number of values (uint32), lower, upper, values (double)
 ///            torque limits (nu), then q, v, tau and gains of all samples, each sample after the other (double)
 ///
-/// The file ends where the payload does. The writer is in prowl/io, the reader is Tracker::read.
+/// The file ends where the payload does. The writer is in prowl/plan_folder, the reader is Tracker::read.
 namespace prowl::tracker_file {
 
 constexpr char kMagic[] = "PROWLTRK";

@@ -13,7 +13,7 @@
 #include "prowl/files/csv_table.hpp"
 #include "prowl/plan_folder/mujoco_keyframes.hpp"
 #include "prowl/plan_folder/trajectory_csv.hpp"
-#include "prowl/report_page/report_motion.hpp"
+#include "prowl/plan_folder/motion_points.hpp"
 #include "prowl/simulation/simulation.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
 #include "screen/plan_summary.hpp"

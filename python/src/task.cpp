@@ -25,14 +25,16 @@ struct PhaseView {
 
 std::vector<PhaseView> phases(const Task& task) {
   std::vector<PhaseView> all;
-  PhaseView& view = all.emplace_back(
-      PhaseView{phase.name, {}, {}, phase.duration.min, phase.duration.max, task.mesh.phases[p].intervals()});
-  for (const PhaseContact& contact : phase.contacts) {
-    view.contacts.push_back(task.problem.robot.contacts()[contact.contact].name);
-    view.surfaces.push_back(task.problem.surfaces[contact.surface].name);
+  for (std::size_t p = 0; p < task.problem.phases.size(); ++p) {
+    const Phase& phase = task.problem.phases[p];
+    PhaseView& view = all.emplace_back(
+        PhaseView{phase.name, {}, {}, phase.duration.min, phase.duration.max, task.mesh.phases[p].intervals()});
+    for (const PhaseContact& contact : phase.contacts) {
+      view.contacts.push_back(task.problem.robot.contacts()[contact.contact].name);
+      view.surfaces.push_back(task.problem.surfaces[contact.surface].name);
+    }
   }
-}
-return all;
+  return all;
 }
 
 using Numbers = std::array<double, 3>;

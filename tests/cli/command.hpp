@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "../io/test_files.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl::test {
 

@@ -1,6 +1,6 @@
 // A command with verbs of verbs and with texts that mean something to shells, for completion_test: prowl completion
 // SHELL.
-#include "../../cli/commands.hpp"
+#include "cli/verbs/commands.hpp"
 
 int main(int argc, char** argv) {
   int status = 0;

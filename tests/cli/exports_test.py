@@ -240,7 +240,7 @@ class Exports(unittest.TestCase):
             np.testing.assert_array_equal(point["effort"], expected["tau"][i])
 
     def test_keyframes_are_in_mujocos_conventions(self):
-        """That MuJoCo loads them with the model, and bodies move as they should, is what tests/io/mujoco_keyframes_test.cpp tests."""
+        """That MuJoCo loads them with the model, and bodies move as they should, is what tests/plan_folder/mujoco_keyframes_test.cpp tests."""
         keys = ElementTree.parse(self.out / "mujoco_keyframes.xml").getroot()
         self.assertEqual(keys.find("include").get("file"), "mujoco_model.xml")
         expected = self.quantities(self.nodes)

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "command.hpp"
-#include "prowl/io/plan_directory.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
 
 namespace prowl {
 namespace {

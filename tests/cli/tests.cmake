@@ -1,6 +1,6 @@
 if(PROWL_BUILD_CLI)
   foreach(name checkpoint command compare completion doctor faults help json new progress screen simulate sweep)
-    prowl_test(cli/${name} prowl::io nlohmann_json::nlohmann_json)
+    prowl_test(cli/${name} prowl::plan_folder nlohmann_json::nlohmann_json)
     target_compile_definitions(cli_${name}_test PRIVATE PROWL_COMMAND="$<TARGET_FILE:prowl_cli>")
     target_compile_definitions(cli_${name}_test PRIVATE PROWL_HAS_PYTHON=$<BOOL:${PROWL_BUILD_PYTHON}>)
     add_dependencies(cli_${name}_test prowl_cli)
@@ -24,9 +24,10 @@ if(PROWL_BUILD_CLI)
 
   find_package(CLI11 REQUIRED)
   # A command of verbs of verbs, for the completion of what prowl itself need not have.
-  add_executable(cli_completion_tree ${CMAKE_CURRENT_LIST_DIR}/completion_tree.cpp ${PROJECT_SOURCE_DIR}/cli/completion_command.cpp
-    ${PROJECT_SOURCE_DIR}/cli/interrupt.cpp ${PROJECT_SOURCE_DIR}/cli/output.cpp ${PROJECT_SOURCE_DIR}/cli/shared_options.cpp)
-  target_link_libraries(cli_completion_tree PRIVATE prowl::io CLI11::CLI11 fmt::fmt)
+  add_executable(cli_completion_tree ${CMAKE_CURRENT_LIST_DIR}/completion_tree.cpp ${PROJECT_SOURCE_DIR}/cli/verbs/completion_command.cpp
+    ${PROJECT_SOURCE_DIR}/cli/process/interrupt.cpp ${PROJECT_SOURCE_DIR}/cli/screen/output.cpp
+    ${PROJECT_SOURCE_DIR}/cli/options/shared_options.cpp)
+  target_link_libraries(cli_completion_tree PRIVATE prowl::plan_folder CLI11::CLI11 fmt::fmt)
   target_compile_definitions(cli_completion_test PRIVATE PROWL_COMPLETION_TREE="$<TARGET_FILE:cli_completion_tree>")
   add_dependencies(cli_completion_test cli_completion_tree)
 

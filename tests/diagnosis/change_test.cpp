@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "prowl/diagnosis/joint_knobs.hpp"
-#include "prowl/io/task_file.hpp"
-#include "tests/io/test_files.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "tests/support/test_files.hpp"
 #include "tests/support/small_robot.hpp"
 #include "tests/support/standing_problem.hpp"
 

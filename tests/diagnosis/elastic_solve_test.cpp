@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 

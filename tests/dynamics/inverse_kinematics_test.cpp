@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "../support/robots.hpp"
+#include "tests/support/robots.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
 

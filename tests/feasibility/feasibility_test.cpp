@@ -6,7 +6,7 @@
 
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "tests/support/task_test.hpp"
 
 namespace prowl {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
-#include "prowl/feasibility/known_facts.hpp"
+#include "prowl/feasibility/prescribed_places.hpp"
 #include "prowl/model/so3.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/standing_problem.hpp"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "prowl/dynamics/static_equilibrium.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "tests/support/standing_problem.hpp"
 
 namespace prowl {

@@ -8,11 +8,11 @@
 
 #include "fuzz/sample.hpp"
 #include "prowl/error.hpp"
-#include "prowl/io/plan_directory.hpp"
-#include "prowl/io/plan_json.hpp"
-#include "prowl/io/robot_file.hpp"
-#include "prowl/io/task_file.hpp"
-#include "prowl/io/trajectory_csv.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/plan_folder/plan_json.hpp"
+#include "prowl/task_file/robot_file.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "prowl/plan_folder/trajectory_csv.hpp"
 #include "prowl/tracker/tracker.hpp"
 
 namespace prowl {

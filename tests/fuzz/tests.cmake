@@ -1,4 +1,4 @@
-prowl_test(fuzz/seeds prowl::io nlohmann_json::nlohmann_json)
+prowl_test(fuzz/seeds prowl::plan_folder nlohmann_json::nlohmann_json)
 
 # A short run of each fuzz target; scripts/test installs Clang. Without it the test is skipped, in CI it fails.
 add_test(NAME fuzz/short COMMAND ${PROJECT_SOURCE_DIR}/scripts/fuzz --seconds 8)

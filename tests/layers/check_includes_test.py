@@ -62,8 +62,8 @@ class CheckIncludes(unittest.TestCase):
                 ("prowl/motion/cost.cpp", '"prowl/mesh/mesh.hpp"'),
                 ("prowl/solvers/foreign/fatrop_solver.cpp", '"prowl/mesh/mesh.hpp"'),
                 ("prowl/certificate/certificate.cpp", '"prowl/dynamics/projector.hpp"'),
-                ("prowl/certificate/certificate.cpp", '"prowl/transcription/defects.hpp"'),
-                ("prowl/transcription/defects.cpp", '"prowl/solvers/make_solver.hpp"'),
+                ("prowl/certificate/certificate.cpp", '"prowl/transcription/base_defects.hpp"'),
+                ("prowl/transcription/base_defects.cpp", '"prowl/solvers/make_solver.hpp"'),
                 ("prowl/simulation/physics.cpp", '"prowl/dynamics/projector.hpp"'),
                 ("prowl/dynamics/projector.hpp", '"prowl/plan.hpp"'),
                 ("prowl/task_file/task.hpp", '"prowl/plan.hpp"'),
@@ -83,7 +83,7 @@ class CheckIncludes(unittest.TestCase):
         self.expect_only_the_first_to_be_refused(
             [
                 ("prowl/motion/cost.cpp", "<pinocchio/algorithm/rnea.hpp>"),
-                ("prowl/transcription/defects.cpp", "<IpIpoptApplication.hpp>"),
+                ("prowl/transcription/base_defects.cpp", "<IpIpoptApplication.hpp>"),
                 ("prowl/solvers/riccati/riccati_solver.cpp", "<IpTNLP.hpp>"),
                 ("prowl/solvers/foreign/other_solver.cpp", "<IpoptConfig.h>"),
                 ("prowl/nlp/nlp.cpp", "<nlohmann/json.hpp>"),

@@ -1,5 +1,5 @@
 // Links of the URDF, against urdfdom's own tree and Pinocchio's frames.
-#include "prowl/model/link_tree.hpp"
+#include "prowl/model/urdf/link_tree.hpp"
 
 #include <gtest/gtest.h>
 #include <urdf_parser/urdf_parser.h>

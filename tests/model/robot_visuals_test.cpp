@@ -1,5 +1,5 @@
 // What a robot looks like, held against what it weighs and where it touches.
-#include "prowl/model/robot_visuals.hpp"
+#include "prowl/model/urdf/robot_visuals.hpp"
 
 #include <gmock/gmock.h>
 

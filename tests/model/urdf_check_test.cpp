@@ -1,4 +1,4 @@
-#include "prowl/model/urdf_check.hpp"
+#include "prowl/model/urdf/urdf_check.hpp"
 
 #include <gmock/gmock.h>
 

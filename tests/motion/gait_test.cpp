@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "prowl/model/name_check.hpp"
+#include "prowl/text/name_check.hpp"
 #include "prowl/motion/contact_schedule.hpp"
 #include "tests/support/robots.hpp"
 

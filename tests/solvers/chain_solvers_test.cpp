@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "prowl/error.hpp"
-#include "prowl/solvers/fatrop_solver.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/foreign/fatrop_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 #include "tests/solvers/cart.hpp"
 
 namespace prowl {

@@ -1,4 +1,4 @@
-#include "prowl/solvers/filter.hpp"
+#include "prowl/solvers/riccati/filter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "tests/nlp/test_problems.hpp"
 
 extern "C" unsigned IpoptGetAvailableLinearSolvers(int) { return 0x400; }  // IPOPTLINEARSOLVER_MUMPS

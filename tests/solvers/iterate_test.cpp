@@ -1,4 +1,4 @@
-#include "prowl/solvers/iterate.hpp"
+#include "prowl/nlp/iterate.hpp"
 
 #include <gtest/gtest.h>
 

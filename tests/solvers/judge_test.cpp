@@ -1,5 +1,5 @@
 // What a solver claims is held against the point that it gives.
-#include "prowl/solvers/judge.hpp"
+#include "prowl/solvers/remeasure_result.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

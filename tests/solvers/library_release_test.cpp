@@ -1,4 +1,4 @@
-#include "prowl/solvers/library_release.hpp"
+#include "prowl/solvers/foreign/library_release.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

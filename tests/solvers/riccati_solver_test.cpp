@@ -1,11 +1,11 @@
 // What this solver does beyond the laws of tests/solvers/chain_solvers_test.cpp.
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "tests/solvers/cart.hpp"
 
 namespace prowl {

@@ -1,4 +1,4 @@
-#include "prowl/solvers/slacks.hpp"
+#include "prowl/solvers/riccati/slacks.hpp"
 
 #include <gtest/gtest.h>
 

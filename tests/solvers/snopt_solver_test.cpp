@@ -1,4 +1,4 @@
-#include "prowl/solvers/snopt_solver.hpp"
+#include "prowl/solvers/foreign/snopt_solver.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The recursion against the whole system as one dense matrix, in extended precision.
-#include "prowl/solvers/stage_kkt.hpp"
+#include "prowl/solvers/riccati/stage_kkt.hpp"
 
 #include <gtest/gtest.h>
 

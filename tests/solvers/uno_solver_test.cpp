@@ -1,5 +1,5 @@
 // What Uno does that the others do not; what all do is in program_solvers_test.
-#include "prowl/solvers/uno_solver.hpp"
+#include "prowl/solvers/foreign/uno_solver.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 
 #include <cstring>
 
-#include "prowl/solvers/fatrop_solver.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/solvers/uno_solver.hpp"
+#include "prowl/solvers/foreign/fatrop_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/uno_solver.hpp"
 #include "tests/solvers/cart.hpp"
 
 extern "C" {

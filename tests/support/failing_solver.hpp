@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 
 namespace prowl::test {
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "prowl/dynamics/static_equilibrium.hpp"
-#include "prowl/formulations/formulation.hpp"
+#include "alternatives/formulation.hpp"
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"
 

@@ -9,7 +9,7 @@
 #include "prowl/model/robot_model.hpp"
 
 /// The five test robots, from the URDFs of example-robot-data, in the postures and with the contacts and limits of
-/// robots/*.toml (not HyQ's torque curves), but without reading a robot file: layers below prowl/io are tested without
+/// robots/*.toml (not HyQ's torque curves), but without reading a robot file: layers below prowl/task_file are tested without
 /// it.
 namespace prowl::test {
 

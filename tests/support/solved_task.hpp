@@ -3,11 +3,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "../io/test_files.hpp"
-#include "prowl/io/plan_directory.hpp"
-#include "prowl/io/task_file.hpp"
+#include "tests/support/test_files.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 
 namespace prowl::test {
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "prowl/io/task_file.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
-#include "tests/io/test_files.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl::test {
 

@@ -2,11 +2,11 @@
 // certificate.
 #include <gtest/gtest.h>
 
-#include "../io/test_files.hpp"
-#include "prowl/formulations/run_formulation.hpp"
+#include "tests/support/test_files.hpp"
+#include "alternatives/run_formulation.hpp"
 #include "prowl/guess/initial_guess.hpp"
-#include "prowl/io/task_file.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 
 namespace prowl {
 namespace {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/io/plan_directory.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
 #include "prowl/model/configuration.hpp"
 
 /// The purpose of every shipped task: its plan beside the wishes of its file. The wishes are read from the TOML, not

@@ -7,7 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "../io/test_files.hpp"
+#include "tests/support/test_files.hpp"
 #include "tests/tasks/purposes.hpp"
 
 namespace prowl {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "../io/test_files.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "prowl/plan.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"

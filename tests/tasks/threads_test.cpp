@@ -4,12 +4,12 @@
 #include <limits>
 #include <vector>
 
-#include "../io/test_files.hpp"
+#include "tests/support/test_files.hpp"
 #include "prowl/guess/initial_guess.hpp"
-#include "prowl/io/task_file.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "prowl/plan.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
-#include "prowl/solvers/riccati_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {

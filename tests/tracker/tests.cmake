@@ -1,2 +1,2 @@
 prowl_test(tracker/tracker prowl::tracker prowl::model)
-prowl_test(tracker/tracker_file prowl::io)
+prowl_test(tracker/tracker_file prowl::plan_folder)

@@ -1,10 +1,10 @@
-#include "prowl/io/tracker_file.hpp"
+#include "prowl/plan_folder/tracker_file.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
-#include "../io/test_files.hpp"
+#include "tests/support/test_files.hpp"
 #include "prowl/tracker/file_format.hpp"
 #include "prowl/tracker/tracker.hpp"
 #include "tests/support/random_tracking_plan.hpp"

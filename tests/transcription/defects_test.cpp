@@ -1,4 +1,4 @@
-#include "prowl/transcription/defects.hpp"
+#include "prowl/transcription/base_defects.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/pinocchio_model.hpp"
-#include "prowl/solvers/ipopt_solver.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/meshed_problem.hpp"
 #include "tests/support/standing_problem.hpp"

@@ -1,4 +1,4 @@
-#include "prowl/transcription/node_functions.hpp"
+#include "prowl/transcription/node/node_functions.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "prowl/model/so3.hpp"
-#include "prowl/transcription/independent_contacts.hpp"
+#include "prowl/transcription/node/independent_contacts.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"

@@ -1,0 +1,8 @@
+prowl_test(alternatives/base_chart prowl::alternatives)
+prowl_test(alternatives/collocation prowl::alternatives)
+prowl_test(alternatives/order prowl::alternatives prowl::solvers)
+prowl_test(alternatives/contact_motion prowl::alternatives)
+prowl_test(alternatives/run_formulation prowl::alternatives prowl::prowl)
+prowl_test(alternatives/centroidal_kinematics prowl::alternatives pinocchio::pinocchio_default)
+prowl_test(alternatives/centroidal prowl::alternatives prowl::solvers prowl::task_file)
+prowl_test(alternatives/compare_table prowl::alternatives prowl::prowl nlohmann_json::nlohmann_json)

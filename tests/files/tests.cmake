@@ -1,0 +1,5 @@
+prowl_test(files/atomic_folder prowl::files)
+prowl_test(files/base64 prowl::files)
+prowl_test(files/csv_table prowl::files)
+prowl_test(files/json_parse prowl::files nlohmann_json::nlohmann_json)
+prowl_test(files/visual_mesh prowl::files)

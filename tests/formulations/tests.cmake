@@ -1,7 +1,0 @@
-prowl_test(formulations/base_chart prowl::formulations)
-prowl_test(formulations/collocation prowl::formulations)
-prowl_test(formulations/order prowl::formulations prowl::solvers)
-prowl_test(formulations/contact_motion prowl::formulations)
-prowl_test(formulations/run_formulation prowl::prowl)
-prowl_test(formulations/centroidal_kinematics prowl::formulations pinocchio::pinocchio_default)
-prowl_test(formulations/centroidal prowl::formulations prowl::solvers prowl::io)

@@ -1,0 +1,2 @@
+prowl_test(screen/mesh_advice prowl::screen)
+prowl_test(screen/phase_table prowl::screen nlohmann_json::nlohmann_json)

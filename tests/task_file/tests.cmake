@@ -1,0 +1,7 @@
+prowl_test(task_file/file_keys prowl::task_file)
+prowl_test(task_file/file_mistakes prowl::task_file)
+prowl_test(task_file/toml_shape prowl::task_file)
+prowl_test(task_file/robot_file prowl::task_file)
+prowl_test(task_file/shipped_robots prowl::task_file)
+prowl_test(task_file/task_file prowl::task_file)
+prowl_test(task_file/task_gait prowl::task_file)
