@@ -16,10 +16,10 @@
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/error.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
 
 namespace {
 
@@ -78,7 +78,7 @@ prowl::MotionProblem with_goal(const prowl::MotionProblem& task, const Goal& goa
   prowl::MotionProblem problem = task;
   const int last_phase = static_cast<int>(task.phases.size()) - 1;
   auto condition =
-      prowl::BoundaryCondition::unbounded(problem.robot, "goal", {last_phase, task.phases.back().intervals}, goal.q);
+      prowl::BoundaryCondition::unbounded(problem.robot, "goal", prowl::PhaseFraction::end_of(last_phase), goal.q);
   condition.configuration_lower.head<6>().setZero();
   condition.configuration_upper.head<6>().setZero();
   condition.velocity_lower.head<6>().setZero();

@@ -12,12 +12,12 @@
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/mesh/receding_horizon.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Plans a task file and says what came of it:  plan_task TASK.toml [FOLDER of robot packages]
 #include <iostream>
-#include <prowl/task_file/task_file.hpp>
 #include <prowl/plan.hpp>
 #include <prowl/solvers/riccati/riccati_solver.hpp>
+#include <prowl/task_file/task_file.hpp>
 
 int main(int count, char** arguments) try {
   prowl::PackageSearch packages;

@@ -1,10 +1,10 @@
 // Plans again and again, each time one mesh interval later, towards a goal that moves:
 //     receding_horizon TASK.toml [FOLDER of robot packages]
 #include <iostream>
-#include <prowl/task_file/task_file.hpp>
 #include <prowl/mesh/receding_horizon.hpp>
 #include <prowl/plan.hpp>
 #include <prowl/solvers/riccati/riccati_solver.hpp>
+#include <prowl/task_file/task_file.hpp>
 
 int main(int count, char** arguments) try {
   prowl::PackageSearch packages;

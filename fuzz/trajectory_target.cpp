@@ -1,8 +1,8 @@
 // trajectory.csv of the task of sample.hpp; the same bytes as a table of numbers of any columns, as simulate.csv is.
 #include "input.hpp"
 #include "prowl/files/csv_table.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/plan_folder/trajectory_csv.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "sample.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -112,7 +112,9 @@ def draw_standing_torques(motion: Motion, out: pathlib.Path) -> None:
     ]
     nodes = len(table["time_s"])
     subtitle = f"N = {nodes} nodes for T = {table['time_s'][-1]:g} s; the trapezoid has torques linear between them"
-    save(style.finish(figure, "Output of the optimisation: standing", subtitle, handles, "fig_05_standing_torques"), out)
+    save(
+        style.finish(figure, "Output of the optimisation: standing", subtitle, handles, "fig_05_standing_torques"), out
+    )
 
 
 def draw_contact_acceleration(motion: Motion, tables: pathlib.Path, out: pathlib.Path) -> None:
@@ -204,4 +206,6 @@ def draw_simulation(motion: Motion, out: pathlib.Path, name: str) -> None:
         f"MuJoCo, sensor noise, state estimator, delay {1e3 * options['delay_s']:g} ms; TVLQR about the plan of "
         f"{intervals} intervals that the certificate passes"
     )
-    save(style.finish(figure, f"Simulation of {motion.subject.title.lower()}", subtitle, handles, name, bottom=0.25), out)
+    save(
+        style.finish(figure, f"Simulation of {motion.subject.title.lower()}", subtitle, handles, name, bottom=0.25), out
+    )

@@ -11,7 +11,7 @@
 
 #include "cli/process/process.hpp"
 #include "cli/process/program_files.hpp"
-#include "cli/process/python_verb.hpp"
+#include "cli/verbs/python_verb.hpp"
 #include "prowl/error.hpp"
 #include "prowl/session/environment.hpp"
 #include "prowl/solvers/foreign/fatrop_solver.hpp"

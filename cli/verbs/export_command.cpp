@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "cli/options/shared_options.hpp"
-#include "cli/process/python_verb.hpp"
 #include "cli/verbs/commands.hpp"
+#include "cli/verbs/python_verb.hpp"
 #include "prowl/plan_folder/export_files.hpp"
 
 namespace prowl::cli {

@@ -2,8 +2,8 @@
 #include <string>
 
 #include "cli/options/shared_options.hpp"
-#include "cli/process/python_verb.hpp"
 #include "cli/verbs/commands.hpp"
+#include "cli/verbs/python_verb.hpp"
 
 namespace prowl::cli {
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
+#include "cli/exit_status.hpp"
 #include "cli/options/shared_options.hpp"
 #include "cli/process/interrupt.hpp"
 #include "cli/process/program_files.hpp"
-#include "cli/exit_status.hpp"
 #include "cli/screen/json_result.hpp"
 #include "cli/screen/output.hpp"
 #include "cli/screen/progress_bar.hpp"

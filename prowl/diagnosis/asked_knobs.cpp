@@ -178,7 +178,7 @@ void add_places(const MotionProblem& problem, std::vector<Knob>& knobs) {
 
 }  // namespace
 
-std::vector<Knob> way_knobs(const MotionProblem& problem) {
+std::vector<Knob> asked_knobs(const MotionProblem& problem) {
   std::vector<Knob> knobs;
   for (std::size_t c = 1; c < problem.boundary_conditions.size(); ++c) {
     const Away away = farthest(problem, problem.boundary_conditions[c]);

@@ -100,7 +100,7 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   for (const int surface : surfaces) {
     if (problem.surfaces[surface].friction < kMostFriction) knobs.push_back(friction_knob(problem, surface));
   }
-  for (const Knob& knob : way_knobs(problem)) knobs.push_back(knob);
+  for (const Knob& knob : asked_knobs(problem)) knobs.push_back(knob);
   for (const Knob& knob : joint_knobs(problem)) knobs.push_back(knob);
   const int phases = static_cast<int>(problem.phases.size());
   for (int p = 0; p < phases && phases <= kMostPhases; ++p) {

@@ -26,7 +26,7 @@ constexpr double kFull = 0.999;       // of the weight, or of a torque limit: le
 /// Contacts that a posture does not have where they have to be.
 std::vector<std::string> missed_places(const MotionProblem& problem, const ContactSchedule& schedule, int p,
                                        const VectorXd& q, const std::string& when) {
-  const auto places = known_places(problem, schedule);
+  const auto places = prescribed_places(problem, schedule);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
   std::vector<std::string> missed;

@@ -10,7 +10,7 @@ namespace prowl {
 
 using Eigen::Vector3d;
 
-std::vector<std::optional<Vector3d>> known_places(const MotionProblem& problem, const ContactSchedule& schedule) {
+std::vector<std::optional<Vector3d>> prescribed_places(const MotionProblem& problem, const ContactSchedule& schedule) {
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(problem.start_configuration());
   std::vector<std::optional<Vector3d>> places;

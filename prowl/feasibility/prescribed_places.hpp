@@ -10,7 +10,8 @@ namespace prowl {
 
 /// Where each stance has its contact point, in the order of ContactSchedule::stances(), world frame [m]: where it is at
 /// the start, or over the place that the task gives. None where the optimiser chooses.
-std::vector<std::optional<Eigen::Vector3d>> known_places(const MotionProblem& problem, const ContactSchedule& schedule);
+std::vector<std::optional<Eigen::Vector3d>> prescribed_places(const MotionProblem& problem,
+                                                              const ContactSchedule& schedule);
 
 /// Whether a condition is about a time of the phase, its ends included: those belong to the phases on both sides.
 bool is_during(const BoundaryCondition& condition, int phase);

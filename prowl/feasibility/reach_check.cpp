@@ -50,7 +50,7 @@ double least_distance(const Held& held, const BoundaryCondition& condition) {
 }  // namespace
 
 std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, const ContactSchedule& schedule) {
-  const auto places = known_places(problem, schedule);
+  const auto places = prescribed_places(problem, schedule);
   std::vector<std::string> reasons;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const std::string& phase = problem.phases[p].name;

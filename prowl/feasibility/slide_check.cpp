@@ -64,7 +64,7 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
     holds.push_back({condition.name, time_of(problem, condition.at),
                      point_bounds(condition, mass.centre).least_along(d) - mass.radius});
   }
-  const auto places = known_places(problem, schedule);
+  const auto places = prescribed_places(problem, schedule);
   const Phase& phase = problem.phases[p];
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
     const auto& place = places[schedule.stance(p, i)];

@@ -7,7 +7,7 @@
 
 namespace prowl {
 
-void judge(Nlp& nlp, double tolerance, const std::string& solver, SolveResult& result) {
+void remeasure_result(Nlp& nlp, double tolerance, const std::string& solver, SolveResult& result) {
   using enum SolveStatus;
   GuardedNlp guarded(nlp);
   Eigen::VectorXd rows(nlp.num_constraints());

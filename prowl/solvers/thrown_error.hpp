@@ -6,7 +6,7 @@
 namespace prowl {
 
 /// Within a catch (...): what the exception says.
-inline std::string what_was_thrown() {
+inline std::string thrown_error() {
   try {
     throw;
   } catch (const std::exception& error) {

@@ -1,4 +1,4 @@
-"""The verbs of the command that this package does. `prowl figures` and `prowl export` run this file (cli/process/python_verb.cpp):
+"""The verbs of the command that this package does. `prowl figures` and `prowl export` run this file (cli/verbs/python_verb.cpp):
 
     _verb.py VERB OPTIONS
 

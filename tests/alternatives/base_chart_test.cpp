@@ -5,8 +5,8 @@
 #include <Eigen/LU>
 #include <numbers>
 
-#include "prowl/error.hpp"
 #include "alternatives/collocation/graph/rate_function.hpp"
+#include "prowl/error.hpp"
 #include "prowl/model/so3.hpp"
 #include "tests/support/random_vector.hpp"
 

@@ -6,19 +6,19 @@
 #include <numeric>
 #include <set>
 
-#include "tests/support/test_files.hpp"
-#include "prowl/error.hpp"
 #include "alternatives/centroidal/centroidal_nlp.hpp"
 #include "alternatives/inverse_dynamics_check.hpp"
 #include "alternatives/run_formulation.hpp"
+#include "prowl/error.hpp"
 #include "prowl/guess/initial_guess.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/nlp/derivative_check.hpp"
 #include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/meshed_problem.hpp"
 #include "tests/support/random_vector.hpp"
 #include "tests/support/standing_problem.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "alternatives/formulation.hpp"
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/error.hpp"
-#include "alternatives/formulation.hpp"
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/nlp/derivative_check.hpp"
 #include "tests/support/everything_problem.hpp"

@@ -9,9 +9,9 @@
 
 #include "prowl/diagnosis/joint_knobs.hpp"
 #include "prowl/task_file/task_file.hpp"
-#include "tests/support/test_files.hpp"
 #include "tests/support/small_robot.hpp"
 #include "tests/support/standing_problem.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

@@ -8,10 +8,10 @@
 #include <cmath>
 
 #include "prowl/diagnosis/change_search.hpp"
-#include "screen/diagnosis_text.hpp"
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "screen/diagnosis_text.hpp"
 #include "tests/support/failing_solver.hpp"
 #include "tests/support/task_test.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <random>
 
-#include "tests/support/robots.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
+#include "tests/support/robots.hpp"
 
 namespace prowl {
 namespace {

@@ -6,10 +6,10 @@
 #include <pinocchio/algorithm/center-of-mass.hpp>
 #include <random>
 
-#include "tests/support/robots.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/pinocchio_model.hpp"
+#include "tests/support/robots.hpp"
 
 namespace prowl {
 namespace {

@@ -99,7 +99,7 @@ TEST(ReachCheck, NeverForbidsAPostureThatExists) {
     const MotionProblem standing = test::standing_problem(robot);
     const double height = robot.nominal_configuration()(2);
     std::vector<ContactTarget> targets;
-    const auto places = known_places(standing, ContactSchedule(standing));
+    const auto places = prescribed_places(standing, ContactSchedule(standing));
     for (int c = 0; c < 4; ++c) targets.push_back({c, *places[c]});
     for (int i = 0; i < 100; ++i) {
       MotionProblem problem = test::with_base_goal(standing, test::random_vector(rng, 3, 0.5 * height));

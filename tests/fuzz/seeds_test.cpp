@@ -10,9 +10,9 @@
 #include "prowl/error.hpp"
 #include "prowl/plan_folder/plan_folder.hpp"
 #include "prowl/plan_folder/plan_json.hpp"
+#include "prowl/plan_folder/trajectory_csv.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "prowl/task_file/task_file.hpp"
-#include "prowl/plan_folder/trajectory_csv.hpp"
 #include "prowl/tracker/tracker.hpp"
 
 namespace prowl {

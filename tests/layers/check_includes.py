@@ -182,6 +182,8 @@ ALLOWED = {
     "cli": ["cli/process", "cli/screen", "cli/verbs", "prowl", "prowl/text", "prowl/solvers", "prowl/session"],
     "python/src": [
         "prowl",
+        "prowl/text",
+        "prowl/files",
         "prowl/model",
         "prowl/dynamics",
         "prowl/motion",

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "prowl/text/name_check.hpp"
 #include "prowl/motion/contact_schedule.hpp"
+#include "prowl/text/name_check.hpp"
 #include "tests/support/robots.hpp"
 
 namespace prowl {

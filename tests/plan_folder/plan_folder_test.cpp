@@ -4,8 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "prowl/plan_folder/trajectory_csv.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
+#include "prowl/plan_folder/trajectory_csv.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "tests/support/test_files.hpp"
 
 namespace prowl {

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "prowl/plan_folder/simulation_files.hpp"
 #include "prowl/files/visual_mesh.hpp"
+#include "prowl/plan_folder/simulation_files.hpp"
 #include "tests/support/solved_task.hpp"
 
 namespace prowl {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "prowl/task_file/task_file.hpp"
 #include "screen/plan_summary.hpp"
 #include "tests/support/test_files.hpp"
 

@@ -11,7 +11,7 @@ prowl_test(solvers/stage_kkt prowl::solvers)
 prowl_test(solvers/slacks prowl::solvers)
 prowl_test(solvers/filter prowl::solvers)
 prowl_test(solvers/iterate prowl::solvers)
-prowl_test(solvers/judge prowl::solvers)
+prowl_test(solvers/remeasure_result prowl::solvers)
 
 # In place of the user's libsnopt7, which no test can have.
 add_library(snopt_double SHARED ${CMAKE_CURRENT_LIST_DIR}/snopt_double.cpp)

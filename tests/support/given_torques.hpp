@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "prowl/dynamics/static_equilibrium.hpp"
 #include "alternatives/formulation.hpp"
+#include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/solvers/foreign/ipopt_solver.hpp"

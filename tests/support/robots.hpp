@@ -9,8 +9,8 @@
 #include "prowl/model/robot_model.hpp"
 
 /// The five test robots, from the URDFs of example-robot-data, in the postures and with the contacts and limits of
-/// robots/*.toml (not HyQ's torque curves), but without reading a robot file: layers below prowl/task_file are tested without
-/// it.
+/// robots/*.toml (not HyQ's torque curves), but without reading a robot file: layers below prowl/task_file are tested
+/// without it.
 namespace prowl::test {
 
 inline std::filesystem::path robots_data() {

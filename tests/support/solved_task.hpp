@@ -3,11 +3,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "tests/support/test_files.hpp"
-#include "prowl/plan_folder/plan_folder.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/plan.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl::test {
 

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "tests/support/test_files.hpp"
 
 namespace prowl::test {

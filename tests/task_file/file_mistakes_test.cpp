@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
-#include "prowl/task_file/toml/file_keys.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "prowl/task_file/task_file.hpp"
+#include "prowl/task_file/toml/file_keys.hpp"
 #include "tests/support/test_files.hpp"
 
 namespace prowl {

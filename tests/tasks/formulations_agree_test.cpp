@@ -2,11 +2,11 @@
 // certificate.
 #include <gtest/gtest.h>
 
-#include "tests/support/test_files.hpp"
 #include "alternatives/run_formulation.hpp"
 #include "prowl/guess/initial_guess.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

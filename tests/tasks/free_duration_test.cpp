@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/test_files.hpp"
-#include "prowl/task_file/robot_file.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/task_file/robot_file.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

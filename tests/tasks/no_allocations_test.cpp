@@ -1,12 +1,12 @@
 // A solve takes its memory at first: iterations after the second take none.
 #include <gtest/gtest.h>
 
-#include "tests/support/test_files.hpp"
 #include "prowl/guess/initial_guess.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "prowl/transcription/transcription.hpp"
 #include "tests/support/allocations.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

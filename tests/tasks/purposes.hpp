@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/plan_folder/plan_folder.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/plan_folder/plan_folder.hpp"
 
 /// The purpose of every shipped task: its plan beside the wishes of its file. The wishes are read from the TOML, not
 /// from the problem that Prowl made of it.

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/test_files.hpp"
-#include "tests/support/failing_solver.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "tests/support/failing_solver.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

@@ -1,12 +1,12 @@
 // All solvers find the same motion of the shipped tasks of HyQ, on few intervals.
 #include <gtest/gtest.h>
 
-#include "tests/support/test_files.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

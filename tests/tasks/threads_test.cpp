@@ -4,13 +4,13 @@
 #include <limits>
 #include <vector>
 
-#include "tests/support/test_files.hpp"
 #include "prowl/guess/initial_guess.hpp"
-#include "prowl/task_file/task_file.hpp"
 #include "prowl/plan.hpp"
 #include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
+#include "prowl/task_file/task_file.hpp"
 #include "prowl/transcription/transcription.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

@@ -4,10 +4,10 @@
 
 #include <functional>
 
-#include "tests/support/test_files.hpp"
 #include "prowl/tracker/file_format.hpp"
 #include "prowl/tracker/tracker.hpp"
 #include "tests/support/random_tracking_plan.hpp"
+#include "tests/support/test_files.hpp"
 
 namespace prowl {
 namespace {

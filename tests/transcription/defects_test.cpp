@@ -1,8 +1,7 @@
-#include "prowl/transcription/base_defects.hpp"
-
 #include <gtest/gtest.h>
 
 #include "prowl/model/so3.hpp"
+#include "prowl/transcription/base_defects.hpp"
 #include "tests/support/random_point.hpp"
 
 namespace prowl {

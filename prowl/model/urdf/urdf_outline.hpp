@@ -21,7 +21,8 @@ struct UrdfOutline {
   std::vector<Limits> joints;
 };
 
-/// Throws InputError as check_urdf (prowl/model/urdf/urdf_check.hpp) does; `file` is for its messages, `xml` what is in it.
+/// Throws InputError as check_urdf (prowl/model/urdf/urdf_check.hpp) does; `file` is for its messages, `xml` what is in
+/// it.
 UrdfOutline urdf_outline(const std::string& file, const std::string& xml);
 
 }  // namespace prowl

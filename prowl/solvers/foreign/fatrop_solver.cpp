@@ -406,7 +406,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     gave_up = false;
     result.iterations = problem->iterations();
   } catch (...) {
-    stopped = {SolveStatus::solver_failed, what_was_thrown()};
+    stopped = {SolveStatus::solver_failed, thrown_error()};
     result.iterations = problem->iterations();
   }
   result.status = stopped.status;
@@ -419,7 +419,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
   if (!chosen.stages.empty()) result.z = stages.flat(chosen.stages);
   result.dual_violation = chosen.dual_violation;
 
-  judge(nlp, options.tolerance, name(), result);
+  remeasure_result(nlp, options.tolerance, name(), result);
   result.times = problem->times();
   result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = wall_seconds() - began;

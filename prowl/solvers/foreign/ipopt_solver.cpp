@@ -200,7 +200,7 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetIntegerValue("print_level", 0);
   list.SetStringValue("hessian_approximation", "exact");
   list.SetNumericValue("tol", options.tolerance);
-  // Less than what the result is judged by (judge()): Ipopt looks before it puts the variables back within the bounds
+  // Less than what the result is measured by (remeasure_result()): Ipopt looks before it puts the variables back within the bounds
   // that it relaxed, below.
   list.SetNumericValue("constr_viol_tol", 0.9 * options.tolerance);
   // `tol` is about the problem as Ipopt scales it; these two about the problem itself, and their defaults are loose.
@@ -339,13 +339,13 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
       run_ipopt(guarded, z_start, options, linear_solver_, start, result);
     } catch (...) {
       result.status = SolveStatus::solver_failed;
-      result.message = "Ipopt: " + what_was_thrown();
+      result.message = "Ipopt: " + thrown_error();
     }
   } else {
     result.status = SolveStatus::evaluation_failed;
     result.message = fmt::format("start: {}", guarded.failure());
   }
-  if (!guarded.broken()) judge(nlp, options.tolerance, name(), result);
+  if (!guarded.broken()) remeasure_result(nlp, options.tolerance, name(), result);
   result.times = guarded.times();
   result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = wall_seconds() - start;

@@ -51,7 +51,7 @@ class SnoptProblem {
         *status = self->guarded_.broken() ? -2 : -1;
       }
     } catch (...) {
-      self->mistake_ = what_was_thrown();
+      self->mistake_ = thrown_error();
       *status = -2;
     }
   }
@@ -279,7 +279,7 @@ SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   if (guarded.broken()) {
     result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
   } else {
-    judge(nlp, options.tolerance, "SNOPT", result);
+    remeasure_result(nlp, options.tolerance, "SNOPT", result);
   }
   if (result.status == SolveStatus::converged)
     result.dual_violation = dual_violation(nlp, result.z, result.multipliers);

@@ -285,7 +285,7 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
     result.message = stopped.message;
     result.iterations = problem.iterations();
   } catch (...) {
-    result.message = "Uno: " + what_was_thrown();
+    result.message = "Uno: " + thrown_error();
     result.iterations = problem.iterations();
   }
   if (guarded.broken()) {
@@ -304,7 +304,7 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
   if (guarded.broken()) {
     result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
   } else {
-    judge(nlp, options.tolerance, name(), result);
+    remeasure_result(nlp, options.tolerance, name(), result);
   }
   result.times = guarded.times();
   result.times.cpu = cpu_seconds() - cpu_start;

@@ -35,7 +35,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
   try {
     made.emplace(stages, options, nlp.use_threads(options.threads));
   } catch (...) {  // no memory, no threads
-    result.message = what_was_thrown();
+    result.message = thrown_error();
     return result;
   }
   InteriorPoint& method = *made;
@@ -61,7 +61,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
   try {
     ending = method.run(stages.stages(z_start), watch);
   } catch (...) {
-    ending.message = what_was_thrown();
+    ending.message = thrown_error();
   }
   result.status = ending.status;
   result.message = ending.message;
@@ -73,7 +73,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
     result.dual_violation = (has_converged ? method.figures() : best).dual_violation;
   }
 
-  judge(nlp, options.tolerance, name(), result);
+  remeasure_result(nlp, options.tolerance, name(), result);
   result.times = method.times();
   result.times.cpu = cpu_seconds() - cpu_start;
   result.seconds = wall_seconds() - began;

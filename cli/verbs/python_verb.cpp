@@ -1,4 +1,4 @@
-#include "cli/process/python_verb.hpp"
+#include "cli/verbs/python_verb.hpp"
 
 #include <fmt/format.h>
 

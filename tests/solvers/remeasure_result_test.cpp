@@ -26,40 +26,40 @@ SolveResult claimed(SolveStatus status, double miss) {
   return result;
 }
 
-TEST(Judge, MeasuresAtThePointAndLeavesWhatIsTrue) {
+TEST(RemeasureResult, MeasuresAtThePointAndLeavesWhatIsTrue) {
   Hs071 nlp;
   SolveResult result = claimed(SolveStatus::converged, 0.5e-6);
   result.cost = 1e3;
-  judge(nlp, kTolerance, "Solver", result);
+  remeasure_result(nlp, kTolerance, "Solver", result);
   EXPECT_EQ(result.status, SolveStatus::converged);
   EXPECT_EQ(result.message, "claimed");
   EXPECT_DOUBLE_EQ(result.cost, nlp.cost(result.z));
   EXPECT_NEAR(result.constraint_violation, 0.5e-6, 1e-12);
 }
 
-TEST(Judge, TakesNoViolatedPointForConverged) {
+TEST(RemeasureResult, TakesNoViolatedPointForConverged) {
   Hs071 nlp;
   SolveResult result = claimed(SolveStatus::converged, 2e-6);
-  judge(nlp, kTolerance, "Solver", result);
+  remeasure_result(nlp, kTolerance, "Solver", result);
   EXPECT_EQ(result.status, SolveStatus::solver_failed);
   EXPECT_THAT(result.message, HasSubstr("Solver says it is done, but a constraint is not within tolerance"));
   EXPECT_NEAR(result.constraint_violation, 2e-6, 1e-12);
 }
 
-TEST(Judge, LeavesWhatDoesNotClaimToHaveConverged) {
+TEST(RemeasureResult, LeavesWhatDoesNotClaimToHaveConverged) {
   Hs071 nlp;
   SolveResult result = claimed(SolveStatus::iteration_limit, 1.0);
-  judge(nlp, kTolerance, "Solver", result);
+  remeasure_result(nlp, kTolerance, "Solver", result);
   EXPECT_EQ(result.status, SolveStatus::iteration_limit);
   EXPECT_EQ(result.message, "claimed");
   EXPECT_NEAR(result.constraint_violation, 1.0, 1e-12);
 }
 
-TEST(Judge, NamesWhatCannotBeEvaluated) {
+TEST(RemeasureResult, NamesWhatCannotBeEvaluated) {
   Hs071 nlp;
   SolveResult result = claimed(SolveStatus::converged, 0.0);
   result.z(2) = std::numeric_limits<double>::quiet_NaN();
-  judge(nlp, kTolerance, "Solver", result);
+  remeasure_result(nlp, kTolerance, "Solver", result);
   EXPECT_EQ(result.status, SolveStatus::evaluation_failed);
   EXPECT_THAT(result.message, HasSubstr("result cannot be evaluated: "));
   EXPECT_THAT(result.message, HasSubstr("variable 2"));
