@@ -130,8 +130,6 @@ std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, c
 
 }  // namespace
 
-bool is_good(const Plan& plan) { return plan.result.status == SolveStatus::converged && plan.certificate.passed; }
-
 bool is_worth_going_on_from(SolveStatus status) {
   return status != SolveStatus::infeasible && status != SolveStatus::evaluation_failed &&
          status != SolveStatus::solver_failed;

@@ -42,7 +42,9 @@ struct Plan {
 };
 
 /// Whether the plan may be used: the solver converged and the certificate passed.
-bool is_good(const Plan& plan);
+inline bool is_good(const Plan& plan) {
+  return plan.result.status == SolveStatus::converged && plan.certificate.passed;
+}
 
 struct PlanOptions {
   SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together

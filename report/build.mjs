@@ -40,11 +40,16 @@ if (/<\/script/i.test(script) || /<\/style/i.test(style)) throw new Error("the b
 
 const hash = (text) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
 const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data: blob:`;
-const fill = { POLICY: policy, STYLE: style, SCRIPT: script };
-const page = (await readFile(path.join(folder, "src/page.html"), "utf8")).replace(
-  /\{\{(\w+)\}\}/g,
-  (_, name) => fill[name],
-);
+// The policy holds hashes of the exact texts: page.html leaves these elements empty, for a formatter would change them.
+const template = await readFile(path.join(folder, "src/page.html"), "utf8");
+const page = [
+  ["POLICY", policy],
+  ["<style></style>", `<style>${style}</style>`],
+  ["<script></script>", `<script>${script}</script>`],
+].reduce((text, [empty, full]) => {
+  if (text.split(empty).length !== 2) throw new Error(`page.html: need ${empty} once`);
+  return text.replace(empty, () => full);
+}, template);
 
 await mkdir(path.dirname(path.resolve(out)), { recursive: true });
 await writeFile(out, page);

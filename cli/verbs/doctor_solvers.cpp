@@ -79,15 +79,16 @@ Task tiny_task() {
                     SourceText{folder / "tiny.urdf", urdf + "</robot>\n"});
 }
 
-Finding check_solver(const NlpSolver& solver, const Task& task) {
-  Finding finding{.area = "solvers", .name = solver.name(), .text = {}, .remedy = ""};
+Finding check_solver(const std::string& name, const Task& task) {
+  const std::unique_ptr<NlpSolver> solver = make_solver(name);
+  Finding finding{.area = "solvers", .name = solver->name(), .text = {}, .remedy = ""};
   const auto start = std::chrono::steady_clock::now();
   std::string outcome;
   try {
-    const Plan plan = plan_task(task, {.solver = solver.name(), .coarse_first = false, .gains = false}).record.plan;
+    const Plan plan = plan_task(task, {.solver = name, .coarse_first = false, .gains = false}).record.plan;
     if (is_good(plan)) {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      finding.text = fmt::format("{}: solves and passes a small task in {:.0f} ms", solver.version(), 1e3 * seconds);
+      finding.text = fmt::format("{}: solves and passes a small task in {:.0f} ms", solver->version(), 1e3 * seconds);
       if (seconds > kLongest) {
         finding.state = Finding::State::slow;
         finding.remedy = "see build and cores above";
@@ -99,7 +100,7 @@ Finding check_solver(const NlpSolver& solver, const Task& task) {
     outcome = error.what();
   }
   finding.state = Finding::State::missing;
-  finding.text = fmt::format("{}: does not solve a small task: {}", solver.version(), outcome);
+  finding.text = fmt::format("{}: does not solve a small task: {}", solver->version(), outcome);
   finding.remedy = "the libraries may not be those of the build: scripts/setup, and build again";
   finding.status = kNotSolved;
   return finding;
@@ -110,7 +111,7 @@ Finding check_solver(const NlpSolver& solver, const Task& task) {
 std::vector<Finding> check_solvers() {
   const Task task = tiny_task();
   std::vector<Finding> findings;
-  for (const std::string& name : solver_names()) findings.push_back(check_solver(*make_solver(name), task));
+  for (const std::string& name : solver_names()) findings.push_back(check_solver(name, task));
   return findings;
 }
 

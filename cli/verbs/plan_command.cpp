@@ -70,6 +70,15 @@ void check_step(const Task& task, std::optional<double> step) {
   }
 }
 
+/// As check(), with the names of the options: those of the request, which are the same.
+void check_options(const PlanRequest& request) {
+  try {
+    check(request);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("--{}", error.what()));
+  }
+}
+
 /// Reads the plan of --warm-start or --resume, if there is one, and says in the request to start from it.
 std::optional<PlanRecord> read_start(const PlanArguments& arguments, const PackageSearch& search, Task& task,
                                      PlanRequest& request) {
@@ -107,7 +116,7 @@ int run_plan(const PlanArguments& arguments) {
   Task task = read_task_file(arguments.task, search, arguments.overrides);
   if (arguments.print_phases) return print_phases(task, arguments.json);
   PlanRequest request = arguments.request;
-  check(request);
+  check_options(request);
   const std::filesystem::path out = arguments.out.empty() ? "out" / std::filesystem::path(task_slug(arguments.task))
                                                           : std::filesystem::path(arguments.out);
   check_plan_directory(out);

@@ -250,12 +250,6 @@ std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferenceP
   return after;
 }
 
-int FeedbackDesign::num_samples() const {
-  std::size_t samples = 0;
-  for (const ReferencePhase& phase : phases) samples += phase.samples.size();
-  return static_cast<int>(samples);
-}
-
 FeedbackDesign design_feedback(const MotionProblem& problem, const Trajectory& trajectory,
                                const TrackingOptions& options,
                                const std::function<void(const ReducedSample&)>& on_sample) {

@@ -34,7 +34,11 @@ struct FeedbackDesign {
          fastest_rate = 0.0;  ///< of standing on: least -Re (< 0: it falls) and modulus of closed-loop poles [1/s]
   double seconds = 0.0;       ///< that the design took
 
-  int num_samples() const;
+  int num_samples() const {
+    std::size_t samples = 0;
+    for (const ReferencePhase& phase : phases) samples += phase.samples.size();
+    return static_cast<int>(samples);
+  }
 };
 
 /// What the backward pass sees at one sample of the grid; n deviations xi that the contacts allow, dx = Z xi.

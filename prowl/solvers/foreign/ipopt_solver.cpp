@@ -200,8 +200,8 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetIntegerValue("print_level", 0);
   list.SetStringValue("hessian_approximation", "exact");
   list.SetNumericValue("tol", options.tolerance);
-  // Less than what the result is measured by (remeasure_result()): Ipopt looks before it puts the variables back within the bounds
-  // that it relaxed, below.
+  // Less than what the result is measured by (remeasure_result()): Ipopt looks before it puts the variables back within
+  // the bounds that it relaxed, below.
   list.SetNumericValue("constr_viol_tol", 0.9 * options.tolerance);
   // `tol` is about the problem as Ipopt scales it; these two about the problem itself, and their defaults are loose.
   list.SetNumericValue("dual_inf_tol", options.tolerance);
