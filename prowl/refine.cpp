@@ -34,7 +34,7 @@ struct Candidate {
     return static_cast<int>(std::ranges::count_if(parts, [](double part) { return part > 1.0; }));
   }
 
-  void judge(const MeshTolerance& tolerance) {
+  void measure_errors(const MeshTolerance& tolerance) {
     parts = error_parts(plan.certificate, tolerance);
     meets_tolerance = is_within(mesh_errors(plan.certificate), tolerance);
   }
@@ -51,8 +51,8 @@ struct Candidate {
 /// Solves one mesh after the other, each from the motion of the last, and keeps the books of all.
 class Meshes {
  public:
-  Meshes(const MotionProblem& problem, const NlpSolver& solver, const PlanOptions& options)
-      : problem_(problem), solver_(solver), options_(options), coarse_first_(options.coarse_first) {
+  Meshes(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options)
+      : asked_(asked), solver_(solver), options_(options), coarse_first_(options.coarse_first) {
     options_.coarse_first = false;
   }
 
@@ -63,7 +63,9 @@ class Meshes {
     constexpr double kShortestSeconds = 1e-3;  // of the first mesh, whatever is asked for
     PlanOptions options = options_;
     options.solver.max_seconds = std::max(seconds_left(), kShortestSeconds);
-    Plan plan = make_plan({problem_, mesh}, solver_, options);
+    std::optional<DiscreteProblem> other;  // asked_ is prepared already
+    if (mesh != asked_.mesh) other.emplace(asked_.problem, mesh);
+    Plan plan = make_plan(other ? *other : asked_, solver_, options);
     levels_.insert(levels_.end(), plan.levels.begin(), plan.levels.end());
     total_.iterations += plan.result.iterations;
     total_.seconds += plan.result.seconds;
@@ -81,7 +83,7 @@ class Meshes {
   Candidate begin(const Mesh& mesh) {
     const bool from_coarse = coarse_first_ && options_.start_from.empty();
     std::optional<Candidate> first;
-    for (const Mesh& level : from_coarse ? mesh_levels(problem_, mesh) : std::vector{mesh}) {
+    for (const Mesh& level : from_coarse ? mesh_levels(asked_.problem, mesh) : std::vector{mesh}) {
       const bool goes_on = first && is_worth_going_on_from(first->plan.result.status);
       first = goes_on ? solve_from(first->plan, level) : solve(level);
       const SolveStatus status = first->plan.result.status;
@@ -102,7 +104,7 @@ class Meshes {
  private:
   double seconds_left() const { return options_.solver.max_seconds - (wall_seconds() - begin_); }
 
-  const MotionProblem& problem_;
+  const DiscreteProblem& asked_;
   const NlpSolver& solver_;
   PlanOptions options_;
   bool coarse_first_;
@@ -143,7 +145,7 @@ std::string hint(const Candidate& best, const std::string& stopped) {
 
 RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options,
                               const RefineOptions& refine) {
-  Meshes meshes(asked.problem, solver, options);
+  Meshes meshes(asked, solver, options);
   Progress progress;
   Candidate now = meshes.begin(asked.mesh);
   std::optional<Candidate> best;
@@ -151,7 +153,7 @@ RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& sol
   for (int round = 1; now.plan.result.status == SolveStatus::converged; ++round) {
     const Certificate& certificate = now.plan.certificate;
     if (certificate.interval_errors.empty()) break;  // a motion that is none
-    now.judge(refine.tolerance);
+    now.measure_errors(refine.tolerance);
     if (refine.on_round) {
       refine.on_round({now.intervals(), now.plan.result.iterations, mesh_errors(certificate), now.too_coarse()});
     }

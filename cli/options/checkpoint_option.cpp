@@ -21,7 +21,7 @@ void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
   verb.add_option(
           "--checkpoint-every", arguments.every,
           fmt::format("Seconds between two that are written; default {:g}, 0: each that is better", arguments.every))
-      ->check(nonnegative_number())
+      ->check(number_in(NumberRange::nonnegative()))
       ->type_name("S")
       ->needs(folder);
   add_folder(verb, "--resume", arguments.resume,

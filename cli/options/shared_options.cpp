@@ -5,26 +5,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
 
 #include "cli/screen/output.hpp"
 #include "prowl/task_file/toml/file_keys.hpp"
 
 namespace prowl::cli {
-namespace {
-
-CLI::Validator finite_number(const std::string& range, const std::function<bool(double)>& is_in_range) {
-  return {[range, is_in_range](const std::string& text) {
-            double value = 0.0;
-            const bool ok = CLI::detail::lexical_cast(text, value) && std::isfinite(value) && is_in_range(value);
-            return ok ? std::string{} : fmt::format("{} is not allowed; need a finite number {}", text, range);
-          },
-          "NUMBER " + range};
-}
-
-}  // namespace
-
 void add_plan_directory(CLI::App& verb, std::string& directory) {
   verb.add_option("directory", directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
 }
@@ -52,19 +38,28 @@ void add_json(CLI::App& verb, bool& json) {
 }
 
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
-  const FileKeys& keys = task_file_keys();
-  verb.add_option("--max-time", overrides.max_seconds,
-                  key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
-      ->check(positive_number())
-      ->type_name("S");
-  verb.add_option("--max-iterations", overrides.max_iterations,
-                  key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max()))
+  const auto add = [&](const char* option, auto& value, const char* name, const char* type) {
+    const FileKey& key = file_key(task_file_keys(), "solver", name);
+    const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+    verb.add_option(option, value, fmt::format("{}{}; in place of solver.{}", key.meaning, unit, name))
+        ->check(number_in(key.range))
+        ->type_name(type);
+  };
+  add("--max-time", overrides.max_seconds, "max_time_s", "S");
+  add("--max-iterations", overrides.max_iterations, "max_iterations", "N");
+  add("--tolerance", overrides.tolerance, "tolerance", "X");
+}
+
+void add_intervals(CLI::App& verb, TaskOverrides& overrides) {
+  verb.add_option("--intervals", overrides.intervals,
+                  "Mesh intervals in all, shared out over the phases as in the task file")
+      ->check(interval_count())
       ->type_name("N");
-  verb.add_option("--tolerance", overrides.tolerance,
-                  key_meaning(keys, "solver", "tolerance") + "; in place of solver.tolerance")
-      ->check(number_between(1e-12, 1e-2))
-      ->type_name("X");
+}
+
+CLI::Validator interval_count() {
+  const NumberRange& range = file_key(task_file_keys(), "phase", "intervals").range;
+  return CLI::Range(static_cast<int>(range.lower), static_cast<int>(range.upper));
 }
 
 void add_hessian(CLI::App& verb, HessianKind& hessian) {
@@ -79,16 +74,15 @@ void add_hessian(CLI::App& verb, HessianKind& hessian) {
       ->type_name("NAME");
 }
 
-CLI::Validator positive_number() {
-  return finite_number("> 0", [](double value) { return value > 0.0; });
-}
-CLI::Validator nonnegative_number() {
-  return finite_number(">= 0", [](double value) { return value >= 0.0; });
-}
-
-CLI::Validator number_between(double lower, double upper) {
-  return finite_number(fmt::format("from {} to {}", lower, upper),
-                       [lower, upper](double value) { return value >= lower && value <= upper; });
+CLI::Validator number_in(const NumberRange& range) {
+  return {[range](const std::string& text) {
+            double value = 0.0;
+            if (CLI::detail::lexical_cast(text, value) && range.contains(value)) return std::string();
+            const bool is_huge = std::isfinite(value) && std::abs(value) > NumberRange::kLargest;
+            return fmt::format("{} is not allowed; need a finite number {}{}", text, range.limits(),
+                               is_huge ? fmt::format(", of at most {:g} in size", NumberRange::kLargest) : "");
+          },
+          "NUMBER " + range.limits()};
 }
 
 CLI::Validator whole_number() {

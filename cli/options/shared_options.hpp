@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "prowl/task_file/task_file.hpp"
+#include "prowl/task_file/toml/number_range.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
 
 namespace prowl::cli {
@@ -18,10 +19,12 @@ void add_json(CLI::App& verb, bool& json);                                 ///< 
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);  ///< --max-time, --max-iterations, --tolerance
 void add_hessian(CLI::App& verb, HessianKind& hessian);            ///< --hessian
 
-/// A finite number > 0, >= 0 or from one to another; CLI11's own checks let NaN through.
-CLI::Validator positive_number();
-CLI::Validator nonnegative_number();
-CLI::Validator number_between(double lower, double upper);
+/// --intervals; its range is that of the key in a task file.
+void add_intervals(CLI::App& verb, TaskOverrides& overrides);
+CLI::Validator interval_count();
+
+/// A finite number in that range; CLI11's own checks let NaN through.
+CLI::Validator number_in(const NumberRange& range);
 CLI::Validator whole_number();  ///< of 64 bits; CLI11 takes -1, and what is larger, for the largest
 
 /// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.

@@ -204,7 +204,7 @@ void add_compare_command(CLI::App& app, int& status) {
   add_names(*verb, "--solver", arguments->solvers, all_solver_names(), "Who solves it");
   verb->add_option("--intervals", arguments->intervals,
                    "Meshes: intervals in all, shared out over the phases as in the task file; with commas between")
-      ->check(CLI::Range(1, kMostIntervals))
+      ->check(interval_count())
       ->type_name("LIST")
       ->delimiter(',')
       ->expected(1)
@@ -218,6 +218,11 @@ void add_compare_command(CLI::App& app, int& status) {
   verb->add_option("--snopt-library", arguments->snopt_library,
                    "Your own SNOPT, for --solver snopt; default libsnopt7.so")
       ->type_name("FILE");
+  verb->add_option_function<std::string>(
+          "--python",
+          [](const std::string&) { print_note("--python is ignored: Drake's SNOPT is prowl.snopt in Python"); },
+          "Ignored: Drake's SNOPT is prowl.snopt in Python (docs/solvers.md#snopt)")
+      ->type_name("PATH");
   add_folder(*verb, "--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);

@@ -10,10 +10,8 @@
 #include "cli/screen/output.hpp"
 #include "cli/screen/wrap.hpp"
 #include "cli/verbs/commands.hpp"
-#include "prowl/diagnosis/diagnosis.hpp"
 #include "prowl/feasibility/plausibility.hpp"
-#include "prowl/solvers/foreign/ipopt_solver.hpp"
-#include "prowl/solvers/make_solver.hpp"
+#include "prowl/session/diagnose_task.hpp"
 #include "prowl/task_file/task_file.hpp"
 #include "screen/diagnosis_text.hpp"
 
@@ -37,12 +35,11 @@ ExitStatus exit_status(const Diagnosis& diagnosis) {
 int run_diagnose(const DiagnoseArguments& arguments) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   const Task task = read_task_file(arguments.task, package_search(arguments.package_dirs));
-  const DiscreteProblem discrete(task.problem, task.mesh);
   for (const std::string& line : implausibilities(task.problem, task.mesh)) print_note(line);
-  DiagnosisOptions options{.solver = task.solver, .max_seconds = arguments.max_seconds};
+  DiagnosisOptions options{.solver = {}, .max_seconds = arguments.max_seconds};
   options.solver.interrupt = &interrupted;
   options.on_step = [](const std::string& what) { print_progress(what + "\n"); };
-  const Diagnosis diagnosis = diagnose(discrete, *make_solver(solver_names().front()), IpoptSolver(), options);
+  const Diagnosis diagnosis = diagnose_task(task, options);
   const int status = exit_status(diagnosis);
   if (arguments.json) {
     print_json({.verb = "diagnose", .exit_status = status, .result = diagnosis_json(diagnosis, task.problem)});
@@ -60,7 +57,7 @@ void add_diagnose_command(CLI::App& app, int& status) {
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   verb->add_option("--max-time", arguments->max_seconds,
                    fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
-      ->check(positive_number())
+      ->check(number_in(NumberRange::positive()))
       ->type_name("S");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);

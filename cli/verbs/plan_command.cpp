@@ -168,21 +168,19 @@ void add_plan_command(CLI::App& app, int& status) {
   add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
   add_json(*verb, arguments->json);
   verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
-      ->check(positive_number())
+      ->check(number_in(NumberRange::positive()))
       ->type_name("S");
   verb->add_option("--solver", arguments->request.solver, "Who solves it; default " + arguments->request.solver)
       ->check(CLI::IsMember(solver_names()))
       ->type_name("NAME");
   verb->add_option("--threads", arguments->request.threads,
-                   "Threads that evaluate the problem, not with fatrop; default 1. The result is the same")
+                   fmt::format("Threads that evaluate the problem, not with fatrop; default {}. The result is the same",
+                               arguments->request.threads))
       ->check(CLI::Range(1, kMostThreads))
       ->type_name("N");
   add_hessian(*verb, arguments->request.hessian);
   add_solver_limits(*verb, arguments->overrides);
-  verb->add_option("--intervals", arguments->overrides.intervals,
-                   "Mesh intervals in all, shared out over the phases as in the task file")
-      ->check(CLI::Range(1, kMostIntervals))
-      ->type_name("N");
+  add_intervals(*verb, arguments->overrides);
   add_refine(*verb, arguments->request.refine);
   verb->add_flag_callback(
       "--no-gains", [arguments] { arguments->request.gains = false; }, "Leave out the feedback gains, tracker.bin");

@@ -38,13 +38,13 @@ struct SimulateArguments {
   std::string engine = "mujoco";
   bool open_loop = false;
   std::optional<double> control_rate;  ///< [Hz]
-  double record_rate = 200.0;          ///< [Hz]
+  double record_rate = kRecordRate;    ///< [Hz]
   // With mujoco.
   SimulationOptions options;
   double delay_ms = 1e3 * SimulationOptions{}.delay;
   std::optional<double> friction;
   std::vector<double> push;  ///< time, impulse in x, y, z
-  double push_duration = 0.1;
+  double push_duration = Push{}.duration;
   std::optional<std::uint64_t> sweep_case;
   // With rollout.
   std::vector<double> base_offset{0.0, 0.0, 0.0};      ///< [m]
@@ -159,14 +159,19 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
   const std::vector<CLI::Option*> all = {
       verb.add_flag("--perfect-state", options.perfect_state,
                     "The controller sees the true state: no sensors, no estimator"),
-      verb.add_option("--noise", options.noise_scale, "Factor on the sensors' noise and bias; default 1")
+      verb.add_option("--noise", options.noise_scale,
+                      fmt::format("Factor on the sensors' noise and bias; default {:g}", options.noise_scale))
           ->type_name("X"),
-      verb.add_option("--delay", arguments.delay_ms, "From sensors to torque; default 2")
-          ->check(number_between(0.0, 1000.0))
+      verb.add_option("--delay", arguments.delay_ms,
+                      fmt::format("From sensors to torque; default {:g}", arguments.delay_ms))
+          ->check(number_in({.lower = 0.0, .upper = 1000.0}))
           ->type_name("MS"),
-      verb.add_option("--bandwidth", options.bandwidth, "Of the actuators, first order; default 0: they follow at once")
+      verb.add_option(
+              "--bandwidth", options.bandwidth,
+              fmt::format("Of the actuators, first order, 0: they follow at once; default {:g}", options.bandwidth))
           ->type_name("HZ"),
-      verb.add_option("--mass", options.physics.mass_scale, "Factor on all masses and inertias; default 1")
+      verb.add_option("--mass", options.physics.mass_scale,
+                      fmt::format("Factor on all masses and inertias; default {:g}", options.physics.mass_scale))
           ->type_name("X"),
       verb.add_option("--friction", arguments.friction, "Of all surfaces; default: as in the task")->type_name("MU"),
       verb.add_option("--push", arguments.push,
@@ -174,11 +179,13 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
           ->type_name("T IX IY IZ")
           ->expected(4)
           ->take_all(),
-      verb.add_option("--push-duration", arguments.push_duration, "Of every push; default 0.1")
+      verb.add_option("--push-duration", arguments.push_duration,
+                      fmt::format("Of every push; default {:g}", arguments.push_duration))
           ->type_name("S")
-          ->check(positive_number()),
-      verb.add_option("--step", options.physics.step, "Of the physics; default 0.0005")->type_name("S"),
-      verb.add_option("--seed", options.seed, "Of all random numbers; default 1")
+          ->check(number_in(NumberRange::positive())),
+      verb.add_option("--step", options.physics.step, fmt::format("Of the physics; default {:g}", options.physics.step))
+          ->type_name("S"),
+      verb.add_option("--seed", options.seed, fmt::format("Of all random numbers; default {}", options.seed))
           ->check(whole_number())
           ->type_name("N"),
       verb.add_option("--case", arguments.sweep_case,
@@ -216,9 +223,12 @@ void add_simulate_command(CLI::App& app, int& status) {
       ->check(CLI::IsMember({"mujoco", "rollout"}))
       ->type_name("NAME");
   verb->add_flag("--open-loop", arguments->open_loop, "Feedforward torques only");
-  verb->add_option("--control-rate", arguments->control_rate, "Default 1000; with --engine rollout 0: at every moment")
+  verb->add_option(
+          "--control-rate", arguments->control_rate,
+          fmt::format("Default {:g}; with --engine rollout 0: at every moment", SimulationOptions{}.control_rate))
       ->type_name("HZ");
-  verb->add_option("--record-rate", arguments->record_rate, "Rows a second in simulate.csv; default 200")
+  verb->add_option("--record-rate", arguments->record_rate,
+                   fmt::format("Rows a second in simulate.csv; default {:g}", arguments->record_rate))
       ->type_name("HZ");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
   add_json(*verb, arguments->json);

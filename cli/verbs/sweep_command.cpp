@@ -98,21 +98,27 @@ void add_sweep_command(CLI::App& app, int& status) {
   PerturbationRanges& ranges = arguments->ranges;
   CLI::App* const verb = app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each perturbed in another way");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option("--n", arguments->cases, "How many; default 200")->type_name("N")->check(CLI::Range(1, 1000000));
-  verb->add_option("--seed", arguments->seed, "Of the first case, the others count on; default 1")
+  verb->add_option("--n", arguments->cases, fmt::format("How many; default {}", arguments->cases))
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  verb->add_option("--seed", arguments->seed,
+                   fmt::format("Of the first case, the others count on; default {}", arguments->seed))
       ->check(whole_number())
       ->type_name("N");
-  verb->add_option("--mass-spread", ranges.mass, "Masses are off by up to this share; default 0.1")
+  verb->add_option("--mass-spread", ranges.mass,
+                   fmt::format("Masses are off by up to this share; default {:g}", ranges.mass))
       ->type_name("X")
-      ->check(number_between(0.0, 0.9));
-  verb->add_option("--push-impulse", ranges.push, "Impulse on the base; default 10")
+      ->check(number_in({.lower = 0.0, .upper = 0.9}));
+  verb->add_option("--push-impulse", ranges.push, fmt::format("Impulse on the base; default {:g}", ranges.push))
       ->type_name("NS")
-      ->check(nonnegative_number());
-  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet, "While two feet or fewer are down; default 2")
+      ->check(number_in(NumberRange::nonnegative()));
+  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet,
+                   fmt::format("While two feet or fewer are down; default {:g}", ranges.push_on_two_feet))
       ->type_name("NS")
-      ->check(nonnegative_number());
+      ->check(number_in(NumberRange::nonnegative()));
   verb->add_option("--breakdown", arguments->breakdown_cases,
-                   "Simulations for each size of a perturbation alone; default 20, 0: do not look for it")
+                   fmt::format("Simulations for each size of a perturbation alone; default {}, 0: do not look for it",
+                               arguments->breakdown_cases))
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
   verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");

@@ -123,10 +123,7 @@ void add_view_command(CLI::App& app, int& status) {
   verb->add_option("--solver", arguments->solver, "Who solves it; default " + arguments->solver)
       ->check(CLI::IsMember(solver_names()))
       ->type_name("NAME");
-  verb->add_option("--intervals", arguments->overrides.intervals,
-                   "Mesh intervals in all, shared out over the phases as in the task file")
-      ->check(CLI::Range(1, 10000))
-      ->type_name("N");
+  add_intervals(*verb, arguments->overrides);
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, not on coarser ones first");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);

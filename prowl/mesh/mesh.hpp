@@ -7,7 +7,8 @@
 
 namespace prowl {
 
-constexpr int kMostIntervals = 10000;  ///< of a motion; a typing mistake above that, and gigabytes of memory
+constexpr double kIntervalsPerSecond = 50.0;  ///< of a gait, unless said otherwise [1/s]
+constexpr int kMostIntervals = 10000;         ///< of a motion; a typing mistake above that, and gigabytes of memory
 
 /// How a phase is cut into mesh intervals, whatever its duration. Node k = 0 ... intervals() is the end of interval k
 /// - 1.
@@ -33,6 +34,8 @@ class PhaseMesh {
   /// the intervals are over.
   PhaseMesh with_intervals(int count) const;
 
+  bool operator==(const PhaseMesh&) const = default;
+
  private:
   int intervals_;
   std::vector<double> shares_;
@@ -50,6 +53,8 @@ struct Mesh {
   int first_node(int phase) const { return node(phase, 0); }
   int last_node(int phase) const { return node(phase, phases[phase].intervals()); }
   bool is_even() const;  ///< within each phase
+
+  bool operator==(const Mesh&) const = default;
 };
 
 /// Equal intervals in each phase, so many a second of the phase at its longest, but two or more: a swing keeps its

@@ -39,6 +39,9 @@ struct GoalTolerance {
   double velocity = 5e-3;
 };
 
+/// Default of the swing clearance, of the standing height: what a legged robot lifts its feet by on flat ground.
+constexpr double kSwingClearanceShare = 0.05;
+
 /// What we ask for: everything that defines a motion, before any discretisation.
 /// All limits are those of the robot (joint position, velocity, torque) and of the surfaces (friction cone,
 /// unilateral force), and all are hard.

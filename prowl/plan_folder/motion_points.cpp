@@ -55,7 +55,7 @@ std::vector<TrajectoryPoint> report_points(const Trajectory& trajectory, double 
     const TrajectoryPoint& next = trajectory.nodes[k + 1];
     const double length = next.time - node.time;
     const int parts = std::max(1, static_cast<int>(std::ceil(length / step - 1e-9)));
-    for (int i = 1; i < parts; ++i) points.push_back(interpolate(node, next, length * i / parts));
+    for (int i = 1; i < parts; ++i) points.push_back(sample(trajectory, node.time + length * i / parts));
   }
   return points;
 }

@@ -31,6 +31,8 @@ struct SuccessCriteria {
   double rest = 1.5;       ///< time to go on standing after the plan's end [s]
 };
 
+constexpr double kRecordRate = 200.0;  ///< what front ends record unless told otherwise [Hz]
+
 struct SimulationOptions {
   double control_rate = 1000.0;  ///< [Hz]
   SensorNoise noise;

@@ -13,7 +13,7 @@ ContactPoint read_contact(const TomlTable& table) {
   ContactPoint contact;
   contact.name = table.need("name").as_name();
   contact.frame = table.need("frame").as_text();
-  if (const auto radius = table.find("radius_m")) contact.radius = radius->as_number(NumberRange::nonnegative());
+  if (const auto radius = table.find("radius_m")) contact.radius = radius->as_number();
   if (const auto offset = table.find("offset_m")) contact.offset = offset->as_vector3();
   return contact;
 }
@@ -36,7 +36,7 @@ std::vector<ContactPoint> read_contacts(const TomlTable& root, bool needed) {
 }
 
 void read_nominal(const TomlTable& table, RobotDescription& robot) {
-  if (const auto rpy = table.find("base_rpy_rad")) robot.nominal_base_rpy = rpy->as_vector3(angle_range());
+  if (const auto rpy = table.find("base_rpy_rad")) robot.nominal_base_rpy = rpy->as_vector3();
   if (const auto joints = table.find("joints")) {
     for (const auto& [name, value] : joints->as_free_named_values("joint")) {
       robot.nominal_joints[name] = value.as_number();
@@ -66,9 +66,8 @@ JointLimits read_limits(const TomlTable& table) {
     limits.position_upper = ends[1].as_number();
     if (*limits.position_lower > *limits.position_upper) position->fail("min > max is not allowed; need [min, max]");
   }
-  if (const auto velocity = table.find("velocity_radps"))
-    limits.velocity = velocity->as_number(NumberRange::positive());
-  if (const auto torque = table.find("torque_Nm")) limits.torque = torque->as_number(NumberRange::positive());
+  if (const auto velocity = table.find("velocity_radps")) limits.velocity = velocity->as_number();
+  if (const auto torque = table.find("torque_Nm")) limits.torque = torque->as_number();
   if (const auto curve = table.find("torque_over_position")) limits.torque_over_position = read_curve(*curve);
   if (const auto curve = table.find("torque_over_velocity")) limits.torque_over_velocity = read_curve(*curve);
   return limits;

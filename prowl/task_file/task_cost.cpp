@@ -8,8 +8,6 @@
 namespace prowl {
 namespace {
 
-const NumberRange kWeight = NumberRange::nonnegative();
-
 ContactPositionCost read_contact_position(const TomlTable& table, const RobotModel& robot) {
   std::vector<std::string> names;
   for (const ContactPoint& contact : robot.contacts()) names.push_back(contact.name);
@@ -21,7 +19,7 @@ ContactPositionCost read_contact_position(const TomlTable& table, const RobotMod
   cost.reference = table.need("reference_m").as_vector3();
   table.need("weight");
   Eigen::VectorXd weight(3);
-  read_axes(table, "weight", kWeight, weight);
+  read_axes(table, "weight", weight);
   cost.weight = weight;
   return cost;
 }
@@ -42,20 +40,18 @@ QuadraticCost no_cost(const MotionProblem& problem) {
 void read_state_cost(const TomlTable& table, const MotionProblem& problem, QuadraticCost& cost) {
   const RobotModel& robot = problem.robot;
   if (const auto reference = table.find("reference")) {
-    const std::vector<std::string> known = {"start", "goal"};
-    const std::string name = reference->as_text();
-    if (std::find(known.begin(), known.end(), name) == known.end()) reference->fail_unknown_name("reference", known);
-    if (name == "goal") {
+    const bool is_goal = reference->as_choice("reference") == "goal";
+    if (is_goal) {
       if (problem.boundary_conditions.size() < 2) reference->fail("\"goal\" needs a [[goal]]");
       cost.q_ref = problem.boundary_conditions.back().q_ref;
     }
   }
-  read_axes(table, "base_position", kWeight, cost.configuration_weight.segment(0, 3));
-  read_axes(table, "base_orientation", kWeight, cost.configuration_weight.segment(3, 3));
-  read_joints(table, "joint_position", robot, kWeight, cost.configuration_weight.tail(robot.nu()));
-  read_axes(table, "base_linear_velocity", kWeight, cost.velocity_weight.segment(0, 3));
-  read_axes(table, "base_angular_velocity", kWeight, cost.velocity_weight.segment(3, 3));
-  read_joints(table, "joint_velocity", robot, kWeight, cost.velocity_weight.tail(robot.nu()));
+  read_axes(table, "base_position", cost.configuration_weight.segment(0, 3));
+  read_axes(table, "base_orientation", cost.configuration_weight.segment(3, 3));
+  read_joints(table, "joint_position", robot, cost.configuration_weight.tail(robot.nu()));
+  read_axes(table, "base_linear_velocity", cost.velocity_weight.segment(0, 3));
+  read_axes(table, "base_angular_velocity", cost.velocity_weight.segment(3, 3));
+  read_joints(table, "joint_velocity", robot, cost.velocity_weight.tail(robot.nu()));
   for (const TomlTable& place : table.find_tables("contact_position")) {
     cost.contact_positions.push_back(read_contact_position(place, robot));
   }
@@ -70,22 +66,18 @@ Eigen::VectorXd static_torque(const MotionProblem& problem) {
 void read_running_cost(const TomlTable& table, const MotionProblem& problem, QuadraticCost& cost) {
   const RobotModel& robot = problem.robot;
   read_state_cost(table, problem, cost);
-  read_axes(table, "base_linear_acceleration", kWeight, cost.acceleration_weight.segment(0, 3));
-  read_axes(table, "base_angular_acceleration", kWeight, cost.acceleration_weight.segment(3, 3));
-  read_joints(table, "joint_acceleration", robot, kWeight, cost.acceleration_weight.tail(robot.nu()));
-  read_joints(table, "torque", robot, kWeight, cost.torque_weight);
-  if (const auto time = table.find("time")) cost.time_weight = time->as_number(kWeight);
+  read_axes(table, "base_linear_acceleration", cost.acceleration_weight.segment(0, 3));
+  read_axes(table, "base_angular_acceleration", cost.acceleration_weight.segment(3, 3));
+  read_joints(table, "joint_acceleration", robot, cost.acceleration_weight.tail(robot.nu()));
+  read_joints(table, "torque", robot, cost.torque_weight);
+  if (const auto time = table.find("time")) cost.time_weight = time->as_number();
   Eigen::VectorXd force = cost.force_weight;
-  read_axes(table, "force", kWeight, force);
+  read_axes(table, "force", force);
   cost.force_weight = force;
 
   const auto reference = table.find("torque_reference");
-  const std::string name = reference ? reference->as_text() : "static";
-  if (name == "static") {
-    cost.tau_ref = static_torque(problem);
-  } else if (name != "zero") {
-    reference->fail_unknown_name("torque reference", {"static", "zero"});
-  }
+  const bool is_static = !reference || reference->as_choice("torque reference") == "static";
+  if (is_static) cost.tau_ref = static_torque(problem);
 }
 
 }  // namespace

@@ -8,8 +8,6 @@
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/task_file/check_overrides.hpp"
-#include "prowl/task_file/duration_range.hpp"
 #include "prowl/task_file/interval_shares.hpp"
 #include "prowl/task_file/problem_fields.hpp"
 #include "prowl/task_file/robot_file.hpp"
@@ -54,7 +52,7 @@ std::vector<Surface> read_surfaces(const TomlTable& root) {
       surface.normal.normalize();
     }
     if (const auto patch = table.find("patch_m")) surface.patch = read_patch(*patch);
-    if (const auto friction = table.find("friction")) surface.friction = friction->as_number(NumberRange::positive());
+    if (const auto friction = table.find("friction")) surface.friction = friction->as_number();
     surfaces.push_back(surface);
   }
   if (surfaces.empty()) surfaces.emplace_back();
@@ -109,7 +107,7 @@ TaskStart read_start(const TomlTable& root, const RobotModel& robot, const Sourc
         posture.nominal_joints[name] = value.as_number();
       }
     }
-    if (const auto rpy = table->find("base_rpy_rad")) posture.nominal_base_rpy = rpy->as_vector3(angle_range());
+    if (const auto rpy = table->find("base_rpy_rad")) posture.nominal_base_rpy = rpy->as_vector3();
     // A robot with this as its nominal posture puts it on the ground.
     start = {RobotModel(posture).nominal_configuration(), posture.nominal_base_rpy};
     const auto position = table->find("base_position_m");
@@ -174,11 +172,11 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
       if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
     }
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
-    const Bounds duration = table.need("duration_s").as_range(duration_range());
+    const Bounds duration = table.need("duration_s").as_range();
     phase.duration = {duration.lower, duration.upper};
-    read.mesh.phases.emplace_back(table.need("intervals").as_integer(1, kMostIntervals));
+    read.mesh.phases.emplace_back(table.need("intervals").as_integer());
     auto steps = table.find("steps");
-    if (steps && steps->as_one_of("kind of steps", {"equal", "free"}) == 0) steps.reset();
+    if (steps && steps->as_choice("kind of steps") == "equal") steps.reset();
     if (steps && phase.duration.is_fixed()) {
       steps->fail("the steps of a fixed duration are not free; need duration_s = [min, max]");
     }
@@ -246,15 +244,26 @@ void check_lengths(const TomlTable& root, const FilePhases& read) {
   }
 }
 
+/// Overrides keep the ranges of the keys that they replace. Throws InputError.
+void check_overrides(const SourceText& task_file, const TaskOverrides& overrides) {
+  const auto check = [&](const char* table, const char* name, auto value) {
+    const NumberRange& range = file_key(task_file_keys(), table, name).range;
+    if (!value || range.contains(*value)) return;
+    throw InputError(fmt::format("{}: {} = {} in place of the file's is not allowed; need a number {}",
+                                 task_file.path.string(), name, *value, range.limits()));
+  };
+  check("phase", "intervals", overrides.intervals);
+  check("solver", "max_iterations", overrides.max_iterations);
+  check("solver", "max_time_s", overrides.max_seconds);
+  check("solver", "tolerance", overrides.tolerance);
+}
+
 SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides) {
   SolverOptions options;
   if (const auto table = root.find_table("solver")) {
-    if (const auto value = table->find("tolerance"))
-      options.tolerance = value->as_number({.lower = 1e-12, .upper = 1e-2});
-    if (const auto value = table->find("max_iterations")) {
-      options.max_iterations = value->as_integer(1, std::numeric_limits<int>::max());
-    }
-    if (const auto value = table->find("max_time_s")) options.max_seconds = value->as_number(NumberRange::positive());
+    if (const auto value = table->find("tolerance")) options.tolerance = value->as_number();
+    if (const auto value = table->find("max_iterations")) options.max_iterations = value->as_integer();
+    if (const auto value = table->find("max_time_s")) options.max_seconds = value->as_number();
   }
   options.max_iterations = overrides.max_iterations.value_or(options.max_iterations);
   options.max_seconds = overrides.max_seconds.value_or(options.max_seconds);
@@ -302,14 +311,12 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
                         .friction_model = {},
                         .swing_clearance = 0.0,
                         .goal_tolerance = {}};
-  constexpr double kSwingClearance =
-      0.05;  // of the standing height: what a legged robot lifts its feet by on flat ground
   const auto clearance = root.find("swing_clearance_m");
-  problem.swing_clearance = clearance ? clearance->as_number(NumberRange::nonnegative())
-                                      : kSwingClearance * problem.robot.nominal_configuration()(2);
+  problem.swing_clearance =
+      clearance ? clearance->as_number() : kSwingClearanceShare * problem.robot.nominal_configuration()(2);
   if (const auto model = root.find("friction_model")) {
     problem.friction_model =
-        model->as_one_of("friction model", {"cone", "pyramid"}) == 0 ? FrictionModel::cone : FrictionModel::pyramid;
+        model->as_choice("friction model") == "cone" ? FrictionModel::cone : FrictionModel::pyramid;
   }
   read_costs(root, problem);
   return {std::move(problem), std::move(read.mesh), std::move(file_intervals)};

@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "prowl/motion/gait.hpp"
-#include "prowl/task_file/duration_range.hpp"
 
 namespace prowl {
 namespace {
 
-constexpr int kMostStrides = 1000;  // above that a typing mistake, and gigabytes of memory
-constexpr double kLargestDutyFactor = 0.99;
 constexpr double kSteepest = 0.1;  // z of the normal: 84 degrees
 
 Feet need_feet(const TomlTable& table, const RobotModel& robot) {
@@ -21,9 +20,9 @@ Feet need_feet(const TomlTable& table, const RobotModel& robot) {
 }
 
 GaitPattern read_pattern(const TomlTable& table) {
-  std::vector<std::string> names;
-  for (const GaitPattern& pattern : gait_patterns()) names.push_back(pattern.name);
-  return gait_patterns()[table.need("kind").as_one_of("gait", names)];
+  const std::string& kind = table.need("kind").as_choice("gait");
+  return *std::find_if(gait_patterns().begin(), gait_patterns().end(),
+                       [&](const GaitPattern& pattern) { return pattern.name == kind; });
 }
 
 int read_surface(const TomlTable& table, const std::vector<Surface>& surfaces) {
@@ -41,26 +40,25 @@ int read_surface(const TomlTable& table, const std::vector<Surface>& surfaces) {
 Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
   Gait gait;
   gait.pattern = read_pattern(table);
-  gait.strides = table.need("strides").as_integer(1, kMostStrides);
-  const Bounds stride = table.need("stride_s").as_range(duration_range());
+  gait.strides = table.need("strides").as_integer();
+  const Bounds stride = table.need("stride_s").as_range();
   gait.stride = {stride.lower, stride.upper};
   gait.duty_factor = gait.pattern.duty_factor;
   if (const auto value = table.find("duty_factor")) {
-    gait.duty_factor = value->as_number({.lower = gait.pattern.least_duty_factor(),
-                                         .upper = kLargestDutyFactor,
-                                         .hint = "; with less, swings overlap: write the phases out as [[phase]]"});
+    NumberRange range = value->key().range;
+    range.lower = gait.pattern.least_duty_factor();
+    gait.duty_factor = value->as_number(range);
   }
-  if (const auto value = table.find("start_s")) gait.start = value->as_number(duration_range());
-  if (const auto value = table.find("settle_s")) gait.settle = value->as_number(duration_range());
+  if (const auto value = table.find("start_s")) gait.start = value->as_number();
+  if (const auto value = table.find("settle_s")) gait.settle = value->as_number();
   gait.surface = read_surface(table, surfaces);
   return gait;
 }
 
 /// Of a phase at its longest [1/s].
 double read_intervals_per_second(const TomlTable& table, const Gait& gait) {
-  constexpr double kDefault = 50.0;
   const auto value = table.find("intervals_per_second");
-  const double rate = value ? value->as_number(NumberRange::positive()) : kDefault;
+  const double rate = value ? value->as_number() : kIntervalsPerSecond;
   const double seconds = gait.start + gait.strides * gait.stride.max + gait.settle;
   if (const double intervals = seconds * rate; intervals > kMostIntervals) {
     table.value().fail(fmt::format("{:.0f} mesh intervals, {:g} s of {:g} a second, are not allowed; need at most {}",
@@ -80,9 +78,9 @@ std::optional<Eigen::Vector3d> read_displacement(const TomlTable& root, const To
     }
     return std::nullopt;
   }
-  const double length = table.need("stride_length_m").as_number(NumberRange::nonnegative());
+  const double length = table.need("stride_length_m").as_number();
   const auto heading = table.find("heading_rad");
-  return along_surface(surface, heading ? heading->as_number(angle_range()) : start.rpy.z(), gait.strides * length);
+  return along_surface(surface, heading ? heading->as_number() : start.rpy.z(), gait.strides * length);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::vector<NodeTime> node_times(const std::vector<Phase>& phases, const Mesh& m
 
 PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& phases, const Mesh& mesh) {
   constexpr double kSameTime = 1e-6;  // [s]; a decimal fraction in a file is not an exact node time
-  const double time = value.as_number(NumberRange::positive());
+  const double time = value.as_number();
   const std::vector<NodeTime> nodes = node_times(phases, mesh);
   const auto after =
       std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
@@ -51,7 +51,7 @@ PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& p
 double fraction_at_node(const TomlValue& value, const PhaseMesh& mesh) {
   constexpr double kRounding = 1e-6;  // a decimal fraction in a file is not an exact node
   const int intervals = mesh.intervals();
-  const double node = value.as_number({.lower = 0.0, .upper = 1.0}) * intervals;
+  const double node = value.as_number() * intervals;
   if (std::abs(node - std::round(node)) > kRounding * intervals) {
     value.fail(fmt::format("not at a node of the mesh; the nearest are {:.6g} and {:.6g}", std::floor(node) / intervals,
                            std::ceil(node) / intervals));
@@ -139,7 +139,7 @@ void read_base_orientation(const TomlValue& value, const TaskStart& start, Bound
     const TomlValue& entry = entries[i];
     if (entry.is_text() && entry.as_text() == "free") continue;
     if (!entry.node().is_number()) entry.fail("need a finite number [rad] or \"free\"");
-    rpy(i) = entry.as_number(angle_range());
+    rpy(i) = entry.as_number();
     condition.configuration_lower(3 + i) = condition.configuration_upper(3 + i) = 0.0;
   }
   set_base_rotation(condition.q_ref, rotation_from_rpy(rpy));

@@ -7,7 +7,7 @@ TaskSimulation read_simulation(const TomlTable& root) {
   const auto table = root.find_table("simulation");
   if (!table) return simulation;
   const auto read = [&](const char* key, auto& value) {
-    if (const auto number = table->find(key)) value = number->as_number(NumberRange::positive());
+    if (const auto number = table->find(key)) value = number->as_number();
   };
   read("base_position_m", simulation.success.position);
   read("base_angle_rad", simulation.success.angle);

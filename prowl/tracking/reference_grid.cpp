@@ -8,23 +8,9 @@
 #include "prowl/error.hpp"
 
 namespace prowl {
-namespace {
-
-using Nodes = std::vector<TrajectoryPoint>;
-
-/// The motion between the nodes of one phase, at time t.
-TrajectoryPoint sample_phase(Nodes::const_iterator begin, Nodes::const_iterator end, double t) {
-  const auto after = std::upper_bound(begin, end, t, [](double time, const auto& node) { return time < node.time; });
-  if (after == begin) return *begin;
-  if (after == end) return *std::prev(end);
-  return interpolate(*std::prev(after), *after, t - std::prev(after)->time);
-}
-
-}  // namespace
-
 std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const Trajectory& trajectory, double step) {
   std::vector<ReferencePhase> grid;
-  const Nodes& nodes = trajectory.nodes;
+  const std::vector<TrajectoryPoint>& nodes = trajectory.nodes;
   for (auto begin = nodes.begin(); begin != nodes.end();) {
     const auto end = std::find_if(begin, nodes.end(), [&](const auto& node) { return node.phase != begin->phase; });
     const Phase& phase = problem.phases[begin->phase];
@@ -37,7 +23,7 @@ std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const T
     sampled.name = phase.name;
     sampled.contacts = contact_indices(phase.contacts);
     for (int i = 0; i < intervals; ++i) {
-      sampled.samples.push_back(sample_phase(begin, end, start + duration * i / intervals));
+      sampled.samples.push_back(sample(trajectory, start + duration * i / intervals));
     }
     sampled.samples.push_back(*std::prev(end));
     begin = end;

@@ -6,17 +6,18 @@ namespace prowl {
 
 TrackingOptions default_tracking_options(const RobotModel& robot) {
   const int nv = robot.nv();
+  constexpr DefaultDeviations deviations;
   TrackingOptions options;
   options.state_deviation.resize(2 * nv);
-  options.state_deviation.segment<3>(0).setConstant(0.02);          // base position [m]
-  options.state_deviation.segment<3>(3).setConstant(0.04);          // base orientation [rad]
-  options.state_deviation.segment(6, robot.nu()).setConstant(0.1);  // joints [rad]
-  options.state_deviation.segment<3>(nv).setConstant(0.2);          // base velocity [m/s]
-  options.state_deviation.segment<3>(nv + 3).setConstant(0.4);      // [rad/s]
-  options.state_deviation.tail(robot.nu()).setConstant(10.0);       // joint rates [rad/s]
+  options.state_deviation.segment<3>(0).setConstant(deviations.base_position);
+  options.state_deviation.segment<3>(3).setConstant(deviations.base_orientation);
+  options.state_deviation.segment(6, robot.nu()).setConstant(deviations.joint_position);
+  options.state_deviation.segment<3>(nv).setConstant(deviations.base_linear_velocity);
+  options.state_deviation.segment<3>(nv + 3).setConstant(deviations.base_angular_velocity);
+  options.state_deviation.tail(robot.nu()).setConstant(deviations.joint_velocity);
   // Where a joint has no limit: of the torque that holds the robot's weight on a lever as long as the robot.
   const double weight_torque = robot.weight() * robot.size();
-  options.torque_deviation = TrackingOptions::kTorqueShare * robot.torque_limit().unaryExpr([&](double limit) {
+  options.torque_deviation = deviations.torque_share * robot.torque_limit().unaryExpr([&](double limit) {
     return std::isfinite(limit) ? limit : weight_torque;
   });
   return options;

@@ -1,5 +1,3 @@
-#include "prowl/diagnosis/diagnosis.hpp"
-
 #include <fmt/format.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
@@ -8,9 +6,7 @@
 #include <optional>
 
 #include "bindings.hpp"
-#include "prowl/error.hpp"
-#include "prowl/solvers/foreign/ipopt_solver.hpp"
-#include "prowl/solvers/make_solver.hpp"
+#include "prowl/session/diagnose_task.hpp"
 #include "prowl/task_file/task_file.hpp"
 #include "screen/diagnosis_text.hpp"
 #include "signals.hpp"
@@ -27,9 +23,8 @@ struct DiagnosisObject {
 };
 
 DiagnosisObject run_diagnosis(const Task& task, double max_time, const nb::object& on_step) {
-  if (!(max_time > 0.0)) throw InputError(fmt::format("max_time: {} is not allowed; need a number > 0 [s]", max_time));
   Stop python;
-  DiagnosisOptions options{.solver = task.solver, .max_seconds = max_time};
+  DiagnosisOptions options{.solver = {}, .max_seconds = max_time};
   options.solver.interrupt = &python.stop();
   options.solver.on_iteration = [&python](const SolveProgress&) { python.ask([] {}); };
   options.on_step = [&](const std::string& what) {
@@ -40,7 +35,7 @@ DiagnosisObject run_diagnosis(const Task& task, double max_time, const nb::objec
   DiagnosisObject result;
   {
     const nb::gil_scoped_release others_may_run;
-    result.found = diagnose({task.problem, task.mesh}, *make_solver(solver_names().front()), IpoptSolver(), options);
+    result.found = diagnose_task(task, options);
     result.headline = diagnosis_headline(result.found, task.problem);
     result.summary = diagnosis_text(result.found, task.problem);
     result.json = diagnosis_json(result.found, task.problem);
@@ -72,8 +67,10 @@ void bind_diagnosis(nb::module_& module) {
       .def("__repr__", [](const DiagnosisObject& d) { return "<prowl.Diagnosis " + d.headline + ">"; });
   module.def("diagnose", &run_diagnosis, nb::arg("task"), nb::kw_only(),
              nb::arg("max_time") = DiagnosisOptions().max_seconds, nb::arg("on_step") = nb::none(),
-             nb::sig("def diagnose(task: Task, *, max_time: float = 120.0, "
-                     "on_step: collections.abc.Callable[[str], object] | None = None) -> Diagnosis"),
+             nb::sig(fmt::format("def diagnose(task: Task, *, max_time: float = {:.1f}, "
+                                 "on_step: collections.abc.Callable[[str], object] | None = None) -> Diagnosis",
+                                 DiagnosisOptions().max_seconds)
+                         .c_str()),
              "Finds out why a task has no plan: which limit, in which phase, at what time, on which foot or joint, by "
              "how much, and the\n"
              "smallest changes of one number that make it solvable. max_time: of all of it [s]. on_step: called with a "

@@ -171,7 +171,7 @@ void bind_simulation(nb::module_& module) {
              nb::arg("control_rate") = defaults.control_rate, nb::arg("mass") = defaults.physics.mass_scale,
              nb::arg("friction") = nb::none(), nb::arg("pushes") = std::vector<PushArgument>{},
              nb::arg("push_duration") = Push{}.duration, nb::arg("step") = defaults.physics.step,
-             nb::arg("seed") = defaults.seed, nb::arg("record_rate") = 200.0,
+             nb::arg("seed") = defaults.seed, nb::arg("record_rate") = kRecordRate,
              "Runs a plan with its gains in MuJoCo, with sensors, estimator and delay, as `prowl simulate` does. The "
              "same arguments\n"
              "give the same result.\n\n"

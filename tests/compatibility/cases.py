@@ -100,7 +100,7 @@ CASES = [
             "all_contacts": "--contact all --solver ipopt",
             "orientations": "--orientation se3,euler --solver ipopt --guess smooth",
             "all_orientations": "--orientation all --solver ipopt --guess straight",
-            "solvers": "--solver riccati,fatrop,ipopt,ipopt-spral,uno --hessian exact",
+            "solvers": "--solver riccati,fatrop,ipopt,ipopt-spral,uno --hessian exact --python python3",
             "all_solvers": "--solver all --hessian gauss-newton",
         }.items()
     ),

@@ -21,14 +21,6 @@ KEPT = pathlib.Path(__file__).parent / "0f26b62"
 REFERENCE = json.loads((KEPT / "reference.json").read_text())
 PROWL = sys.argv[1] if len(sys.argv) > 1 else "prowl"
 
-# What was dropped on purpose since, and why: (verb, option or choice). Nothing else may be missing.
-DROPPED = {
-    (
-        "compare",
-        "--python",
-    ): "found Drake's SNOPT; that is prowl.snopt of the Python package, compare takes your own library",
-}
-
 CHOICES_OF_KEYS = {  # a line of a kept task file, with each of its choices
     ("step", 'friction_model = "{}"'): ("pyramid", "cone"),
     ("step", 'steps = "{}"'): ("equal", "free"),
@@ -90,7 +82,7 @@ class Compatibility(unittest.TestCase):
                 help_text = prowl(*verb.split(), "--help")
                 self.assertEqual(help_text.returncode, 0)
                 gone = missing(old, names.of_help(help_text.stdout))
-                self.assertEqual([name for name in gone if (verb, name) not in DROPPED], [])
+                self.assertEqual(gone, [])
         self.assertEqual(prowl("--version").returncode, 0)
 
     def test_every_name_in_json_csv_and_exports_is_still_there(self):
@@ -149,14 +141,10 @@ class TheTestItself(unittest.TestCase):
         choices = {name for _, name in used}
         for verb, old in REFERENCE["options"].items():
             for name in old:
-                if not verb or name == "--help" or not name.startswith("--") or (verb, name) in DROPPED:
+                if not verb or name == "--help" or not name.startswith("--"):
                     continue
                 with self.subTest(verb=verb, name=name):
                     self.assertIn(name, choices) if " " in name else self.assertIn((verb, name), used)
-
-    def test_a_dropped_name_was_there_once(self):
-        for verb, name in DROPPED:
-            self.assertIn(name, REFERENCE["options"][verb])
 
     def test_each_name_taken_away_is_missed(self):
         for old in (*REFERENCE["options"].values(), *REFERENCE["names"].values(), *REFERENCE["keys"].values()):

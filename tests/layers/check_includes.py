@@ -84,6 +84,7 @@ ALLOWED = {
     ],
     "prowl/session": [
         "prowl",
+        "prowl/diagnosis",
         "prowl/model",
         "prowl/mesh",
         "prowl/nlp",

@@ -17,7 +17,7 @@ std::string markdown_table(const FileKeys& keys) {
   std::string text = "| table | key | value | meaning |\n|---|---|---|---|\n";
   for (const FileKey& key : keys) {
     const std::string table = key.table.empty() ? "(top)" : fmt::format("`{}`", key.table);
-    text += fmt::format("| {} | `{}` | {} | {} |\n", table, key.name, key.value, key.meaning);
+    text += fmt::format("| {} | `{}` | {} | {} |\n", table, key.name, key.value(), key.meaning);
   }
   return text;
 }

@@ -39,7 +39,7 @@ const std::map<std::string, Context>& task_contexts() {
       {"phase", {robot + "[[phase]]\n", {"contacts = \"all\"", "duration_s = 2", "intervals = 5"}, ""}},
       {"phase.contacts",
        {robot + "[[phase]]\nduration_s = 2\nintervals = 5\n[[phase.contacts]]\n", {"contact = \"lf_foot\""}, ""}},
-      {"gait", {robot + "[gait]\n", {"kind = \"walk\"", "strides = 1", "stride_s = 2", "stride_length_m = 0.1"}, ""}},
+      {"gait", {robot + "[gait]\n", {"kind = \"trot\"", "strides = 1", "stride_s = 2", "stride_length_m = 0.1"}, ""}},
       {"goal", {task + "[[goal]]\n", {"phase = \"stand\"", "torque_Nm = { lf_haa_joint = 1 }"}, ""}},
       {"cost", {task + "[cost]\n", {}, ""}},
       {"cost.contact_position",
@@ -156,6 +156,32 @@ class FileMistakes : public testing::Test {
     }
   }
 
+  /// A number right outside the declared range, in the form of the key; "" where any number is allowed.
+  static std::string outside(const FileKey& key) {
+    const NumberRange& range = key.range;
+    if (range.limits().empty()) return "";
+    const double beyond = range.above_lower ? range.lower : range.lower - std::max(1e-6, 1e-6 * std::abs(range.lower));
+    const std::string number = fmt::format("{}", key.form == "integer" ? range.lower - 1.0 : beyond);
+    return key.form.starts_with("3 ") ? fmt::format("[{}, 0, 0]", number) : number;
+  }
+
+  template <typename Message>
+  void check_ranges(const std::string& file, const FileKeys& keys, const std::map<std::string, Context>& contexts,
+                    const Message& message) const {
+    int checked = 0;
+    for (const FileKey& key : keys) {
+      const std::string value = outside(key);
+      if (value.empty()) continue;
+      const std::string replaced = key.name == "time_s" ? "phase" : key.name;
+      const File broken = with_mistake(contexts.at(key.table), replaced, key.name + " = " + value);
+      EXPECT_THAT(message(broken.text), AllOf(StartsWith(fmt::format("{}:{}:", file, broken.line)),
+                                              HasSubstr("is not allowed; need "), HasSubstr(key.range.limits())))
+          << key.table << "." << key.name;
+      ++checked;
+    }
+    EXPECT_GT(checked, 2);
+  }
+
   test::TempFolder folder_;
 };
 
@@ -183,6 +209,12 @@ TEST_F(FileMistakes, WrongTypesInARobot) {
 
 TEST_F(FileMistakes, WrongTypesInATask) {
   check_types("task.toml", task_file_keys(), task_contexts(), [this](const auto& text) { return task_message(text); });
+}
+
+TEST_F(FileMistakes, DeclaredRangesAreKept) {
+  check_ranges("robot.toml", robot_file_keys(), robot_contexts(),
+               [this](const auto& text) { return robot_message(text); });
+  check_ranges("task.toml", task_file_keys(), task_contexts(), [this](const auto& text) { return task_message(text); });
 }
 
 TEST_F(FileMistakes, MisspeltTables) {

@@ -1,187 +1,536 @@
 #include "prowl/task_file/toml/file_keys.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cassert>
+
+#include "prowl/mesh/mesh.hpp"
+#include "prowl/model/robot_description.hpp"
+#include "prowl/model/surface.hpp"
+#include "prowl/motion/duration_limits.hpp"
+#include "prowl/motion/gait.hpp"
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/nlp/nlp_solver.hpp"
+#include "prowl/simulation/simulation_options.hpp"
+#include "prowl/tracking/tracking_options.hpp"
 
 namespace prowl {
 namespace {
 
+const NumberRange kPositive = NumberRange::positive();
+const NumberRange kNonnegative = NumberRange::nonnegative();
+/// One turn either way, as larger angles are degrees by mistake.
+const NumberRange kAngle = {.lower = -6.2832, .upper = 6.2832, .hint = "; 5 degrees are 0.087"};
+const NumberRange kDuration = {.lower = kShortestPhase, .upper = kLongestMotion};
+/// Deviations are squared and divided by: not so small that a weight has no meaning.
+const NumberRange kDeviation = {.lower = 1e-6};
+/// Strides: above that a typing mistake, and gigabytes of memory.
+constexpr double kMostStrides = 1000;
+
+const char* const kOneOrThree = "number or 3 numbers";
+const char* const kOneOrJoints = "number or {joint = number}";
+const char* const kOneOrRange = "number or [min, max]";
 const char* const kBounds3 = "3 x (number, \"free\" or [min, max])";
 const char* const kJointBounds = "{joint = number or [min, max]}";
 
+std::string shown(double number) { return fmt::format("{:g}", number); }
+
+/// The keys of one table.
+class Table {
+ public:
+  Table(FileKeys& keys, std::string name) : keys_(keys), name_(std::move(name)) {}
+
+  void add(FileKey key) {
+    key.table = name_;
+    keys_.push_back(std::move(key));
+  }
+
+ private:
+  FileKeys& keys_;
+  std::string name_;
+};
+
+void add_top(FileKeys& keys) {
+  Table top(keys, "");
+  top.add({.name = "name", .form = "string", .fallback = "the file's name", .meaning = "name of the motion"});
+  top.add({.name = "robot", .form = "path", .meaning = "robot file, relative to this file"});
+  top.add({.name = "surface",
+           .form = "[[surface]]",
+           .fallback = "a floor at z = 0",
+           .meaning = "planes and patches that contacts may touch"});
+  top.add({.name = "start",
+           .form = "[start]",
+           .fallback = "the robot's nominal posture",
+           .meaning = "where the motion begins, at rest"});
+  top.add({.name = "phase",
+           .form = "[[phase]], one or more, or [gait]",
+           .meaning = "periods with one set of contacts, in order"});
+  top.add({.name = "gait",
+           .form = "[gait], in place of [[phase]]",
+           .meaning = "short form of the phases of a robot with four legs"});
+  top.add({.name = "goal", .form = "[[goal]]", .meaning = "conditions that hold exactly at some times"});
+  top.add({.name = "cost",
+           .form = "[cost]",
+           .meaning = "running cost: half the sum of weight x difference², integrated over time"});
+  top.add({.name = "terminal_cost", .form = "[terminal_cost]", .meaning = "the same at the last node, not integrated"});
+  top.add({.name = "friction_model",
+           .choices = {"cone", "pyramid"},
+           .fallback = "\"cone\"",
+           .meaning = "second-order cone, or four planes inside it with up to 29 % less friction"});
+  top.add({.name = "swing_clearance_m",
+           .form = "number",
+           .range = kNonnegative,
+           .unit = "m",
+           .fallback = fmt::format("{:g} % of the standing height", 100.0 * kSwingClearanceShare),
+           .meaning = "height of contacts above the surfaces that they pass, in the middle of the swing"});
+  top.add({.name = "solver", .form = "[solver]", .meaning = "when the solver stops"});
+  top.add({.name = "tracking", .form = "[tracking]", .meaning = "weights of the feedback gains"});
+  top.add({.name = "simulation", .form = "[simulation]", .meaning = "conditions for success in `prowl simulate`"});
+}
+
+void add_surface(FileKeys& keys) {
+  Table surface(keys, "surface");
+  surface.add({.name = "name", .form = "string", .meaning = "name for phases"});
+  surface.add({.name = "point_m",
+               .form = "3 numbers",
+               .unit = "m",
+               .fallback = "[0, 0, 0]",
+               .meaning = "any point of the plane, world frame"});
+  surface.add({.name = "normal",
+               .form = "3 numbers",
+               .fallback = "[0, 0, 1]",
+               .meaning = "points out of the ground; any length but zero"});
+  surface.add({.name = "patch_m",
+               .form = "3 or more [number, number]",
+               .unit = "m",
+               .fallback = "a plane without an edge",
+               .meaning = "corners of a convex patch, counterclockwise seen from outside, in surface coordinates: "
+                          "lengths from point_m along x turned into the plane, and across"});
+  surface.add({.name = "friction",
+               .form = "number",
+               .range = kPositive,
+               .unit = "-",
+               .fallback = shown(Surface{}.friction),
+               .meaning = "Coulomb coefficient"});
+}
+
+void add_start(FileKeys& keys) {
+  Table start(keys, "start");
+  start.add({.name = "joints",
+             .form = "{joint = number}",
+             .unit = "rad",
+             .meaning = "joint positions that replace the nominal ones"});
+  start.add(
+      {.name = "on",
+       .form = "string",
+       .fallback = "level ground, z = 0",
+       .meaning = "surface that carries the start posture: above its point_m, turned with it, contacts on its plane"});
+  start.add({.name = "base_position_m",
+             .form = "3 numbers",
+             .unit = "m",
+             .fallback = "over the origin, lowest contact on z = 0",
+             .meaning = "position of the base, world frame"});
+  start.add({.name = "base_rpy_rad",
+             .form = "3 numbers",
+             .range = kAngle,
+             .unit = "rad",
+             .fallback = "the robot's nominal ones",
+             .meaning =
+                 "orientation of the base, R = Rz(yaw) Ry(pitch) Rx(roll); with on, before the turn with the surface"});
+}
+
+void add_phase(FileKeys& keys) {
+  Table phase(keys, "phase");
+  phase.add({.name = "name",
+             .form = "string",
+             .fallback = "\"phase 1\", \"phase 2\", ...",
+             .meaning = "name for goals and messages"});
+  phase.add({.name = "contacts",
+             .form = "\"all\", or a list of contacts or {contact, surface, place_m}",
+             .meaning = "contacts that hold, on the first surface unless another is given"});
+  phase.add({.name = "duration_s",
+             .form = kOneOrRange,
+             .range = kDuration,
+             .unit = "s",
+             .meaning = "duration; the optimiser chooses between two bounds"});
+  phase.add({.name = "intervals",
+             .form = "integer",
+             .range = {.lower = 1, .upper = kMostIntervals},
+             .meaning = "number of mesh intervals"});
+  phase.add({.name = "steps",
+             .choices = {"equal", "free"},
+             .fallback = "\"equal\"",
+             .meaning = "lengths of the intervals; if free, the optimiser chooses each within the bounds of the "
+                        "duration / intervals"});
+
+  Table contacts(keys, "phase.contacts");
+  contacts.add({.name = "contact", .form = "string", .meaning = "name of a contact of the robot"});
+  contacts.add({.name = "surface", .form = "string", .meaning = "name of the surface that the contact touches"});
+  contacts.add({.name = "place_m",
+                .form = "3 numbers",
+                .unit = "m",
+                .fallback = "free on the surface",
+                .meaning = "foothold of a contact that lands in this phase, world frame; on the surface"});
+}
+
+std::vector<std::string> gait_names() {
+  std::vector<std::string> names;
+  for (const GaitPattern& pattern : gait_patterns()) names.push_back(pattern.name);
+  return names;
+}
+
+/// "0.8 (walk), 0.6 (trot)": a number of each pattern.
+template <typename Number>
+std::string of_each_gait(const Number& number) {
+  std::vector<std::string> texts;
+  for (const GaitPattern& pattern : gait_patterns()) {
+    texts.push_back(fmt::format("{:g} ({})", number(pattern), pattern.name));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+void add_gait(FileKeys& keys) {
+  Table gait(keys, "gait");
+  gait.add({.name = "kind", .choices = gait_names(), .meaning = "which feet swing together, and in which order"});
+  gait.add({.name = "strides",
+            .form = "integer",
+            .range = {.lower = 1, .upper = kMostStrides},
+            .meaning = "number of strides; every foot swings once in each"});
+  gait.add({.name = "stride_s",
+            .form = kOneOrRange,
+            .range = kDuration,
+            .unit = "s",
+            .meaning = "duration of a stride; between two bounds the optimiser chooses for each phase, which gets its "
+                       "share of both"});
+  gait.add({.name = "stride_length_m",
+            .form = "number",
+            .range = kNonnegative,
+            .unit = "m",
+            .meaning = "distance that the base moves along the surface in each stride; not with [[goal]]"});
+  gait.add({.name = "heading_rad",
+            .form = "number",
+            .range = kAngle,
+            .unit = "rad",
+            .fallback = "where the base faces at the start",
+            .meaning = "direction seen from above, about the world's z from its x"});
+  constexpr double kLargestDutyFactor = 0.99;  // a swing takes some time
+  const auto least = [](const GaitPattern& pattern) { return pattern.least_duty_factor(); };
+  const std::vector<GaitPattern>& patterns = gait_patterns();
+  const GaitPattern& loosest = *std::min_element(patterns.begin(), patterns.end(),
+                                                 [&](const auto& a, const auto& b) { return least(a) < least(b); });
+  gait.add(
+      {.name = "duty_factor",
+       .form = "number",
+       .range = {.lower = least(loosest),
+                 .upper = kLargestDutyFactor,
+                 .hint = "; with less, swings overlap: write the phases out as [[phase]]"},
+       .unit = "-",
+       .fallback = of_each_gait([](const GaitPattern& pattern) { return pattern.duty_factor; }),
+       .meaning = fmt::format("part of a stride in which a foot is in contact; at least {}", of_each_gait(least))});
+  gait.add({.name = "start_s",
+            .form = "number",
+            .range = kDuration,
+            .unit = "s",
+            .fallback = shown(Gait{}.start),
+            .meaning = "time with all feet in contact before the first stride"});
+  gait.add({.name = "settle_s",
+            .form = "number",
+            .range = kDuration,
+            .unit = "s",
+            .fallback = shown(Gait{}.settle),
+            .meaning = "time with all feet in contact after the last landing"});
+  gait.add({.name = "surface",
+            .form = "string",
+            .fallback = "the first surface",
+            .meaning = "name of the surface that the feet touch"});
+  gait.add({.name = "intervals_per_second",
+            .form = "number",
+            .range = kPositive,
+            .unit = "1/s",
+            .fallback = shown(kIntervalsPerSecond),
+            .meaning = "mesh of every phase; at least 2 intervals each"});
+}
+
+void add_goal(FileKeys& keys) {
+  Table goal(keys, "goal");
+  goal.add({.name = "time_s",
+            .form = "number",
+            .range = kPositive,
+            .unit = "s",
+            .meaning = "time of the goal; either this or phase"});
+  goal.add({.name = "phase", .form = "string", .meaning = "the goal holds at the end of the phase with this name"});
+  goal.add({.name = "fraction",
+            .form = "number",
+            .range = {.lower = 0.0, .upper = 1.0},
+            .unit = "-",
+            .fallback = "1",
+            .meaning = "part of the phase at which the goal holds, instead of its end"});
+  goal.add({.name = "base_position_m", .form = kBounds3, .unit = "m", .meaning = "position of the base, world frame"});
+  goal.add({.name = "base_displacement_m",
+            .form = kBounds3,
+            .unit = "m",
+            .meaning = "displacement of the base from the start, world axes"});
+  goal.add({.name = "base_rpy_rad",
+            .form = "3 x (number or \"free\")",
+            .range = kAngle,
+            .unit = "rad",
+            .meaning = "orientation of the base, as in [start]; if free, it may turn about that axis of the base in "
+                       "its goal orientation"});
+  goal.add({.name = "base_linear_velocity_mps",
+            .form = kBounds3,
+            .unit = "m/s",
+            .meaning = "velocity of the base, base frame"});
+  goal.add({.name = "base_angular_velocity_radps",
+            .form = kBounds3,
+            .unit = "rad/s",
+            .meaning = "angular velocity of the base, base frame"});
+  goal.add({.name = "joints", .form = kJointBounds, .unit = "rad", .meaning = "joint positions"});
+  goal.add({.name = "joint_velocity_radps", .form = kJointBounds, .unit = "rad/s", .meaning = "joint velocities"});
+  goal.add({.name = "torque_Nm", .form = kJointBounds, .unit = "N m", .meaning = "joint torques"});
+}
+
+/// A weight of a cost; 0 where the file does not have it.
+FileKey weight(const char* name, const char* form, const char* unit, const char* meaning) {
+  return {.name = name, .form = form, .range = kNonnegative, .unit = unit, .fallback = "0", .meaning = meaning};
+}
+
 /// The weights that running and terminal cost share, under the given table.
-void add_state_weights(FileKeys& keys, const std::string& table) {
-  const char* const vector = "number or 3 numbers >= 0; default 0";
-  const char* const joints = "number >= 0, or {joint = number >= 0}; default 0";
-  keys.push_back({table, "reference", "\"start\" or \"goal\"; default \"start\"",
-                  "configuration that the position weights pull to: the start's, or the last goal's"});
-  keys.push_back({table, "base_position", vector, "weight on the base's displacement, world x y z [1/m²]"});
-  keys.push_back({table, "base_orientation", vector, "weight on the base's rotation vector, its x y z [1/rad²]"});
-  keys.push_back({table, "joint_position", joints, "weight on joint positions [1/rad²]"});
-  keys.push_back({table, "base_linear_velocity", vector, "weight on it, base frame [s²/m²]"});
-  keys.push_back({table, "base_angular_velocity", vector, "weight on it, base frame [s²/rad²]"});
-  keys.push_back({table, "joint_velocity", joints, "weight on joint velocities [s²/rad²]"});
-  keys.push_back({table, "contact_position", "[[" + table + ".contact_position]]", "weights on places of contacts"});
-  const std::string place = table + ".contact_position";
-  keys.push_back({place, "contact", "string", "name of the contact"});
-  keys.push_back({place, "reference_m", "3 numbers [m]", "where it is drawn to, world frame"});
-  keys.push_back({place, "weight", "number or 3 numbers >= 0", "world x y z [1/m²]"});
+void add_state_weights(FileKeys& keys, const std::string& name) {
+  Table cost(keys, name);
+  cost.add({.name = "reference",
+            .choices = {"start", "goal"},
+            .fallback = "\"start\"",
+            .meaning = "configuration that the position weights pull to: that of the start or of the last goal"});
+  cost.add(weight("base_position", kOneOrThree, "1/m²", "weight on the displacement of the base, world x y z"));
+  cost.add(weight("base_orientation", kOneOrThree, "1/rad²",
+                  "weight on the rotation vector of the base, x y z of the base"));
+  cost.add(weight("joint_position", kOneOrJoints, "1/rad²", "weight on joint positions"));
+  cost.add(
+      weight("base_linear_velocity", kOneOrThree, "s²/m²", "weight on the linear velocity of the base, base frame"));
+  cost.add(weight("base_angular_velocity", kOneOrThree, "s²/rad²",
+                  "weight on the angular velocity of the base, base frame"));
+  cost.add(weight("joint_velocity", kOneOrJoints, "s²/rad²", "weight on joint velocities"));
+  cost.add({.name = "contact_position",
+            .form = "[[" + name + ".contact_position]]",
+            .meaning = "weights on positions of contacts"});
+
+  Table position(keys, name + ".contact_position");
+  position.add({.name = "contact", .form = "string", .meaning = "name of the contact"});
+  position.add({.name = "reference_m",
+                .form = "3 numbers",
+                .unit = "m",
+                .meaning = "position that the weight pulls to, world frame"});
+  position.add({.name = "weight",
+                .form = kOneOrThree,
+                .range = kNonnegative,
+                .unit = "1/m²",
+                .meaning = "weight on the distance to reference_m, world x y z"});
 }
 
 void add_running_weights(FileKeys& keys) {
-  const char* const vector = "number or 3 numbers >= 0; default 0";
-  const char* const joints = "number >= 0, or {joint = number >= 0}; default 0";
-  keys.push_back({"cost", "base_linear_acceleration", vector, "weight on it, base frame [s⁴/m²]"});
-  keys.push_back({"cost", "base_angular_acceleration", vector, "weight on it, base frame [s⁴/rad²]"});
-  keys.push_back({"cost", "joint_acceleration", joints, "weight on joint accelerations [s⁴/rad²]"});
-  keys.push_back({"cost", "torque", joints, "weight on torques about torque_reference [1/(N m)²]"});
-  keys.push_back(
-      {"cost", "torque_reference", "\"static\" or \"zero\"; default \"static\"",
-       "torques that cost nothing: those that hold the start posture on the first phase's contacts, or zero"});
-  keys.push_back({"cost", "time", "number >= 0; default 0", "cost of every second, for phases of free duration [1/s]"});
-  keys.push_back({"cost", "force", vector, "weight on every contact's force, world x y z [1/N²]"});
+  Table cost(keys, "cost");
+  cost.add(weight("base_linear_acceleration", kOneOrThree, "s⁴/m²",
+                  "weight on the linear acceleration of the base, base frame"));
+  cost.add(weight("base_angular_acceleration", kOneOrThree, "s⁴/rad²",
+                  "weight on the angular acceleration of the base, base frame"));
+  cost.add(weight("joint_acceleration", kOneOrJoints, "s⁴/rad²", "weight on joint accelerations"));
+  cost.add(weight("torque", kOneOrJoints, "1/(N m)²", "weight on the difference of torques to torque_reference"));
+  cost.add({.name = "torque_reference",
+            .choices = {"static", "zero"},
+            .fallback = "\"static\"",
+            .meaning =
+                "torques without cost: those that hold the start posture on the contacts of the first phase, or zero"});
+  cost.add(weight("time", "number", "1/s", "cost per second, for phases of free duration"));
+  cost.add(weight("force", kOneOrThree, "1/N²", "weight on the force of every contact, world x y z"));
 }
 
-/// Deviations that cost 1 a second each.
+void add_solver(FileKeys& keys) {
+  const SolverOptions defaults;
+  Table solver(keys, "solver");
+  solver.add({.name = "tolerance",
+              .form = "number",
+              .range = {.lower = 1e-12, .upper = 1e-2},
+              .fallback = shown(defaults.tolerance),
+              .meaning = "on optimality and on the constraints"});
+  solver.add({.name = "max_iterations",
+              .form = "integer",
+              .range = {.lower = 1},
+              .fallback = shown(defaults.max_iterations),
+              .meaning = "stop after this many iterations, on each mesh"});
+  solver.add({.name = "max_time_s",
+              .form = "number",
+              .range = kPositive,
+              .unit = "s",
+              .fallback = shown(defaults.max_seconds),
+              .meaning = "stop after this much wall-clock time"});
+}
+
 void add_tracking(FileKeys& keys) {
-  const auto add = [&keys](const char* name, const char* value, const char* meaning) {
-    keys.push_back({"tracking", name, value, meaning});
+  const TrackingOptions defaults;
+  constexpr DefaultDeviations deviations;
+  Table tracking(keys, "tracking");
+  const auto add_deviation = [&](const char* name, const char* form, const char* unit, double deviation,
+                                 const char* meaning) {
+    tracking.add({.name = name,
+                  .form = form,
+                  .range = kDeviation,
+                  .unit = unit,
+                  .fallback = shown(deviation),
+                  .meaning = meaning});
   };
-  const char* const weigh = "a deviation as large as this costs 1 a second; a smaller number, a stiffer robot";
-  add("step_s", "number, 1e-4 to 0.1 [s]; default 0.002", "grid of the gains");
-  add("base_position_m", "number or 3 numbers > 0 [m]; default 0.02", weigh);
-  add("base_orientation_rad", "number or 3 numbers > 0 [rad]; default 0.04", "the same, about the axes of the base");
-  add("joint_position_rad", "number > 0, or {joint = number > 0} [rad]; default 0.1", "the same");
-  add("base_linear_velocity_mps", "number or 3 numbers > 0 [m/s]; default 0.2", "the same, base frame");
-  add("base_angular_velocity_radps", "number or 3 numbers > 0 [rad/s]; default 0.4", "the same, base frame");
-  add("joint_velocity_radps", "number > 0, or {joint = number > 0} [rad/s]; default 10", "the same");
-  add("torque_share", "number > 0 [-]; default 0.1",
-      "the same, of the torque limit; where there is none, of the robot's weight on a lever as long as its legs reach");
-  add("landing_s", "number >= 0 [s]; default 1",
-      "a foot that lands beside its place costs as if it were off for so long: it cannot be moved any more");
-  add("bandwidth_radps", "number > 0 [rad/s]; default 100", "gains that would act faster are brought down to this");
+  tracking.add({.name = "step_s",
+                .form = "number",
+                .range = {.lower = 1e-4, .upper = 0.1},
+                .unit = "s",
+                .fallback = shown(defaults.step),
+                .meaning = "time between two gains"});
+  add_deviation("base_position_m", kOneOrThree, "m", deviations.base_position,
+                "deviation that costs 1 per second; a smaller value makes the robot stiffer");
+  add_deviation("base_orientation_rad", kOneOrThree, "rad", deviations.base_orientation,
+                "deviation that costs 1 per second, about the axes of the base");
+  add_deviation("joint_position_rad", kOneOrJoints, "rad", deviations.joint_position,
+                "deviation that costs 1 per second; a smaller value makes the robot stiffer");
+  add_deviation("base_linear_velocity_mps", kOneOrThree, "m/s", deviations.base_linear_velocity,
+                "deviation that costs 1 per second, base frame");
+  add_deviation("base_angular_velocity_radps", kOneOrThree, "rad/s", deviations.base_angular_velocity,
+                "deviation that costs 1 per second, base frame");
+  add_deviation("joint_velocity_radps", kOneOrJoints, "rad/s", deviations.joint_velocity,
+                "deviation that costs 1 per second; a smaller value makes the robot stiffer");
+  add_deviation("torque_share", "number", "-", deviations.torque_share,
+                "torque that costs 1 per second, as a share of the limit; without a limit, of the weight of the robot "
+                "times the reach of its legs");
+  tracking.add({.name = "landing_s",
+                .form = "number",
+                .range = kNonnegative,
+                .unit = "s",
+                .fallback = shown(defaults.landing_time),
+                .meaning = "a landing beside the foothold costs as much as that deviation during this time"});
+  tracking.add({.name = "bandwidth_radps",
+                .form = "number",
+                .range = kPositive,
+                .unit = "rad/s",
+                .fallback = shown(defaults.largest_bandwidth),
+                .meaning = "faster gains are reduced to this"});
+}
+
+void add_simulation(FileKeys& keys) {
+  const SuccessCriteria defaults;
+  Table simulation(keys, "simulation");
+  const auto add = [&](const char* name, const char* unit, const std::string& fallback, const char* meaning) {
+    simulation.add(
+        {.name = name, .form = "number", .range = kPositive, .unit = unit, .fallback = fallback, .meaning = meaning});
+  };
+  add("base_position_m", "m", shown(defaults.position),
+      "largest distance of the base at rest from the end of the plan");
+  add("base_angle_rad", "rad", shown(defaults.angle), "largest angle of the base at rest from the end of the plan");
+  add("slip_m", "m", shown(defaults.slip), "largest slip of a foot in contact");
+  add("friction", "-", "that of each [[surface]]",
+      "friction coefficient of all surfaces; a larger one than in the plan gives a margin");
+  add("rest_s", "s", shown(defaults.rest), "time that the robot stands after the plan");
 }
 
 FileKeys make_task_file_keys() {
-  FileKeys keys = {
-      {"", "name", "string; default: the file's name", "name of the motion"},
-      {"", "robot", "path", "robot file, relative to this file"},
-      {"", "surface", "[[surface]]; default: a floor at z = 0", "planes and patches that contacts may touch"},
-      {"", "start", "[start]; default: the robot's nominal posture", "where the motion begins, at rest"},
-      {"", "phase", "[[phase]], one or more, or [gait]", "times with one set of contacts, in order"},
-      {"", "gait", "[gait], in place of [[phase]]", "short form of the phases of a robot on four legs"},
-      {"", "goal", "[[goal]]", "what has to hold exactly at some times"},
-      {"", "cost", "[cost]", "running cost: half the sum of weight x difference², integrated over time"},
-      {"", "terminal_cost", "[terminal_cost]", "the same at the last node, not integrated"},
-      {"", "friction_model", "\"cone\" or \"pyramid\"; default \"cone\"",
-       "the second-order cone, or four planes inside it: linear in the forces, with up to 29 % less friction"},
-      {"", "swing_clearance_m", "number >= 0 [m]; default 5 % of the standing height",
-       "of contacts in the air above the surfaces that they pass, in the middle of the swing"},
-      {"", "solver", "[solver]", "when the solver stops"},
-      {"", "tracking", "[tracking]", "what the feedback gains weigh"},
-      {"", "simulation", "[simulation]", "when `prowl simulate` counts as a success"},
-      {"surface", "name", "string", "for phases to refer to"},
-      {"surface", "point_m", "3 numbers [m]; default [0, 0, 0]", "any point of the plane, world frame"},
-      {"surface", "normal", "3 numbers; default [0, 0, 1]", "points out of the ground; any length but zero"},
-      {"surface", "patch_m", "3 or more [number, number]; default: a plane without an edge",
-       "corners of a convex patch, counterclockwise seen from outside, in surface coordinates: lengths from point_m "
-       "along "
-       "x turned into the plane, and across"},
-      {"surface", "friction", "number > 0 [-]; default 0.5", "Coulomb coefficient"},
-      {"start", "joints", "{joint = number} [rad]", "in place of the robot's nominal ones"},
-      {"start", "on", "string; default: level ground, z = 0",
-       "surface that the posture is put on, over its point_m and turned with it, contacts on its plane"},
-      {"start", "base_position_m", "3 numbers [m]; default: over the origin, lowest contact on z = 0", "world frame"},
-      {"start", "base_rpy_rad", "3 numbers [rad]; default: the robot's nominal ones",
-       "R = Rz(yaw) Ry(pitch) Rx(roll); with on, before it is turned with the surface"},
-      {"phase", "name", "string; default \"phase 1\", \"phase 2\", ...", "for goals and messages"},
-      {"phase", "contacts", "\"all\", or a list of contacts or {contact, surface, place_m}",
-       "contacts that hold their place; on the first surface unless said"},
-      {"phase", "duration_s", "number from 0.001 to 600, or [min, max] [s]",
-       "how long it lasts; between two bounds the optimiser chooses"},
-      {"phase", "intervals", "integer, 1 to 10000", "mesh intervals that it is cut into"},
-      {"phase", "steps", "\"equal\" or \"free\"; default \"equal\"",
-       "lengths of the intervals; free: chosen by the optimiser, one by one, within the duration's bounds / intervals"},
-      {"phase.contacts", "contact", "string", "name of a contact of the robot"},
-      {"phase.contacts", "surface", "string", "name of the surface that it touches"},
-      {"phase.contacts", "place_m", "3 numbers [m]; default: free on the surface",
-       "where a contact that lands in this phase has to touch, world frame; on the surface"},
-      {"gait", "kind", "\"walk\", \"trot\", \"pace\" or \"bound\"", "which feet swing together, and in which order"},
-      {"gait", "strides", "integer, 1 to 1000", "every foot swings once in each"},
-      {"gait", "stride_s", "number from 0.001 to 600, or [min, max] [s]",
-       "how long one takes; between two bounds the optimiser chooses for each phase, which has its share of both"},
-      {"gait", "stride_length_m", "number >= 0 [m]; not with [[goal]]",
-       "how far the base goes along the surface in each"},
-      {"gait", "heading_rad", "number [rad]; default: where the base faces at the start",
-       "where to, seen from above, about the world's z from its x"},
-      {"gait", "duty_factor", "number, 0.75 (walk) or 0.5 to 0.99; default 0.8 (walk) or 0.6",
-       "part of a stride in which a foot stands"},
-      {"gait", "start_s", "number from 0.001 to 600 [s]; default 0.5", "all feet stand before the first stride"},
-      {"gait", "settle_s", "number from 0.001 to 600 [s]; default 0.5", "all feet stand after the last landing"},
-      {"gait", "surface", "string; default: the first surface", "name of the one that the feet touch"},
-      {"gait", "intervals_per_second", "number > 0 [1/s]; default 50",
-       "mesh of every phase; at least 2 intervals each"},
-      {"goal", "time_s", "number > 0 [s], at a node", "when; this or phase"},
-      {"goal", "phase", "string", "when: at the end of the phase with this name"},
-      {"goal", "fraction", "number, 0 to 1, at a node; default 1",
-       "with phase: at this part of it, in place of its end"},
-      {"goal", "base_position_m", kBounds3, "place of the base, world frame [m]"},
-      {"goal", "base_displacement_m", kBounds3, "the same from where it starts, world axes [m]"},
-      {"goal", "base_rpy_rad", "3 x (number or \"free\")",
-       "orientation of the base, as [start]; free: it may turn about that axis of the base in its goal orientation"},
-      {"goal", "base_linear_velocity_mps", kBounds3, "velocity of the base, base frame [m/s]"},
-      {"goal", "base_angular_velocity_radps", kBounds3, "angular velocity of the base, base frame [rad/s]"},
-      {"goal", "joints", kJointBounds, "joint positions [rad]"},
-      {"goal", "joint_velocity_radps", kJointBounds, "joint velocities [rad/s]"},
-      {"goal", "torque_Nm", kJointBounds, "joint torques [N m]"},
-  };
+  FileKeys keys;
+  for (const auto add : {add_top, add_surface, add_start, add_phase, add_gait, add_goal}) add(keys);
   add_state_weights(keys, "cost");
   add_running_weights(keys);
   add_state_weights(keys, "terminal_cost");
-  add_tracking(keys);
-  keys.push_back(
-      {"solver", "tolerance", "number, 1e-12 to 1e-2; default 1e-6", "on optimality and on the constraints"});
-  keys.push_back(
-      {"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations, on each mesh"});
-  keys.push_back({"solver", "max_time_s", "number > 0 [s]; default 300", "stop after this much wall-clock time"});
-  keys.push_back({"simulation", "base_position_m", "number > 0 [m]; default 0.02",
-                  "most that the base in rest at the end is away from where the plan ends"});
-  keys.push_back({"simulation", "base_angle_rad", "number > 0 [rad]; default 0.035", "the same of its orientation"});
-  keys.push_back({"simulation", "slip_m", "number > 0 [m]; default 0.02", "most that a standing foot slips"});
-  keys.push_back({"simulation", "friction", "number > 0; default: that of each [[surface]]",
-                  "coefficient of all surfaces; more than what is planned with leaves a margin"});
-  keys.push_back(
-      {"simulation", "rest_s", "number > 0 [s]; default 1.5", "how long the robot goes on standing after the plan"});
+  for (const auto add : {add_tracking, add_solver, add_simulation}) add(keys);
+  return keys;
+}
+
+FileKeys make_robot_file_keys() {
+  FileKeys keys;
+  Table top(keys, "");
+  top.add({.name = "name", .form = "string", .meaning = "name of the robot"});
+  top.add({.name = "urdf",
+           .form = "path or package://...",
+           .meaning = "URDF of the robot; a path is relative to this file"});
+  top.add({.name = "package_dirs",
+           .form = "list of paths",
+           .fallback = "none",
+           .meaning = "folders to search first for package://, relative to this file"});
+  top.add({.name = "contact",
+           .form = "[[contact]], one or more",
+           .meaning = "points of the robot that may touch surfaces"});
+  top.add({.name = "nominal", .form = "[nominal]", .meaning = "default posture at the start of a motion"});
+  top.add({.name = "limits", .form = "[limits.JOINT]", .meaning = "limits that replace those of the URDF"});
+
+  Table contact(keys, "contact");
+  contact.add({.name = "name", .form = "string", .meaning = "name of the contact, unique in the robot"});
+  contact.add(
+      {.name = "frame", .form = "string", .meaning = "link or fixed joint of the URDF that carries the contact"});
+  contact.add({.name = "radius_m",
+               .form = "number",
+               .range = kNonnegative,
+               .unit = "m",
+               .fallback = shown(ContactPoint{}.radius),
+               .meaning = "radius of the ball around the point"});
+  contact.add({.name = "offset_m",
+               .form = "3 numbers",
+               .unit = "m",
+               .fallback = "[0, 0, 0]",
+               .meaning = "centre of the ball, in the frame"});
+
+  Table nominal(keys, "nominal");
+  nominal.add(
+      {.name = "base_rpy_rad",
+       .form = "3 numbers",
+       .range = kAngle,
+       .unit = "rad",
+       .fallback = "[0, 0, 0]",
+       .meaning = "orientation of the base, R = Rz(yaw) Ry(pitch) Rx(roll); its position follows from the contacts"});
+  nominal.add(
+      {.name = "joints", .form = "{joint = number}", .unit = "rad", .fallback = "0", .meaning = "joint positions"});
+
+  Table limits(keys, "limits");
+  limits.add({.name = "position_rad", .form = "[min, max]", .unit = "rad", .meaning = "range of the joint position"});
+  limits.add({.name = "velocity_radps",
+              .form = "number",
+              .range = kPositive,
+              .unit = "rad/s",
+              .meaning = "largest joint velocity, in both directions"});
+  limits.add({.name = "torque_Nm",
+              .form = "number",
+              .range = kPositive,
+              .unit = "N m",
+              .meaning = "largest joint torque, in both directions"});
+  limits.add({.name = "torque_over_position",
+              .form = "4 or more [position, torque]",
+              .unit = "rad, N m",
+              .fallback = "none",
+              .meaning = "torque limit over the joint position, in both directions: a smooth curve through these "
+                         "points, which cover the range"});
+  limits.add({.name = "torque_over_velocity",
+              .form = "4 or more [velocity, torque]",
+              .unit = "rad/s, N m",
+              .fallback = "none",
+              .meaning = "torque limit in the direction of positive velocity, over -velocity ... velocity; mirrored "
+                         "for the other direction"});
   return keys;
 }
 
 }  // namespace
 
+std::string FileKey::value() const {
+  std::string text = form;
+  for (const std::string& choice : choices) {
+    if (!text.empty()) text += choice == choices.back() ? " or " : ", ";
+    text += fmt::format("\"{}\"", choice);
+  }
+  if (const std::string limits = range.limits(); !limits.empty()) {
+    const bool is_one = text.find(' ') == std::string::npos;
+    text += is_one ? " " + limits : ", each " + limits;
+  }
+  if (!unit.empty()) text += fmt::format(" [{}]", unit);
+  if (!fallback.empty()) text += "; default " + fallback;
+  return text;
+}
+
 const FileKeys& robot_file_keys() {
-  static const FileKeys keys = {
-      {"", "name", "string", "name of the robot"},
-      {"", "urdf", "path or package://...", "its URDF; a path is relative to this file"},
-      {"", "package_dirs", "list of paths; default none",
-       "where package:// is looked for first, relative to this file"},
-      {"", "contact", "[[contact]], one or more", "points of the robot that may touch surfaces"},
-      {"", "nominal", "[nominal]", "the posture that motions start from unless said otherwise"},
-      {"", "limits", "[limits.JOINT]", "limits that replace those of the URDF"},
-      {"contact", "name", "string", "unique in the robot"},
-      {"contact", "frame", "string", "link or fixed joint of the URDF"},
-      {"contact", "radius_m", "number >= 0 [m]; default 0", "of the ball around the point"},
-      {"contact", "offset_m", "3 numbers [m]; default [0, 0, 0]", "centre of the ball, in the frame"},
-      {"nominal", "base_rpy_rad", "3 numbers [rad]; default [0, 0, 0]",
-       "orientation, R = Rz(yaw) Ry(pitch) Rx(roll); the place follows from the contacts"},
-      {"nominal", "joints", "{joint = number} [rad]; default 0", "joint positions"},
-      {"limits", "position_rad", "[min, max] [rad]", "joint position"},
-      {"limits", "velocity_radps", "number > 0 [rad/s]", "joint speed, both ways"},
-      {"limits", "torque_Nm", "number > 0 [N m]", "joint torque, both ways"},
-      {"limits", "torque_over_position", "4 or more [rad, N m]; default none",
-       "torque limit over the joint position, both ways: a smooth curve through these points, over all of its range"},
-      {"limits", "torque_over_velocity", "4 or more [rad/s, N m]; default none",
-       "limit of the torque in the direction of positive velocity, over all of -velocity ... velocity; mirrored for "
-       "the other"},
-  };
+  static const FileKeys keys = make_robot_file_keys();
   return keys;
 }
 
@@ -190,19 +539,19 @@ const FileKeys& task_file_keys() {
   return keys;
 }
 
+const FileKey& file_key(const FileKeys& keys, const std::string& table, const std::string& name) {
+  const auto found = std::find_if(keys.begin(), keys.end(),
+                                  [&](const FileKey& key) { return key.table == table && key.name == name; });
+  assert(found != keys.end());
+  return *found;
+}
+
 std::vector<std::string> key_names(const FileKeys& keys, const std::string& table) {
   std::vector<std::string> names;
   for (const FileKey& key : keys) {
     if (key.table == table) names.push_back(key.name);
   }
   return names;
-}
-
-const std::string& key_meaning(const FileKeys& keys, const std::string& table, const std::string& name) {
-  const auto key =
-      std::find_if(keys.begin(), keys.end(), [&](const FileKey& k) { return k.table == table && k.name == name; });
-  assert(key != keys.end());
-  return key->meaning;
 }
 
 }  // namespace prowl

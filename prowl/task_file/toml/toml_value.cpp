@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -48,16 +49,12 @@ std::string where_else(const FileKeys& keys, const std::string& name) {
   return tables.empty() ? "" : fmt::format(" It is a key of {}.", fmt::join(tables, ", "));
 }
 
-/// " [s]" for "phase[0].duration_s" or "goal[1].time_s[0]"; "" for a key without unit.
-std::string unit_of(const std::string& path) {
-  static const std::pair<std::string, std::string> kUnits[] = {{"_m", "m"},     {"_s", "s"},         {"_rad", "rad"},
-                                                               {"_mps", "m/s"}, {"_radps", "rad/s"}, {"_Nm", "N m"}};
-  std::string key = path;
-  while (key.ends_with(']')) key.erase(key.rfind('['));
-  for (const auto& [ending, unit] : kUnits) {
-    if (key.ends_with(ending)) return fmt::format(" [{}]", unit);
-  }
-  return "";
+/// "a finite number > 0", "a number from 1 to 10".
+std::string in_words(const NumberRange& range) {
+  const std::string limits = range.limits();
+  if (limits.empty()) return "a finite number";
+  return fmt::format("a {}number {}", std::isfinite(range.lower) && std::isfinite(range.upper) ? "" : "finite ",
+                     limits);
 }
 
 /// Where the key is (`with_key`) or its value; of the nearest table around it if it is not there.
@@ -80,21 +77,6 @@ std::optional<std::string> place_of(const SourceText& source, const std::string&
 
 }  // namespace
 
-NumberRange angle_range() { return {.lower = -6.2832, .upper = 6.2832, .hint = "; 5 degrees are 0.087"}; }
-
-std::string NumberRange::to_words() const {
-  const bool has_lower = std::isfinite(lower);
-  const bool has_upper = std::isfinite(upper);
-  if (has_lower && has_upper) return fmt::format("a number from {:g} to {:g}", lower, upper);
-  if (has_lower) return fmt::format("a finite number {} {:g}", above_lower ? ">" : ">=", lower);
-  if (has_upper) return fmt::format("a finite number <= {:g}", upper);
-  return "a finite number";
-}
-
-bool NumberRange::contains(double value) const {
-  return std::abs(value) <= kLargest && value <= upper && (above_lower ? value > lower : value >= lower);
-}
-
 void TomlValue::fail(const std::string& message) const {
   throw InputError(fmt::format("{}{}{}{}", at(*source_, node_->source()), path_, path_.empty() ? "" : ": ", message));
 }
@@ -104,25 +86,30 @@ void TomlValue::fail_unknown_name(const std::string& what, const std::vector<std
 }
 
 void TomlValue::fail_type(const std::string& needed, const std::string& hint) const {
-  fail(fmt::format("{} is not allowed; need {}{}{}", describe(*node_), needed, unit_of(path_), hint));
+  const std::string unit = key_ == nullptr || key_->unit.empty() ? "" : fmt::format(" [{}]", key_->unit);
+  fail(fmt::format("{} is not allowed; need {}{}{}", describe(*node_), needed, unit, hint));
+}
+
+const FileKey& TomlValue::key() const {
+  assert(key_ != nullptr);
+  return *key_;
 }
 
 double TomlValue::as_number(const NumberRange& range) const {
-  if (!node_->is_number()) fail_type(range.to_words());
+  if (!node_->is_number()) fail_type(in_words(range));
   const double value = node_->value_or(std::numeric_limits<double>::quiet_NaN());
   if (std::isfinite(value) && std::abs(value) > NumberRange::kLargest) {
     fail(fmt::format("{:g} is not allowed; need a number of at most {:g} in size", value, NumberRange::kLargest));
   }
-  if (!range.contains(value)) fail_type(range.to_words(), range.hint);
+  if (!range.contains(value)) fail_type(in_words(range), range.hint);
   return value;
 }
 
-int TomlValue::as_integer(int lower, int upper) const {
+int TomlValue::as_integer() const {
   const auto* integer = node_->as_integer();
-  if (!integer || integer->get() < lower || integer->get() > upper) {
-    fail_type(upper == std::numeric_limits<int>::max() ? fmt::format("an integer >= {}", lower)
-                                                       : fmt::format("an integer from {} to {}", lower, upper),
-              node_->is_floating_point() ? ", without a point" : "");
+  // NumberRange::kLargest is an int, too.
+  if (!integer || !key().range.contains(static_cast<double>(integer->get()))) {
+    fail_type("an integer " + key().range.limits(), node_->is_floating_point() ? ", without a point" : "");
   }
   return static_cast<int>(integer->get());
 }
@@ -146,7 +133,7 @@ std::vector<TomlValue> TomlValue::as_list() const {
   if (list->size() > kMost) fail(fmt::format("a list of {} is not allowed; need at most {}", list->size(), kMost));
   std::vector<TomlValue> values;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    values.emplace_back(*source_, (*list)[i], fmt::format("{}[{}]", path_, i));
+    values.emplace_back(*source_, (*list)[i], fmt::format("{}[{}]", path_, i), key_);
   }
   return values;
 }
@@ -156,9 +143,9 @@ std::vector<TomlValue> TomlValue::as_list(std::size_t size) const {
   return as_list();
 }
 
-Eigen::Vector3d TomlValue::as_vector3(const NumberRange& range) const {
+Eigen::Vector3d TomlValue::as_vector3() const {
   const std::vector<TomlValue> entries = as_list(3);
-  return {entries[0].as_number(range), entries[1].as_number(range), entries[2].as_number(range)};
+  return {entries[0].as_number(), entries[1].as_number(), entries[2].as_number()};
 }
 
 Bounds TomlValue::as_bounds() const {
@@ -177,13 +164,13 @@ Bounds TomlValue::as_bounds() const {
   return {value, value};
 }
 
-Bounds TomlValue::as_range(const NumberRange& range) const {
+Bounds TomlValue::as_range() const {
   if (!is_list()) {
-    const double value = as_number(range);
+    const double value = as_number();
     return {value, value};
   }
   const std::vector<TomlValue> ends = as_list(2);
-  const Bounds bounds{ends[0].as_number(range), ends[1].as_number(range)};
+  const Bounds bounds{ends[0].as_number(), ends[1].as_number()};
   if (bounds.lower > bounds.upper) fail("min > max is not allowed; need [min, max]");
   return bounds;
 }
@@ -200,7 +187,7 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::as_free_named_values(c
   std::vector<std::pair<std::string, TomlValue>> values;
   for (const auto& [key, node] : *table) {
     const std::string name(key.str());
-    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, shown(name))));
+    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, shown(name)), key_));
   }
   return values;
 }
@@ -237,18 +224,14 @@ std::string TomlTable::path_of(const std::string& key) const { return join_path(
 std::optional<TomlValue> TomlTable::find(const std::string& key) const {
   const toml::node* node = table().get(key);
   if (!node) return std::nullopt;
-  return TomlValue(value_.source(), *node, path_of(key));
+  return TomlValue(value_.source(), *node, path_of(key), &file_key(*keys_, declared_, key));
 }
 
 TomlValue TomlTable::need(const std::string& key) const {
   if (auto value = find(key)) return *value;
-  for (const FileKey& declared : *keys_) {
-    if (declared.table == declared_ && declared.name == key) {
-      TomlValue(value_.source(), value_.node(), path_of(key))
-          .fail(fmt::format("missing; need {}: {}", declared.value, declared.meaning));
-    }
-  }
-  value_.fail("missing " + key);
+  const FileKey& declared = file_key(*keys_, declared_, key);
+  TomlValue(value_.source(), value_.node(), path_of(key), &declared)
+      .fail(fmt::format("missing; need {}: {}", declared.value(), declared.meaning));
 }
 
 std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
@@ -287,10 +270,12 @@ TomlDocument::TomlDocument(const SourceText& source) : source_(source) {
 }
 
 void TomlDocument::refuse_key(const std::string& key, const std::string& message) const {
-  if (const toml::node* node = table_.get(key)) TomlValue(source_, *node, key).fail(message);
+  if (const toml::node* node = table_.get(key)) TomlValue(source_, *node, key, nullptr).fail(message);
 }
 
-TomlTable TomlDocument::root(const FileKeys& keys) const { return TomlTable(TomlValue(source_, table_, ""), keys, ""); }
+TomlTable TomlDocument::root(const FileKeys& keys) const {
+  return TomlTable(TomlValue(source_, table_, "", nullptr), keys, "");
+}
 
 std::optional<std::string> find_place(const SourceText& source, const std::string& path) {
   return place_of(source, path, false);

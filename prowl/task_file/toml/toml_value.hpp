@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <Eigen/Core>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,45 +14,31 @@
 
 namespace prowl {
 
-/// Numbers that a key accepts, and how to say it. None may be beyond kLargest: sums and products then stay finite.
-struct NumberRange {
-  static constexpr double kLargest = 1e9;
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  bool above_lower = false;  ///< lower itself is not allowed
-  const char* hint = "";     ///< said after the range
-  std::string to_words() const;
-  bool contains(double value) const;
-
-  static NumberRange any() { return {}; }
-  static NumberRange positive() { return {.lower = 0.0, .above_lower = true}; }
-  static NumberRange nonnegative() { return {.lower = 0.0}; }
-};
-
-/// Angles of an orientation: one turn either way, as larger ones are degrees by mistake.
-NumberRange angle_range();
-
 /// Lower and upper bound of one quantity; equal where prescribed, infinite where free.
 struct Bounds {
   double lower, upper;
 };
 
-/// One value of a TOML file that knows its file and the path of its key. Every as_... throws InputError
-/// "file:line:column: path: what it is; what is needed". The document must outlive it.
+/// One value of a TOML file that knows its file, the path of its key and the declaration of the key, whose range its
+/// numbers keep. Every as_... throws InputError "file:line:column: path: what it is; what is needed". The document and
+/// the declaration must outlive it.
 class TomlValue {
  public:
-  TomlValue(const SourceText& source, const toml::node& node, std::string path)
-      : source_(&source), node_(&node), path_(std::move(path)) {}
+  TomlValue(const SourceText& source, const toml::node& node, std::string path, const FileKey* key)
+      : source_(&source), node_(&node), path_(std::move(path)), key_(key) {}
 
-  double as_number(const NumberRange& range = NumberRange::any()) const;
-  int as_integer(int lower, int upper) const;
+  double as_number() const { return as_number(key().range); }
+  double as_number(const NumberRange& range) const;  ///< for what is narrower than the key, or not one number
+  int as_integer() const;
   std::string as_text() const;  ///< not empty
   std::string as_name() const;  ///< a text that is_name (model/name_check.hpp) accepts
   std::vector<TomlValue> as_list() const;
   std::vector<TomlValue> as_list(std::size_t size) const;
-  Eigen::Vector3d as_vector3(const NumberRange& range = NumberRange::any()) const;
-  Bounds as_bounds() const;                         ///< a number, "free" or [lower, upper]
-  Bounds as_range(const NumberRange& range) const;  ///< a number or [min, max]
+  Eigen::Vector3d as_vector3() const;
+  Bounds as_bounds() const;  ///< a number, "free" or [lower, upper]
+  Bounds as_range() const;   ///< a number or [min, max]
+  /// One of the choices of the key, which are names of a `what`.
+  const std::string& as_choice(const std::string& what) const { return key().choices[as_one_of(what, key().choices)]; }
   /// Index of a text in `known`, which are names of a `what`.
   std::size_t as_one_of(const std::string& what, const std::vector<std::string>& known) const;
   /// The entries of a table with names that the user chooses from `known` (joints, contacts).
@@ -69,6 +54,7 @@ class TomlValue {
   const toml::node& node() const { return *node_; }
   const SourceText& source() const { return *source_; }
   const std::string& path() const { return path_; }
+  const FileKey& key() const;  ///< its declaration
 
   [[noreturn]] void fail(const std::string& message) const;
   [[noreturn]] void fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const;
@@ -79,6 +65,7 @@ class TomlValue {
   const SourceText* source_;
   const toml::node* node_;
   std::string path_;
+  const FileKey* key_;  ///< nullptr: a table with keys of its own
 };
 
 /// A table with exactly the keys that file_keys.hpp declares for it.

@@ -9,11 +9,10 @@
 namespace prowl {
 
 /// A key that is a number for all three axes or a list of three; `values` stays as it is where there is no such key.
-void read_axes(const TomlTable& table, const std::string& key, const NumberRange& range,
-               Eigen::Ref<Eigen::VectorXd> values);
+void read_axes(const TomlTable& table, const std::string& key, Eigen::Ref<Eigen::VectorXd> values);
 
 /// A key that is a number for all joints or a table { joint = number }, which leaves the others as they are.
-void read_joints(const TomlTable& table, const std::string& key, const RobotModel& robot, const NumberRange& range,
+void read_joints(const TomlTable& table, const std::string& key, const RobotModel& robot,
                  Eigen::Ref<Eigen::VectorXd> values);
 
 }  // namespace prowl

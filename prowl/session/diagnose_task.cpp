@@ -1,0 +1,24 @@
+#include "prowl/session/diagnose_task.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "prowl/error.hpp"
+#include "prowl/solvers/foreign/ipopt_solver.hpp"
+#include "prowl/solvers/make_solver.hpp"
+
+namespace prowl {
+
+Diagnosis diagnose_task(const Task& task, DiagnosisOptions options) {
+  if (!(options.max_seconds > 0.0)) {
+    throw InputError(fmt::format("max_time: {} is not allowed; need a number > 0 [s]", options.max_seconds));
+  }
+  SolverOptions solver = task.solver;
+  solver.interrupt = options.solver.interrupt;
+  solver.on_iteration = std::move(options.solver.on_iteration);
+  options.solver = std::move(solver);
+  return diagnose({task.problem, task.mesh}, *make_solver(solver_names().front()), IpoptSolver(), options);
+}
+
+}  // namespace prowl
