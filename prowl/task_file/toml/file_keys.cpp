@@ -14,32 +14,38 @@ void add_state_weights(FileKeys& keys, const std::string& table) {
   const char* const vector = "number or 3 numbers >= 0; default 0";
   const char* const joints = "number >= 0, or {joint = number >= 0}; default 0";
   keys.push_back({table, "reference", "\"start\" or \"goal\"; default \"start\"",
-                  "configuration that the position weights pull to: the start's, or the last goal's"});
-  keys.push_back({table, "base_position", vector, "weight on the base's displacement, world x y z [1/m²]"});
-  keys.push_back({table, "base_orientation", vector, "weight on the base's rotation vector, its x y z [1/rad²]"});
+                  "configuration that the position weights pull to: that of the start or of the last goal"});
+  keys.push_back({table, "base_position", vector, "weight on the displacement of the base, world x y z [1/m²]"});
+  keys.push_back(
+      {table, "base_orientation", vector, "weight on the rotation vector of the base, x y z of the base [1/rad²]"});
   keys.push_back({table, "joint_position", joints, "weight on joint positions [1/rad²]"});
-  keys.push_back({table, "base_linear_velocity", vector, "weight on it, base frame [s²/m²]"});
-  keys.push_back({table, "base_angular_velocity", vector, "weight on it, base frame [s²/rad²]"});
+  keys.push_back(
+      {table, "base_linear_velocity", vector, "weight on the linear velocity of the base, base frame [s²/m²]"});
+  keys.push_back(
+      {table, "base_angular_velocity", vector, "weight on the angular velocity of the base, base frame [s²/rad²]"});
   keys.push_back({table, "joint_velocity", joints, "weight on joint velocities [s²/rad²]"});
-  keys.push_back({table, "contact_position", "[[" + table + ".contact_position]]", "weights on places of contacts"});
+  keys.push_back({table, "contact_position", "[[" + table + ".contact_position]]", "weights on positions of contacts"});
   const std::string place = table + ".contact_position";
   keys.push_back({place, "contact", "string", "name of the contact"});
-  keys.push_back({place, "reference_m", "3 numbers [m]", "where it is drawn to, world frame"});
-  keys.push_back({place, "weight", "number or 3 numbers >= 0", "world x y z [1/m²]"});
+  keys.push_back({place, "reference_m", "3 numbers [m]", "position that the weight pulls to, world frame"});
+  keys.push_back(
+      {place, "weight", "number or 3 numbers >= 0", "weight on the distance to reference_m, world x y z [1/m²]"});
 }
 
 void add_running_weights(FileKeys& keys) {
   const char* const vector = "number or 3 numbers >= 0; default 0";
   const char* const joints = "number >= 0, or {joint = number >= 0}; default 0";
-  keys.push_back({"cost", "base_linear_acceleration", vector, "weight on it, base frame [s⁴/m²]"});
-  keys.push_back({"cost", "base_angular_acceleration", vector, "weight on it, base frame [s⁴/rad²]"});
+  keys.push_back({"cost", "base_linear_acceleration", vector,
+                  "weight on the linear acceleration of the base, base frame [s⁴/m²]"});
+  keys.push_back({"cost", "base_angular_acceleration", vector,
+                  "weight on the angular acceleration of the base, base frame [s⁴/rad²]"});
   keys.push_back({"cost", "joint_acceleration", joints, "weight on joint accelerations [s⁴/rad²]"});
-  keys.push_back({"cost", "torque", joints, "weight on torques about torque_reference [1/(N m)²]"});
+  keys.push_back({"cost", "torque", joints, "weight on the difference of torques to torque_reference [1/(N m)²]"});
   keys.push_back(
       {"cost", "torque_reference", "\"static\" or \"zero\"; default \"static\"",
-       "torques that cost nothing: those that hold the start posture on the first phase's contacts, or zero"});
-  keys.push_back({"cost", "time", "number >= 0; default 0", "cost of every second, for phases of free duration [1/s]"});
-  keys.push_back({"cost", "force", vector, "weight on every contact's force, world x y z [1/N²]"});
+       "torques without cost: those that hold the start posture on the contacts of the first phase, or zero"});
+  keys.push_back({"cost", "time", "number >= 0; default 0", "cost per second, for phases of free duration [1/s]"});
+  keys.push_back({"cost", "force", vector, "weight on the force of every contact, world x y z [1/N²]"});
 }
 
 /// Deviations that cost 1 a second each.
@@ -47,19 +53,24 @@ void add_tracking(FileKeys& keys) {
   const auto add = [&keys](const char* name, const char* value, const char* meaning) {
     keys.push_back({"tracking", name, value, meaning});
   };
-  const char* const weigh = "a deviation as large as this costs 1 a second; a smaller number, a stiffer robot";
-  add("step_s", "number, 1e-4 to 0.1 [s]; default 0.002", "grid of the gains");
+  const char* const weigh = "deviation that costs 1 per second; a smaller value makes the robot stiffer";
+  add("step_s", "number, 1e-4 to 0.1 [s]; default 0.002", "time between two gains");
   add("base_position_m", "number or 3 numbers > 0 [m]; default 0.02", weigh);
-  add("base_orientation_rad", "number or 3 numbers > 0 [rad]; default 0.04", "the same, about the axes of the base");
-  add("joint_position_rad", "number > 0, or {joint = number > 0} [rad]; default 0.1", "the same");
-  add("base_linear_velocity_mps", "number or 3 numbers > 0 [m/s]; default 0.2", "the same, base frame");
-  add("base_angular_velocity_radps", "number or 3 numbers > 0 [rad/s]; default 0.4", "the same, base frame");
-  add("joint_velocity_radps", "number > 0, or {joint = number > 0} [rad/s]; default 10", "the same");
+  add("base_orientation_rad", "number or 3 numbers > 0 [rad]; default 0.04",
+      "deviation that costs 1 per second, about the axes of the base");
+  add("joint_position_rad", "number > 0, or {joint = number > 0} [rad]; default 0.1", weigh);
+  add("base_linear_velocity_mps", "number or 3 numbers > 0 [m/s]; default 0.2",
+      "deviation that costs 1 per second, base frame");
+  add("base_angular_velocity_radps", "number or 3 numbers > 0 [rad/s]; default 0.4",
+      "deviation that costs 1 per second, base frame");
+  add("joint_velocity_radps", "number > 0, or {joint = number > 0} [rad/s]; default 10", weigh);
   add("torque_share", "number > 0 [-]; default 0.1",
-      "the same, of the torque limit; where there is none, of the robot's weight on a lever as long as its legs reach");
+      "torque that costs 1 per second, as a share of the limit; without a limit, of the weight of the robot times the "
+      "reach of "
+      "its legs");
   add("landing_s", "number >= 0 [s]; default 1",
-      "a foot that lands beside its place costs as if it were off for so long: it cannot be moved any more");
-  add("bandwidth_radps", "number > 0 [rad/s]; default 100", "gains that would act faster are brought down to this");
+      "a landing beside the foothold costs as much as that deviation during this time");
+  add("bandwidth_radps", "number > 0 [rad/s]; default 100", "faster gains are reduced to this");
 }
 
 FileKeys make_task_file_keys() {
@@ -68,67 +79,70 @@ FileKeys make_task_file_keys() {
       {"", "robot", "path", "robot file, relative to this file"},
       {"", "surface", "[[surface]]; default: a floor at z = 0", "planes and patches that contacts may touch"},
       {"", "start", "[start]; default: the robot's nominal posture", "where the motion begins, at rest"},
-      {"", "phase", "[[phase]], one or more, or [gait]", "times with one set of contacts, in order"},
-      {"", "gait", "[gait], in place of [[phase]]", "short form of the phases of a robot on four legs"},
-      {"", "goal", "[[goal]]", "what has to hold exactly at some times"},
+      {"", "phase", "[[phase]], one or more, or [gait]", "periods with one set of contacts, in order"},
+      {"", "gait", "[gait], in place of [[phase]]", "short form of the phases of a robot with four legs"},
+      {"", "goal", "[[goal]]", "conditions that hold exactly at some times"},
       {"", "cost", "[cost]", "running cost: half the sum of weight x difference², integrated over time"},
       {"", "terminal_cost", "[terminal_cost]", "the same at the last node, not integrated"},
       {"", "friction_model", "\"cone\" or \"pyramid\"; default \"cone\"",
-       "the second-order cone, or four planes inside it: linear in the forces, with up to 29 % less friction"},
+       "second-order cone, or four planes inside it with up to 29 % less friction"},
       {"", "swing_clearance_m", "number >= 0 [m]; default 5 % of the standing height",
-       "of contacts in the air above the surfaces that they pass, in the middle of the swing"},
+       "height of contacts above the surfaces that they pass, in the middle of the swing"},
       {"", "solver", "[solver]", "when the solver stops"},
-      {"", "tracking", "[tracking]", "what the feedback gains weigh"},
-      {"", "simulation", "[simulation]", "when `prowl simulate` counts as a success"},
-      {"surface", "name", "string", "for phases to refer to"},
+      {"", "tracking", "[tracking]", "weights of the feedback gains"},
+      {"", "simulation", "[simulation]", "conditions for success in `prowl simulate`"},
+      {"surface", "name", "string", "name for phases"},
       {"surface", "point_m", "3 numbers [m]; default [0, 0, 0]", "any point of the plane, world frame"},
       {"surface", "normal", "3 numbers; default [0, 0, 1]", "points out of the ground; any length but zero"},
       {"surface", "patch_m", "3 or more [number, number]; default: a plane without an edge",
        "corners of a convex patch, counterclockwise seen from outside, in surface coordinates: lengths from point_m "
-       "along "
-       "x turned into the plane, and across"},
+       "along x turned into the plane, and across"},
       {"surface", "friction", "number > 0 [-]; default 0.5", "Coulomb coefficient"},
-      {"start", "joints", "{joint = number} [rad]", "in place of the robot's nominal ones"},
+      {"start", "joints", "{joint = number} [rad]", "joint positions that replace the nominal ones"},
       {"start", "on", "string; default: level ground, z = 0",
-       "surface that the posture is put on, over its point_m and turned with it, contacts on its plane"},
-      {"start", "base_position_m", "3 numbers [m]; default: over the origin, lowest contact on z = 0", "world frame"},
+       "surface that carries the start posture: above its point_m, turned with it, contacts on its plane"},
+      {"start", "base_position_m", "3 numbers [m]; default: over the origin, lowest contact on z = 0",
+       "position of the base, world frame"},
       {"start", "base_rpy_rad", "3 numbers [rad]; default: the robot's nominal ones",
-       "R = Rz(yaw) Ry(pitch) Rx(roll); with on, before it is turned with the surface"},
-      {"phase", "name", "string; default \"phase 1\", \"phase 2\", ...", "for goals and messages"},
+       "orientation of the base, R = Rz(yaw) Ry(pitch) Rx(roll); with on, before the turn with the surface"},
+      {"phase", "name", "string; default \"phase 1\", \"phase 2\", ...", "name for goals and messages"},
       {"phase", "contacts", "\"all\", or a list of contacts or {contact, surface, place_m}",
-       "contacts that hold their place; on the first surface unless said"},
+       "contacts that hold, on the first surface unless another is given"},
       {"phase", "duration_s", "number from 0.001 to 600, or [min, max] [s]",
-       "how long it lasts; between two bounds the optimiser chooses"},
-      {"phase", "intervals", "integer, 1 to 10000", "mesh intervals that it is cut into"},
+       "duration; the optimiser chooses between two bounds"},
+      {"phase", "intervals", "integer, 1 to 10000", "number of mesh intervals"},
       {"phase", "steps", "\"equal\" or \"free\"; default \"equal\"",
-       "lengths of the intervals; free: chosen by the optimiser, one by one, within the duration's bounds / intervals"},
+       "lengths of the intervals; if free, the optimiser chooses each within the bounds of the duration / intervals"},
       {"phase.contacts", "contact", "string", "name of a contact of the robot"},
-      {"phase.contacts", "surface", "string", "name of the surface that it touches"},
+      {"phase.contacts", "surface", "string", "name of the surface that the contact touches"},
       {"phase.contacts", "place_m", "3 numbers [m]; default: free on the surface",
-       "where a contact that lands in this phase has to touch, world frame; on the surface"},
+       "foothold of a contact that lands in this phase, world frame; on the surface"},
       {"gait", "kind", "\"walk\", \"trot\", \"pace\" or \"bound\"", "which feet swing together, and in which order"},
-      {"gait", "strides", "integer, 1 to 1000", "every foot swings once in each"},
+      {"gait", "strides", "integer, 1 to 1000", "number of strides; every foot swings once in each"},
       {"gait", "stride_s", "number from 0.001 to 600, or [min, max] [s]",
-       "how long one takes; between two bounds the optimiser chooses for each phase, which has its share of both"},
+       "duration of a stride; between two bounds the optimiser chooses for each phase, which gets its share of both"},
       {"gait", "stride_length_m", "number >= 0 [m]; not with [[goal]]",
-       "how far the base goes along the surface in each"},
+       "distance that the base moves along the surface in each stride"},
       {"gait", "heading_rad", "number [rad]; default: where the base faces at the start",
-       "where to, seen from above, about the world's z from its x"},
+       "direction seen from above, about the world's z from its x"},
       {"gait", "duty_factor", "number, 0.75 (walk) or 0.5 to 0.99; default 0.8 (walk) or 0.6",
-       "part of a stride in which a foot stands"},
-      {"gait", "start_s", "number from 0.001 to 600 [s]; default 0.5", "all feet stand before the first stride"},
-      {"gait", "settle_s", "number from 0.001 to 600 [s]; default 0.5", "all feet stand after the last landing"},
-      {"gait", "surface", "string; default: the first surface", "name of the one that the feet touch"},
+       "part of a stride in which a foot is in contact"},
+      {"gait", "start_s", "number from 0.001 to 600 [s]; default 0.5",
+       "time with all feet in contact before the first stride"},
+      {"gait", "settle_s", "number from 0.001 to 600 [s]; default 0.5",
+       "time with all feet in contact after the last landing"},
+      {"gait", "surface", "string; default: the first surface", "name of the surface that the feet touch"},
       {"gait", "intervals_per_second", "number > 0 [1/s]; default 50",
        "mesh of every phase; at least 2 intervals each"},
-      {"goal", "time_s", "number > 0 [s], at a node", "when; this or phase"},
-      {"goal", "phase", "string", "when: at the end of the phase with this name"},
+      {"goal", "time_s", "number > 0 [s], at a node", "time of the goal; either this or phase"},
+      {"goal", "phase", "string", "the goal holds at the end of the phase with this name"},
       {"goal", "fraction", "number, 0 to 1, at a node; default 1",
-       "with phase: at this part of it, in place of its end"},
-      {"goal", "base_position_m", kBounds3, "place of the base, world frame [m]"},
-      {"goal", "base_displacement_m", kBounds3, "the same from where it starts, world axes [m]"},
+       "part of the phase at which the goal holds, instead of its end"},
+      {"goal", "base_position_m", kBounds3, "position of the base, world frame [m]"},
+      {"goal", "base_displacement_m", kBounds3, "displacement of the base from the start, world axes [m]"},
       {"goal", "base_rpy_rad", "3 x (number or \"free\")",
-       "orientation of the base, as [start]; free: it may turn about that axis of the base in its goal orientation"},
+       "orientation of the base, as in [start]; if free, it may turn about that axis of the base in its goal "
+       "orientation [rad]"},
       {"goal", "base_linear_velocity_mps", kBounds3, "velocity of the base, base frame [m/s]"},
       {"goal", "base_angular_velocity_radps", kBounds3, "angular velocity of the base, base frame [rad/s]"},
       {"goal", "joints", kJointBounds, "joint positions [rad]"},
@@ -145,13 +159,13 @@ FileKeys make_task_file_keys() {
       {"solver", "max_iterations", "integer >= 1; default 300", "stop after this many iterations, on each mesh"});
   keys.push_back({"solver", "max_time_s", "number > 0 [s]; default 300", "stop after this much wall-clock time"});
   keys.push_back({"simulation", "base_position_m", "number > 0 [m]; default 0.02",
-                  "most that the base in rest at the end is away from where the plan ends"});
-  keys.push_back({"simulation", "base_angle_rad", "number > 0 [rad]; default 0.035", "the same of its orientation"});
-  keys.push_back({"simulation", "slip_m", "number > 0 [m]; default 0.02", "most that a standing foot slips"});
+                  "largest distance of the base at rest from the end of the plan"});
+  keys.push_back({"simulation", "base_angle_rad", "number > 0 [rad]; default 0.035",
+                  "largest angle of the base at rest from the end of the plan"});
+  keys.push_back({"simulation", "slip_m", "number > 0 [m]; default 0.02", "largest slip of a foot in contact"});
   keys.push_back({"simulation", "friction", "number > 0; default: that of each [[surface]]",
-                  "coefficient of all surfaces; more than what is planned with leaves a margin"});
-  keys.push_back(
-      {"simulation", "rest_s", "number > 0 [s]; default 1.5", "how long the robot goes on standing after the plan"});
+                  "friction coefficient of all surfaces; a larger one than in the plan gives a margin"});
+  keys.push_back({"simulation", "rest_s", "number > 0 [s]; default 1.5", "time that the robot stands after the plan"});
   return keys;
 }
 
@@ -160,27 +174,28 @@ FileKeys make_task_file_keys() {
 const FileKeys& robot_file_keys() {
   static const FileKeys keys = {
       {"", "name", "string", "name of the robot"},
-      {"", "urdf", "path or package://...", "its URDF; a path is relative to this file"},
+      {"", "urdf", "path or package://...", "URDF of the robot; a path is relative to this file"},
       {"", "package_dirs", "list of paths; default none",
-       "where package:// is looked for first, relative to this file"},
+       "folders to search first for package://, relative to this file"},
       {"", "contact", "[[contact]], one or more", "points of the robot that may touch surfaces"},
-      {"", "nominal", "[nominal]", "the posture that motions start from unless said otherwise"},
+      {"", "nominal", "[nominal]", "default posture at the start of a motion"},
       {"", "limits", "[limits.JOINT]", "limits that replace those of the URDF"},
-      {"contact", "name", "string", "unique in the robot"},
-      {"contact", "frame", "string", "link or fixed joint of the URDF"},
-      {"contact", "radius_m", "number >= 0 [m]; default 0", "of the ball around the point"},
+      {"contact", "name", "string", "name of the contact, unique in the robot"},
+      {"contact", "frame", "string", "link or fixed joint of the URDF that carries the contact"},
+      {"contact", "radius_m", "number >= 0 [m]; default 0", "radius of the ball around the point"},
       {"contact", "offset_m", "3 numbers [m]; default [0, 0, 0]", "centre of the ball, in the frame"},
       {"nominal", "base_rpy_rad", "3 numbers [rad]; default [0, 0, 0]",
-       "orientation, R = Rz(yaw) Ry(pitch) Rx(roll); the place follows from the contacts"},
+       "orientation of the base, R = Rz(yaw) Ry(pitch) Rx(roll); its position follows from the contacts"},
       {"nominal", "joints", "{joint = number} [rad]; default 0", "joint positions"},
-      {"limits", "position_rad", "[min, max] [rad]", "joint position"},
-      {"limits", "velocity_radps", "number > 0 [rad/s]", "joint speed, both ways"},
-      {"limits", "torque_Nm", "number > 0 [N m]", "joint torque, both ways"},
-      {"limits", "torque_over_position", "4 or more [rad, N m]; default none",
-       "torque limit over the joint position, both ways: a smooth curve through these points, over all of its range"},
-      {"limits", "torque_over_velocity", "4 or more [rad/s, N m]; default none",
-       "limit of the torque in the direction of positive velocity, over all of -velocity ... velocity; mirrored for "
-       "the other"},
+      {"limits", "position_rad", "[min, max] [rad]", "range of the joint position"},
+      {"limits", "velocity_radps", "number > 0 [rad/s]", "largest joint velocity, in both directions"},
+      {"limits", "torque_Nm", "number > 0 [N m]", "largest joint torque, in both directions"},
+      {"limits", "torque_over_position", "4 or more points [rad, N m]; default none",
+       "torque limit over the joint position, in both directions: a smooth curve through these points, which cover the "
+       "range"},
+      {"limits", "torque_over_velocity", "4 or more points [rad/s, N m]; default none",
+       "torque limit in the direction of positive velocity, over -velocity ... velocity; mirrored for the other "
+       "direction"},
   };
   return keys;
 }
