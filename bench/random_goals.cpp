@@ -1,5 +1,5 @@
 // How many random goals of a standing robot are solved from the task alone, and in how many iterations and seconds.
-// docs/benchmarks.md says how to run it and what it prints.
+// docs/benchmarks.md explains how to run it.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -14,7 +14,7 @@ import pinocchio as pin
 from judge.contact_dynamics import standing_torques
 from judge.robot import Robot, read_robot
 
-CLEARANCE = 0.05  # default swing clearance over the standing height of the base: docs/task-file.md
+CLEARANCE = 0.05  # default swing clearance over the standing height of the base: docs/reference.md
 
 
 @dataclass(frozen=True)

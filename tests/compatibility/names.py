@@ -87,6 +87,6 @@ def of_toml(table: dict, path: str = "") -> set[str]:
 
 
 def of_key_table(page: str) -> set[str]:
-    """ "goal.base_rpy_rad": the rows of the table "All keys" of docs/task-file.md or docs/robot-file.md."""
+    """ "goal.base_rpy_rad": the table "All keys" that docs/task-file.md or docs/robot-file.md had at that commit."""
     rows = re.findall(r"^\| (\(top\)|`[\w.]+`) \| `(\w+)` \|", page.partition("## All keys")[2], re.MULTILINE)
     return {key if table == "(top)" else f"{table.strip('`')}.{key}" for table, key in rows}

@@ -128,7 +128,7 @@ class PlannedTask {
   double asked(std::size_t goal, const char* key, std::size_t axis) const {
     return file_["goal"][goal][key][axis].value<double>().value();
   }
-  /// Over the ground, that a contact in the air has to reach; docs/task-file.md has the default.
+  /// Over the ground, that a contact in the air has to reach; docs/reference.md has the default.
   double clearance() const { return file_["swing_clearance_m"].value_or(0.05 * robot().nominal_configuration()(2)); }
   static Vector3d vector(const toml::array& array) {
     return {array[0].value<double>().value(), array[1].value<double>().value(), array[2].value<double>().value()};

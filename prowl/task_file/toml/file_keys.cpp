@@ -514,7 +514,7 @@ FileKeys make_robot_file_keys() {
 
 }  // namespace
 
-std::string FileKey::value() const {
+std::string FileKey::type() const {
   std::string text = form;
   for (const std::string& choice : choices) {
     if (!text.empty()) text += choice == choices.back() ? " or " : ", ";
@@ -524,6 +524,11 @@ std::string FileKey::value() const {
     const bool is_one = text.find(' ') == std::string::npos;
     text += is_one ? " " + limits : ", each " + limits;
   }
+  return text;
+}
+
+std::string FileKey::value() const {
+  std::string text = type();
   if (!unit.empty()) text += fmt::format(" [{}]", unit);
   if (!fallback.empty()) text += "; default " + fallback;
   return text;

@@ -20,7 +20,8 @@ struct FileKey {
   std::string fallback = {};              ///< its default, in words; "" if it is needed, or without effect where absent
   std::string meaning = {};
 
-  std::string value() const;  ///< form, range, unit and default: "number > 0 [m]; default 0.02"
+  std::string type() const;   ///< form or choices, and range: "number > 0"
+  std::string value() const;  ///< type, unit and default: "number > 0 [m]; default 0.02"
 };
 using FileKeys = std::vector<FileKey>;
 
