@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "cli/exit_status.hpp"
+#include "cli/process/exit_status.hpp"
 #include "cli/options/checkpoint_option.hpp"
 #include "cli/options/refine_option.hpp"
 #include "cli/options/shared_options.hpp"
