@@ -133,6 +133,7 @@ ALLOWED = {
         "prowl/files",
         "prowl/model",
         "prowl/mesh",
+        "prowl/certificate",
         "prowl/diagnosis",
         "prowl/task_file",
         "prowl/plan_folder",
