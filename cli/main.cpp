@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "cli/exit_status.hpp"
+#include "cli/process/exit_status.hpp"
 #include "cli/screen/json_result.hpp"
 #include "cli/screen/output.hpp"
 #include "cli/verbs/commands.hpp"

@@ -12,6 +12,8 @@ get_property(layers GLOBAL PROPERTY PROWL_LAYERS)
 install(TARGETS ${layers} EXPORT prowlTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
+get_property(internal_layers GLOBAL PROPERTY PROWL_INTERNAL_LAYERS)
+install(TARGETS ${internal_layers} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
 
 set(internal_headers)
 foreach(header ${PROWL_INTERNAL_HEADERS})

@@ -16,12 +16,13 @@ elseif(NOT PROWL_SIMD MATCHES "^(avx2|baseline)$")
 endif()
 message(STATUS "Prowl: vector instructions: ${PROWL_SIMD}")
 
-# prowl_layer(<name> [FOLDER folder] DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
+# prowl_layer(<name> [FAST] [INTERNAL] [FOLDER folder] DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
 # One library a folder, so that the linker too refuses an include against the direction of the layers. FOLDER: <name>, in the
 # folder of the caller, if not said otherwise.
+# INTERNAL: used by the command and the Python package only; its headers and target are not installed.
 # FAST: most of the time of a solve is spent there; compiled for ${PROWL_SIMD}.
 function(prowl_layer name)
-  cmake_parse_arguments(ARG "FAST" "FOLDER" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "FAST;INTERNAL" "FOLDER" "DEPENDS;PRIVATE" ${ARGN})
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/${name})
   endif()
@@ -39,5 +40,9 @@ function(prowl_layer name)
     target_compile_definitions(prowl_${name} PRIVATE EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
   endif()
   set_target_properties(prowl_${name} PROPERTIES EXPORT_NAME ${name})
-  set_property(GLOBAL APPEND PROPERTY PROWL_LAYERS prowl_${name})
+  if(ARG_INTERNAL)
+    set_property(GLOBAL APPEND PROPERTY PROWL_INTERNAL_LAYERS prowl_${name})
+  else()
+    set_property(GLOBAL APPEND PROPERTY PROWL_LAYERS prowl_${name})
+  endif()
 endfunction()

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "prowl/certificate/mesh_errors.hpp"
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/task_file/interval_shares.hpp"
 

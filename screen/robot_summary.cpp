@@ -61,10 +61,9 @@ std::string contact_table(const RobotModel& robot) {
 std::string joint_table(const RobotModel& robot) {
   std::vector<Row> rows = {{"joint", "#", "nominal", "position", "velocity", "torque"}};
   for (int j = 0; j < robot.nu(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    const bool slides = robot.joint_is_prismatic()[i];
+    const bool slides = robot.joint_is_prismatic()[j];
     const std::string length = slides ? "m" : "rad";
-    rows.push_back({robot.joint_names()[i], fmt::format("{}", j), limit(robot.nominal_configuration()(7 + j), length),
+    rows.push_back({robot.joint_names()[j], fmt::format("{}", j), limit(robot.nominal_configuration()(7 + j), length),
                     fmt::format("{:.4g} ... {:.4g}", robot.position_lower()(j), robot.position_upper()(j)),
                     limit(robot.velocity_limit()(j), length + "/s"),
                     limit(robot.torque_limit()(j), slides ? "N" : "N m")});
@@ -79,9 +78,8 @@ Json vector_to_json(const Eigen::VectorXd& values) { return std::vector<double>(
 Json joints_to_json(const RobotModel& robot) {
   Json joints = Json::array();
   for (int j = 0; j < robot.nu(); ++j) {
-    const auto i = static_cast<std::size_t>(j);
-    joints.push_back({{"name", robot.joint_names()[i]},
-                      {"type", robot.joint_is_prismatic()[i] ? "prismatic" : "revolute"},
+    joints.push_back({{"name", robot.joint_names()[j]},
+                      {"type", robot.joint_is_prismatic()[j] ? "prismatic" : "revolute"},
                       {"position_lower", number_or_null(robot.position_lower()(j))},
                       {"position_upper", number_or_null(robot.position_upper()(j))},
                       {"velocity_limit", number_or_null(robot.velocity_limit()(j))},

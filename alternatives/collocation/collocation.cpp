@@ -188,12 +188,11 @@ void Collocation::make_node(int k) {
 }
 
 void Collocation::make_interval(int k) {
-  const auto at = static_cast<std::size_t>(k);
   const int nv = problem().robot.nv(), own = point_size(k, true);
   const CollocationRule::Middle middle = form_.rule->middle();
   const int middle_size = middle.inputs ? point_size(k, middle.state) : 0;
   // Node, middle and node follow each other among the decision variables.
-  std::vector<int> columns = this->columns(node_first_[at], 2 * own + middle_size);
+  std::vector<int> columns = this->columns(node_first_[k], 2 * own + middle_size);
   const std::vector<int> shared = shared_columns(k);
   const int first_shared = static_cast<int>(columns.size());
   columns.insert(columns.end(), shared.begin(), shared.end());
@@ -209,7 +208,7 @@ void Collocation::make_interval(int k) {
     IntervalProgram::Point& point = end == 0 ? program.left : program.right;
     point.rate = graph.call(interval->piece.own(std::make_unique<RateFunction>(*form_.chart, nv)), {point.x, point.v});
     if (has_acceleration()) continue;
-    const NodePiece& node = *nodes_[at + static_cast<std::size_t>(end)];
+    const NodePiece& node = *nodes_[k + end];
     IntervalPiece::Link link{.here = {}, .there = node.acceleration, .node = k + end, .columns = {}};
     const int first = end == 0 ? 0 : own + middle_size;
     for (int j = 0; j < node.piece.graph.num_locals(); ++j) {
@@ -222,7 +221,7 @@ void Collocation::make_interval(int k) {
     interval->links.push_back(std::move(link));
   }
   form_.rule->add_to(program);
-  intervals_[at] = std::move(interval);
+  intervals_[k] = std::move(interval);
 }
 
 template <class Visit>
@@ -299,8 +298,7 @@ void Collocation::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   int row = first_switch_row_;
   for (int k = 0; k + 1 < num_nodes(); ++k) {
     if (is_interval(k)) continue;
-    const auto at = static_cast<std::size_t>(k);
-    g.segment(row, state) = z.segment(node_first_[at + 1], state) - z.segment(node_first_[at], state);
+    g.segment(row, state) = z.segment(node_first_[k + 1], state) - z.segment(node_first_[k], state);
     row += state;
   }
 }

@@ -26,27 +26,26 @@ void Collocation::set_bounds(const Trajectory& guess) {
   const std::vector<Eigen::Matrix3d> charts = rotation_charts(discrete_, guess);
   Vector3d near = Vector3d::Zero();
   for (int k = 0; k < num_nodes(); ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const int first = node_first_[at], tau = first + (has_acceleration() ? 3 : 2) * nv;
+    const int first = node_first_[k], tau = first + (has_acceleration() ? 3 : 2) * nv;
     const auto copy = [&](int to, int from, int size) {
       variable_lower_.segment(to, size) = bounds.lower.segment(from, size);
       variable_upper_.segment(to, size) = bounds.upper.segment(from, size);
     };
     copy(first, layout.q(k), 2 * nv);
     copy(tau, layout.tau(k), nu);
-    near = form_.chart->coordinates(base_rotation(guess.nodes[at].q), near);
+    near = form_.chart->coordinates(base_rotation(guess.nodes[k].q), near);
     const Vector3d lower = bounds.lower.segment<3>(layout.q(k) + 3), upper = bounds.upper.segment<3>(layout.q(k) + 3);
     if (lower == upper) {
-      const Vector3d e = form_.chart->coordinates(charts[at] * so3::exp(lower), near);
+      const Vector3d e = form_.chart->coordinates(charts[k] * so3::exp(lower), near);
       variable_lower_.segment<3>(first + 3) = variable_upper_.segment<3>(first + 3) = e;
     } else if (lower.maxCoeff() > -std::numeric_limits<double>::infinity() ||
                upper.minCoeff() < std::numeric_limits<double>::infinity()) {
       throw InputError(discrete_.describe_moment(k) +
                        ": binds a part of the base's rotation, for which this formulation has no bounds");
     }
-    if (middle_first_[at] < 0) continue;
+    if (middle_first_[k] < 0) continue;
     const RobotModel& robot = problem().robot;
-    int middle = middle_first_[at];
+    int middle = middle_first_[k];
     if (form_.rule->middle().state) {
       variable_lower_.segment(middle + 6, nu) = robot.position_lower();
       variable_upper_.segment(middle + 6, nu) = robot.position_upper();
@@ -149,13 +148,12 @@ VectorXd Collocation::pack(const Trajectory& trajectory) const {
   VectorXd z(num_variables());
   Vector3d near = Vector3d::Zero();
   for (int k = 0; k < num_nodes(); ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const TrajectoryPoint& point = trajectory.nodes[at];
-    write_point(point, k, node_first_[at], true, near, z);
-    near = z.segment<3>(node_first_[at] + 3);
-    if (middle_first_[at] < 0) continue;
-    const double middle = 0.5 * (point.time + trajectory.nodes[at + 1].time);
-    write_point(sample(trajectory, middle), k, middle_first_[at], form_.rule->middle().state, near, z);
+    const TrajectoryPoint& point = trajectory.nodes[k];
+    write_point(point, k, node_first_[k], true, near, z);
+    near = z.segment<3>(node_first_[k] + 3);
+    if (middle_first_[k] < 0) continue;
+    const double middle = 0.5 * (point.time + trajectory.nodes[k + 1].time);
+    write_point(sample(trajectory, middle), k, middle_first_[k], form_.rule->middle().state, near, z);
   }
   for (std::size_t p = 0; p < durations_.size(); ++p) {
     if (durations_[p] >= 0) z(durations_[p]) = planned_duration(trajectory, static_cast<int>(p));
@@ -174,8 +172,7 @@ Trajectory Collocation::unpack(const VectorXd& z) {
   trajectory.interpolation = Interpolation::hermite;
   double phase_start = 0.0;
   for (int k = 0; k < num_nodes(); ++k) {
-    const auto at = static_cast<std::size_t>(k);
-    const PointFunction& dynamics = *nodes_[at]->dynamics;
+    const PointFunction& dynamics = *nodes_[k]->dynamics;
     const VectorXd& columns = dynamics.columns();
     TrajectoryPoint point;
     point.time = node_time(k, duration(z, phase_of(k), durations_[phase_of(k)]), phase_start);
@@ -190,9 +187,9 @@ Trajectory Collocation::unpack(const VectorXd& z) {
       point.force.segment<3>(3 * contacts[i]) = dynamics.forces().segment<3>(static_cast<Index>(3 * i));
     }
     append(std::move(point), trajectory);
-    if (middle_first_[at] < 0) continue;
+    if (middle_first_[k] < 0) continue;
     const int skipped = (form_.rule->middle().state ? 2 * nv : 0) + (has_acceleration() ? nv : 0);
-    trajectory.middle_torques.push_back(z.segment(middle_first_[at] + skipped, nu));
+    trajectory.middle_torques.push_back(z.segment(middle_first_[k] + skipped, nu));
   }
   return trajectory;
 }

@@ -38,8 +38,7 @@ void ContactRows::evaluate(const RigidBodyTerms& terms, const DynamicsPoint& at,
   kinematics_.set_configuration(terms);
   const VectorXd& p = kinematics_.positions();
   for (int i = 0; i < distances(); ++i) {
-    const auto contact = static_cast<std::size_t>(i);
-    values(i) = (normals_[contact].dot(p.segment<3>(3 * i)) - offsets_[contact]) / length_;
+    values(i) = (normals_[i].dot(p.segment<3>(3 * i)) - offsets_[i]) / length_;
   }
   if (velocities() > 0) values.segment(distances(), velocities()) = kinematics_.jacobian() * at.v / speed_;
   if (accelerations() > 0) {

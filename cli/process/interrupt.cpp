@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <csignal>
 
-#include "cli/exit_status.hpp"
+#include "cli/process/exit_status.hpp"
 
 namespace prowl::cli {
 namespace {

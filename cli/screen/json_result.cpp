@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string_view>
 
-#include "cli/exit_status.hpp"
+#include "cli/process/exit_status.hpp"
 #include "cli/screen/output.hpp"
 #include "prowl/files/json_text.hpp"
 

@@ -8,8 +8,8 @@
 #include <map>
 #include <memory>
 
-#include "cli/exit_status.hpp"
 #include "cli/options/shared_options.hpp"
+#include "cli/process/exit_status.hpp"
 #include "cli/screen/output.hpp"
 #include "cli/verbs/commands.hpp"
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "cli/exit_status.hpp"
 #include "cli/options/shared_options.hpp"
+#include "cli/process/exit_status.hpp"
 #include "cli/process/interrupt.hpp"
 #include "cli/process/program_files.hpp"
 #include "cli/screen/json_result.hpp"

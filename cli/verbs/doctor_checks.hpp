@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/exit_status.hpp"
+#include "cli/process/exit_status.hpp"
 
 namespace prowl::cli {
 

@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/exit_status.hpp"
 #include "cli/options/shared_options.hpp"
+#include "cli/process/exit_status.hpp"
 #include "cli/process/program_files.hpp"
 #include "cli/screen/json_result.hpp"
 #include "cli/screen/output.hpp"

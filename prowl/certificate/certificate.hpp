@@ -3,12 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "prowl/certificate/grade.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 
 namespace prowl {
-
-enum class Grade { failed, draft, certified };
 
 /// What a finished motion may be off by; docs/verification.md says why these figures.
 struct CertificateLimits {
@@ -83,11 +82,6 @@ struct Certificate {
   /// A check by its name; null if it is not in the list.
   const CertificateCheck* find(const std::string& name) const;
 };
-
-const char* to_string(Grade grade);
-
-/// Whether a finer mesh may do: no check fails but those of the integration error.
-bool fails_by_mesh_only(const Certificate& certificate);
 
 /// Re-evaluates everything by dynamics of its own (ConstrainedDynamicsOracle), without the projection and without the
 /// transcription. Never throws because a motion is bad: that is a failed check. A motion whose nodes do not fit the

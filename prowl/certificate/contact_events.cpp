@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "prowl/certificate/ground_distance.hpp"
 #include "prowl/certificate/true_motion.hpp"
 #include "prowl/certificate/worst_case.hpp"
+#include "prowl/model/surface.hpp"
 
 namespace prowl {
 namespace {

@@ -1,7 +1,4 @@
-#include <algorithm>
-#include <array>
-
-#include "prowl/certificate/certificate.hpp"
+#include "prowl/certificate/grade.hpp"
 
 namespace prowl {
 
@@ -12,14 +9,6 @@ const char* to_string(Grade grade) {
     case Grade::failed: break;
   }
   return "failed";
-}
-
-bool fails_by_mesh_only(const Certificate& certificate) {
-  constexpr std::array kOfTheMesh{"local integration error", "integration error in a second", "re-integration"};
-  return std::ranges::all_of(certificate.checks, [&](const CertificateCheck& check) {
-    const bool is_of_mesh = std::ranges::find(kOfTheMesh, check.name) != kOfTheMesh.end();
-    return check.passed || is_of_mesh;
-  });
 }
 
 }  // namespace prowl

@@ -6,10 +6,6 @@
 
 namespace prowl {
 
-/// Signed distance of surface coordinates p from the edge of the patch, negative inside [m]; -inf on a plane without an
-/// edge.
-double distance_from_patch(const Surface& surface, const Eigen::Vector2d& p);
-
 /// Signed distance of a world point from the solid under a surface, negative inside [m]. Under a plane without an edge
 /// it is all that is below; under a patch, the prism of the patch that reaches down without end.
 double distance_from_ground(const Surface& surface, const Eigen::Vector3d& point);

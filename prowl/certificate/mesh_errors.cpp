@@ -1,13 +1,19 @@
 #include "prowl/certificate/mesh_errors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace prowl {
 namespace {
 
 using Limits = CertificateLimits;
+
+constexpr const char* kLocal = "local integration error";
+constexpr const char* kSecond = "integration error in a second";
+constexpr const char* kReintegration = "re-integration";
 
 double worst(const Certificate& certificate, const char* name) {
   const CertificateCheck* const check = certificate.find(name);
@@ -30,8 +36,15 @@ MeshTolerance mesh_tolerance(double reintegration) {
 }
 
 MeshTolerance mesh_errors(const Certificate& certificate) {
-  return {worst(certificate, "local integration error"), worst(certificate, "integration error in a second"),
-          worst(certificate, "re-integration")};
+  return {worst(certificate, kLocal), worst(certificate, kSecond), worst(certificate, kReintegration)};
+}
+
+bool fails_by_mesh_only(const Certificate& certificate) {
+  constexpr std::array<std::string_view, 3> kOfTheMesh{kLocal, kSecond, kReintegration};
+  return std::ranges::all_of(certificate.checks, [&](const CertificateCheck& check) {
+    const bool is_of_mesh = std::ranges::find(kOfTheMesh, check.name) != kOfTheMesh.end();
+    return check.passed || is_of_mesh;
+  });
 }
 
 std::vector<double> error_parts(const Certificate& certificate, const MeshTolerance& tolerance) {

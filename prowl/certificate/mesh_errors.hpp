@@ -22,6 +22,9 @@ MeshTolerance mesh_tolerance(double reintegration);
 /// The worst of a motion, as its certificate has them.
 MeshTolerance mesh_errors(const Certificate& certificate);
 
+/// Whether a finer mesh may do: no check fails but those of the integration error.
+bool fails_by_mesh_only(const Certificate& certificate);
+
 /// Of each mesh interval, the larger of its errors as a part of what it may be: none is above 1 where the mesh is fine
 /// enough; infinite where an error is not finite. Once no interval is too coarse by itself the sum over a second counts
 /// as well: with error c in each piece it goes with c^(2/3), for there are c^(-1/3) pieces, so that intervals may have

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "prowl/certificate/mesh_errors.hpp"
 #include "prowl/diagnosis/diagnosis_run.hpp"
 #include "prowl/diagnosis/helpful_changes.hpp"
 #include "prowl/diagnosis/task_as_it_is.hpp"

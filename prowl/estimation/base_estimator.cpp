@@ -85,13 +85,12 @@ void BaseEstimator::predict(double dt, const Eigen::Vector3d& gyro, const Eigen:
 }
 
 void BaseEstimator::put_down(int contact) {
-  const auto c = static_cast<std::size_t>(contact);
   lift(contact);
-  feet_[c].stands = true;
-  feet_[c].since = 0.0;
-  feet_[c].place = position_ + rotation_ * legs_.position(contact);
+  feet_[contact].stands = true;
+  feet_[contact].since = 0.0;
+  feet_[contact].place = position_ + rotation_ * legs_.position(contact);
   // c = p + R s + R n:  δc = δp - R [s]× δθ + R n
-  const Eigen::Index row = foot_row(c);
+  const Eigen::Index row = foot_row(contact);
   const Eigen::Matrix3d turn = -rotation_ * so3::skew(legs_.position(contact));
   covariance_.middleRows<3>(row) = covariance_.middleRows<3>(kPosition) + turn * covariance_.middleRows<3>(kRotation);
   covariance_.middleCols<3>(row) =
@@ -102,11 +101,10 @@ void BaseEstimator::put_down(int contact) {
 }
 
 void BaseEstimator::lift(int contact) {
-  const auto c = static_cast<std::size_t>(contact);
-  feet_[c].stands = false;
-  feet_[c].rejected = 0;
-  covariance_.middleRows<3>(foot_row(c)).setZero();
-  covariance_.middleCols<3>(foot_row(c)).setZero();
+  feet_[contact].stands = false;
+  feet_[contact].rejected = 0;
+  covariance_.middleRows<3>(foot_row(contact)).setZero();
+  covariance_.middleCols<3>(foot_row(contact)).setZero();
 }
 
 /// One foot after the other: their noise is independent, so that this is the same as all at once.

@@ -11,7 +11,7 @@
 #include "prowl/feasibility/reach_check.hpp"
 #include "prowl/feasibility/slide_check.hpp"
 #include "prowl/feasibility/standing_load.hpp"
-#include "prowl/model/nearest_in_patch.hpp"
+#include "prowl/model/surface.hpp"
 
 namespace prowl {
 

@@ -4,7 +4,7 @@
 
 #include "prowl/dynamics/body_bounds.hpp"
 #include "prowl/feasibility/prescribed_places.hpp"
-#include "prowl/model/nearest_in_patch.hpp"
+#include "prowl/model/surface.hpp"
 
 namespace prowl {
 

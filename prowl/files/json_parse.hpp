@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: reading JSON that anybody may have written.
+// Reads JSON that anybody may have written. Not installed: shows nlohmann's library.
 #include <nlohmann/json.hpp>
 
 #include "prowl/files/text_file.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: the text of a JSON value.
+// Writes JSON as text. Not installed: shows nlohmann's library.
 #include <nlohmann/json.hpp>
 #include <string>
 

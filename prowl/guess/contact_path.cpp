@@ -2,7 +2,7 @@
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/model/nearest_in_patch.hpp"
+#include "prowl/model/surface.hpp"
 
 namespace prowl {
 

@@ -36,18 +36,20 @@ struct Surface {
     return point + axes() * coordinates + height * normal;
   }
   /// Whether surface coordinates are inside the patch, or on its edge; always on a plane without one.
-  bool contains(const Eigen::Vector2d& p) const {
-    for (std::size_t i = 0; i < patch.size(); ++i) {
-      const Eigen::Vector2d edge = patch[(i + 1) % patch.size()] - patch[i], to = p - patch[i];
-      if (edge.x() * to.y() - edge.y() * to.x() < 0.0) return false;
-    }
-    return true;
-  }
+  bool contains(const Eigen::Vector2d& p) const;
   /// Surface coordinates of a world point [m].
   Eigen::Vector2d coordinates(const Eigen::Vector3d& p) const { return axes().transpose() * (p - point); }
 
   /// Signed distance of a world point p [m]; negative is inside the ground.
   double distance(const Eigen::Vector3d& p) const { return normal.dot(p - point); }
 };
+
+/// The point of a surface's patch nearest to surface coordinates p [m]: p itself inside it, or on a plane without an
+/// edge.
+Eigen::Vector2d nearest_in_patch(const Surface& surface, const Eigen::Vector2d& p);
+
+/// Signed distance of surface coordinates p from the edge of the patch, negative inside [m]; -inf on a plane without an
+/// edge.
+double distance_from_patch(const Surface& surface, const Eigen::Vector2d& p);
 
 }  // namespace prowl

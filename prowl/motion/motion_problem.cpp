@@ -11,7 +11,7 @@
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/model/nearest_in_patch.hpp"
+#include "prowl/model/surface.hpp"
 
 namespace prowl {
 

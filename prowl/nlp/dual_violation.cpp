@@ -9,8 +9,7 @@ double dual_violation(Nlp& nlp, const Eigen::VectorXd& z, const Eigen::VectorXd&
   nlp.cost_gradient(z, gradient);
   nlp.jacobian(z, jacobian);
   for (int i = 0; i < pattern.size(); ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    gradient(pattern.cols[place]) += multipliers(pattern.rows[place]) * jacobian(i);
+    gradient(pattern.cols[i]) += multipliers(pattern.rows[i]) * jacobian(i);
   }
   return ((z - gradient).cwiseMax(nlp.variable_lower()).cwiseMin(nlp.variable_upper()) - z).lpNorm<Eigen::Infinity>();
 }

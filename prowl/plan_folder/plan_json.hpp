@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: plan.json.
+// Writes and reads plan.json. Not installed: shows nlohmann's library.
 #include <nlohmann/json.hpp>
 
 #include "prowl/plan_folder/plan_folder.hpp"

@@ -1,7 +1,8 @@
 #pragma once
 
-// Internal to io: the parts of what a report shows, as JSON (docs/report.md). Times in seconds, placements in the world
-// as x y z [m] and a unit quaternion x y z w; arrays of numbers are base64 of little-endian 32-bit floats.
+// The parts of a report as JSON (docs/report.md). Times are in seconds, placements in the world as x y z [m] and a unit
+// quaternion x y z w; arrays of numbers are base64 of little-endian 32-bit floats. Not installed: shows nlohmann's
+// library.
 #include <nlohmann/json.hpp>
 
 #include "prowl/plan_folder/plan_folder.hpp"

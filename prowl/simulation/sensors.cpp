@@ -1,5 +1,7 @@
 #include "prowl/simulation/sensors.hpp"
 
+#include <boost/random/normal_distribution.hpp>
+
 #include "prowl/model/configuration.hpp"
 
 namespace prowl {
@@ -40,8 +42,9 @@ SensorReading Sensors::read(const Eigen::VectorXd& q) {
 }
 
 Eigen::VectorXd Sensors::noise(Eigen::Index size, double deviation) {
+  boost::random::normal_distribution<double> normal;  // keeps nothing from one number to the next
   Eigen::VectorXd values(size);
-  for (double& value : values) value = deviation * normal_(random_);
+  for (double& value : values) value = deviation * normal(random_);
   return values;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <boost/random/normal_distribution.hpp>
 #include <random>
 
 #include "prowl/estimation/state_estimator.hpp"
@@ -27,7 +26,6 @@ class Sensors {
 
   SensorNoise deviation_;
   std::mt19937_64 random_;
-  boost::random::normal_distribution<double> normal_;
   Eigen::VectorXd encoder_bias_;
   Eigen::Vector3d gyro_bias_, accelerometer_bias_;
   Eigen::Vector3d turn_ = Eigen::Vector3d::Zero(), velocity_change_ = Eigen::Vector3d::Zero();

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: [cost] and [terminal_cost] of a task file.
+// Reads [cost] and [terminal_cost] of a task file. Not installed: shows toml++.
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
 

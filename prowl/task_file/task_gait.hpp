@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: [gait] of a task file.
+// Reads [gait] of a task file. Not installed: shows toml++.
 #include <optional>
 #include <vector>
 

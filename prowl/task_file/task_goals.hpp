@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: [[goal]] of a task file.
+// Reads [[goal]] of a task file. Not installed: shows toml++.
 #include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to io: [tracking] of a task file.
+// Reads [tracking] of a task file. Not installed: shows toml++.
 #include "prowl/task_file/toml/toml_value.hpp"
 #include "prowl/tracking/tracking_options.hpp"
 

@@ -158,6 +158,21 @@ def test_it_solves_the_papers_formulation_with_feet_within_5_mm(task):
     assert 1e-4 < off < 5e-3 + 1e-6, "more than a rounding error, so that to forbid it is to ask for something else"
 
 
+def test_it_solves_hold_in_the_papers_formulation(drake):
+    """The straight guess is the optimum of hold, which costs nothing: SNOPT begins beside it."""
+    program = prowl.Program(prowl.read_task("hyq/hold", intervals=5), contact="distance-5mm", **PAPER)
+    assert program.cost(program.start) < 1e-9
+    beside = program.start + 1e-2 * np.random.default_rng(1).standard_normal(program.num_variables)
+    assert program.cost(beside) > 1e-2 and program.judge(beside).constraint_violation > 0.1
+    result = prowl.snopt.solve(program, start=beside)
+    assert (result.status, result.info) == ("converged", 1), result.message
+    assert result.iterations > 10
+    assert program.dual_violation(result.z, result.multipliers) < 1e-4
+    judged = program.judge(result.z)
+    assert judged.constraint_violation < 1e-6 and judged.cost < 1e-6
+    assert np.abs(heights_of_feet(program, result.z)).max() < 5e-3 + 1e-6
+
+
 def test_exact_distances_and_velocities_are_more_than_there_is_to_choose(task):
     program = prowl.Program(task, contact="distance-velocity", **PAPER)
     result = prowl.snopt.solve(program)

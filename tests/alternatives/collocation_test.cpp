@@ -7,7 +7,7 @@
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/error.hpp"
 #include "prowl/guess/initial_guess.hpp"
-#include "prowl/nlp/derivative_check.hpp"
+#include "tests/support/derivative_check.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
@@ -47,7 +47,7 @@ void expect_derivatives(const DiscreteProblem& discrete, const Formulation& form
   // The forward form solves for accelerations with a matrix of condition 1e5: gradients have lost as many digits to
   // rounding, and their differences more. With half the step they are twice as far off (seen), as rounding is.
   const double tolerance = formulation.dynamics == "forward" ? 1e-5 : 1e-6;
-  const DerivativeReport report = check_derivatives(*nlp, z, 1.7, multipliers, {.step = 2e-4});
+  const test::DerivativeReport report = test::check_derivatives(*nlp, z, 1.7, multipliers, {.step = 2e-4});
   EXPECT_LT(report.worst(), tolerance) << report.summary();
   EXPECT_TRUE(report.pattern_faults.empty()) << report.pattern_faults.front();
 }

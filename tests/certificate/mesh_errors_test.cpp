@@ -70,5 +70,14 @@ TEST(MeshTolerance, IsWhatTheGradesAskFor) {
   EXPECT_EQ(mesh_tolerance(5e-5).second, draft.second);
 }
 
+TEST(FailsByMeshOnly, IsWhenAFinerMeshMayDo) {
+  Certificate certificate = with_errors({1.0}, 1.0, 1.0);  // none of the three checks passes
+  EXPECT_TRUE(fails_by_mesh_only(certificate));
+  certificate.checks.push_back({.name = "joint torque", .unit = "-", .where = "", .passed = true});
+  EXPECT_TRUE(fails_by_mesh_only(certificate));
+  certificate.checks.back().passed = false;
+  EXPECT_FALSE(fails_by_mesh_only(certificate)) << "that stays on any mesh";
+}
+
 }  // namespace
 }  // namespace prowl

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Checks who includes whom: the table of docs/architecture.md.
 
-Usage: check_includes.py SOURCE_DIR [INTERNAL_HEADER...]. Prints one line for each include that is not allowed; exit
-status 1 if there is one. Internal headers are those that show a library of the table below, by themselves or through
-another header; they are not installed, and all of them must be named.
+Usage: check_includes.py SOURCE_DIR [INTERNAL_HEADER...]. Prints one line for each include that is not allowed and for
+each allowance that no include uses; exit status 1 if there is one. Internal headers are those that show a library of
+the table below, other than Eigen, by themselves or through another header; they are not installed, and all of them
+must be named.
 """
 
 import re
@@ -21,8 +22,8 @@ ALLOWED = {
     "prowl/motion": ["prowl/model", "prowl/dynamics"],
     "prowl/trajectory": ["prowl/model"],
     "prowl/nlp": [],  # knows no robots
-    "prowl/mesh": ["prowl/model", "prowl/motion", "prowl/trajectory", "prowl/nlp"],
-    "prowl/guess": ["prowl/model", "prowl/dynamics", "prowl/motion", "prowl/trajectory", "prowl/mesh"],
+    "prowl/mesh": ["prowl/motion", "prowl/trajectory", "prowl/nlp"],
+    "prowl/guess": ["prowl/model", "prowl/dynamics", "prowl/trajectory", "prowl/mesh"],
     "prowl/transcription": [
         "prowl/model",
         "prowl/dynamics",
@@ -87,7 +88,6 @@ ALLOWED = {
         "prowl/diagnosis",
         "prowl/model",
         "prowl/mesh",
-        "prowl/nlp",
         "prowl/solvers",
         "prowl/tracking",
         "prowl/simulation",
@@ -111,11 +111,9 @@ ALLOWED = {
     "prowl/report_page": [
         "prowl/files",
         "prowl/model",
-        "prowl/motion",
         "prowl/trajectory",
         "prowl/solvers",
         "prowl/tracker",
-        "prowl/session",
         "prowl/plan_folder",
     ],
     "prowl/starter": ["prowl/text", "prowl/files", "prowl/model", "prowl/dynamics", "prowl/task_file"],
@@ -136,16 +134,14 @@ ALLOWED = {
         "prowl/files",
         "prowl/model",
         "prowl/mesh",
+        "prowl/certificate",
         "prowl/diagnosis",
-        "prowl/simulation",
-        "prowl/tracking",
         "prowl/task_file",
-        "prowl/session",
         "prowl/plan_folder",
     ],
     # The front ends.
-    "cli/process": ["cli", "prowl/session"],
-    "cli/screen": ["cli", "cli/process", "prowl/text", "prowl/files", "prowl/nlp", "prowl/session"],
+    "cli/process": ["prowl", "prowl/session"],
+    "cli/screen": ["cli/process", "prowl/text", "prowl/files", "prowl/nlp", "prowl/session"],
     "cli/options": [
         "cli/screen",
         "prowl",
@@ -157,7 +153,6 @@ ALLOWED = {
         "prowl/plan_folder",
     ],
     "cli/verbs": [
-        "cli",
         "cli/process",
         "cli/screen",
         "cli/options",
@@ -180,14 +175,13 @@ ALLOWED = {
         "alternatives",
         "screen",
     ],
-    "cli": ["cli/process", "cli/screen", "cli/verbs", "prowl", "prowl/text", "prowl/solvers", "prowl/session"],
+    "cli": ["cli/process", "cli/screen", "cli/verbs", "prowl", "prowl/text", "prowl/session"],
     "python/src": [
         "prowl",
         "prowl/text",
         "prowl/files",
         "prowl/model",
         "prowl/dynamics",
-        "prowl/motion",
         "prowl/trajectory",
         "prowl/nlp",
         "prowl/solvers",
@@ -207,8 +201,24 @@ ALLOWED = {
 WITHOUT_FOLDERS = ["prowl", "cli"]
 ROOTS = ["prowl", "alternatives", "screen", "cli", "python/src"]
 
-# Library, by a pattern of its headers: the folders, or files, that may include it.
+# Library, by a pattern of its headers: the folders, or files, that may include it. The tracker has Eigen alone.
 LIBRARIES = {
+    "Eigen": (r"(unsupported/)?Eigen/", ["prowl", "alternatives", "python/src"]),
+    "fmt": (r"fmt/", ["prowl", "alternatives", "screen", "cli", "python/src"]),
+    "Boost": (
+        r"boost/",
+        [
+            "prowl/files/base64.cpp",
+            "prowl/nlp/thread_team.cpp",
+            "prowl/certificate",
+            "prowl/tracking",
+            "prowl/simulation",
+            "prowl/starter/sole.cpp",
+            "cli/screen/progress_bar.hpp",
+            "cli/verbs/view_server.cpp",
+        ],
+    ),
+    "POSIX": (r"sys/", ["prowl/files", "cli"]),
     "Pinocchio": (r"pinocchio/", ["prowl/model", "prowl/dynamics", "prowl/certificate"]),
     "Ipopt": (r"Ip[A-Z]\w*\.(hpp|h)|IpoptConfig\.h|coin-or/", ["prowl/solvers/foreign/ipopt_solver.cpp"]),
     "Fatrop": (r"fatrop/|blasfeo", ["prowl/solvers/foreign/fatrop_solver.cpp"]),
@@ -217,7 +227,7 @@ LIBRARIES = {
     "toml++": (r"toml\+\+/|toml\.hpp", ["prowl/task_file"]),
     "nlohmann": (
         r"nlohmann/",
-        ["prowl/files", "prowl/plan_folder", "prowl/report_page", "alternatives", "screen", "cli"],
+        ["prowl/files", "prowl/plan_folder", "prowl/report_page", "cli"],
     ),
     "tinyxml2": (r"tinyxml2\.h", ["prowl/model/urdf", "prowl/plan_folder"]),
     "urdfdom": (r"urdf_parser/|urdf_model/|console_bridge/", ["prowl/model/urdf"]),
@@ -245,13 +255,19 @@ def is_in(path, places):
     return any(path == place or path.startswith(place + "/") for place in places)
 
 
-def violations(root, internal_headers=()):
-    """One line for each include under the roots that the tables above do not allow."""
+def includes_of_files(root):
+    """Name of a file under the roots: what it includes."""
     files = {}
     for top in ROOTS:
         for path in sorted((root / top).rglob("*")):
             if path.suffix in (".hpp", ".cpp"):
                 files[path.relative_to(root).as_posix()] = INCLUDE.findall(path.read_text(encoding="utf-8"))
+    return files
+
+
+def violations(root, internal_headers=()):
+    """One line for each include under the roots that the tables above do not allow."""
+    files = includes_of_files(root)
     if not files:
         return [f"{root}: no source files, nothing was checked"]
     found = circles()
@@ -264,9 +280,27 @@ def violations(root, internal_headers=()):
     return found + headers_that_show_libraries(files, internal_headers)
 
 
+def unused_allowances(root):
+    """One line for each folder and library that the tables above allow and nothing includes."""
+    files = includes_of_files(root).items()
+    folders = {(folder_of(name), folder_of(include)) for name, includes in files for include in includes}
+    libraries = [(library_of(include), name) for name, includes in files for include in includes]
+    return [
+        f"{folder}: the table allows {other}, which no file includes"
+        for folder, others in ALLOWED.items()
+        for other in others
+        if (folder, other) not in folders
+    ] + [
+        f"{place}: the table allows {library}, which no file includes"
+        for library, (_, places) in LIBRARIES.items()
+        for place in places
+        if not any(used == library and is_in(name, [place]) for used, name in libraries)
+    ]
+
+
 def circles():
-    """Folders that the table lets include each other, directly or through others, but for cli, whose main() starts all."""
-    below = {folder: set(others) - {"cli"} for folder, others in ALLOWED.items()}
+    """Folders that the table lets include each other, directly or through others."""
+    below = {folder: set(others) for folder, others in ALLOWED.items()}
     for _ in ALLOWED:
         for others in below.values():
             others.update(*(below[other] for other in list(others)))
@@ -274,15 +308,16 @@ def circles():
 
 
 def is_allowed(name, include):
-    folder = folder_of(name)
-    if include == "prowl/error.hpp":
-        return folder != "prowl/tracker"
-    library = library_of(include)
+    folder, library = folder_of(name), library_of(include)
+    if ".." in include.split("/"):
+        return False  # the table goes by the folder that is written
+    if folder == "prowl/tracker" and (include == "prowl/error.hpp" or library not in (None, "Eigen")):
+        return False
     if library:
         return is_in(name, LIBRARIES[library][1])
-    if not is_in(include, ROOTS):
-        return True  # the standard library, Eigen, Boost, fmt; a file beside it
-    return folder_of(include) in [folder, *ALLOWED[folder]]
+    if "/" not in include:
+        return True  # the standard library, the system, a file beside it
+    return include == "prowl/error.hpp" or (is_in(include, ROOTS) and folder_of(include) in [folder, *ALLOWED[folder]])
 
 
 def library_of(include):
@@ -291,12 +326,14 @@ def library_of(include):
 
 def headers_that_show_libraries(files, internal_headers):
     def shown(name, seen):
-        """The library that whoever includes this file needs, or None."""
+        """The library besides Eigen that whoever includes this file needs, or None."""
         for include in files.get(name, []):
             if include in seen:
                 continue
             seen.add(include)
-            library = library_of(include) or shown(include, seen)
+            library = library_of(include)
+            if library in (None, "Eigen"):
+                library = shown(include, seen)
             if library:
                 return library
         return None
@@ -314,6 +351,7 @@ def headers_that_show_libraries(files, internal_headers):
 
 
 if __name__ == "__main__":
-    lines = violations(Path(sys.argv[1]), sys.argv[2:])
-    print("\n".join(lines) or "every include is allowed")
+    source_dir = Path(sys.argv[1])
+    lines = violations(source_dir, sys.argv[2:]) + unused_allowances(source_dir)
+    print("\n".join(lines) or "every include is allowed, every allowance is used")
     sys.exit(1 if lines else 0)

@@ -2,10 +2,13 @@
 
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import check_includes
-from check_includes import violations
+from check_includes import unused_allowances, violations
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class CheckIncludes(unittest.TestCase):
@@ -44,7 +47,7 @@ class CheckIncludes(unittest.TestCase):
                     "prowl/nlp/nlp.cpp": '"prowl/error.hpp"',
                     "prowl/plan.cpp": '"prowl/mesh/mesh.hpp"',
                     "prowl/session/plan_task.hpp": '"prowl/plan.hpp"',
-                    "screen/summary.cpp": '"prowl/session/plan_record.hpp"',
+                    "screen/summary.cpp": '"prowl/plan_folder/plan_folder.hpp"',
                     "cli/verbs/plan_command.cpp": '"screen/summary.hpp"',
                     "cli/main.cpp": '"cli/verbs/commands.hpp"',
                     "python/src/task.cpp": '"prowl/task_file/task.hpp"',
@@ -74,8 +77,30 @@ class CheckIncludes(unittest.TestCase):
                 ("screen/summary.cpp", '"cli/screen/output.hpp"'),
                 ("cli/process/interrupt.cpp", '"cli/screen/output.hpp"'),
                 ("python/src/task.cpp", '"cli/screen/output.hpp"'),
+                ("cli/process/process.cpp", '"cli/verbs/commands.hpp"'),
                 ("prowl/tracker/tracker.cpp", '"prowl/model/so3.hpp"'),
                 ("prowl/tracker/tracker.hpp", '"prowl/error.hpp"'),
+            ]
+        )
+
+    def test_refuses_what_is_no_part_of_the_product(self):
+        self.expect_only_the_first_to_be_refused(
+            [
+                ("prowl/model/robot.cpp", '"tests/support/robots.hpp"'),
+                ("prowl/plan.cpp", '"bench/load.hpp"'),
+                ("cli/main.cpp", '"report/page.hpp"'),
+                ("python/src/task.cpp", '"python/tests/task.hpp"'),
+                ("prowl/nlp/nlp.cpp", "<unheard_of/library.hpp>"),
+            ]
+        )
+
+    def test_refuses_paths_that_go_up(self):
+        self.expect_only_the_first_to_be_refused(
+            [
+                ("prowl/nlp/nlp.cpp", '"../model/robot.hpp"'),
+                ("prowl/nlp/nlp.cpp", '"prowl/nlp/../model/robot.hpp"'),
+                ("prowl/model/robot.cpp", '"prowl/model/../model/robot.hpp"'),
+                ("prowl/motion/cost.cpp", "<Eigen/../pinocchio/algorithm/rnea.hpp>"),
             ]
         )
 
@@ -87,6 +112,9 @@ class CheckIncludes(unittest.TestCase):
                 ("prowl/solvers/riccati/riccati_solver.cpp", "<IpTNLP.hpp>"),
                 ("prowl/solvers/foreign/other_solver.cpp", "<IpoptConfig.h>"),
                 ("prowl/nlp/nlp.cpp", "<nlohmann/json.hpp>"),
+                ("prowl/nlp/nlp.cpp", "<boost/asio/post.hpp>"),
+                ("prowl/model/robot.cpp", "<sys/stat.h>"),
+                ("prowl/tracker/tracker.cpp", "<fmt/format.h>"),
                 ("prowl/model/robot.cpp", "<toml++/toml.h>"),
                 ("prowl/session/plan_task.cpp", "<CLI/CLI.hpp>"),
                 ("cli/main.cpp", "<nanobind/nanobind.h>"),
@@ -99,6 +127,8 @@ class CheckIncludes(unittest.TestCase):
                 ("prowl/model/robot.hpp", "<pinocchio/multibody/model.hpp>"),
                 ("prowl/task_file/task_file.hpp", "<toml++/toml.h>"),
                 ("prowl/plan_folder/plan_json.hpp", "<nlohmann/json.hpp>"),
+                ("prowl/simulation/sensors.hpp", "<boost/random/normal_distribution.hpp>"),
+                ("prowl/mesh/mesh.hpp", "<fmt/format.h>"),
             ]
         )
 
@@ -126,6 +156,13 @@ class CheckIncludes(unittest.TestCase):
         motion.append("prowl/mesh")
         self.addCleanup(motion.remove, "prowl/mesh")
         self.assertTrue(check_includes.circles())
+
+    def test_refuses_an_allowance_that_nothing_uses(self):
+        self.assertEqual([], unused_allowances(ROOT))
+        with unittest.mock.patch.dict(check_includes.ALLOWED, {"prowl/solvers": ["prowl/nlp", "prowl/text"]}):
+            self.assertEqual(1, len(unused_allowances(ROOT)))
+        with unittest.mock.patch.dict(check_includes.LIBRARIES, {"CLI11": (r"CLI/", ["cli", "screen"])}):
+            self.assertEqual(1, len(unused_allowances(ROOT)))
 
     def test_does_not_pass_on_an_empty_tree(self):
         self.assertEqual(1, len(violations(self.root)))

@@ -135,14 +135,5 @@ class OnceAMesh(unittest.TestCase):
             self.assertEqual(self.constructions(calls, "PhaseMesh"), meshes * phases)
 
 
-class Friends(unittest.TestCase):
-    def test_no_class_has_a_friend_in_another_file(self):
-        for root in ("prowl", "alternatives", "screen", "cli", "python/src"):
-            for path in (ROOT / root).rglob("*.[hc]pp"):
-                code = re.sub(r"//.*", "", path.read_text(encoding="utf-8"))
-                for name in re.findall(r"\bfriend\s+(?:class|struct)?\s*(\w+)", code):
-                    self.assertRegex(code, rf"\b(class|struct)\s+{name}\b[^;]*{{", f"{path}: friend {name}")
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "prowl/error.hpp"
-#include "prowl/model/surface.hpp"
 
 namespace prowl {
 namespace {
@@ -39,31 +38,6 @@ TEST(LimitCurve, RefusesTablesThatAreNone) {
   EXPECT_THROW(LimitCurve({{0.0, 1.0}, {2.0, 1.0}, {1.0, 1.0}, {3.0, 1.0}}), InputError) << "out of order";
   EXPECT_THROW(LimitCurve({{0.0, 1.0}, {1.0, 0.0}, {2.0, 1.0}, {3.0, 1.0}}), InputError) << "a limit of zero";
   EXPECT_THROW(LimitCurve({{0.0, 100.0}, {1.0, 1.0}, {2.0, 1.0}, {3.0, 100.0}}), InputError) << "below zero in between";
-}
-
-TEST(Surface, CoordinatesAndPlacesAreInverse) {
-  for (const Eigen::Vector3d& normal :
-       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.2, -0.1, 1.0), Eigen::Vector3d(-1, 0, 0)}) {
-    const Surface surface{.point = {0.3, -0.2, 0.1}, .normal = normal.normalized()};
-    Eigen::Matrix3d frame;
-    frame << surface.axes(), surface.normal;
-    EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3d::Identity()).norm(), 1e-14);
-    EXPECT_NEAR(frame.determinant(), 1.0, 1e-14);
-    const Eigen::Vector2d at(0.7, -0.4);
-    const Eigen::Vector3d place = surface.at(at, 0.05);
-    EXPECT_LT((surface.coordinates(place) - at).norm(), 1e-14);
-    EXPECT_NEAR(surface.distance(place), 0.05, 1e-14);
-  }
-}
-
-TEST(Surface, APatchContainsWhatIsInsideItsEdges) {
-  const Surface square{.patch = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}}};
-  EXPECT_TRUE(square.contains({0.5, 0.5}));
-  EXPECT_TRUE(square.contains({1.0, 0.2}));
-  EXPECT_FALSE(square.contains({1.1, 0.5}));
-  EXPECT_TRUE(Surface{}.contains({100.0, 0.0}));
-  EXPECT_EQ(Surface::patch_fault(square.patch), "");
-  EXPECT_NE(Surface::patch_fault({{0.0, 0.0}, {1.0, 0.0}, {0.2, 0.2}, {0.0, 1.0}}), "") << "not convex";
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "prowl/nlp/derivative_check.hpp"
 #include "tests/nlp/test_problems.hpp"
+#include "tests/support/derivative_check.hpp"
 
 namespace prowl {
 namespace {
@@ -43,7 +43,7 @@ TEST(ElasticNlp, HasExactDerivatives) {
   Soft soft;
   const VectorXd z = VectorXd::LinSpaced(10, 0.8, 2.9);
   const VectorXd multipliers = VectorXd::LinSpaced(4, -0.7, 0.9);
-  const DerivativeReport report = check_derivatives(*soft.elastic, z, 1.3, multipliers);
+  const test::DerivativeReport report = test::check_derivatives(*soft.elastic, z, 1.3, multipliers);
   EXPECT_LT(report.worst(), 1e-8) << report.summary();
   EXPECT_TRUE(report.pattern_faults.empty()) << report.summary();
 }

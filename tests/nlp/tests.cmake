@@ -1,6 +1,5 @@
 prowl_test(nlp/nlp_solver prowl::nlp)
 prowl_test(nlp/constraint_violation prowl::nlp)
 prowl_test(nlp/dual_violation prowl::nlp)
-prowl_test(nlp/derivative_check prowl::nlp)
-prowl_test(nlp/elastic_nlp prowl::nlp)
+prowl_test(nlp/elastic_nlp prowl::nlp nlp_support)
 prowl_test(nlp/thread_team prowl::nlp)

@@ -1,5 +1,5 @@
 prowl_test(simulation/physics prowl::simulation pinocchio::pinocchio_default)
-prowl_test(simulation/sensors prowl::simulation Boost::headers)
+prowl_test(simulation/sensors prowl::simulation)
 prowl_test(simulation/actuators prowl::simulation)
 prowl_test(simulation/simulation prowl::simulation)
 prowl_test(simulation/sweep prowl::simulation)

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "prowl/nlp/stagewise_nlp.hpp"
 #include "tests/nlp/test_problems.hpp"
+#include "tests/support/dense_stagewise_nlp.hpp"
 
 namespace prowl::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "prowl/nlp/stagewise_nlp.hpp"
+#include "tests/support/dense_stagewise_nlp.hpp"
 #include "tests/support/random_vector.hpp"
 
 namespace prowl::test {

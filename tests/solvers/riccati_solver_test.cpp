@@ -34,7 +34,7 @@ TEST(RiccatiSolver, NeedsNoBounds) {
 }
 
 /// One stage of two states and an equality:  minimise cost(x)  subject to  |x|^2 = 1. Also an Nlp.
-class OnACircle : public test::TestNlp, public DenseStagewiseNlp {
+class OnACircle : public test::TestNlp, public test::DenseStagewiseNlp {
  public:
   OnACircle() {
     z_lower.setConstant(2, -kInfinity);

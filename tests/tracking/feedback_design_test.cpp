@@ -59,7 +59,7 @@ TEST_P(FeedbackOfTask, KeepsItsBandwidthAndStandsOn) {
   EXPECT_TRUE(found.stands_on);
   EXPECT_GT(found.slowest_rate, 0.5);
   EXPECT_LE(found.whole.bandwidth, limit);
-  EXPECT_LT(found.whole.worst, 0.5) << "a deviation at the start is gone at the end";
+  EXPECT_LT(found.whole.worst, 1e-3) << "a deviation at the start is gone at the end";
   ASSERT_EQ(found.decay.size() + 1, found.phases.size());
   for (const PhaseDecay& decay : found.decay) {
     EXPECT_GT(decay.mean, 0.0);

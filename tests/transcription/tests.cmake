@@ -1,4 +1,4 @@
-prowl_test(transcription/transcription prowl::transcription prowl::guess)
+prowl_test(transcription/transcription prowl::transcription prowl::guess nlp_support)
 prowl_test(transcription/stagewise_transcription prowl::transcription prowl::guess)
 prowl_test(transcription/defects prowl::transcription)
 prowl_test(transcription/slope prowl::transcription prowl::guess prowl::certificate)

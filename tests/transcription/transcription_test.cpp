@@ -9,7 +9,7 @@
 #include "prowl/error.hpp"
 #include "prowl/guess/initial_guess.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/nlp/derivative_check.hpp"
+#include "tests/support/derivative_check.hpp"
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
@@ -29,7 +29,7 @@ void expect_derivatives(const MeshedProblem& of, double size_of_multipliers = 2.
   std::mt19937 rng(5);
   const Eigen::VectorXd z = nlp.pack(guess) + test::random_vector(rng, nlp.num_variables(), 0.1);
   const Eigen::VectorXd multipliers = test::random_vector(rng, nlp.num_constraints(), size_of_multipliers);
-  const DerivativeReport report = check_derivatives(nlp, z, 1.7, multipliers);
+  const test::DerivativeReport report = test::check_derivatives(nlp, z, 1.7, multipliers);
   EXPECT_LT(report.worst(), 1e-6) << report.summary();
   EXPECT_TRUE(report.pattern_faults.empty()) << report.pattern_faults.front();
 }

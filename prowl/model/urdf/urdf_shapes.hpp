@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to model: see urdf_place.hpp.
+// Internal to model: see urdf_location.hpp.
 #include "prowl/model/urdf/urdf_location.hpp"
 
 namespace prowl {

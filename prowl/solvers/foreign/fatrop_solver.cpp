@@ -62,11 +62,10 @@ Dims dims_of(const StagewiseNlp& nlp) {
 fatrop::NlpDims totals(const Dims& dims) {
   fatrop::NlpDims sum(0, 0, 0);
   for (int k = 0; k < dims.K; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    sum.number_of_variables += dims.number_of_controls[i] + dims.number_of_states[i];
-    sum.number_of_eq_constraints += dims.number_of_eq_constraints[i] + dims.number_of_ineq_constraints[i];
-    if (k > 0) sum.number_of_eq_constraints += dims.number_of_states[i];
-    sum.number_of_ineq_constraints += dims.number_of_ineq_constraints[i];
+    sum.number_of_variables += dims.number_of_controls[k] + dims.number_of_states[k];
+    sum.number_of_eq_constraints += dims.number_of_eq_constraints[k] + dims.number_of_ineq_constraints[k];
+    if (k > 0) sum.number_of_eq_constraints += dims.number_of_states[k];
+    sum.number_of_ineq_constraints += dims.number_of_ineq_constraints[k];
   }
   sum.number_of_tangent_variables = sum.number_of_variables;
   return sum;
@@ -119,15 +118,14 @@ class FatropProblem : public fatrop::Nlp<Type> {
                                   VecRealView& result) override {
     check_limits();
     const bool good = try_stages("constraint", times_.values, [&](int k) {
-      const auto i = static_cast<std::size_t>(k);
       const StageValues& values = nlp_.values(k, stage(info, x, k));
       const StageSize& size = nlp_.size(k);
-      segment(result, info.offsets_g_eq_path[i], size.equalities) = values.equalities;
-      segment(result, info.offsets_g_eq_slack[i], size.inequalities) =
-          values.inequalities - segment(slacks, info.offsets_slack[i], size.inequalities);
+      segment(result, info.offsets_g_eq_path[k], size.equalities) = values.equalities;
+      segment(result, info.offsets_g_eq_slack[k], size.inequalities) =
+          values.inequalities - segment(slacks, info.offsets_slack[k], size.inequalities);
       if (k + 1 < dims_.K) {
-        segment(result, info.offsets_g_eq_dyn[i], values.next.size()) =
-            values.next - segment(x, info.offsets_primal_x[i + 1], values.next.size());
+        segment(result, info.offsets_g_eq_dyn[k], values.next.size()) =
+            values.next - segment(x, info.offsets_primal_x[k + 1], values.next.size());
       }
       return values.equalities.allFinite() && values.inequalities.allFinite() && values.next.allFinite();
     });
@@ -150,11 +148,10 @@ class FatropProblem : public fatrop::Nlp<Type> {
   Index eval_constr_jac(const Info& info, const VecRealView& x, const VecRealView&,
                         fatrop::Jacobian<Type>& jacobian) override {
     need(try_stages("constraint Jacobian", times_.derivatives, [&](int k) {
-      const auto i = static_cast<std::size_t>(k);
       const StageDerivatives& slopes = nlp_.derivatives(k, stage(info, x, k));
-      copy_transposed(slopes.equalities, jacobian.Gg_eqt[i].mat());
-      copy_transposed(slopes.inequalities, jacobian.Gg_ineqt[i].mat());
-      if (k + 1 < dims_.K) copy_transposed(slopes.next, jacobian.BAbt[i].mat());
+      copy_transposed(slopes.equalities, jacobian.Gg_eqt[k].mat());
+      copy_transposed(slopes.inequalities, jacobian.Gg_ineqt[k].mat());
+      if (k + 1 < dims_.K) copy_transposed(slopes.next, jacobian.BAbt[k].mat());
       return slopes.equalities.allFinite() && slopes.inequalities.allFinite() && slopes.next.allFinite();
     }));
     return 0;
@@ -163,14 +160,13 @@ class FatropProblem : public fatrop::Nlp<Type> {
   Index eval_lag_hess(const Info& info, const Scalar scale, const VecRealView& x, const VecRealView&,
                       const VecRealView& multipliers, fatrop::Hessian<Type>& hessian) override {
     need(try_stages("Hessian", times_.derivatives, [&](int k) {
-      const auto i = static_cast<std::size_t>(k);
       const StageSize& size = nlp_.size(k);
       const int next = k + 1 < dims_.K ? nlp_.size(k + 1).states : 0;
-      on_.equalities = segment(multipliers, info.offsets_g_eq_path[i], size.equalities);
-      on_.inequalities = segment(multipliers, info.offsets_g_eq_slack[i], size.inequalities);
-      on_.next = segment(multipliers, next > 0 ? info.offsets_g_eq_dyn[i] : 0, next);
+      on_.equalities = segment(multipliers, info.offsets_g_eq_path[k], size.equalities);
+      on_.inequalities = segment(multipliers, info.offsets_g_eq_slack[k], size.inequalities);
+      on_.next = segment(multipliers, next > 0 ? info.offsets_g_eq_dyn[k] : 0, next);
       const MatrixXd& values = nlp_.hessian(k, stage(info, x, k), scale, on_);
-      copy_transposed(values, hessian.RSQrqt[i].mat());
+      copy_transposed(values, hessian.RSQrqt[k].mat());
       return values.allFinite();
     }));
     return 0;

@@ -77,9 +77,8 @@ class UnoProblem {
     const SparsityPattern& places = nlp_.hessian_pattern();
     VectorMap(product, z_now.size()).setZero();
     for (int i = 0; i < places.size(); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      product[places.rows[k]] += hessian_[i] * direction[places.cols[k]];
-      if (places.rows[k] != places.cols[k]) product[places.cols[k]] += hessian_[i] * direction[places.rows[k]];
+      product[places.rows[i]] += hessian_[i] * direction[places.cols[i]];
+      if (places.rows[i] != places.cols[i]) product[places.cols[i]] += hessian_[i] * direction[places.rows[i]];
     }
     return true;
   }

@@ -116,12 +116,11 @@ bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
 }
 
 void InteriorPoint::evaluate_stage(int k, const StageVectors& ux, Values& values) {
-  const auto i = static_cast<std::size_t>(k);
-  const StageValues& stage = nlp_.values(k, ux[i]);
+  const StageValues& stage = nlp_.values(k, ux[k]);
   values.stage_costs(k) = stage.cost;
-  values.equalities[i] = stage.equalities;
+  values.equalities[k] = stage.equalities;
   segment(values.inequalities, k) = stage.inequalities;
-  if (k + 1 < num_stages_) values.links[i] = stage.next - ux[i + 1].tail(stage.next.size());
+  if (k + 1 < num_stages_) values.links[k] = stage.next - ux[k + 1].tail(stage.next.size());
   if (!std::isfinite(stage.cost)) throw NumericalError("the cost is not finite");
   if (!stage.equalities.allFinite()) throw NumericalError("an equality is not finite");
   if (!stage.inequalities.allFinite()) throw NumericalError("an inequality is not finite");
@@ -137,10 +136,9 @@ void InteriorPoint::need_finite_slopes(int k) const {
 void InteriorPoint::linearise() {
   const Stopwatch stopwatch(times_.derivatives);
   threads_.for_each(num_stages_, [this](int k) {
-    const auto i = static_cast<std::size_t>(k);
-    on_[i].inequalities = segment(lambda_, k);
+    on_[k].inequalities = segment(lambda_, k);
     at_stage(k, [&] {
-      nlp_.linearise(k, ux_[i], cost_scale_, on_[i]);
+      nlp_.linearise(k, ux_[k], cost_scale_, on_[k]);
       need_finite_slopes(k);
     });
   });
@@ -178,13 +176,12 @@ double InteriorPoint::barrier_function(const Values& values, const Slacks& slack
 void InteriorPoint::update_dual_violation() {
   largest_dual_violation_ = slacks_.largest_dual_violation(lambda_);
   for (int k = 0; k < num_stages_; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    VectorXd& violation = dual_violation_[i];
+    VectorXd& violation = dual_violation_[k];
     violation = cost_scale_ * nlp_.cost_gradient(k);
-    violation.noalias() += nlp_.equality_slopes(k).transpose() * on_[i].equalities;
-    on_[i].inequalities = segment(lambda_, k);
-    nlp_.add_pull_back(k, on_[i].next, on_[i].inequalities, violation);
-    if (k > 0) violation.tail(nlp_.size(k).states) -= on_[i - 1].next;
+    violation.noalias() += nlp_.equality_slopes(k).transpose() * on_[k].equalities;
+    on_[k].inequalities = segment(lambda_, k);
+    nlp_.add_pull_back(k, on_[k].next, on_[k].inequalities, violation);
+    if (k > 0) violation.tail(nlp_.size(k).states) -= on_[k - 1].next;
     if (!violation.allFinite()) throw NumericalError(nlp_.describe_stage(k) + ": first derivatives are not finite");
     if (violation.size() > 0)
       largest_dual_violation_ = std::max(largest_dual_violation_, violation.cwiseAbs().maxCoeff());
@@ -247,10 +244,9 @@ void InteriorPoint::start_slacks() {
     return;
   }
   for (int k = 0; k < num_stages_; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    on_[i].next = cost_scale_ * options_.start_multipliers[i].next;
-    on_[i].equalities = cost_scale_ * options_.start_multipliers[i].equalities;
-    segment(lambda_, k) = cost_scale_ * options_.start_multipliers[i].inequalities;
+    on_[k].next = cost_scale_ * options_.start_multipliers[k].next;
+    on_[k].equalities = cost_scale_ * options_.start_multipliers[k].equalities;
+    segment(lambda_, k) = cost_scale_ * options_.start_multipliers[k].inequalities;
   }
   slacks_.start(values_.inequalities, lambda_, mu_, push);
 }
@@ -276,9 +272,8 @@ void InteriorPoint::estimate_multipliers() {
   kkt_.solve(gradient_, right_equalities_, right_links_);
   const bool is_of_use = std::max(largest(kkt_.on_next()), largest(kkt_.on_equalities())) <= kLargestMultiplier;
   for (int k = 0; k < num_stages_; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    on_[i].next = is_of_use ? kkt_.on_next()[i] : VectorXd::Zero(on_[i].next.size());
-    on_[i].equalities = is_of_use ? kkt_.on_equalities()[i] : VectorXd::Zero(on_[i].equalities.size());
+    on_[k].next = is_of_use ? kkt_.on_next()[k] : VectorXd::Zero(on_[k].next.size());
+    on_[k].equalities = is_of_use ? kkt_.on_equalities()[k] : VectorXd::Zero(on_[k].equalities.size());
   }
 }
 
@@ -299,10 +294,9 @@ void InteriorPoint::set_right_sides(const Values& values, const VectorXd& s) {
 /// Gradient of the scaled cost and of what multipliers make of the inequalities.
 void InteriorPoint::set_gradient(double cost_scale, const VectorXd& lambda) {
   for (int k = 0; k < num_stages_; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    gradient_[i] = cost_scale * nlp_.cost_gradient(k);
-    on_[i].inequalities = segment(lambda, k);
-    nlp_.add_pull_back(k, no_next_[i], on_[i].inequalities, gradient_[i]);
+    gradient_[k] = cost_scale * nlp_.cost_gradient(k);
+    on_[k].inequalities = segment(lambda, k);
+    nlp_.add_pull_back(k, no_next_[k], on_[k].inequalities, gradient_[k]);
   }
 }
 

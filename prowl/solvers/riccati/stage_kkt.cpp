@@ -229,30 +229,26 @@ double StageKkt::find_residual(const StageVectors& gradient, const StageVectors&
   residual_equalities_ = equalities;
   residual_links_ = links;
   for (int k = 0; k < num_stages_; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    const VectorXd& step = sum_.steps[i];
-    VectorXd& violation = residual_gradient_[i];
+    const VectorXd& step = sum_.steps[k];
+    VectorXd& violation = residual_gradient_[k];
     if (hessian_ == Hessian::lagrangian) violation.noalias() += nlp_.lagrangian_hessian(k) * step;
     violation += delta_ * step;
-    violation.noalias() += nlp_.equality_slopes(k).transpose() * sum_.on_equalities[i];
-    residual_inequalities_[i] = weights_[i].cwiseProduct(sum_.along_inequalities[i]);
-    nlp_.add_pull_back(k, sum_.on_next[i], residual_inequalities_[i], violation);
-    if (k > 0) violation.tail(stage(k).size.states) -= sum_.on_next[i - 1];
-    residual_equalities_[i].noalias() += nlp_.equality_slopes(k) * step;
+    violation.noalias() += nlp_.equality_slopes(k).transpose() * sum_.on_equalities[k];
+    residual_inequalities_[k] = weights_[k].cwiseProduct(sum_.along_inequalities[k]);
+    nlp_.add_pull_back(k, sum_.on_next[k], residual_inequalities_[k], violation);
+    if (k > 0) violation.tail(stage(k).size.states) -= sum_.on_next[k - 1];
+    residual_equalities_[k].noalias() += nlp_.equality_slopes(k) * step;
     if (k + 1 == num_stages_) continue;
-    VectorXd& next = residual_next_[i];
-    nlp_.push_forward(k, step, next, residual_inequalities_[i]);
-    residual_links_[i] += next - sum_.steps[i + 1].tail(next.size());
+    VectorXd& next = residual_next_[k];
+    nlp_.push_forward(k, step, next, residual_inequalities_[k]);
+    residual_links_[k] += next - sum_.steps[k + 1].tail(next.size());
   }
   return std::max({largest(residual_gradient_), largest(residual_equalities_), largest(residual_links_)});
 }
 
 void StageKkt::solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
   const auto link = [&](int k) { return k + 1 < num_stages_ ? &links[k] : nullptr; };
-  for (int k = num_stages_ - 1; k >= 0; --k) {
-    const auto i = static_cast<std::size_t>(k);
-    backward(k, gradient[i], equalities[i], link(k));
-  }
+  for (int k = num_stages_ - 1; k >= 0; --k) backward(k, gradient[k], equalities[k], link(k));
   for (int k = 0; k < num_stages_; ++k) forward(k, link(k));
 }
 
@@ -302,8 +298,7 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
 
 void StageKkt::forward(int k, const VectorXd* link) {
   Stage& s = stage(k);
-  const auto at = static_cast<std::size_t>(k);
-  VectorXd& step = steps_[at];
+  VectorXd& step = steps_[k];
   s.step.resize(step.size());
   s.step.tail(s.size.states) = step.tail(s.size.states);
   if (s.free() > 0) {
@@ -319,14 +314,14 @@ void StageKkt::forward(int k, const VectorXd* link) {
   for (Index i = 0; i < step.size(); ++i) step(s.order[i]) = s.step(i);
 
   find_multipliers(k);
-  nlp_.push_forward(k, step, on_next_[at], along_inequalities_[at]);
+  nlp_.push_forward(k, step, on_next_[k], along_inequalities_[k]);
   if (!link) return;
   Stage& next = stage(k + 1);
-  auto dx = steps_[at + 1].tail(next.size.states);
-  dx = on_next_[at] + *link;
-  on_next_[at] = next.p;
-  on_next_[at].noalias() += next.P * dx;
-  if (s.carried > 0) on_next_[at].noalias() += next.E.transpose() * next.on_carried;
+  auto dx = steps_[k + 1].tail(next.size.states);
+  dx = on_next_[k] + *link;
+  on_next_[k] = next.p;
+  on_next_[k].noalias() += next.P * dx;
+  if (s.carried > 0) on_next_[k].noalias() += next.E.transpose() * next.on_carried;
 }
 
 /// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. Those of the conditions

@@ -1,6 +1,6 @@
-#include "prowl/nlp/stagewise_nlp.hpp"
+#include "tests/support/dense_stagewise_nlp.hpp"
 
-namespace prowl {
+namespace prowl::test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -11,7 +11,7 @@ void DenseStagewiseNlp::linearise(int k, const VectorXd& ux, double cost_factor,
 }
 
 void DenseStagewiseNlp::linearise_to_first_order(int k, const VectorXd& ux) {
-  models_.resize(static_cast<std::size_t>(num_stages()));
+  models_.resize(num_stages());
   values(k, ux);
   models_[k].slopes = derivatives(k, ux);
 }
@@ -33,4 +33,4 @@ void DenseStagewiseNlp::add_pull_back(int k, const VectorXd& on_next, const Vect
   gradient.noalias() += model(k).slopes.inequalities.transpose() * on_inequalities;
 }
 
-}  // namespace prowl
+}  // namespace prowl::test

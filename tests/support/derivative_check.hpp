@@ -6,7 +6,7 @@
 
 #include "prowl/nlp/nlp.hpp"
 
-namespace prowl {
+namespace prowl::test {
 
 /// The entry of a derivative that differs most from the central difference d = (F(z + h e_j) - F(z - h e_j)) / 2h.
 struct DerivativeError {
@@ -37,8 +37,8 @@ struct DerivativeCheckOptions {
 
 /// Compares the gradient of the cost and the Jacobian of the constraints with differences of the values, and the
 /// Hessian of cost_factor f + multipliers . g with differences of its gradient (so read `hessian` only if the other two
-/// are right). Takes 4 n evaluations of everything: a test, not a part of a solve.
+/// are right). Takes 4 n evaluations of everything.
 DerivativeReport check_derivatives(Nlp& nlp, const Eigen::VectorXd& z, double cost_factor,
                                    const Eigen::VectorXd& multipliers, const DerivativeCheckOptions& options = {});
 
-}  // namespace prowl
+}  // namespace prowl::test

@@ -1,4 +1,4 @@
-#include "prowl/nlp/derivative_check.hpp"
+#include "tests/support/derivative_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <sstream>
 #include <utility>
 
-namespace prowl {
+namespace prowl::test {
 namespace {
 
 /// A sparse matrix column by column, as differences come.
@@ -170,4 +170,4 @@ DerivativeReport check_derivatives(Nlp& nlp, const Eigen::VectorXd& z, double co
   return report;
 }
 
-}  // namespace prowl
+}  // namespace prowl::test

@@ -1,4 +1,4 @@
-#include "prowl/nlp/derivative_check.hpp"
+#include "tests/support/derivative_check.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ const Eigen::Vector4d kPoint(1.1, 4.3, 3.7, 1.4);
 const Eigen::Vector2d kMultipliers(-0.7, 0.4);
 constexpr double kCostFactor = 1.3;
 
-DerivativeReport check(Nlp& nlp) { return check_derivatives(nlp, kPoint, kCostFactor, kMultipliers); }
+test::DerivativeReport check(Nlp& nlp) { return test::check_derivatives(nlp, kPoint, kCostFactor, kMultipliers); }
 
 /// Adds an error to one entry of one derivative.
 struct Wrong : test::Hs071 {
@@ -63,14 +63,14 @@ struct TwoVariables : test::TestNlp {
       values[i] = hessian_places.rows[i] == hessian_places.cols[i] ? 2.0 * multipliers[0] : cost_factor;
     }
   }
-  DerivativeReport check() {
-    return check_derivatives(*this, Eigen::Vector2d(0.3, -0.8), kCostFactor, Eigen::VectorXd::Constant(1, 0.6));
+  test::DerivativeReport check() {
+    return test::check_derivatives(*this, Eigen::Vector2d(0.3, -0.8), kCostFactor, Eigen::VectorXd::Constant(1, 0.6));
   }
 };
 
 TEST(DerivativeCheck, FindsNothingWhereNothingIsWrong) {
   test::Hs071 nlp;
-  const DerivativeReport report = check(nlp);
+  const test::DerivativeReport report = check(nlp);
   EXPECT_LT(report.worst(), 1e-8) << report.summary();
   EXPECT_THAT(report.pattern_faults, IsEmpty());
   EXPECT_FALSE(report.gradient.where.empty() || report.jacobian.where.empty() || report.hessian.where.empty())
@@ -81,7 +81,7 @@ TEST(DerivativeCheck, FindsAWrongGradient) {
   for (int entry = 0; entry < 4; ++entry) {
     Wrong nlp;
     nlp.gradient_entry = entry;
-    const DerivativeReport report = check(nlp);
+    const test::DerivativeReport report = check(nlp);
     EXPECT_GT(report.gradient.relative, 1e-6);
     EXPECT_EQ(report.gradient.where, "variable " + std::to_string(entry));
     EXPECT_LT(report.jacobian.relative, 1e-8);
@@ -92,7 +92,7 @@ TEST(DerivativeCheck, FindsAWrongJacobianEntryAndItsPlace) {
   for (int entry = 0; entry < 8; ++entry) {
     Wrong nlp;
     nlp.jacobian_entry = entry;
-    const DerivativeReport report = check(nlp);
+    const test::DerivativeReport report = check(nlp);
     EXPECT_GT(report.jacobian.relative, 1e-6);
     EXPECT_EQ(report.jacobian.row, entry / 4);
     EXPECT_EQ(report.jacobian.col, entry % 4);
@@ -104,7 +104,7 @@ TEST(DerivativeCheck, FindsAWrongHessianEntryAndItsPlace) {
   Wrong nlp;
   for (int entry = 0; entry < nlp.hessian_places.size(); ++entry) {
     nlp.hessian_entry = entry;
-    const DerivativeReport report = check(nlp);
+    const test::DerivativeReport report = check(nlp);
     EXPECT_GT(report.hessian.relative, 1e-6);
     EXPECT_EQ(report.hessian.row, nlp.hessian_places.rows[entry]);
     EXPECT_EQ(report.hessian.col, nlp.hessian_places.cols[entry]);
@@ -116,14 +116,14 @@ TEST(DerivativeCheck, FindsNanInADerivative) {
   Wrong nlp;
   nlp.jacobian_entry = 3;
   nlp.error = std::nan("");
-  const DerivativeReport report = check(nlp);
+  const test::DerivativeReport report = check(nlp);
   EXPECT_TRUE(std::isinf(report.jacobian.relative));
   EXPECT_EQ(report.jacobian.col, 3);
 }
 
 TEST(DerivativeCheck, AcceptsASparsePatternThatIsComplete) {
   TwoVariables nlp;
-  const DerivativeReport report = nlp.check();
+  const test::DerivativeReport report = nlp.check();
   EXPECT_LT(report.worst(), 1e-8) << report.summary();
   EXPECT_THAT(report.pattern_faults, IsEmpty());
 }

@@ -1,0 +1,1 @@
+prowl_test(support/derivative_check nlp_support)
