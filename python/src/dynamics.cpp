@@ -11,6 +11,7 @@
 #include "prowl/dynamics/projected_residual.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/nlp/thread_team.hpp"
+#include "prowl/session/plan_task.hpp"
 #include "signals.hpp"
 
 namespace prowl::python {
@@ -211,9 +212,8 @@ class Dynamics {
   }
 
   static int checked(int threads) {
-    constexpr int kMost = 256;
-    if (threads >= 1 && threads <= kMost) return threads;
-    throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", threads, kMost));
+    if (threads >= 1 && threads <= kMostThreads) return threads;
+    throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", threads, kMostThreads));
   }
   std::size_t nv() const { return static_cast<std::size_t>(robot_.nv()); }
   std::size_t count() const { return contacts_.size(); }
