@@ -8,6 +8,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/motion/duration_limits.hpp"
 #include "prowl/task_file/interval_shares.hpp"
 #include "prowl/task_file/problem_fields.hpp"
 #include "prowl/task_file/robot_file.hpp"
