@@ -1,7 +1,4 @@
-"""docs/notation.md: each section has a table with rows, and each identifier that it names is in the code.
-
-    notation_test.py
-"""
+"""docs/notation.md: each section contains a table with rows, and each identifier that it names is in the code."""
 
 import pathlib
 import re
