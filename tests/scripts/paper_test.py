@@ -329,7 +329,7 @@ class Paper(unittest.TestCase):
         source = (ROOT / "docs/paper.md").read_text(encoding="utf-8")
         section = source[source.index("## Differences") : source.index("## The paper redone")]
         subjects = re.findall(r"^\| ([^|]+) \|", section, re.MULTILINE)
-        for subject in ("phase switch", "before a contact opens", "friction cone", "crouch", "start"):
+        for subject in ("phase transition", "before a contact opens", "friction cone", "crouch", "start"):
             self.assertIn(subject, subjects)
         tables = [row for name in ("table_1", "plans", "simulations", "formulations") for row in self.rows(name)]
         expected = [f"({name}.png)" for name in FIGURES]
