@@ -2,7 +2,7 @@
 # scripts/test installs what they need.
 find_program(PROWL_DOXYGEN doxygen)
 if(PROWL_BUILD_CLI AND PROWL_DOXYGEN AND EXISTS ${PROWL_VENV}/bin/mkdocs AND EXISTS ${PROJECT_SOURCE_DIR}/site/node_modules)
-  foreach(name pages site commands)
+  foreach(name pages words pictures site commands)
     add_test(NAME docs/${name} COMMAND ${PROWL_VENV}/bin/python ${CMAKE_CURRENT_LIST_DIR}/${name}_test.py $<TARGET_FILE:prowl_cli>
       ${PROWL_CMEEL}/share)
     set_tests_properties(docs/${name} PROPERTIES TIMEOUT 1200 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
