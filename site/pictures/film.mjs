@@ -24,6 +24,7 @@ const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] }
 for (const { report, folder, width, height, layers, share, rate } of shots) {
   mkdirSync(folder, { recursive: true });
   const page = await browser.newPage({ viewport: { width, height }, colorScheme: "light", bypassCSP: true });
+  page.setDefaultTimeout(180_000); // software draws the picture, perhaps beside other work
   await page.goto(pathToFileURL(report).href);
   await page.waitForFunction(() => window.prowl?.view);
   await page.addStyleTag({ content: STYLE });
