@@ -1,0 +1,79 @@
+"""The gallery shows every shipped task, the README a robot that moves, and scripts/pictures makes such pictures.
+
+pictures_test.py PROWL ROBOTS_DATA
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+from PIL import Image
+
+ROOT = pathlib.Path(__file__).parents[2]
+PICTURES = ROOT / "docs/pictures"
+ENTRY = re.compile(
+    r"!\[[^\]]+\]\(pictures/(?P<picture>[\w-]+\.webp)\)<br>\[[^\]]+\]\(\.\./tasks/(?P<task>\w+/\w+)\.toml\)"
+)
+command = robots = None
+
+
+def contrast(path: pathlib.Path) -> float:
+    """Difference of the brightest and the darkest grey: 255 at most, next to 0 in a picture of nothing."""
+    low, high = Image.open(path).convert("L").getextrema()
+    return high - low
+
+
+class Pictures(unittest.TestCase):
+    def test_the_gallery_shows_every_shipped_task(self):
+        shown = {
+            match["task"]: match["picture"] for match in ENTRY.finditer((ROOT / "docs/gallery.md").read_text("utf-8"))
+        }
+        shipped = {path.relative_to(ROOT / "tasks").with_suffix("").as_posix() for path in ROOT.glob("tasks/*/*.toml")}
+        self.assertGreater(len(shipped), 20)
+        self.assertEqual(set(shown), shipped)
+        for task, name in shown.items():
+            with self.subTest(task=task):
+                self.assertEqual(name, f"{task.replace('/', '-')}.webp")
+                self.assertEqual(Image.open(PICTURES / name).size, (240, 180))
+                self.assertGreater(contrast(PICTURES / name), 100)
+        self.assertLess(sum((PICTURES / name).stat().st_size for name in shown.values()), 2e6)
+
+    def test_the_readme_shows_a_robot_that_moves(self):
+        readme = (ROOT / "README.md").read_text("utf-8")
+        (name,) = re.findall(r"!\[[^\]]+\]\(docs/pictures/([\w-]+\.webp)\)", readme)
+        moving = Image.open(PICTURES / name)
+        self.assertGreater(moving.n_frames, 20)
+        self.assertLess((PICTURES / name).stat().st_size, 3e6)
+        first = moving.convert("RGB")
+        moving.seek(moving.n_frames // 2)
+        self.assertNotEqual(first.tobytes(), moving.convert("RGB").tobytes())
+        self.assertLessEqual(len(readme.splitlines()), 120)
+
+    def test_the_script_films_a_plan(self):
+        with tempfile.TemporaryDirectory() as folder:
+            run = subprocess.run(
+                [sys.executable, ROOT / "scripts/pictures", "hyq/hold", "--prowl", command, "--out", folder]
+                + ["--package-dir", robots],
+                capture_output=True,
+                text=True,
+            )
+            self.assertEqual(run.returncode, 0, run.stderr)
+            (picture,) = pathlib.Path(folder).iterdir()
+            self.assertEqual(picture.name, "hyq-hold.webp")
+            self.assertEqual(Image.open(picture).size, (240, 180))
+            self.assertGreater(contrast(picture), 100, "the robot is not in the picture")
+
+    def test_the_script_names_what_it_does_not_know(self):
+        run = subprocess.run(
+            [sys.executable, ROOT / "scripts/pictures", "hyq/fly", "--prowl", command], capture_output=True, text=True
+        )
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("unknown: hyq/fly; need some of", run.stderr)
+
+
+if __name__ == "__main__":
+    command, robots = sys.argv[1:3]
+    unittest.main(argv=sys.argv[:1])
