@@ -1,11 +1,10 @@
 # The documentation: its pages as text, the site built from them and looked at in a browser, and every command in the pages.
 # scripts/test installs what they need.
 
-# docs/reference.md, which scripts/reference writes. The keys need no library of Prowl.
-add_executable(file_keys ${PROJECT_SOURCE_DIR}/site/reference/file_keys.cpp ${PROJECT_SOURCE_DIR}/prowl/task_file/toml/file_keys.cpp)
+# docs/reference.md, which scripts/reference writes.
+add_executable(file_keys ${PROJECT_SOURCE_DIR}/site/reference/file_keys.cpp)
 set_target_properties(file_keys PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-target_include_directories(file_keys PRIVATE ${PROJECT_SOURCE_DIR})
-target_link_libraries(file_keys PRIVATE nlohmann_json::nlohmann_json)
+target_link_libraries(file_keys PRIVATE prowl::task_file nlohmann_json::nlohmann_json)
 if(PROWL_BUILD_CLI)
   add_test(NAME docs/reference
     COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/reference_test.py $<TARGET_FILE:prowl_cli> $<TARGET_FILE:file_keys>)
