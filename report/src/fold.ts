@@ -13,9 +13,12 @@ export function foldable(section: HTMLElement | null, opened: () => void = () =>
     button.setAttribute("aria-expanded", String(!folded));
     button.setAttribute("aria-label", `${folded ? "Open" : "Fold"} ${heading.firstChild?.textContent?.trim() ?? ""}`);
     button.textContent = folded ? "+" : "−";
-    if (!folded) opened();
   };
-  button.addEventListener("click", () => set(!section.classList.contains("folded")));
+  button.addEventListener("click", () => {
+    const folded = !section.classList.contains("folded");
+    set(folded);
+    if (!folded) opened();
+  });
   heading.append(button);
   set(kNarrow.matches);
   return section;

@@ -5,8 +5,8 @@ const kLimits: Record<string, string> = {
   time_limit: "out of time",
   interrupted: "interrupted",
   evaluation_failed: "a function has no value",
-  solver_failed: "the solver found none",
-  infeasible: "no motion does what the task asks for",
+  solver_failed: "no motion found",
+  infeasible: "no motion found",
 };
 
 /// What each grade is good for, with the limits of the local integration error (CertificateLimits).
@@ -26,6 +26,8 @@ export function whyNot(plan: PlanJson): string {
   if (plan.reasons.length > 0 && plan.status === "infeasible") return "the task cannot be done";
   const failed = failedChecks(plan);
   if (failed.some((check) => check.name.startsWith("goal"))) return "goal not reached";
+  const hasGoal = plan.certificate.checks.some((check) => check.name.startsWith("goal"));
+  if (["solver_failed", "infeasible"].includes(plan.status) && hasGoal) return "no motion found that reaches the goal";
   if (plan.status !== "converged") return kLimits[plan.status] ?? plan.status.replaceAll("_", " ");
   return failed.length === 1 ? `${failed[0].name} beyond its limit` : `${failed.length} checks failed`;
 }

@@ -29,13 +29,14 @@ test("a grade says what it is good for, where it stands", async ({ page }) => {
 
 test("a failed plan says what is wrong in words", async ({ page }) => {
   await open(page, "failed");
-  await expect(page.locator(".badge")).toHaveText("✗ no plan: goal not reached");
+  await expect(page.locator(".badge")).toHaveText("✗ no plan: no motion found that reaches the goal");
   const failed = plan("failed").certificate.checks.filter((check: { passed: boolean }) => !check.passed).length;
   expect(failed).toBeGreaterThan(1);
   await expect(page.locator("#certificate-title")).toContainText(`${failed} of `);
   await expect(page.locator("tr.failed")).toHaveCount(failed);
   await expect(page.locator(".summary")).toContainText("stopped in");
-  await expect(page.locator("header, #certificate-title")).not.toContainText([/solver_failed/, /grade: failed/]);
+  await expect(page.locator("header")).not.toContainText("solver_failed");
+  await expect(page.locator("#certificate-title")).not.toContainText("grade");
 });
 
 test("a goal that is proven out of reach is named", async ({ page }) => {
@@ -72,10 +73,10 @@ test("checks stand in groups, with units and the share of the limit that is used
   for (const check of checks) {
     const row = page.locator(`tr[data-check="${check.name}"]`);
     const percent = (await row.locator(".percent").textContent())!;
-    if (check.limit === 0) expect(percent).toBe("–");
-    else if (check.worst <= 0) expect(percent).toBe("0 %");
-    else if (check.worst / check.limit < 1e-5) expect(percent).toBe("< 0.001 %");
-    else isNear(percent.replace(" %", "").replace("e−", "e-"), (100 * check.worst) / check.limit / 1);
+    const share = (100 * check.worst) / check.limit;
+    if (check.worst <= 0) expect(percent).toBe("0 %");
+    else if (share < 1e-3) expect(percent).toBe("< 0.001 %");
+    else expect(Math.abs(Number(percent.replace(" %", "")) - share)).toBeLessThan(0.051 * share); // two digits
     if (check.worst < 0) await expect(row.locator(".worst")).toContainText("left");
   }
   await expect(page.locator(`tr[data-check="joint position beyond limit"] .limit`)).toHaveText("0.001 rad");

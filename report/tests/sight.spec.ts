@@ -16,14 +16,15 @@ for (const [width, height] of [
     await open(page, "walk");
     await page.waitForTimeout(200);
     const end = await endOf(page);
-    let widest = 0;
+    let outermost = 0;
     for (let share = 0; share <= 1; share += 0.05) {
       await seek(page, share * end);
       const { left, right, bottom, top } = await screenBox(page);
       for (const edge of [left, right, bottom, top]) expect(Math.abs(edge)).toBeLessThan(0.95);
-      widest = Math.max(widest, -left, right);
+      outermost = Math.max(outermost, -left, right, -bottom, top);
     }
-    expect(widest, "a robot far away is easily inside").toBeGreaterThan(0.7);
+    // On a low picture the switches take a fifth of it.
+    expect(outermost, "a robot far away is easily inside").toBeGreaterThan(width > 900 ? 0.7 : 0.5);
   });
 }
 
@@ -225,10 +226,14 @@ test("Record plays the motion once and saves a video that a browser plays", asyn
         return drawing.getImageData(0, 0, canvas.width, canvas.height).data;
       };
       const first = pixels();
-      await new Promise<void>((resolve) => setTimeout(resolve, 500));
-      const later = pixels();
-      let changed = 0;
-      for (let i = 0; i < first.length; i += 4) if (Math.abs(first[i] - later[i]) > 25) ++changed;
+      let changed = 0; // pixels that are not as at the beginning, at the moment with most of them
+      while (!video.ended) {
+        await new Promise((resolve) => setTimeout(resolve, 100));
+        const later = pixels();
+        let count = 0;
+        for (let i = 0; i < first.length; i += 4) if (Math.abs(first[i] - later[i]) > 25) ++count;
+        changed = Math.max(changed, count);
+      }
       return { width: video.videoWidth, height: video.videoHeight, changed };
     },
     `data:video/webm;base64,${bytes.toString("base64")}`,
