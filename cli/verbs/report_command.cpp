@@ -20,10 +20,26 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ReportArguments {
-  std::string directory, out;
+  std::string directory, other, out;
   std::vector<std::string> package_dirs;
   bool json = false;
 };
+
+WrittenReport write_page(const Report& report, const fs::path& out, const std::string& content, bool has_simulation) {
+  write_file_atomically(out, report.html);
+  print_message(
+      fmt::format("report: {}, {:.1f} MB{}\n", out.string(), 1e-6 * static_cast<double>(report.html.size()), content));
+  return {report.html.size(), has_simulation, report.warnings};
+}
+
+/// Two plans in one page.
+WrittenReport write_comparison(const PlanRecord& plan, const ReportArguments& arguments, const fs::path& out,
+                               const PackageSearch& search) {
+  const PlanRecord other = read_plan(arguments.other, search);
+  const ReportInputs inputs = report_inputs(plan, arguments.directory);
+  const ReportInputs compared = report_inputs(other, arguments.other);
+  return write_page(report_page(inputs, search, &compared), out, ", of two plans", inputs.simulation.has_value());
+}
 
 }  // namespace
 
@@ -31,29 +47,30 @@ WrittenReport write_report(const PlanRecord& plan, const fs::path& directory, co
                            const PackageSearch& search) {
   const ReportInputs inputs = report_inputs(plan, directory);
   const Report report = report_page(inputs, search);
-  write_file_atomically(out, report.html);
-  print_message(fmt::format("report: {}, {:.1f} MB{}\n", out.string(), 1e-6 * static_cast<double>(report.html.size()),
-                            inputs.simulation ? "" : ", of the plan alone: there is no simulation"));
-  return {report.html.size(), inputs.simulation.has_value(), report.warnings};
+  return write_page(report, out, inputs.simulation ? "" : ", of the plan alone: there is no simulation",
+                    inputs.simulation.has_value());
 }
 
 void add_report_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<ReportArguments>();
   CLI::App* const verb = app.add_subcommand("report", "Write a page that replays a plan in a browser");
   add_plan_directory(*verb, arguments->directory);
+  verb->add_option("other", arguments->other, "Folder of a second plan, to compare with the first")->type_name("DIR");
   verb->add_option("--out", arguments->out, "Where to write it; default: DIR/report.html")->type_name("FILE");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(
       *verb,
-      {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html"},
+      {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html",
+       "prowl report out/hyq_walk out/hyq_trot --out compared.html"},
       "0 if it is written, 2 bad input, 4 files. It is one file that needs no network and no other file.");
   verb->callback([arguments, &status] {
     const fs::path directory = arguments->directory;
     const fs::path out = arguments->out.empty() ? directory / kReportFile : fs::path(arguments->out);
     const PackageSearch search = package_search(arguments->package_dirs);
     const PlanRecord plan = read_plan(directory, search);
-    const WrittenReport report = write_report(plan, directory, out, search);
+    const WrittenReport report = arguments->other.empty() ? write_report(plan, directory, out, search)
+                                                          : write_comparison(plan, *arguments, out, search);
     if (arguments->json) {
       const nlohmann::json result = {
           {"bytes", report.bytes}, {"simulation", report.has_simulation}, {"warnings", report.warnings}};

@@ -44,8 +44,8 @@ ReportInputs report_inputs(const PlanRecord& plan, const fs::path& directory) {
   return inputs;
 }
 
-Report report_page(const ReportInputs& inputs, const PackageSearch& search) {
-  Report report = make_report(inputs, search);
+Report report_page(const ReportInputs& inputs, const PackageSearch& search, const ReportInputs* other) {
+  Report report = make_report(inputs, search, other);
   for (const std::string& warning : report.warnings) print_message(fmt::format("warning: {}\n", warning));
   return report;
 }

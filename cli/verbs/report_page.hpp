@@ -10,7 +10,7 @@ namespace prowl::cli {
 /// one.
 ReportInputs report_inputs(const PlanRecord& plan, const std::filesystem::path& directory);
 
-/// The report; its warnings are told on stderr, too.
-Report report_page(const ReportInputs& inputs, const PackageSearch& search);
+/// The report, of two plans if there is an `other`; its warnings are told on stderr, too.
+Report report_page(const ReportInputs& inputs, const PackageSearch& search, const ReportInputs* other = nullptr);
 
 }  // namespace prowl::cli

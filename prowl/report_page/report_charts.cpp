@@ -103,8 +103,15 @@ class Charts {
     for (std::size_t c = 0; c < robot_.contacts().size(); ++c) {
       for (int i = 0; i < 3; ++i) {
         const Eigen::Index k = 3 * static_cast<Eigen::Index>(c) + i;
-        charts.push_back(chart(fmt::format("{} {}", robot_.contacts()[c].name, kAxes[i]), "N",
-                               [k](const auto& p) { return p.force(k); }));
+        Json one = chart(fmt::format("{} {}", robot_.contacts()[c].name, kAxes[i]), "N",
+                         [k](const auto& p) { return p.force(k); });
+        for (const double side : {1.0, -1.0}) {
+          const auto limit = [this, c, i, side](const auto& p) { return force_limit(p, static_cast<int>(c), i, side); };
+          const auto has_limit = [&](const auto& p) { return std::isfinite(limit(p)); };
+          if (std::any_of(plan_.begin(), plan_.end(), has_limit))
+            one["series"].push_back(series("limit", "limit", "plan", plan_, limit));
+        }
+        charts.push_back(one);
       }
     }
     return charts;
@@ -159,17 +166,37 @@ class Charts {
     return std::abs(p.v(6 + j)) / robot_.velocity_limit()(j);
   }
 
+  /// The surface that a contact is held on, null while it is open.
+  const Surface* surface_below(const TrajectoryPoint& p, int c) const {
+    for (const PhaseContact& held : problem_.phases[p.phase].contacts) {
+      if (held.contact == c) return &problem_.surfaces[held.surface];
+    }
+    return nullptr;
+  }
+  /// What the component of a contact force along a world axis may be, at the normal force f_n that it has:
+  ///
+  ///   f_n n_i ± μ f_n √(1 - n_i²)
+  ///
+  /// is where the slice of the friction cone ends on that axis. Along the normal itself the force may not pull: there
+  /// the lower limit is 0 and there is no upper. Nothing while the contact is open.
+  double force_limit(const TrajectoryPoint& p, int c, int axis, double side) const {
+    constexpr double kAlong = 0.999;  // of n_i: the axis is the normal's
+    const Surface* const surface = surface_below(p, c);
+    if (surface == nullptr) return kNothing;
+    const double along = surface->normal(axis);
+    if (std::abs(along) > kAlong) return side * along < 0.0 ? 0.0 : kNothing;
+    const double normal = surface->normal.dot(p.force.segment<3>(3 * c));
+    return normal * (along + side * surface->friction * std::sqrt(1.0 - along * along));
+  }
+
   /// Tangential force over what friction can hold; nothing while the contact is open or bears next to nothing.
   double friction_share(const TrajectoryPoint& p, int c) const {
-    for (const PhaseContact& held : problem_.phases[p.phase].contacts) {
-      if (held.contact != c) continue;
-      const Surface& surface = problem_.surfaces[held.surface];
-      const Eigen::Vector3d f = p.force.segment<3>(3 * c);
-      const double normal = surface.normal.dot(f);
-      if (normal < kLeastLoad * robot_.weight()) return kNothing;
-      return (f - normal * surface.normal).norm() / (surface.friction * normal);
-    }
-    return kNothing;
+    const Surface* const surface = surface_below(p, c);
+    if (surface == nullptr) return kNothing;
+    const Eigen::Vector3d f = p.force.segment<3>(3 * c);
+    const double normal = surface->normal.dot(f);
+    if (normal < kLeastLoad * robot_.weight()) return kNothing;
+    return (f - normal * surface->normal).norm() / (surface->friction * normal);
   }
 
   const MotionProblem& problem_;

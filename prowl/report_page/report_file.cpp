@@ -102,13 +102,11 @@ std::string served(std::string page) {
   return page.replace(place, std::string_view(kPolicy).size(), kServedPolicy);
 }
 
-}  // namespace
-
-Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
+/// What the page shows of a plan and of its simulation.
+Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::vector<std::string>& warnings) {
   const PlanRecord& record = inputs.plan;
   const MotionProblem& problem = record.task.problem;
   const RobotModel& robot = problem.robot;
-  Report report;
 
   const Trajectory& trajectory = record.plan.trajectory;
   const double step = report_step(trajectory.duration());
@@ -125,7 +123,7 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
                {"phases", phases_json(problem, inputs.plan.plan)},
                {"plan_json", plan_to_json(record)},
                {"command", plan_command(record)},
-               {"scene", report_scene(problem, search, report.warnings)},
+               {"scene", report_scene(problem, search, warnings)},
                {"plan", report_motion_json(robot, plan)},
                {"simulation", nullptr},
                {"simulation_json", parse_simulation(inputs)},
@@ -134,6 +132,32 @@ Report make_report(const ReportInputs& inputs, const PackageSearch& search) {
                {"live", nullptr}};
   if (!simulation.empty()) data["simulation"] = report_motion_json(robot, simulation);
   if (inputs.tracking) data["gains"] = report_gains(*inputs.tracking, kGainStep);
+  return data;
+}
+
+/// A plan to compare with that of `first`; without its scene if that is the same.
+Json other_data(const ReportInputs& inputs, const Json& first, const PackageSearch& search,
+                std::vector<std::string>& warnings) {
+  std::vector<std::string> own_warnings;
+  Json data = report_data(inputs, search, own_warnings);
+  for (const std::string& warning : own_warnings) {
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  }
+  Json other;
+  for (const char* key : {"directory", "robot", "size_m", "phases", "plan_json", "plan", "charts"}) {
+    other[key] = std::move(data[key]);
+  }
+  other["scene"] = data["scene"] == first["scene"] ? Json(nullptr) : std::move(data["scene"]);
+  return other;
+}
+
+}  // namespace
+
+Report make_report(const ReportInputs& inputs, const PackageSearch& search, const ReportInputs* other) {
+  Report report;
+  Json data = report_data(inputs, search, report.warnings);
+  data["other"] = nullptr;
+  if (other != nullptr) data["other"] = other_data(*other, data, search, report.warnings);
   data["warnings"] = report.warnings;
   if (inputs.state != PageState::file) data["live"] = {{"solved", inputs.state == PageState::solved}};
   report.html = filled(inputs.state == PageState::file ? inputs.template_html : served(inputs.template_html),

@@ -31,8 +31,9 @@ struct Report {
 
 /// A page that replays the plan, and the simulation if there is one (docs/report.md). Meshes are looked for as
 /// package:// in robot files is. Nothing from the files becomes markup or script: it is in the page as JSON without any
-/// '<'. Throws InputError for files that are wrong, FileError for a template that is not one.
-Report make_report(const ReportInputs& inputs, const PackageSearch& search);
+/// '<'. `other` is a second plan to compare with, or null. Throws InputError for files that are wrong, FileError for a
+/// template that is not one.
+Report make_report(const ReportInputs& inputs, const PackageSearch& search, const ReportInputs* other = nullptr);
 
 /// An iterate of the solver for a page that is served: its motion, charts and phases as in a report, and how far it is.
 /// One line.

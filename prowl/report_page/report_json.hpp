@@ -15,7 +15,8 @@ namespace prowl {
 nlohmann::ordered_json report_scene(const MotionProblem& problem, const PackageSearch& search,
                                     std::vector<std::string>& warnings);
 
-/// "time", "placements" (of every body at every time) and "forces" (of every contact, world frame [N]).
+/// "time", "placements" (of every body at every time), "forces" (of every contact, world frame [N]) and "mass_centre"
+/// (of the whole robot, world frame [m]).
 nlohmann::ordered_json report_motion_json(const RobotModel& robot, const std::vector<TrajectoryPoint>& points);
 
 /// The charts: an array of tabs, each with its charts, each with its series over the time of "plan" or "simulation".

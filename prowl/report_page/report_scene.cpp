@@ -104,6 +104,17 @@ std::vector<RobotVisual> readable_visuals(const RobotModel& robot, const BodyTre
   return visuals;
 }
 
+/// Centre of mass of bodies at their placements in the world [m].
+Eigen::Vector3d mass_centre(const BodyTree& tree, const std::vector<Eigen::Isometry3d>& placements) {
+  double mass = 0.0;
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
+    mass += tree.bodies[b].mass;
+    moment += tree.bodies[b].mass * (placements[b] * tree.bodies[b].center);
+  }
+  return moment / mass;
+}
+
 Json surfaces_json(const MotionProblem& problem) {
   Json surfaces = Json::array();
   for (const Surface& surface : problem.surfaces) {
@@ -152,19 +163,26 @@ Json report_scene(const MotionProblem& problem, const PackageSearch& search, std
 }
 
 Json report_motion_json(const RobotModel& robot, const std::vector<TrajectoryPoint>& points) {
+  const BodyTree tree = body_tree(robot);
   BodyPlacements bodies(robot);
   Json times = Json::array();
-  std::vector<float> placements, forces;
+  std::vector<float> placements, forces, mass_centres;
   for (const TrajectoryPoint& point : points) {
     times.push_back(point.time);
-    for (const Eigen::Isometry3d& placement : bodies.at(point.q)) {
+    const std::vector<Eigen::Isometry3d>& placed = bodies.at(point.q);
+    const Eigen::Vector3f centre = mass_centre(tree, placed).cast<float>();
+    mass_centres.insert(mass_centres.end(), {centre.x(), centre.y(), centre.z()});
+    for (const Eigen::Isometry3d& placement : placed) {
       const Eigen::Quaternionf q = Eigen::Quaterniond(placement.linear()).normalized().cast<float>();
       const Eigen::Vector3f p = placement.translation().cast<float>();
       placements.insert(placements.end(), {p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()});
     }
     for (const double f : point.force) forces.push_back(static_cast<float>(f));
   }
-  return {{"time", times}, {"placements", base64(placements)}, {"forces", base64(forces)}};
+  return {{"time", times},
+          {"placements", base64(placements)},
+          {"forces", base64(forces)},
+          {"mass_centre", base64(mass_centres)}};
 }
 
 }  // namespace prowl

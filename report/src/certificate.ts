@@ -1,19 +1,23 @@
 import { Chart } from "./chart";
 import type { Clock } from "./clock";
 import type { Check, ReportData } from "./data";
+import { barLength, groupOf, kGroups, percent, unitOf, usedShare, worstText } from "./checks";
 import { el, short } from "./dom";
+import { failedChecks, kGrades } from "./verdict";
 
 const kDraft = 1e-4; // CertificateLimits of prowl/certificate/certificate.hpp
 const kCertified = 1e-6;
 
-/// The checks of the finished plan; each goes to its worst moment.
+/// The checks of the finished plan in groups; each goes to its worst moment.
 export function certificate(
   data: ReportData,
   clock: Clock,
   goTo: (time: number) => void,
 ): { element: HTMLElement; draw: () => void } {
   const { certificate: found, reasons, hints } = data.plan_json;
-  const rows = found.checks.map((check) => row(check, goTo));
+  const groups = kGroups
+    .map(([name]) => ({ name, checks: found.checks.filter((check) => groupOf(check) === name) }))
+    .filter(({ checks }) => checks.length > 0);
   const table = el(
     "table",
     { class: "checks" },
@@ -24,12 +28,20 @@ export function certificate(
         "tr",
         {},
         ...["verdict", "check", "worst", "limit", "used", "time", "where"].map((name) =>
-          el("th", { scope: "col", class: ["worst", "limit", "time"].includes(name) ? "number" : "" }, name),
+          el("th", { scope: "col", class: ["worst", "limit", "used", "time"].includes(name) ? "number" : "" }, name),
         ),
       ),
     ),
-    el("tbody", {}, ...rows),
+    ...groups.map(({ name, checks }) =>
+      el(
+        "tbody",
+        {},
+        el("tr", { class: "group" }, el("th", { scope: "rowgroup", colspan: "7" }, name)),
+        ...checks.map((check) => row(check, data, goTo)),
+      ),
+    ),
   );
+  const failed = failedChecks(data.plan_json).length;
   const notes: HTMLElement[] = [];
   for (const text of [...reasons, ...hints]) notes.push(el("li", {}, text));
   if (found.redundant_contacts.length > 0) {
@@ -86,12 +98,24 @@ export function certificate(
       "h2",
       { id: "certificate-title" },
       "Certificate ",
-      el("small", {}, `${found.passed ? "passed" : "failed"}, grade: ${found.grade}`),
+      el(
+        "small",
+        {},
+        found.passed ? `passed, grade ${found.grade}` : `${failed} of ${found.checks.length} checks failed`,
+      ),
     ),
+    found.passed
+      ? el(
+          "p",
+          { class: "grade" },
+          kGrades[found.grade],
+          found.grade === "draft" ? `. ${sentence(kGrades.certified)}.` : ".",
+        )
+      : null,
     el(
       "p",
       { class: "hint" },
-      "Judged from the finished motion alone, by other code than planned it. A check passes if worst ≤ limit; a negative worst is what is left to the bound. A row goes to the worst moment.",
+      "Computed from the finished motion by separate code for dynamics and integration. A check passes if its worst value is at most its limit; “left” is the distance to the bound. The bar is logarithmic: empty at a millionth of the limit, full at all of it. Click a row to go to its worst moment.",
     ),
     notes.length > 0 ? el("ul", { class: "notes" }, ...notes) : null,
     el("div", { class: "wide" }, table),
@@ -100,7 +124,7 @@ export function certificate(
       ? el(
           "p",
           { class: "hint" },
-          "Dashed: limit of grade draft, dotted: of grade certified. It falls with the cube of the step.",
+          "Dashed: limit of grade draft; dotted: limit of grade certified. The error falls with the cube of the step.",
         )
       : null,
   );
@@ -108,11 +132,13 @@ export function certificate(
   return { element, draw: () => chart?.draw() };
 }
 
-function row(check: Check, goTo: (time: number) => void): HTMLElement {
-  const unit = check.unit === "-" || check.unit === "" ? "" : ` ${check.unit.replace("^2", "²")}`;
-  const share = check.worst === null || check.limit === null || check.limit === 0 ? null : check.worst / check.limit;
+const sentence = (text: string): string => text[0].toUpperCase() + text.slice(1);
+
+function row(check: Check, data: ReportData, goTo: (time: number) => void): HTMLElement {
+  const unit = unitOf(check, data);
+  const share = usedShare(check);
   const bar = el("span", { class: check.passed ? "used" : "used over" });
-  bar.style.setProperty("--share", String(Math.min(Math.max(share ?? (check.passed ? 0 : 1), 0), 1)));
+  bar.style.setProperty("--share", String(barLength(share ?? (check.passed ? 0 : 1))));
   const time = check.time_s;
   const seek =
     time === null
@@ -125,11 +151,11 @@ function row(check: Check, goTo: (time: number) => void): HTMLElement {
   const line = el(
     "tr",
     { class: check.passed ? "" : "failed", "data-check": check.name },
-    el("td", { class: "verdict" }, verdict(check)),
+    el("td", { class: "verdict", title: check.passed ? kGrades[gradeOf(check)] : false }, verdict(check)),
     el("th", { scope: "row" }, check.name),
-    el("td", { class: "number worst" }, `${short(check.worst)}${unit}`),
-    el("td", { class: "number limit" }, `${short(check.limit)}${unit}`),
-    el("td", { class: "share", title: share === null ? false : `${short(100 * share)} % of the limit` }, bar),
+    el("td", { class: "number worst" }, worstText(check, unit)),
+    el("td", { class: "number limit" }, `${short(check.limit)}${unit ? ` ${unit}` : ""}`),
+    el("td", { class: "number share" }, el("span", { class: "percent" }, percent(share)), bar),
     el("td", { class: "number time" }, seek),
     el("td", { class: "where" }, check.where),
   );
@@ -137,8 +163,12 @@ function row(check: Check, goTo: (time: number) => void): HTMLElement {
   return line;
 }
 
+const gradeOf = (check: Check): "certified" | "draft" =>
+  check.worst !== null && check.certified_limit !== null && check.worst <= check.certified_limit
+    ? "certified"
+    : "draft";
+
 function verdict(check: Check): string {
   if (!check.passed) return "✗ fail";
-  const certified = check.worst !== null && check.certified_limit !== null && check.worst <= check.certified_limit;
-  return certified ? "✓ pass" : "✓ draft";
+  return gradeOf(check) === "certified" ? "✓ pass" : "✓ draft";
 }

@@ -2,7 +2,7 @@ import uPlot from "uplot";
 import type { Clock } from "./clock";
 import type { Phase } from "./data";
 import { colour, el, short } from "./dom";
-import { place } from "./motion";
+import { sampleAt } from "./motion";
 
 export interface Line {
   label: string;
@@ -24,6 +24,7 @@ export interface ChartOptions {
   height?: number;
   limits: boolean; // whether they are shown
   group: string; // charts of one group share cursor and zoom
+  resized?: () => void; // called when the reader enlarges the chart or makes it small again
   xLabel?: string; // in place of time, which can be clicked
 }
 
@@ -47,9 +48,16 @@ function aligned(lines: Line[]): uPlot.AlignedData {
   );
 }
 
-/// A small chart over time: a click seeks, the time of the clock is a line, the values at that time are in its heading.
+const kHeight = 112; // [px]
+const kLargeHeight = 320; // [px], enlarged
+const kFont = "10px system-ui, sans-serif";
+const kLabelHeight = 16; // of a label of the vertical axis, with air [px]
+
+/// A small chart over time: a click seeks, the time of the clock is a line, the values at that time are under its title.
+/// A click on the title enlarges it.
 export class Chart {
   readonly element: HTMLElement;
+  private readonly title: HTMLButtonElement;
   private readonly values = el("span", { class: "values" });
   private readonly box = el("div", { class: "plot" });
   private readonly head = el("div", { class: "playhead" });
@@ -60,18 +68,40 @@ export class Chart {
     private readonly clock: Clock,
     private readonly phases: Phase[],
   ) {
+    this.title = el(
+      "button",
+      { type: "button", class: "title", title: "Enlarge", "aria-expanded": "false" },
+      options.title,
+    );
+    this.title.addEventListener("click", () => this.enlarge(!this.large));
     this.element = el(
       "figure",
       { class: "chart" },
       el(
         "figcaption",
         {},
-        el("span", { class: "title", title: options.title }, options.title),
-        this.values,
-        el("span", { class: "unit" }, options.unit === "-" ? "" : options.unit),
+        this.title,
+        el(
+          "span",
+          { class: "now" },
+          this.values,
+          el("span", { class: "unit" }, options.unit === "-" ? "" : options.unit),
+        ),
       ),
       this.box,
     );
+  }
+
+  get large(): boolean {
+    return this.element.classList.contains("large");
+  }
+  enlarge(on: boolean): void {
+    this.element.classList.toggle("large", on);
+    this.title.setAttribute("aria-expanded", String(on));
+    this.title.title = on ? "Make small" : "Enlarge";
+    this.options.resized?.();
+    this.resize();
+    if (on) this.element.scrollIntoView({ block: "nearest" });
   }
 
   /// Draws it; the element has to be in the page.
@@ -80,13 +110,13 @@ export class Chart {
     const { lines, options } = { lines: this.options.lines, options: this.options };
     const width = this.box.clientWidth || 200;
     const grid = { stroke: colour("grid"), width: 1 };
-    const font = "10px system-ui, sans-serif";
-    const axis = { stroke: colour("muted"), font, grid, ticks: { ...grid, size: 3 } };
+    const axis = { stroke: colour("muted"), font: kFont, grid, ticks: { ...grid, size: 3 } };
+    const filter = options.logarithmic ? { filter: powersOfTen } : {};
     this.plot = new uPlot(
       {
         width,
-        height: options.height ?? 112,
-        padding: [4, 12, 0, 0],
+        height: this.height(),
+        padding: [8, 16, 0, 0], // half a label
         pxAlign: 0, // whole pixels would make steps of slow changes
         legend: { show: false },
         cursor: { sync: { key: options.group }, drag: { x: true, y: false }, points: { size: 5 } },
@@ -104,9 +134,10 @@ export class Chart {
           },
           {
             ...axis,
-            grid: options.logarithmic ? { ...grid, filter: powersOfTen } : grid,
+            ...filter,
+            grid: { ...grid, ...filter },
             ticks: { show: false },
-            size: 42,
+            size: (u, texts) => labelWidth(u, texts),
             gap: 3,
             space: 22,
             values: (_u, ticks) => ticks.map((tick) => (tick == null ? "" : short(tick, 4))),
@@ -124,7 +155,8 @@ export class Chart {
             paths: line.steps ? uPlot.paths.stepped!({ align: 1 }) : undefined,
           })),
         ],
-        hooks: { drawClear: [(u) => this.shade(u)], setScale: [() => this.update()] },
+        // Scales are set when it draws, which is later than this constructor and again after a zoom or a new size.
+        hooks: { drawClear: [(u) => this.shade(u)], draw: [() => this.update()] },
       },
       aligned(lines),
       this.box,
@@ -133,11 +165,12 @@ export class Chart {
       this.plot.over.append(this.head);
       this.seekOnClick(this.plot.over);
     }
-    this.update();
   }
   resize(): void {
     const width = this.box.clientWidth;
-    if (this.plot && width > 0 && width !== this.plot.width) this.plot.setSize({ width, height: this.plot.height });
+    const height = this.height();
+    if (this.plot && width > 0 && (width !== this.plot.width || height !== this.plot.height))
+      this.plot.setSize({ width, height });
   }
   showLimits(on: boolean): void {
     this.options.limits = on;
@@ -147,20 +180,23 @@ export class Chart {
   update(): void {
     if (!this.plot || this.options.xLabel) return;
     const t = this.clock.time;
-    const x = this.plot.valToPos(t, "x");
-    this.head.style.transform = `translateX(${x}px)`;
-    this.head.hidden = !(x >= 0 && x <= this.plot.over.clientWidth);
+    const { min, max } = this.plot.scales.x;
+    this.head.hidden = min == null || max == null || t < min - 1e-9 || t > max + 1e-9;
+    if (!this.head.hidden) this.head.style.transform = `translateX(${this.plot.valToPos(t, "x")}px)`;
     const values: Node[] = [];
     for (const line of this.options.lines) {
       if (line.limit || line.quiet) continue;
       const value = at(line, t);
-      const text = el("span", {}, short(value));
+      const text = el("span", { title: line.label }, short(value));
       text.style.color = colour(line.colour);
       values.push(text);
     }
     this.values.replaceChildren(...values);
   }
 
+  private height(): number {
+    return Math.max(this.options.height ?? kHeight, this.large ? kLargeHeight : 0);
+  }
   private seekOnClick(over: HTMLElement): void {
     let from = 0;
     over.addEventListener("mousedown", (event) => (from = event.clientX));
@@ -188,14 +224,28 @@ export class Chart {
 function at(line: Line, t: number): number {
   const { time, values } = line;
   if (time.length === 0 || t > time[time.length - 1] + 1e-9) return NaN;
-  const { index, share } = place(time, t);
+  const { index, share } = sampleAt(time, t);
   if (line.steps || share === 0) return values[index];
   return values[index] + share * (values[index + 1] - values[index]);
 }
 
-/// Of the ticks of a logarithmic axis.
-const powersOfTen = (_u: uPlot, ticks: number[]): (number | null)[] =>
-  ticks.map((tick) => (Math.abs(Math.log10(tick) - Math.round(Math.log10(tick))) < 1e-6 ? tick : null));
+/// Of the ticks of a logarithmic axis the powers of ten, as many as have room for their labels.
+const powersOfTen = (u: uPlot, ticks: number[]): (number | null)[] => {
+  const exponents = ticks.map((tick) => Math.log10(tick));
+  const isPower = exponents.map((exponent) => Math.abs(exponent - Math.round(exponent)) < 1e-6);
+  const room = Math.max(Math.floor((u.height - 30) / kLabelHeight), 1);
+  const every = Math.ceil(isPower.filter(Boolean).length / room);
+  return ticks.map((tick, i) => (isPower[i] && Math.round(exponents[i]) % every === 0 ? tick : null));
+};
+
+/// What the widest label of the vertical axis takes [px].
+function labelWidth(u: uPlot, texts: string[] | null): number {
+  u.ctx.save();
+  u.ctx.font = kFont;
+  const widest = Math.max(0, ...(texts ?? []).map((text) => u.ctx.measureText(text ?? "").width));
+  u.ctx.restore();
+  return Math.ceil(Math.max(widest + 9, 34));
+}
 
 /// A range with some air, and not one that makes rounding look like a motion.
 function padded(low: number, high: number): [number, number] {

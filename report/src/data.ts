@@ -40,12 +40,13 @@ export interface MotionData {
   time: number[];
   placements: string; // times x bodies x 7
   forces: string; // times x contacts x 3
+  mass_centre: string; // times x 3
 }
 
 export interface SeriesData {
   label: string;
-  style: "plan" | "simulation" | "limit";
-  time: "plan" | "simulation";
+  style: "plan" | "other" | "simulation" | "limit";
+  time: "plan" | "other" | "simulation";
   values: string;
 }
 
@@ -172,7 +173,14 @@ export interface ReportData {
   gains: { time: number[]; values: string } | null;
   warnings: string[];
   live: { solved: boolean } | null; // served by prowl view
+  other: OtherPlan | null; // to compare with
 }
+
+/// A second plan in the same page. Its scene is null if it is that of the first.
+export type OtherPlan = Pick<
+  ReportData,
+  "directory" | "robot" | "size_m" | "phases" | "plan_json" | "plan" | "charts"
+> & { scene: Scene | null };
 
 /// An iterate of the solver, sent by prowl view; "level" is the mesh, 0 the coarsest.
 export interface Iterate {

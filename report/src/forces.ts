@@ -14,7 +14,7 @@ import {
   Quaternion,
   Vector3,
 } from "three";
-import type { ReportData, Phase } from "./data";
+import type { Scene, Surface } from "./data";
 import type { Motion } from "./motion";
 
 const kUp = new Vector3(0, 0, 1);
@@ -53,10 +53,17 @@ export class Forces {
   private readonly perNewton: number; // [m/N]
   private readonly thickness: number; // [m]
 
-  constructor(private readonly data: ReportData) {
-    this.perNewton = (1.05 * data.size_m) / data.weight_N;
-    this.thickness = 0.012 * data.size_m;
-    this.contacts = data.scene.contacts.map(() => this.make());
+  /// Broad arrows are seen through, and lie below others.
+  constructor(
+    private readonly scene: Scene,
+    size: number,
+    private readonly weight: number,
+    private readonly isBroad = false,
+  ) {
+    this.perNewton = (1.05 * size) / weight;
+    this.thickness = (isBroad ? 0.022 : 0.012) * size;
+    if (isBroad) this.arrowMaterial.opacity = 0.6;
+    this.contacts = scene.contacts.map(() => this.make());
   }
 
   setColours(arrow: Color, cone: Color): void {
@@ -65,18 +72,22 @@ export class Forces {
     this.rimMaterial.color.copy(cone);
   }
 
-  /// `point(c)` is where contact c is in the world.
-  show(motion: Motion, t: number, phase: Phase | undefined, point: (contact: number) => Vector3): void {
+  /// `point(c)` is where contact c is in the world, `held(c)` the surface that it may push against now, if any.
+  show(
+    motion: Motion,
+    t: number,
+    held: (contact: number) => Surface | undefined,
+    point: (contact: number) => Vector3,
+  ): void {
     const force = new Vector3();
     this.contacts.forEach((contact, c) => {
-      const held = phase?.contacts.find((entry) => entry.contact === c);
+      const surface = held(c);
       motion.force(t, c, force);
-      const seen = held !== undefined && force.length() > kSeen * this.data.weight_N;
+      const seen = surface !== undefined && force.length() > kSeen * this.weight;
       contact.arrow.visible = contact.cone.visible = seen;
       if (!seen) return;
-      const surface = this.data.scene.surfaces[held.surface];
       const normal = new Vector3(...surface.normal);
-      const touch = point(c).addScaledVector(normal, -this.data.scene.contacts[c].radius);
+      const touch = point(c).addScaledVector(normal, -this.scene.contacts[c].radius);
       this.placeArrow(contact, touch, force);
       const height = Math.max(force.dot(normal) * this.perNewton, 1e-4);
       contact.cone.position.copy(touch);
@@ -91,7 +102,7 @@ export class Forces {
       const from = new Vector3().setFromMatrixPosition(arrow.matrixWorld);
       const tip = new Vector3(0, 0, 1).applyMatrix4(head.matrixWorld);
       return {
-        name: this.data.scene.contacts[c].name,
+        name: this.scene.contacts[c].name,
         visible: arrow.visible,
         from: from.toArray(),
         vector: tip.sub(from).divideScalar(this.perNewton).toArray(),
@@ -117,7 +128,7 @@ export class Forces {
       this.arrowMaterial,
     );
     const head = new Mesh(new ConeGeometry(1, 1, 24).rotateX(Math.PI / 2).translate(0, 0, 0.5), this.arrowMaterial);
-    shaft.renderOrder = head.renderOrder = 3;
+    shaft.renderOrder = head.renderOrder = this.isBroad ? 2.5 : 3;
     arrow.add(shaft, head);
     const cone = new Group();
     // Apex at the origin, mouth of radius 1 at z = 1: scaled to the friction coefficient.

@@ -5,16 +5,28 @@ import type { Layers, View } from "./view";
 
 export const kKeys: [string, string][] = [
   ["space", "play, pause"],
-  ["← →", "10 ms back, on; with shift 100 ms"],
+  ["← →", "10 ms back, on; with shift 100 ms; from tab to tab if a tab has the focus"],
   ["home, end", "start, end"],
   ["n, p", "next phase, phase before"],
   ["+ −", "faster, slower"],
   ["f, c, g, t", "forces, friction cones, simulation, paths"],
+  ["o, m, s, z", "other plan, centre of mass, support polygon, zero-moment point"],
+  ["w", "follow the robot"],
   ["r", "reset the view"],
   ["?", "this help"],
 ];
 
-const kLayers: Record<string, keyof Layers> = { f: "forces", c: "cones", g: "ghost", t: "trails" };
+const kLayers: Record<string, keyof Layers> = {
+  f: "forces",
+  c: "cones",
+  g: "ghost",
+  t: "trails",
+  o: "other",
+  m: "mass",
+  s: "support",
+  z: "zmp",
+  w: "follow",
+};
 
 /// Keys of the whole page; those of a field that has the focus go first.
 export function keyboard(

@@ -4,12 +4,14 @@ import { el, short } from "./dom";
 /// What the page shows of a motion, and what changes from iterate to iterate.
 export type Shown = Pick<ReportData, "phases" | "plan" | "charts">;
 
+const kPause = 200; // between two pictures of the newest iterate: drawing takes time from the solver [ms]
+
 /// The solver's iterates as the server of prowl view sends them, on a slider whose right end is the newest, or the result.
 /// When the plan is solved the page is loaded anew, now with its certificate.
 export class Live {
   readonly element: HTMLElement;
   private readonly result: Shown | null;
-  private readonly iterates: Iterate[] = [];
+  private readonly iterates: (Iterate | string)[] = []; // parsed when they are first shown
   private readonly slider = el("input", {
     type: "range",
     min: "0",
@@ -38,13 +40,13 @@ export class Live {
       this.readout,
     );
     this.describe();
-    this.listen();
   }
 
-  private listen(): void {
+  /// Call it after the first picture: the iterates so far come all at once.
+  listen(): void {
     const events = new EventSource("/events");
     events.addEventListener("iterate", (event) => {
-      this.iterates.push(JSON.parse(event.data) as Iterate);
+      this.iterates.push(event.data as string);
       this.slider.max = String(this.last());
       if (this.follows) this.slider.value = this.slider.max;
       if (!this.follows || this.result) this.describe();
@@ -61,7 +63,7 @@ export class Live {
     });
   }
 
-  /// Place on the slider of the newest, or of the result after it.
+  /// Index on the slider of the newest, or of the result after it.
   private last(): number {
     return this.result ? this.iterates.length : Math.max(this.iterates.length - 1, 0);
   }
@@ -69,18 +71,23 @@ export class Live {
   private ask(): void {
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame(() => {
+    setTimeout(() => {
       this.waiting = false;
       this.draw();
-    });
+    }, kPause);
+  }
+  private iterate(index: number): Iterate | undefined {
+    const found = this.iterates[index];
+    if (typeof found !== "string") return found;
+    return (this.iterates[index] = JSON.parse(found) as Iterate);
   }
   private draw(): void {
-    const chosen: Shown | null | undefined = this.iterates[Number(this.slider.value)] ?? this.result;
+    const chosen: Shown | null | undefined = this.iterate(Number(this.slider.value)) ?? this.result;
     if (chosen) this.show({ phases: chosen.phases, plan: chosen.plan, charts: chosen.charts });
     this.describe();
   }
   private describe(): void {
-    const at = this.iterates[Number(this.slider.value)];
+    const at = this.iterate(Number(this.slider.value));
     const count = this.iterates.length;
     const text = at
       ? `mesh ${at.level + 1}, ${at.intervals} intervals: iteration ${at.iteration} · cost ${short(at.cost)} · constraints ${short(at.constraint_violation, 2)} · optimality ${short(at.dual_violation, 2)}`

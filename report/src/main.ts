@@ -2,70 +2,29 @@ import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { certificate } from "./certificate";
 import { Clock } from "./clock";
+import { comparison } from "./compare";
 import { readData, type ReportData } from "./data";
-import { el, short } from "./dom";
+import { el } from "./dom";
+import { foldable } from "./fold";
+import { header } from "./header";
 import { keyboard, kKeys } from "./keyboard";
+import { layerSwitches } from "./layers";
+import { MomentLink } from "./link";
 import { Live, type Shown } from "./live";
+import { pickSeries } from "./pick";
 import { Plots } from "./plots";
+import { recordButton } from "./record";
 import { reproduce, simulation } from "./reproduce";
 import { solver } from "./solver";
 import { ThemeSwitch } from "./theme";
 import { Timeline } from "./timeline";
-import { type Layers, View } from "./view";
+import { View } from "./view";
 
 /// For tests of the page: what it shows, in numbers.
 declare global {
   interface Window {
     prowl?: { clock: Clock; view: View | null; data: ReportData };
   }
-}
-
-function header(data: ReportData, theme: ThemeSwitch, help: () => void): HTMLElement {
-  const { certificate: found, good, name, solver: solved } = data.plan_json;
-  const intervals = data.phases.reduce((sum, phase) => sum + phase.intervals, 0);
-  const duration = data.phases[data.phases.length - 1]?.end ?? 0;
-  const helpButton = el("button", { type: "button", "aria-label": "Keys" }, "?");
-  helpButton.addEventListener("click", help);
-  return el(
-    "header",
-    {},
-    el("h1", {}, el("span", { class: "robot" }, data.robot), " ", name),
-    data.live?.solved === false
-      ? el("span", { class: "badge" }, "… solving")
-      : el(
-          "span",
-          { class: good ? "badge good" : "badge bad" },
-          good ? `✓ passed · ${found.grade}` : `✗ not good · ${data.plan_json.status}`,
-        ),
-    el(
-      "span",
-      { class: "summary" },
-      `${short(duration)} s · ${data.phases.length} ${data.phases.length === 1 ? "phase" : "phases"} · ${intervals} intervals · ${solved.name}${data.live?.solved === false ? "" : `, ${solved.iterations} iterations, ${short(solved.seconds)} s`}`,
-    ),
-    el("span", { class: "spacer" }),
-    helpButton,
-    theme.button,
-  );
-}
-
-function layerSwitches(view: View): HTMLElement {
-  const names: [keyof Layers, string, boolean][] = [
-    ["forces", "forces", true],
-    ["cones", "cones", true],
-    ["ghost", "simulation", view.simulation !== null],
-    ["trails", "paths", true],
-    ["follow", "follow", true],
-  ];
-  const boxes = names
-    .filter(([, , there]) => there)
-    .map(([name, text]) => {
-      const box = el("input", { type: "checkbox", "data-layer": name, checked: view.layers[name] });
-      box.addEventListener("change", () => view.setLayer(name, box.checked));
-      return el("label", { class: `layer ${name}` }, box, text);
-    });
-  const reset = el("button", { type: "button" }, "reset view");
-  reset.addEventListener("click", () => view.resetCamera());
-  return el("div", { class: "layers" }, ...boxes, reset);
 }
 
 function helpDialog(): HTMLDialogElement {
@@ -78,7 +37,7 @@ function helpDialog(): HTMLDialogElement {
     el(
       "p",
       { class: "hint" },
-      "In the view: drag to turn, right drag or two fingers to move, wheel or pinch to come nearer.",
+      "In the view: drag to turn, right drag or two fingers to move, wheel or pinch to come nearer. Click a body or a foot for its series.",
     ),
     close,
   );
@@ -90,7 +49,7 @@ function helpDialog(): HTMLDialogElement {
 function makeView(container: HTMLElement, data: ReportData, clock: Clock): View | null {
   try {
     const view = new View(container, data, clock);
-    container.append(layerSwitches(view));
+    container.append(layerSwitches(view, data));
     return view;
   } catch (error) {
     container.append(
@@ -104,7 +63,8 @@ function makeView(container: HTMLElement, data: ReportData, clock: Clock): View 
   }
 }
 
-const endOf = (data: ReportData): number => Math.max(data.plan.time.at(-1) ?? 0, data.simulation?.time.at(-1) ?? 0);
+const endOf = ({ plan, simulation, other }: ReportData): number =>
+  Math.max(...[plan, simulation, other?.plan].map((motion) => motion?.time.at(-1) ?? 0));
 
 function start(): void {
   const data = readData();
@@ -125,7 +85,7 @@ function start(): void {
   const later = el(
     "section",
     { class: "card" },
-    el("p", { class: "hint" }, "Certificate, solver and sources are here when it is solved."),
+    el("p", { class: "hint" }, "Certificate, solver and sources appear here when the task is solved."),
   );
   const judged = isSolving ? { element: later, draw: () => undefined } : certificate(data, clock, goTo);
   const solved = isSolving ? null : solver(data, clock);
@@ -147,17 +107,23 @@ function start(): void {
         "div",
         { class: "details" },
         warnings,
+        comparison(data),
         plots.element,
-        judged.element,
-        simulation(data),
-        solved?.element,
-        isSolving ? null : reproduce(data),
+        foldable(judged.element, judged.draw),
+        foldable(simulation(data)),
+        foldable(solved?.element ?? null, solved?.draw),
+        isSolving ? null : foldable(reproduce(data)),
       ),
     ),
     help,
   );
 
   const view = makeView(container, data, clock);
+  if (view) {
+    pickSeries(view, plots, data);
+    const record = recordButton(view.canvas, clock, `${data.robot}_${data.plan_json.name}`.replace(/[^\w.-]+/g, "_"));
+    if (record) timeline.addTool(record);
+  }
   plots.choose(0);
   judged.draw();
   solved?.draw();
@@ -175,11 +141,14 @@ function start(): void {
       plots.setData();
       view?.setPlan();
     };
-    timeline.element.after(new Live(data, show).element);
+    const live = new Live(data, show);
+    timeline.element.after(live.element);
+    requestAnimationFrame(() => setTimeout(() => live.listen()));
   }
   keyboard(clock, timeline, view, data, () => (help.open ? help.close() : help.showModal()));
-  const linked = /^#t=(\d+(\.\d+)?)$/.exec(location.hash);
-  if (linked) clock.seek(Number(linked[1]));
+  const link = new MomentLink(clock, plots, view);
+  timeline.addTool(link.button);
+  link.start();
   window.prowl = { clock, view, data };
 }
 

@@ -2,7 +2,7 @@ import { Quaternion, Vector3 } from "three";
 import { floats, type MotionData } from "./data";
 
 /// Index i of the last sample at or before t, and how far t is to the next, 0 ... 1. Of two samples at one time, the later.
-export function place(time: ArrayLike<number>, t: number): { index: number; share: number } {
+export function sampleAt(time: ArrayLike<number>, t: number): { index: number; share: number } {
   let low = 0;
   let high = time.length - 1;
   if (t >= time[high]) return { index: high, share: 0 };
@@ -20,6 +20,7 @@ export class Motion {
   readonly end: number;
   private readonly placements: Float32Array;
   private readonly forces: Float32Array;
+  private readonly centres: Float32Array;
   private readonly other = new Quaternion();
 
   constructor(
@@ -29,11 +30,12 @@ export class Motion {
   ) {
     this.placements = floats(data.placements);
     this.forces = floats(data.forces);
+    this.centres = floats(data.mass_centre);
     this.end = data.time[data.time.length - 1] ?? 0;
   }
 
   body(t: number, body: number, position: Vector3, rotation: Quaternion): void {
-    const { index, share } = place(this.data.time, t);
+    const { index, share } = sampleAt(this.data.time, t);
     const at = 7 * (index * this.bodies + body);
     const p = this.placements;
     position.fromArray(p, at);
@@ -44,10 +46,16 @@ export class Motion {
     rotation.slerp(this.other.fromArray(p, next + 3), share);
   }
   force(t: number, contact: number, force: Vector3): void {
-    const { index, share } = place(this.data.time, t);
+    const { index, share } = sampleAt(this.data.time, t);
     const at = 3 * (index * this.contacts + contact);
     force.fromArray(this.forces, at);
     if (share > 0) force.lerp(new Vector3().fromArray(this.forces, at + 3 * this.contacts), share);
+  }
+  /// The centre of mass.
+  massCentre(t: number, centre: Vector3): void {
+    const { index, share } = sampleAt(this.data.time, t);
+    centre.fromArray(this.centres, 3 * index);
+    if (share > 0) centre.lerp(new Vector3().fromArray(this.centres, 3 * (index + 1)), share);
   }
   /// Positions of a point fixed to a body, at every sample.
   path(body: number, point: Vector3): Vector3[] {

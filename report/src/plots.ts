@@ -1,6 +1,6 @@
 import { Chart, type Line } from "./chart";
 import type { Clock } from "./clock";
-import { floats, type ReportData, type SeriesData } from "./data";
+import { type ChartData, floats, type ReportData, type SeriesData } from "./data";
 import { el } from "./dom";
 
 interface Tab {
@@ -15,17 +15,25 @@ interface Tab {
 const kAxes = ["x", "y", "z"];
 const kAxisColours = ["axis-x", "axis-y", "axis-z"];
 
+/// The series of one joint or contact, as a tab of its own.
+export interface Picked {
+  name: string;
+  isOfIt: (tab: string, chart: string) => boolean;
+}
+
 /// All plots, a tab a kind; made when they are first looked at.
 export class Plots {
   readonly element: HTMLElement;
   private tabs: Tab[];
-  private readonly buttons: HTMLButtonElement[];
+  private buttons: HTMLButtonElement[] = [];
+  private readonly list = el("div", { class: "tabs", role: "tablist", "aria-label": "Plots" });
   private readonly panel = el("div", { class: "charts", role: "tabpanel", id: "plots-panel", tabindex: "0" });
   private readonly legend = el("div", { class: "legend" });
   private readonly limits = el("input", { type: "checkbox", id: "plots-limits" });
-  private times: { plan: number[]; simulation: number[] };
+  private times: Record<SeriesData["time"], number[]>;
   private charts: Chart[] = [];
   private chosen = 0;
+  private picked: Picked | null = null;
 
   constructor(
     private readonly data: ReportData,
@@ -33,16 +41,7 @@ export class Plots {
   ) {
     this.times = this.timesOfData();
     this.tabs = this.tabsOfData();
-    this.buttons = this.tabs.map((tab, i) => {
-      const button = el(
-        "button",
-        { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": "plots-panel" },
-        tab.name,
-      );
-      button.addEventListener("click", () => this.choose(i));
-      button.addEventListener("keydown", (event) => this.move(event, i));
-      return button;
-    });
+    this.makeButtons();
     this.limits.addEventListener("change", () => {
       this.tabs[this.chosen].limits = this.limits.checked;
       for (const chart of this.charts) chart.showLimits(this.limits.checked);
@@ -50,7 +49,7 @@ export class Plots {
     this.element = el(
       "section",
       { class: "card plots", "aria-label": "Plots" },
-      el("div", { class: "tabs", role: "tablist", "aria-label": "Plots" }, ...this.buttons),
+      this.list,
       el(
         "div",
         { class: "bar-under" },
@@ -58,11 +57,33 @@ export class Plots {
         el("label", { class: "limits", for: "plots-limits" }, this.limits, " limits"),
       ),
       this.panel,
-      el("p", { class: "hint" }, "Time in seconds. Click to go there, drag to zoom, double click to see all."),
+      el(
+        "p",
+        { class: "hint" },
+        "Time in seconds. Click in a plot to go there, drag to zoom, double click to see all. Click a title to enlarge its plot.",
+      ),
     );
     clock.onChange(() => this.charts.forEach((chart) => chart.update()));
     new ResizeObserver(() => this.charts.forEach((chart) => chart.resize())).observe(this.panel);
   }
+
+  /// Name of the tab that is shown, and the way to it.
+  get tab(): string {
+    return this.tabs[this.chosen].name;
+  }
+  chooseNamed(name: string): void {
+    const index = this.tabs.findIndex((tab) => tab.name === name);
+    if (index >= 0) this.choose(index);
+  }
+  /// Shows a joint's or contact's series together, in a tab behind the others.
+  pick(picked: Picked): void {
+    this.picked = picked;
+    this.tabs = this.tabsOfData();
+    this.makeButtons();
+    this.choose(this.tabs.length - 1);
+  }
+  /// Called when another tab is chosen.
+  onChoose: () => void = () => undefined;
 
   choose(index: number): void {
     this.chosen = index;
@@ -81,6 +102,7 @@ export class Plots {
     this.charts = tab.charts({ limits: tab.limits, group: tab.name });
     this.panel.replaceChildren(...(tab.head ? [tab.head] : []), ...this.charts.map((chart) => chart.element));
     this.draw();
+    this.onChoose();
   }
   /// Plots what the data has now: the same tabs, of another motion.
   setData(): void {
@@ -88,13 +110,31 @@ export class Plots {
     this.times = this.timesOfData();
     this.tabs = this.tabsOfData();
     this.tabs.forEach((tab, i) => (tab.limits = limits[i] ?? tab.limits));
-    this.choose(this.chosen);
+    const large = this.charts.map((chart) => chart.large);
+    this.choose(Math.min(this.chosen, this.tabs.length - 1));
+    this.charts.forEach((chart, i) => large[i] && chart.enlarge(true));
   }
   /// Again, in the colours of the theme.
   draw(): void {
     for (const chart of this.charts) chart.draw();
   }
 
+  private makeButtons(): void {
+    this.buttons = this.tabs.map((tab, i) => {
+      const button = el(
+        "button",
+        { type: "button", role: "tab", id: `tab-${i}`, "aria-controls": "plots-panel" },
+        tab.name,
+      );
+      button.addEventListener("click", (event) => {
+        this.choose(i);
+        if (event.detail > 0) button.blur(); // by a pointer: the arrow keys go on moving in time
+      });
+      button.addEventListener("keydown", (event) => this.move(event, i));
+      return button;
+    });
+    this.list.replaceChildren(...this.buttons);
+  }
   private move(event: KeyboardEvent, from: number): void {
     const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     if (by === undefined) return;
@@ -105,34 +145,65 @@ export class Plots {
     this.buttons[to].focus();
   }
 
-  private timesOfData(): { plan: number[]; simulation: number[] } {
-    return { plan: this.data.plan.time, simulation: this.data.simulation?.time ?? [] };
+  private timesOfData(): Record<SeriesData["time"], number[]> {
+    const { plan, simulation, other } = this.data;
+    return { plan: plan.time, simulation: simulation?.time ?? [], other: other?.plan.time ?? [] };
   }
   private tabsOfData(): Tab[] {
-    const tabs = this.data.charts.map((tab) => this.fromData(tab));
+    const all = this.data.charts.map((tab) => ({
+      name: tab.name,
+      charts: tab.charts.map((chart) => this.withOther(tab.name, chart)),
+    }));
+    const tabs = all.map((tab) => this.fromData(tab));
     if (this.data.gains) tabs.push(this.gains(this.data.gains));
+    if (this.picked) {
+      const { name, isOfIt } = this.picked;
+      const charts = all.flatMap((tab) =>
+        tab.charts
+          .filter((chart) => isOfIt(tab.name, chart.title))
+          .map((chart) => ({ ...chart, title: `${tab.name}: ${chart.title}` })),
+      );
+      tabs.push({ ...this.fromData({ name, charts }), wide: true });
+    }
     return tabs;
+  }
+  /// A chart with the series of the other plan, if that has the same chart.
+  private withOther(tab: string, chart: ChartData): ChartData {
+    const same = this.data.other?.charts
+      .find((one) => one.name === tab)
+      ?.charts.find((one) => one.title === chart.title && one.unit === chart.unit);
+    const series = same?.series.filter((one) => one.style === "plan") ?? [];
+    return {
+      ...chart,
+      series: [
+        ...chart.series,
+        ...series.map((one): SeriesData => ({ ...one, label: "other plan", style: "other", time: "other" })),
+      ],
+    };
   }
   private fromData(tab: ReportData["charts"][number]): Tab {
     const styles = new Set(tab.charts.flatMap((chart) => chart.series.map((series) => series.style)));
     const legend: Tab["legend"] = [];
     if (styles.has("plan")) legend.push(["plan", "plan", false]);
+    if (styles.has("other")) legend.push(["other plan", "second", false]);
     if (styles.has("simulation")) legend.push(["simulation", "simulation", false]);
     if (styles.has("limit")) legend.push(["limit", "limit", true]);
-    const lines = (all: SeriesData[]): Line[] => {
-      const order = { limit: 0, simulation: 1, plan: 2 };
-      return [...all]
+    // In this order one lies over the other, and values stand side by side: the plan is a broad line below the rest.
+    const order = { limit: 0, plan: 1, other: 2, simulation: 3 };
+    const isAlone = !styles.has("other") && !styles.has("simulation");
+    const widths = { limit: 1, plan: isAlone ? 1.5 : 3, other: 1.5, simulation: 1.2 };
+    const lines = (all: SeriesData[]): Line[] =>
+      [...all]
         .sort((a, b) => order[a.style] - order[b.style])
         .map((series) => ({
           label: series.label,
           time: this.times[series.time],
           values: floats(series.values),
-          colour: series.style,
+          colour: series.style === "other" ? "second" : series.style,
           dash: series.style === "limit" ? [4, 3] : undefined,
-          width: series.style === "limit" ? 1 : 1.5,
+          width: widths[series.style],
           limit: series.style === "limit",
         }));
-    };
     return {
       name: tab.name,
       legend,

@@ -43,7 +43,7 @@ export function simulation(data: ReportData): HTMLElement | null {
       "h2",
       { id: "simulation-title" },
       "Simulation ",
-      el("small", {}, found.success ? "success" : `failed: ${found.failures.join("; ")}`),
+      el("small", {}, found.success ? "succeeded" : `failed: ${found.failures.join("; ")}`),
     ),
     el(
       "div",
@@ -57,7 +57,7 @@ export function simulation(data: ReportData): HTMLElement | null {
           el(
             "tr",
             {},
-            ...["error", "largest", "RMS", "in rest"].map((name) =>
+            ...["error", "largest", "RMS", "at rest"].map((name) =>
               el("th", { scope: "col", class: name === "error" ? "" : "number" }, name),
             ),
           ),

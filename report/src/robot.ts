@@ -112,3 +112,26 @@ function materialOf(colour: Triple | null, made: Map<string, Material>): Materia
   }
   return material;
 }
+
+/// Seen through; where it is in the same place as the plan, the plan is seen alone.
+export function ghostMaterial(): MeshStandardMaterial {
+  return new MeshStandardMaterial({
+    transparent: true,
+    opacity: 0.5,
+    roughness: 0.8,
+    polygonOffset: true,
+    polygonOffsetFactor: 2,
+    polygonOffsetUnits: 40,
+  });
+}
+
+/// Placement of a body in the scene: x y z, quaternion x y z w; empty if there is none of that name.
+export function placementOf(robot: Robot | null | undefined, name: string): number[] {
+  const body = robot?.bodies.find((group) => group.name === name);
+  if (!body) return [];
+  body.updateWorldMatrix(true, false);
+  const position = new Vector3();
+  const rotation = new Quaternion();
+  body.matrixWorld.decompose(position, rotation, new Vector3());
+  return [...position.toArray(), ...rotation.toArray()];
+}

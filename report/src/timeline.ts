@@ -1,10 +1,12 @@
 import { type Clock, kFrame } from "./clock";
 import type { ReportData } from "./data";
 import { el } from "./dom";
+import { inTheAir, parts } from "./phases";
 import { phaseAt } from "./view";
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2];
-const kNarrow = 0.07; // of the time line: a name would be a letter and dots
+const kReadable = 70; // the width at which the beginning of a name still tells something [px]
+const kStands = "stands still";
 
 const icon = (path: string): SVGSVGElement => {
   const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
@@ -27,6 +29,7 @@ export class Timeline {
   private readonly readout = el("output", { class: "readout" });
   private readonly phase = el("span", { class: "phase-name" });
   private readonly speed = el("select", { "aria-label": "Speed" });
+  private readonly tools = el("span", { class: "tools" });
   private rows: HTMLElement;
   private shown: boolean | null = null;
 
@@ -61,19 +64,26 @@ export class Timeline {
         this.readout,
         this.phase,
         el("label", { class: "speed" }, "Speed ", this.speed),
+        this.tools,
       ),
       (this.rows = this.tracks()),
     );
     clock.onChange(() => this.update());
+    new ResizeObserver(() => this.fitNames()).observe(this.element);
     this.update();
   }
 
+  /// A button behind the others.
+  addTool(tool: HTMLElement): void {
+    this.tools.append(tool);
+  }
   /// Phases and contacts that the data has now.
   setData(): void {
     this.slider.max = String(this.clock.end);
     const rows = this.tracks();
     this.rows.replaceWith(rows);
     this.rows = rows;
+    this.fitNames();
     this.update();
   }
   /// Faster (+1) or slower (-1).
@@ -94,9 +104,8 @@ export class Timeline {
     const end = this.clock.end;
     const { phases, scene } = this.data;
     const last = phases[phases.length - 1]?.end ?? 0;
-    const bar = (start: number, stop: number, name: string, text = "") => {
-      const legible = (stop - start) / end > kNarrow;
-      const element = el("div", { class: name, title: text || false }, legible ? text : "");
+    const bar = (start: number, stop: number, name: string, text = "", short = "") => {
+      const element = el("div", { class: name, title: text || false, "data-short": short }, text);
       element.style.left = `${(100 * start) / end}%`;
       element.style.width = `${(100 * (stop - start)) / end}%`;
       return element;
@@ -108,9 +117,20 @@ export class Timeline {
         el("span", { class: "label", title: label }, label),
         el("div", { class: "track" }, ...bars),
       );
-    const phaseBars = phases.map((phase, i) => bar(phase.start, phase.end, i % 2 ? "bar odd" : "bar", phase.name));
-    if (end > last + 1e-6) phaseBars.push(bar(last, end, "bar rest", "stands on"));
-    const rows = [row("phase", phaseBars, "phases")];
+    const bars = parts(phases);
+    const name = bars.length < phases.length ? "stride" : "phase";
+    const upper = bars.map((part, i) => bar(part.start, part.end, i % 2 ? "bar odd" : "bar", part.name, part.short));
+    if (end > last + 1e-6) upper.push(bar(last, end, "bar rest", kStands));
+    const rows = [row(name, upper, "phases")];
+    const feet = phases.map((phase) => inTheAir(phase, phases, scene));
+    if (feet.some((text) => text !== "")) {
+      const lower = phases.map((phase, i) => {
+        const element = bar(phase.start, phase.end, feet[i] ? "bar feet" : "bar feet none", feet[i]);
+        element.title = feet[i] ? `${phase.name}; in the air: ${feet[i]}` : phase.name;
+        return element;
+      });
+      rows.push(row("in the air", lower, "feet"));
+    }
     scene.contacts.forEach((contact, c) => {
       const held = phases.filter((phase) => phase.contacts.some((entry) => entry.contact === c));
       const bars = held.map((phase) => bar(phase.start, phase.end, "stance"));
@@ -121,13 +141,25 @@ export class Timeline {
     return el("div", { class: many }, ...rows, el("div", { class: "scrub" }, this.slider));
   }
 
+  /// Names that are wider than their bars are shortened, or left out; their tooltips keep them.
+  private fitNames(): void {
+    for (const bar of this.rows.querySelectorAll<HTMLElement>(".bar")) {
+      const full = bar.dataset.full ?? (bar.dataset.full = bar.textContent ?? "");
+      for (const text of [full, bar.dataset.short ?? ""]) {
+        bar.textContent = text;
+        if (bar.scrollWidth <= bar.clientWidth) break;
+      }
+      if (bar.scrollWidth > bar.clientWidth || bar.textContent === "")
+        bar.textContent = bar.clientWidth > kReadable ? full : "";
+    }
+  }
   private update(): void {
     const { time, end, playing, speed } = this.clock;
     this.slider.value = String(time);
     this.slider.setAttribute("aria-valuetext", `${time.toFixed(2)} seconds`);
     this.readout.textContent = `${time.toFixed(3)} / ${end.toFixed(2)} s`;
     const last = this.data.phases[this.data.phases.length - 1]?.end ?? 0;
-    this.phase.textContent = time > last + 1e-9 ? "stands on" : (phaseAt(this.data.phases, time)?.name ?? "");
+    this.phase.textContent = time > last + 1e-9 ? kStands : (phaseAt(this.data.phases, time)?.name ?? "");
     this.speed.value = String(speed);
     if (this.shown === playing) return;
     this.shown = playing;

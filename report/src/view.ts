@@ -1,33 +1,44 @@
 import {
+  Box3,
+  BoxHelper,
   Color,
   DirectionalLight,
   Fog,
   Group,
   HemisphereLight,
-  MeshStandardMaterial,
   PCFShadowMap,
   PerspectiveCamera,
-  Quaternion,
+  Raycaster,
   Scene as ThreeScene,
+  Vector2,
   Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { Balance, type Support } from "./balance";
 import type { Clock } from "./clock";
-import { type Phase, type ReportData } from "./data";
+import type { Phase, ReportData, Surface } from "./data";
 import { colour } from "./dom";
 import { type DrawnForce, Forces, Trails } from "./forces";
 import { Ground } from "./ground";
 import { Motion } from "./motion";
-import { Robot, Shapes } from "./robot";
+import { ghostMaterial, placementOf, Robot, Shapes } from "./robot";
+import { cornersOf, Sight } from "./sight";
 
 export interface Layers {
   forces: boolean;
   cones: boolean;
   ghost: boolean;
+  other: boolean;
   trails: boolean;
+  mass: boolean;
+  support: boolean;
+  zmp: boolean;
   follow: boolean;
 }
+
+const kFramed = 40; // moments of the motion that the first view is fitted to
+const kToolbar = 50; // of the switches over the view [px]
 
 /// The phase of the plan at a time: the later one at a switch, the last one after the end.
 export function phaseAt(phases: Phase[], t: number): Phase | undefined {
@@ -45,17 +56,16 @@ export class View {
   private readonly controls: OrbitControls;
   private readonly robot: Robot;
   private readonly ghost: Robot | null = null;
-  private readonly ghostMaterial = new MeshStandardMaterial({
-    transparent: true,
-    opacity: 0.5,
-    roughness: 0.8,
-    // Where both are in one place, the plan is seen alone.
-    polygonOffset: true,
-    polygonOffsetFactor: 2,
-    polygonOffsetUnits: 40,
-  });
+  private readonly ghostMaterial = ghostMaterial();
+  private readonly other: { motion: Motion; robot: Robot } | null = null;
+  private readonly otherMaterial = ghostMaterial();
   private readonly ground: Ground;
   private readonly forces: Forces;
+  private readonly simulatedForces: Forces | null = null;
+  private readonly balance: Balance;
+  private readonly sight: Sight;
+  private readonly mark: BoxHelper;
+  private isMoved = false; // by the reader: then a new size leaves the camera where it is
   private readonly trails = new Trails();
   private readonly sun = new DirectionalLight(0xffffff, 2.2);
   private readonly centre = new Vector3();
@@ -79,11 +89,35 @@ export class View {
 
     const shapes = new Shapes(data.scene);
     this.robot = new Robot(data.scene, shapes, null);
-    if (this.simulation) this.ghost = new Robot(data.scene, shapes, this.ghostMaterial);
+    if (this.simulation) {
+      this.ghost = new Robot(data.scene, shapes, this.ghostMaterial);
+      this.simulatedForces = new Forces(data.scene, data.size_m, data.weight_N, true);
+    }
+    if (data.other) {
+      const { plan, scene } = data.other;
+      const shown = scene ?? data.scene;
+      this.other = {
+        motion: new Motion(plan, shown.bodies.length, shown.contacts.length),
+        robot: new Robot(shown, scene ? new Shapes(scene) : shapes, this.otherMaterial),
+      };
+    }
     const reach = this.measure(this.plan.path(0, new Vector3()));
-    this.layers = { forces: true, cones: true, ghost: true, trails: true, follow: reach > 2.5 * data.size_m };
+    this.layers = {
+      forces: true,
+      cones: true,
+      ghost: true,
+      other: true,
+      trails: true,
+      mass: false,
+      support: false,
+      zmp: false,
+      follow: false,
+    };
     this.ground = new Ground(data.scene.surfaces, this.centre, reach + 6 * data.size_m);
-    this.forces = new Forces(data);
+    this.forces = new Forces(data.scene, data.size_m, data.weight_N);
+    this.balance = new Balance(data.size_m);
+    this.mark = new BoxHelper(this.robot.group);
+    this.mark.visible = false;
     this.drawTrails();
 
     const light = new Group();
@@ -96,34 +130,78 @@ export class View {
       this.forces.cones,
       this.forces.arrows,
       this.trails.group,
+      this.balance.massCentre,
+      this.balance.polygon,
+      this.balance.zmp,
+      this.mark,
     );
     if (this.ghost) this.scene.add(this.ghost.group);
+    if (this.simulatedForces) this.scene.add(this.simulatedForces.arrows);
+    if (this.other) this.scene.add(this.other.robot.group);
 
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.sight = new Sight(this.camera, this.controls);
     this.controls.addEventListener("change", () => this.ask());
-    this.resetCamera();
+    this.controls.addEventListener("start", () => {
+      this.isMoved = true;
+      this.sight.stop();
+    });
     new ResizeObserver(() => this.resize()).observe(container);
     this.resize();
+    this.resetCamera();
     this.setTheme();
     clock.onChange(() => this.ask());
-    this.update();
+    // At once: what else the page does at its start may keep it from drawing frames.
+    this.render();
+    performance.mark("prowl-first-picture");
+  }
+
+  get canvas(): HTMLCanvasElement {
+    return this.renderer.domElement;
+  }
+  /// Position and target of the camera; for links.
+  get cameraPose(): number[] {
+    return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
+  }
+  set cameraPose(six: number[]) {
+    this.isMoved = true;
+    this.camera.position.fromArray(six, 0);
+    this.controls.target.fromArray(six, 3);
+    this.controls.update();
+    this.ask();
+  }
+  get hasOwnCamera(): boolean {
+    return this.isMoved;
+  }
+  /// The part of the picture that the robot takes now, from -1 to 1 to the right and up.
+  screenBox(): { left: number; right: number; bottom: number; top: number } {
+    this.robot.group.updateMatrixWorld(true);
+    this.camera.updateMatrixWorld(true);
+    const seen = cornersOf(new Box3().setFromObject(this.robot.group)).map((corner) => corner.project(this.camera));
+    const [x, y] = [seen.map((point) => point.x), seen.map((point) => point.y)];
+    return { left: Math.min(...x), right: Math.max(...x), bottom: Math.min(...y), top: Math.max(...y) };
+  }
+  /// Where a point of the world is in the window [px].
+  screenPoint(point: Vector3): { x: number; y: number } {
+    this.camera.updateMatrixWorld(true);
+    const { x, y } = point.clone().project(this.camera);
+    const box = this.canvas.getBoundingClientRect();
+    return { x: box.left + (0.5 + 0.5 * x) * box.width, y: box.top + (0.5 - 0.5 * y) * box.height };
   }
 
   /// Placement of a body in the scene as it is now: x y z, quaternion x y z w.
   bodyPlacement(name: string, ghost = false): number[] {
-    const body = (ghost ? this.ghost : this.robot)?.bodies.find((group) => group.name === name);
-    if (!body) return [];
-    body.updateWorldMatrix(true, false);
-    const position = new Vector3();
-    const rotation = new Quaternion();
-    body.matrixWorld.decompose(position, rotation, new Vector3());
-    return [...position.toArray(), ...rotation.toArray()];
+    return placementOf(ghost ? this.ghost : this.robot, name);
+  }
+  /// The same of the other plan.
+  otherPlacement(name: string): number[] {
+    return placementOf(this.other?.robot, name);
   }
   /// Where a contact of the robot is in the scene now.
-  contactPoint(contact: number): Vector3 {
+  contactPoint(contact: number, robot = this.robot): Vector3 {
     const { body, point } = this.data.scene.contacts[contact];
-    const group = this.robot.bodies[body];
+    const group = robot.bodies[body];
     group.updateWorldMatrix(true, false);
     return new Vector3(...point).applyMatrix4(group.matrixWorld);
   }
@@ -131,6 +209,37 @@ export class View {
   /// Arrows and cones of the contacts as they are drawn.
   arrows(): DrawnForce[] {
     return this.forces.drawn();
+  }
+  simulatedArrows(): DrawnForce[] {
+    return this.simulatedForces?.drawn() ?? [];
+  }
+  /// Centre of mass, corners of the support polygon, zero-moment point (null if there is none), as they are drawn.
+  balanceNow(): { mass: number[]; corners: number[][]; zmp: number[] | null } {
+    const centre = new Vector3();
+    this.plan.massCentre(this.clock.time, centre);
+    return {
+      mass: centre.toArray(),
+      corners: this.balance.corners.map((corner) => corner.toArray()),
+      zmp: this.balance.zmp.visible ? this.balance.zmp.position.toArray() : null,
+    };
+  }
+  /// The body of the robot at a point of the window [px], and where the ray meets it; null for none.
+  bodyAt(x: number, y: number): { body: number; point: Vector3 } | null {
+    const box = this.canvas.getBoundingClientRect();
+    const at = new Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
+    const ray = new Raycaster();
+    this.robot.group.updateMatrixWorld(true);
+    this.camera.updateMatrixWorld(true);
+    ray.setFromCamera(at, this.camera);
+    const hit = ray.intersectObject(this.robot.group, true)[0];
+    if (!hit) return null;
+    return { body: this.robot.bodies.findIndex((group) => group === hit.object.parent), point: hit.point };
+  }
+  /// Outlines a body; null for none.
+  markBody(body: number | null): void {
+    this.mark.visible = body !== null;
+    if (body !== null) this.mark.setFromObject(this.robot.bodies[body]);
+    this.ask();
   }
 
   /// Shows the motion that the data has now.
@@ -146,20 +255,27 @@ export class View {
     this.forces.setColours(new Color(colour("force")), new Color(colour("cone")));
     this.trails.setColour(new Color(colour("trail")));
     this.ghostMaterial.color.set(colour("simulation"));
+    this.otherMaterial.color.set(colour("second"));
+    this.simulatedForces?.setColours(new Color(colour("simulation")), new Color(colour("cone")));
+    this.balance.setColours(new Color(colour("mass")), new Color(colour("support")), new Color(colour("zmp")));
+    this.mark.material.color.set(colour("head"));
     this.ask();
   }
+  /// The whole motion; the robot alone if the camera follows it.
   resetCamera(): void {
-    const distance = 3.4 * this.data.size_m + (this.layers.follow ? 0 : 1.2 * this.reach);
-    const target = this.layers.follow ? this.base.clone() : this.centre.clone();
-    this.controls.target.copy(target.setZ(target.z - 0.25 * this.data.size_m));
-    this.camera.position
-      .copy(this.controls.target)
-      .add(new Vector3(0.78, -1, 0.42).normalize().multiplyScalar(distance));
-    this.controls.update();
+    this.isMoved = false;
+    this.update();
+    const boxes = this.layers.follow ? [new Box3().setFromObject(this.robot.group)] : this.motionBoxes();
+    this.sight.frame(boxes, kToolbar / Math.max(this.container.clientHeight, 1));
     this.ask();
   }
   setLayer(name: keyof Layers, on: boolean): void {
     this.layers[name] = on;
+    if (name === "follow") {
+      this.isMoved = true;
+      if (on) this.sight.glideTo(3.4 * this.data.size_m);
+      else this.sight.stop();
+    }
     this.ask();
   }
   /// Draws in the next frame.
@@ -169,14 +285,27 @@ export class View {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
-      // The ground ends in haze, wherever it is looked at from.
-      const distance = this.camera.position.distanceTo(this.controls.target);
-      if (this.scene.fog instanceof Fog)
-        [this.scene.fog.near, this.scene.fog.far] = [1.3 * distance, 2.8 * distance + this.reach];
-      this.renderer.render(this.scene, this.camera);
+      if (this.sight.gliding) this.ask();
+      this.render();
     });
   }
 
+  private render(): void {
+    // The ground ends in haze, wherever it is looked at from.
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    if (this.scene.fog instanceof Fog)
+      [this.scene.fog.near, this.scene.fog.far] = [1.3 * distance, 2.8 * distance + this.reach];
+    this.renderer.render(this.scene, this.camera);
+  }
+  /// The space that the robot takes at moments all over the motion.
+  private motionBoxes(): Box3[] {
+    const boxes = Array.from({ length: kFramed }, (_, i) => {
+      this.robot.show(this.plan, (i / (kFramed - 1)) * this.plan.end);
+      return new Box3().setFromObject(this.robot.group);
+    });
+    this.robot.show(this.plan, this.clock.time);
+    return boxes;
+  }
   private drawTrails(): void {
     this.trails.clear();
     this.trails.add(this.plan.path(0, new Vector3()));
@@ -211,21 +340,59 @@ export class View {
     this.robot.show(this.plan, t);
     const before = this.base.clone();
     this.base.copy(this.robot.bodies[0].position);
-    if (this.layers.follow && before.lengthSq() > 0) {
-      const moved = this.base.clone().sub(before);
-      this.controls?.target.add(moved);
-      this.camera.position.add(moved);
-    }
+    if (this.layers.follow && !this.sight.step(this.base) && before.lengthSq() > 0)
+      this.sight.move(this.base.clone().sub(before));
     this.sun.target.position.copy(this.base);
     this.sun.position.copy(this.base).add(new Vector3(-1.2, -1.6, 4).multiplyScalar(this.data.size_m));
-    if (this.ghost && this.simulation) {
-      this.ghost.group.visible = this.layers.ghost;
-      this.ghost.show(this.simulation, t);
-    }
+    if (this.mark.visible) this.mark.update();
     this.trails.group.visible = this.layers.trails;
+    this.showForces(t);
+    if (this.other) {
+      this.other.robot.group.visible = this.layers.other;
+      this.other.robot.show(this.other.motion, t);
+    }
+  }
+  private showForces(t: number): void {
+    const { surfaces } = this.data.scene;
+    const phase = phaseAt(this.data.phases, t);
+    const held = (c: number): Surface | undefined => {
+      const entry = phase?.contacts.find((one) => one.contact === c);
+      return entry && surfaces[entry.surface];
+    };
     this.forces.arrows.visible = this.layers.forces;
     this.forces.cones.visible = this.layers.cones;
-    this.forces.show(this.plan, t, phaseAt(this.data.phases, t), (contact) => this.contactPoint(contact));
+    this.forces.show(this.plan, t, held, (c) => this.contactPoint(c));
+    if (this.ghost && this.simulation && this.simulatedForces) {
+      const ghost = this.ghost;
+      ghost.group.visible = this.layers.ghost;
+      ghost.show(this.simulation, t);
+      this.simulatedForces.arrows.visible = this.layers.forces && this.layers.ghost;
+      // A simulated contact may push at any time: against the surface of the plan, or the first of all.
+      this.simulatedForces.show(
+        this.simulation,
+        t,
+        (c) => held(c) ?? surfaces[0],
+        (c) => this.contactPoint(c, ghost),
+      );
+    }
+    const { mass, support, zmp } = this.layers;
+    if (mass || support || zmp) this.showBalance(t, held);
+    this.balance.massCentre.visible = mass;
+    this.balance.polygon.visible &&= support;
+    this.balance.zmp.visible &&= zmp;
+  }
+  private showBalance(t: number, held: (contact: number) => Surface | undefined): void {
+    const supports = this.data.scene.contacts.flatMap((contact, c): Support[] => {
+      const surface = held(c);
+      if (!surface) return [];
+      const normal = new Vector3(...surface.normal);
+      const force = new Vector3();
+      this.plan.force(t, c, force);
+      return [{ point: this.contactPoint(c).addScaledVector(normal, -contact.radius), normal, force }];
+    });
+    const centre = new Vector3();
+    this.plan.massCentre(t, centre);
+    this.balance.show(centre, supports, this.data.weight_N);
   }
   private resize(): void {
     const { clientWidth, clientHeight } = this.container;
@@ -239,6 +406,7 @@ export class View {
         ? 35
         : Math.min(60, (2 * Math.atan(Math.tan((17.5 * Math.PI) / 180) / this.camera.aspect) * 180) / Math.PI);
     this.camera.updateProjectionMatrix();
-    this.ask();
+    if (this.isMoved || this.layers.follow) this.ask();
+    else this.resetCamera();
   }
 }

@@ -2,22 +2,33 @@
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
-import { command, folder, root, work } from "./reports";
+import { command, folder, report, root, work } from "./reports";
 
 // Names may be any ASCII without quotes; comments and paths may be anything.
 export const kOddName = "</script><script>window.hacked=1</script><img src=x onerror=window.hacked=2>";
 export const kOddText = `<!-- "quoted" & 'odd' </script><script>window.hacked = "3"</script>`;
 
-function prowl(...parameters: string[]): void {
+function prowl(parameters: string[], status = 0): void {
   const found = spawnSync(command, parameters, { cwd: root, encoding: "utf8" });
-  if (found.status !== 0)
+  if (found.status !== status)
     throw new Error(`prowl ${parameters.join(" ")}: status ${found.status}\n${found.stdout}${found.stderr}`);
 }
 
 function make(name: string, task: string, simulated: boolean, ...options: string[]): void {
-  prowl("plan", task, "--out", folder(name));
-  if (simulated) prowl("simulate", folder(name), ...options);
-  prowl("report", folder(name));
+  prowl(["plan", task, "--out", folder(name)]);
+  if (simulated) prowl(["simulate", folder(name), ...options]);
+  prowl(["report", folder(name)]);
+}
+
+/// HyQ's crouch, asked to go lower than it can.
+function makeFailed(): void {
+  const task = readFileSync(path.join(root, "tasks/hyq/crouch.toml"), "utf8")
+    .replace(/^robot = .*$/m, () => `robot = "${path.join(root, "robots/hyq.toml")}"`)
+    .replace("base_displacement_m = [0, 0, -0.17]", "base_displacement_m = [0, 0, -0.45]");
+  const file = path.join(work, "too_low.toml");
+  writeFileSync(file, task);
+  prowl(["plan", file, "--out", folder("failed")], 3);
+  prowl(["report", folder("failed")]);
 }
 
 /// HyQ's stand, with names and comments that try to be markup, from a folder with quotes in its name.
@@ -45,7 +56,11 @@ export default function (): void {
   make("crouch", "tasks/hyq/crouch.toml", true);
   make("step", "tasks/hyq/step.toml", true);
   make("walk", "tasks/hyq/walk.toml", true);
+  make("trot", "tasks/hyq/trot.toml", true);
   make("squat", "tasks/talos/squat.toml", true);
   make("rollout", "tasks/hyq/stand.toml", true, "--engine", "rollout");
   makeOdd();
+  makeFailed();
+  mkdirSync(folder("two"));
+  prowl(["report", folder("walk"), folder("trot"), "--out", report("two")]);
 }

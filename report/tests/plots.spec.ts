@@ -1,8 +1,9 @@
 // What the plots and the forces show, against the plan's own files.
 import { readFileSync } from "node:fs";
 import path from "node:path";
+import { pathToFileURL } from "node:url";
 import { expect, test, type Page } from "@playwright/test";
-import { folder, open, readTable, root, seek, timeOf } from "./reports";
+import { folder, open, readTable, report, root, seek, timeOf } from "./reports";
 
 const number = (text: string) => Number(text.replaceAll("−", "-"));
 const chart = (page: Page, title: string) =>
@@ -23,7 +24,7 @@ test("the values in the headings are those of the plan and of the simulation", a
   await seek(page, time);
   const near = simulated.time_s.findIndex((t) => t >= time);
   const expectValues = async (title: string, plan: string, simulation: string) => {
-    const [found, other] = (await values(page, title)).reverse(); // the simulation is drawn first
+    const [found, other] = await values(page, title);
     expect(Math.abs(found - nodes[plan][row])).toBeLessThan(6e-3 * Math.abs(nodes[plan][row]) + 1e-9);
     const range = simulated[simulation].slice(near - 6, near + 6);
     const slack = 0.01 * Math.abs(other) + 1e-9;
@@ -37,6 +38,160 @@ test("the values in the headings are those of the plan and of the simulation", a
   await expectValues("lf_hfe_joint", "q_lf_hfe_joint_rad", "true_q_lf_hfe_joint_rad");
   await tab(page, "Forces");
   await expectValues("rh_foot z", "f_rh_foot_z_N", "f_rh_foot_z_N");
+});
+
+/// Where the lines of the time are in the plots, as shares of their widths; null for a hidden one.
+const playheads = (page: Page): Promise<(number | null)[]> =>
+  page.evaluate(() =>
+    [...document.querySelectorAll<HTMLElement>(".playhead")].map((head) => {
+      const over = head.parentElement!.getBoundingClientRect();
+      const line = head.getBoundingClientRect();
+      return head.hidden || line.height < 20 ? null : (line.left + 0.5 * line.width - over.left) / over.width;
+    }),
+  );
+
+/// Every plot over time has its line, in the right place.
+async function expectPlayheads(page: Page, time: number, count: number): Promise<void> {
+  const { end, planned } = await page.evaluate(() => {
+    const { clock, data } = window.prowl!;
+    return { end: clock.end, planned: data.plan.time.at(-1)! };
+  });
+  await expect.poll(async () => (await playheads(page)).length).toBe(count);
+  await expect.poll(async () => (await playheads(page)).filter((head) => head === null)).toEqual([]);
+  const heads = await playheads(page);
+  // Plots are over the time of what is in them: the plan, or the plan and its simulation.
+  for (const head of heads)
+    expect(Math.min(Math.abs(head! - time / end), Math.abs(head! - time / planned))).toBeLessThan(0.015);
+}
+
+test("the line of the time is in every plot: after a deep link, a tab, a theme, a zoom back", async ({ page }) => {
+  await page.goto(`${pathToFileURL(report("crouch")).href}#t=1.3`);
+  await page.waitForFunction(() => window.prowl !== undefined);
+  await expectPlayheads(page, 1.3, 12 + 1); // one of the integration error
+  for (const [name, count] of [
+    ["Base", 12],
+    ["Forces", 12],
+    ["Margins", 7],
+    ["Gains", 6],
+    ["Torques", 12],
+  ] as const) {
+    await tab(page, name);
+    await expectPlayheads(page, 1.3, count + 1);
+  }
+  await page.getByRole("button", { name: /^Switch to/ }).click();
+  await expectPlayheads(page, 1.3, 13);
+  await page.setViewportSize({ width: 1100, height: 800 });
+  await expectPlayheads(page, 1.3, 13);
+
+  const over = chart(page, "lf_kfe_joint").locator(".u-over");
+  const box = (await over.boundingBox())!;
+  await page.mouse.move(box.x + 0.05 * box.width, box.y + 0.5 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.2 * box.width, box.y + 0.5 * box.height, { steps: 5 });
+  await page.mouse.up();
+  await expect.poll(async () => (await playheads(page)).filter((head) => head === null).length).toBe(12); // not in sight
+  await over.dblclick();
+  const now = await timeOf(page);
+  await expectPlayheads(page, now, 13);
+});
+
+test("a click on a title enlarges its plot, and another makes it small", async ({ page }) => {
+  await open(page, "crouch");
+  await seek(page, 0.8);
+  const figure = chart(page, "lh_kfe_joint");
+  const title = figure.getByRole("button", { name: "lh_kfe_joint" });
+  const size = async () => (await figure.locator("canvas").boundingBox())!;
+  const small = await size();
+  await title.click();
+  await expect(title).toHaveAttribute("aria-expanded", "true");
+  await expect.poll(async () => (await size()).width).toBeGreaterThan(2.5 * small.width);
+  expect((await size()).height).toBeGreaterThan(2.5 * small.height);
+  await expectPlayheads(page, 0.8, 13);
+  await title.click();
+  await expect.poll(async () => (await size()).width).toBeCloseTo(small.width, 0);
+});
+
+test("titles are not cut", async ({ page }) => {
+  await open(page, "squat");
+  for (const name of ["Torques", "Base", "Forces"]) {
+    await tab(page, name);
+    const cut = await page.evaluate(() =>
+      [...document.querySelectorAll<HTMLElement>(".chart .title, .chart .now")]
+        .filter((one) => one.scrollWidth > one.clientWidth + 1)
+        .map((one) => one.textContent),
+    );
+    expect(cut).toEqual([]);
+  }
+});
+
+test("labels of the axes are inside of their plots", async ({ page }) => {
+  await page.addInitScript(() => {
+    const cut: string[] = [];
+    const fillText = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (
+      this: CanvasRenderingContext2D,
+      text: string,
+      x: number,
+      y: number,
+      ...rest: number[]
+    ) {
+      const size = this.measureText(text);
+      const at = this.getTransform().transformPoint(new DOMPoint(x, y));
+      const left = at.x - size.actualBoundingBoxLeft;
+      const right = at.x + size.actualBoundingBoxRight;
+      const top = at.y - size.actualBoundingBoxAscent;
+      const bottom = at.y + size.actualBoundingBoxDescent;
+      if (left < -0.5 || right > this.canvas.width + 0.5 || top < -0.5 || bottom > this.canvas.height + 0.5)
+        cut.push(`${text} in ${this.canvas.closest("figure")?.querySelector(".title")?.textContent}`);
+      Object.assign(window, { cut, labels: ((window as { labels?: number }).labels ?? 0) + 1 });
+      return Reflect.apply(fillText, this, [text, x, y, ...rest]);
+    } as typeof fillText;
+  });
+  await open(page, "trot");
+  for (const name of ["Torques", "Base", "Joints", "Rates", "Forces", "Margins", "Gains"]) {
+    await tab(page, name);
+    await page.waitForTimeout(100);
+  }
+  expect(await page.evaluate(() => (window as { labels?: number }).labels)).toBeGreaterThan(200);
+  expect(await page.evaluate(() => (window as { cut?: string[] }).cut)).toEqual([]);
+});
+
+test("torques and forces have their limits: friction and no pulling", async ({ page }) => {
+  await open(page, "step");
+  const nodes = readTable(`${folder("step")}/trajectory.csv`);
+  const friction = Number(
+    /^friction = ([\d.]+)/m.exec(readFileSync(path.join(root, "tasks/hyq/step.toml"), "utf8"))![1],
+  );
+  const limits = (tabName: string, title: string) =>
+    page.evaluate(
+      ([name, wanted]) => {
+        const data = window.prowl!.data;
+        const one = data.charts.find((all) => all.name === name)!.charts.find((each) => each.title === wanted)!;
+        return one.series
+          .filter((series) => series.style === "limit")
+          .map((series) => [...new Float32Array(Uint8Array.from(atob(series.values), (c) => c.charCodeAt(0)).buffer)]);
+      },
+      [tabName, title] as const,
+    );
+  const times = await page.evaluate(() => window.prowl!.data.plan.time);
+  const [upper, lower] = await limits("Forces", "lf_foot x");
+  const [pull] = await limits("Forces", "lf_foot z");
+  let held = 0;
+  nodes.time_s.forEach((time, row) => {
+    const at = times.indexOf(time);
+    const load = nodes.f_lf_foot_z_N[row];
+    if (nodes.contact_lf_foot[row] !== 1 || times.lastIndexOf(time) !== at) return;
+    ++held;
+    expect(Math.abs(upper[at] - friction * load)).toBeLessThan(1e-3 * Math.abs(load) + 1e-3);
+    expect(lower[at]).toBe(-upper[at]);
+    expect(pull[at]).toBe(0);
+    expect(Math.abs(nodes.f_lf_foot_x_N[row])).toBeLessThanOrEqual(upper[at] + 1);
+  });
+  expect(held).toBeGreaterThan(10);
+  expect(await limits("Torques", "lf_kfe_joint")).toHaveLength(2);
+  await tab(page, "Forces");
+  await expect(page.locator(".plots .legend .key.limit")).toBeVisible();
+  await expect(page.getByRole("checkbox", { name: "limits" })).toBeChecked();
 });
 
 test("a click in a plot goes there, and a zoom does not", async ({ page }) => {

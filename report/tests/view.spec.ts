@@ -73,6 +73,54 @@ test("a task: every iterate on a slider, the certified result at its end", async
   await expect(page.locator(".iterate")).toContainText("the server has ended");
 });
 
+test("the robot is drawn before the first iterate is asked for", async ({ page }) => {
+  await page.addInitScript(() => {
+    const Source = window.EventSource;
+    const asked: number[] = [];
+    Object.assign(window, { asked });
+    window.EventSource = class extends Source {
+      constructor(url: string | URL) {
+        asked.push(performance.now());
+        super(url);
+      }
+    };
+  });
+  await page.route("**/events", () => undefined); // the server's iterates never come
+  const url = await serve(path.join(root, "tasks/hyq/step.toml"));
+  await page.goto(url);
+  await page.waitForFunction(() => (window as unknown as { asked: number[] }).asked.length > 0);
+  const { asked, drawn } = await page.evaluate(() => ({
+    asked: (window as unknown as { asked: number[] }).asked[0],
+    drawn: performance.getEntriesByName("prowl-first-picture")[0].startTime,
+  }));
+  expect(drawn).toBeLessThan(asked);
+  // The robot is green and grey before a pale ground: many colours around the middle of the picture.
+  const colours = await page.evaluate(
+    () =>
+      new Promise<number>((resolve) => {
+        const { canvas } = window.prowl!.view!;
+        window.prowl!.view!.ask();
+        requestAnimationFrame(() => {
+          const copy = document.createElement("canvas");
+          [copy.width, copy.height] = [canvas.width, canvas.height];
+          const drawing = copy.getContext("2d")!;
+          drawing.drawImage(canvas, 0, 0);
+          const pixels = drawing.getImageData(
+            canvas.width / 4,
+            canvas.height / 4,
+            canvas.width / 2,
+            canvas.height / 2,
+          ).data;
+          let green = 0;
+          for (let i = 0; i < pixels.length; i += 4) if (pixels[i + 1] > pixels[i] + 30) ++green;
+          resolve(green);
+        });
+      }),
+  );
+  expect(colours).toBeGreaterThan(1000);
+  await ended();
+});
+
 test("a page that is opened while it solves follows the iterates", async ({ page }) => {
   const url = await serve(path.join(root, "tasks/hyq/step.toml"), "--solver", "ipopt");
   await page.goto(url);

@@ -147,6 +147,20 @@ TEST_F(Command, WritesAReportAndRemovesItWithThePlan) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out/report.html")) << "of a plan that is no more";
 }
 
+TEST_F(Command, ComparesTwoPlansInOneReport) {
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out first").status, 0);
+  EXPECT_EQ(run("$prowl plan hold.toml $dirs --out second --intervals 7").status, 0);
+  const Outcome both = run("$prowl report first second $dirs --out both.html");
+  EXPECT_EQ(both.status, 0) << both.error;
+  EXPECT_THAT(both.error, HasSubstr("report: both.html, "));
+  EXPECT_THAT(both.error, HasSubstr("of two plans"));
+  const std::string page = test::read_file(folder_.path() / "both.html");
+  EXPECT_THAT(page, HasSubstr("\"other\":{\"directory\":\"second\""));
+  const Outcome none = run("$prowl report first nowhere $dirs");
+  EXPECT_EQ(none.status, 2);
+  EXPECT_THAT(none.error, HasSubstr("nowhere/plan.json: no such file"));
+}
+
 TEST_F(Command, SaysWhatAReportNeeds) {
   const Outcome none = run("$prowl report nowhere");
   EXPECT_EQ(none.status, 2);

@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "prowl/dynamics/body_bounds.hpp"
 #include "prowl/files/visual_mesh.hpp"
 #include "prowl/plan_folder/simulation_files.hpp"
 #include "tests/support/solved_task.hpp"
@@ -41,6 +43,30 @@ const PlanRecord& stand() {
 Report report_of(const PlanRecord& record, const std::string& page = kPage,
                  const PackageSearch& search = test::test_search()) {
   return make_report({.plan = record, .directory = "out/stand", .template_html = page}, search);
+}
+
+/// Numbers that are in a report as base64 of 32-bit floats.
+std::vector<float> floats_of(const std::string& text) {
+  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < text.size() && text[i] != '='; ++i) {
+    bits = bits << 6 | static_cast<std::uint32_t>(digits.find(text[i]));
+    if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 0xff);
+  }
+  std::vector<float> numbers(bytes.size() / sizeof(float));
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(float));
+  return numbers;
+}
+
+const json& chart_of(const json& data, const std::string& tab, const std::string& title) {
+  for (const json& all : data["charts"]) {
+    if (all["name"] != tab) continue;
+    for (const json& chart : all["charts"]) {
+      if (chart["title"] == title) return chart;
+    }
+  }
+  throw std::logic_error("no chart " + title);
 }
 
 /// The robot with another URDF, in `folder`.
@@ -85,6 +111,84 @@ TEST(ReportFile, HasEveryNodeOfThePlan) {
   for (std::size_t i = 1; i < times.size(); ++i) EXPECT_LE(times[i] - times[i - 1], 0.01 + 1e-9);
   const std::size_t floats = times.size() * data["scene"]["bodies"].size() * 7;
   EXPECT_EQ(data["plan"]["placements"].get<std::string>().size(), (4 * floats + 2) / 3 * 4);
+}
+
+TEST(ReportFile, HasTheCentreOfMassAtEveryTime) {
+  const json plan = data_of(report_of(stand()).html)["plan"];
+  const std::vector<double> times = plan["time"];
+  const std::vector<float> centres = floats_of(plan["mass_centre"]);
+  ASSERT_EQ(centres.size(), 3 * times.size());
+  const RobotModel& robot = stand().task.problem.robot;
+  for (const TrajectoryPoint& node : stand().plan.trajectory.nodes) {
+    const auto k = static_cast<std::size_t>(std::find(times.begin(), times.end(), node.time) - times.begin());
+    const Eigen::Vector3d expected = centre_of_mass(robot, node.q, node.v).position;  // from the mass matrix
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(centres[3 * k + i], expected(static_cast<int>(i)), 1e-6);
+  }
+}
+
+TEST(ReportFile, LimitsForcesByFrictionAndByPulling) {
+  const json data = data_of(report_of(stand()).html);
+  const double friction = stand().task.problem.surfaces[0].friction;
+  const auto limits = [&](const std::string& title) {
+    std::vector<std::vector<float>> found;
+    for (const json& series : chart_of(data, "Forces", title)["series"]) {
+      if (series["style"] == "limit") found.push_back(floats_of(series["values"]));
+    }
+    return found;
+  };
+  const std::vector<float> load = floats_of(chart_of(data, "Forces", "lf_foot z")["series"][0]["values"]);
+  const auto along_y = limits("lf_foot y"), along_z = limits("lf_foot z");
+  ASSERT_EQ(along_y.size(), 2u);
+  ASSERT_EQ(along_z.size(), 1u) << "the ground may push as hard as it likes";
+  for (std::size_t k = 0; k < load.size(); ++k) {
+    EXPECT_GT(load[k], 10.0f);
+    EXPECT_NEAR(along_y[0][k], friction * load[k], 1e-3);
+    EXPECT_NEAR(along_y[1][k], -friction * load[k], 1e-3);
+    EXPECT_EQ(along_z[0][k], 0.0f);
+  }
+}
+
+TEST(ReportFile, LimitsTheComponentsOfAForceOnASlopeByItsCone) {
+  PlanRecord record = stand();
+  Surface& surface = record.task.problem.surfaces[0];
+  surface.normal = Eigen::Vector3d(0.6, 0.0, 0.8);
+  const json data = data_of(report_of(record).html);
+  const auto series = [&](const char* axis) {
+    return chart_of(data, "Forces", std::string("lf_foot ") + axis)["series"];
+  };
+  const std::vector<float> x = floats_of(series("x")[0]["values"]), z = floats_of(series("z")[0]["values"]);
+  const std::vector<float> upper = floats_of(series("x")[1]["values"]), lower = floats_of(series("x")[2]["values"]);
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double normal = 0.6 * x[k] + 0.8 * z[k];
+    EXPECT_NEAR(upper[k], normal * (0.6 + 0.8 * surface.friction), 1e-3);
+    EXPECT_NEAR(lower[k], normal * (0.6 - 0.8 * surface.friction), 1e-3);
+  }
+}
+
+TEST(ReportFile, HasASecondPlanToCompareWith) {
+  PlanRecord second = stand();
+  second.task.problem.name = "another";
+  second.plan.solver = "Ipopt";
+  const auto compared = [](const PlanRecord& other, const PackageSearch& search) {
+    const ReportInputs first{.plan = stand(), .directory = "out/first", .template_html = kPage};
+    const ReportInputs inputs{.plan = other, .directory = "out/second", .template_html = kPage};
+    return make_report(first, search, &inputs);
+  };
+  const json data = data_of(compared(second, test::test_search()).html);
+  EXPECT_EQ(data["directory"], "out/first");
+  EXPECT_EQ(data["other"]["directory"], "out/second");
+  EXPECT_EQ(data["other"]["plan_json"]["name"], "another");
+  EXPECT_EQ(data["other"]["plan"], data["plan"]);
+  EXPECT_EQ(data["other"]["charts"], data["charts"]);
+  EXPECT_EQ(data["other"]["scene"], nullptr) << "the same robot is there once";
+  EXPECT_EQ(data_of(report_of(stand()).html)["other"], nullptr);
+
+  const test::TempFolder folder;
+  const PlanRecord bare = with_urdf(folder, "visual>", "unseen>");
+  const Report report = compared(bare, test::test_search());
+  EXPECT_EQ(data_of(report.html)["other"]["scene"]["visuals"].size(), 13u);
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_THAT(report.warnings[0], HasSubstr("no <visual>"));
 }
 
 TEST(ReportFile, HyqsReportHasItsMeshesOnceEachAndIsSmall) {

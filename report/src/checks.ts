@@ -1,0 +1,57 @@
+import type { Check, ReportData } from "./data";
+import { short } from "./dom";
+
+/// Groups of checks by name, in the order in which they are shown.
+export const kGroups: [string, string[]][] = [
+  ["Task", ["nodes fit the problem", "start state", "goal", "phase duration"]],
+  ["Limits of the robot", ["joint "]],
+  [
+    "Contact forces",
+    ["friction cone", "unilateral force", "planned contact force", "force before opening", "contact acceleration"],
+  ],
+  ["Contact positions", ["contact ", "penetration", "swing clearance"]],
+  ["Accuracy of the dynamics", [""]],
+];
+
+export const groupOf = (check: Check): string =>
+  kGroups.find(([, beginnings]) => beginnings.some((beginning) => check.name.startsWith(beginning)))![0];
+
+/// The unit of a check; where it covers several kinds of quantities ("SI"), that of its worst coordinate.
+export function unitOf(check: Check, data: ReportData): string {
+  if (check.unit === "-" || check.unit === "") return "";
+  if (check.unit !== "SI") return check.unit.replace("^2", "²");
+  const coordinate = check.where.split(", ").at(-1) ?? "";
+  const torque = data.charts.flatMap((tab) => tab.charts).find((chart) => chart.title === coordinate);
+  const isLength = /^base [xyz]$/.test(coordinate) || torque?.unit === "N";
+  const unit = isLength ? "m" : "rad";
+  if (check.name.includes("velocity")) return `${unit}/s`;
+  return check.name === "start state" ? `${unit} or ${unit}/s` : unit;
+}
+
+/// Share of the limit that is used: 0 for a value inside its bound; null where there is no limit to compare with.
+export function usedShare(check: Check): number | null {
+  if (check.worst === null || check.limit === null) return null;
+  if (check.worst <= 0) return 0;
+  return check.limit > 0 ? check.worst / check.limit : null;
+}
+
+/// A share in words: "45 %", "< 0.001 %".
+export function percent(share: number | null): string {
+  if (share === null) return "–";
+  if (share > 0 && share < 1e-5) return "< 0.001 %";
+  return share > 10 ? `${short(share, 2)}-fold` : `${short(100 * share, 2)} %`;
+}
+
+/// Length of a bar for a share, 0 to 1: logarithmic from a millionth to all of the limit.
+export const barLength = (share: number): number =>
+  share <= 0 ? 0 : Math.min(Math.max(1 + Math.log10(share) / 6, 0.03), 1);
+
+/// The worst value: what is left to the bound if it is inside of it.
+export function worstText(check: Check, unit: string): string {
+  const { worst, limit } = check;
+  const suffix = unit ? ` ${unit}` : "";
+  if (worst === null) return "–";
+  if (worst < 0) return `${short(-worst)}${suffix} left`;
+  if (worst > 0 && limit !== null && worst < 1e-9 * limit) return `≈ 0${suffix}`;
+  return `${short(worst)}${suffix}`;
+}

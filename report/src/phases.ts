@@ -1,0 +1,35 @@
+import type { Phase, Scene } from "./data";
+
+/// A short name of a contact: LF for lf_foot, left for each point of the left foot.
+export function shortContact(name: string): string {
+  const parts = name.replace(/_?foot$/i, "").split("_");
+  if (parts.length > 2) return parts[0];
+  return parts.map((part) => (part.length <= 3 ? part.toUpperCase() : part)).join(" ") || name;
+}
+
+/// Contacts that a phase holds open although another phase closes them, by short names: "LF+RH".
+export function inTheAir(phase: Phase, phases: Phase[], scene: Scene): string {
+  const used = new Set(phases.flatMap((one) => one.contacts.map((entry) => entry.contact)));
+  for (const entry of phase.contacts) used.delete(entry.contact);
+  const names = scene.contacts.filter((_, c) => used.has(c)).map((contact) => shortContact(contact.name));
+  return [...new Set(names)].join("+");
+}
+
+/// Consecutive phases under one name: those of a stride together, others by themselves.
+export interface Part {
+  name: string;
+  short: string;
+  start: number;
+  end: number;
+}
+export function parts(phases: Phase[]): Part[] {
+  const found: Part[] = [];
+  for (const { name, start, end } of phases) {
+    const stride = /^stride (\d+): /.exec(name);
+    const last = found.at(-1);
+    const whole = stride ? `stride ${stride[1]}` : name;
+    if (stride && last?.name === whole) last.end = end;
+    else found.push({ name: whole, short: stride?.[1] ?? "", start, end });
+  }
+  return found;
+}

@@ -1,0 +1,33 @@
+import type { Check, PlanJson } from "./data";
+
+const kLimits: Record<string, string> = {
+  iteration_limit: "out of iterations",
+  time_limit: "out of time",
+  interrupted: "interrupted",
+  evaluation_failed: "a function has no value",
+  solver_failed: "no motion found",
+  infeasible: "no motion found",
+};
+
+/// What each grade is good for, with the limits of the local integration error (CertificateLimits).
+export const kGrades: Record<string, string> = {
+  draft: "draft: good for simulation, integration error below 1e-4",
+  certified: "certified: integration error below 1e-6",
+  failed: "failed: a check is beyond its limit",
+};
+
+export const failedChecks = (plan: PlanJson): Check[] => plan.certificate.checks.filter((check) => !check.passed);
+
+/// Why a plan is not good, in a few words; "" if it is.
+export function whyNot(plan: PlanJson): string {
+  if (plan.good) return "";
+  const proof = plan.reasons.find((reason) => reason.includes("out of reach"));
+  if (proof) return proof.startsWith("goal") ? "goal out of reach" : "a contact is out of reach";
+  if (plan.reasons.length > 0 && plan.status === "infeasible") return "the task cannot be done";
+  const failed = failedChecks(plan);
+  if (failed.some((check) => check.name.startsWith("goal"))) return "goal not reached";
+  const hasGoal = plan.certificate.checks.some((check) => check.name.startsWith("goal"));
+  if (["solver_failed", "infeasible"].includes(plan.status) && hasGoal) return "no motion found that reaches the goal";
+  if (plan.status !== "converged") return kLimits[plan.status] ?? plan.status.replaceAll("_", " ");
+  return failed.length === 1 ? `${failed[0].name} beyond its limit` : `${failed.length} checks failed`;
+}
