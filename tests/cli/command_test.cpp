@@ -412,13 +412,13 @@ TEST_F(Command, SaysWhyThereIsNoMotionWithoutTryingOne) {
   folder_.write("far.toml", kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, 1.5]\n");
   const Outcome far = run("$prowl plan far.toml $dirs --out out");
   EXPECT_EQ(far.status, 3) << far.error;
-  EXPECT_THAT(far.out, AllOf(HasSubstr("goal 1, phase 'phase 1': contact lf_foot is out of reach"),
-                             HasSubstr("written to out")));
+  EXPECT_THAT(unwrapped(far.out), AllOf(HasSubstr("goal 1, phase 'phase 1': "), HasSubstr("lf_foot"),
+                                        HasSubstr("out of reach"), HasSubstr("written to out")));
   EXPECT_THAT(far.out, Not(HasSubstr("certificate"))) << "of an initial guess";
   EXPECT_THAT(far.error, Not(HasSubstr("iteration"))) << "a solve for nothing";
   EXPECT_EQ(plan().at("status"), "infeasible");
   EXPECT_EQ(plan().at("finished"), false);
-  EXPECT_EQ(plan().at("reasons").size(), 4u);
+  EXPECT_EQ(plan().at("reasons").size(), 1u) << "the same of four feet is one fact";
 
   folder_.write("slope.toml", kHold + R"([[surface]]
 name = "slope"
