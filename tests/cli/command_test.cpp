@@ -349,7 +349,7 @@ TEST_F(Command, TakesThreadsHessianAndTolerance) {
 TEST_F(Command, SaysThatATaskWithoutCostIsLeftToChance) {
   folder_.write("free.toml", kPhase);
   EXPECT_THAT(run("$prowl plan free.toml $dirs --out out").out,
-              HasSubstr("  note         without [cost] all motions are as good"));
+              HasSubstr("  note         without [cost] all motions count as equally good"));
   EXPECT_THAT(run("$prowl plan hold.toml $dirs --out out").out, Not(HasSubstr("without [cost]")));
 }
 
