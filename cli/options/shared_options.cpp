@@ -39,7 +39,7 @@ CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& fo
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
   CLI::Validator is_folder = CLI::ExistingDirectory;
   is_folder.description("");  // the help says DIR already
-  verb.add_option("--package-dir", folders, "Where to look for package://; may be given again")
+  verb.add_option("--package-dir", folders, "Folder that contains packages of package:// URIs; may be given again")
       ->check(is_folder)
       ->type_name("DIR")
       ->expected(1)
@@ -47,8 +47,8 @@ void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
 }
 
 void add_json(CLI::App& verb, bool& json) {
-  verb.add_flag("--json", json, "Print one JSON object on stdout, for errors too");
-  verb.add_flag_callback("--quiet", be_quiet, "No progress on stderr; warnings and errors stay");
+  verb.add_flag("--json", json, "Print one JSON object on stdout, for errors too")->group(kOutputOptions);
+  verb.add_flag_callback("--quiet", be_quiet, "No progress on stderr; warnings and errors stay")->group(kOutputOptions);
 }
 
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
@@ -56,15 +56,18 @@ void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
   verb.add_option("--max-time", overrides.max_seconds,
                   key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
       ->check(positive_number())
-      ->type_name("S");
+      ->type_name("S")
+      ->group(kSolverOptions);
   verb.add_option("--max-iterations", overrides.max_iterations,
                   key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
-      ->type_name("N");
+      ->type_name("N")
+      ->group(kSolverOptions);
   verb.add_option("--tolerance", overrides.tolerance,
                   key_meaning(keys, "solver", "tolerance") + "; in place of solver.tolerance")
       ->check(number_between(1e-12, 1e-2))
-      ->type_name("X");
+      ->type_name("X")
+      ->group(kSolverOptions);
 }
 
 void add_hessian(CLI::App& verb, HessianKind& hessian) {
@@ -74,9 +77,10 @@ void add_hessian(CLI::App& verb, HessianKind& hessian) {
           [&hessian, exact](const std::string& name) {
             hessian = name == exact ? HessianKind::exact : HessianKind::gauss_newton;
           },
-          "Second derivatives: exact (default), or gauss-newton: of the cost alone")
+          "Second derivatives: exact (default), or gauss-newton, which takes those of the cost alone")
       ->check(CLI::IsMember({exact, gauss_newton}))
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group(kSolverOptions);
 }
 
 CLI::Validator positive_number() {

@@ -9,6 +9,11 @@
 
 namespace prowl::cli {
 
+// Groups of --help; what is in none is basic and comes first.
+inline constexpr const char* kMeshOptions = "Mesh";
+inline constexpr const char* kSolverOptions = "Solver";
+inline constexpr const char* kOutputOptions = "Output";
+
 // Options that several verbs have, in the same words.
 /// An option that names a folder, which "" is none.
 CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning);

@@ -158,31 +158,33 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
   SimulationOptions& options = arguments.options;
   const std::vector<CLI::Option*> all = {
       verb.add_flag("--perfect-state", options.perfect_state,
-                    "The controller sees the true state: no sensors, no estimator"),
-      verb.add_option("--noise", options.noise_scale, "Factor on the sensors' noise and bias; default 1")
+                    "The controller reads the true state, without sensors and estimator"),
+      verb.add_option("--noise", options.noise_scale, "Factor on noise and bias of the sensors; default 1")
           ->type_name("X"),
-      verb.add_option("--delay", arguments.delay_ms, "From sensors to torque; default 2")
+      verb.add_option("--delay", arguments.delay_ms, "Delay from sensors to torques; default 2")
           ->check(number_between(0.0, 1000.0))
           ->type_name("MS"),
-      verb.add_option("--bandwidth", options.bandwidth, "Of the actuators, first order; default 0: they follow at once")
+      verb.add_option("--bandwidth", options.bandwidth,
+                      "Bandwidth of the actuators, first order; default 0: they follow at once")
           ->type_name("HZ"),
       verb.add_option("--mass", options.physics.mass_scale, "Factor on all masses and inertias; default 1")
           ->type_name("X"),
-      verb.add_option("--friction", arguments.friction, "Of all surfaces; default: as in the task")->type_name("MU"),
+      verb.add_option("--friction", arguments.friction, "Friction of all surfaces; default: as in the task")
+          ->type_name("MU"),
       verb.add_option("--push", arguments.push,
                       "Push the base: time [s] and impulse [N s], world axes; may be given again")
           ->type_name("T IX IY IZ")
           ->expected(4)
           ->take_all(),
-      verb.add_option("--push-duration", arguments.push_duration, "Of every push; default 0.1")
+      verb.add_option("--push-duration", arguments.push_duration, "Duration of every push; default 0.1")
           ->type_name("S")
           ->check(positive_number()),
-      verb.add_option("--step", options.physics.step, "Of the physics; default 0.0005")->type_name("S"),
-      verb.add_option("--seed", options.seed, "Of all random numbers; default 1")
+      verb.add_option("--step", options.physics.step, "Time step of the physics; default 0.0005")->type_name("S"),
+      verb.add_option("--seed", options.seed, "Seed of all random numbers; default 1")
           ->check(whole_number())
           ->type_name("N"),
       verb.add_option("--case", arguments.sweep_case,
-                      "Perturbed as the case of that seed in prowl sweep without options")
+                      "Perturb as prowl sweep without options does in the case of that seed")
           ->check(whole_number())
           ->type_name("SEED")};
   for (CLI::Option* const option : all) option->group(kMujocoOptions);
@@ -193,11 +195,11 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
 void add_rollout_options(CLI::App& verb, SimulateArguments& arguments) {
   const std::vector<CLI::Option*> all = {
       verb.add_option("--base-offset-m", arguments.base_offset,
-                      "Start with the base moved by so much, world axes [m], and the feet in place")
+                      "Start with the base moved by this much, world axes [m], feet in place")
           ->type_name("X Y Z")
           ->expected(3),
       verb.add_option("--base-offset-rad", arguments.base_offset_rpy,
-                      "Start with the base turned by so much, its own axes [rad], and the feet in place")
+                      "Start with the base turned by this much, its own axes [rad], feet in place")
           ->type_name("ROLL PITCH YAW")
           ->expected(3)};
   for (CLI::Option* const option : all) option->group(kRolloutOptions);
@@ -210,17 +212,18 @@ void add_simulate_command(CLI::App& app, int& status) {
   CLI::App* const verb =
       app.add_subcommand("simulate", "Run a plan with its feedback in MuJoCo, or in its own dynamics");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option(
-          "--engine", arguments->engine,
-          "mujoco (default): as on a robot; rollout: the dynamics of the plan forward in time, contacts as scheduled")
+  verb->add_option("--engine", arguments->engine,
+                   "mujoco (default): physics with contacts and sensors; rollout: the dynamics of the plan, contacts "
+                   "as scheduled")
       ->check(CLI::IsMember({"mujoco", "rollout"}))
       ->type_name("NAME");
-  verb->add_flag("--open-loop", arguments->open_loop, "Feedforward torques only");
-  verb->add_option("--control-rate", arguments->control_rate, "Default 1000; with --engine rollout 0: at every moment")
+  verb->add_flag("--open-loop", arguments->open_loop, "Apply the planned torques only, without feedback");
+  verb->add_option("--control-rate", arguments->control_rate,
+                   "Rate of the controller; default 1000; with --engine rollout 0 means continuous")
       ->type_name("HZ");
-  verb->add_option("--record-rate", arguments->record_rate, "Rows a second in simulate.csv; default 200")
+  verb->add_option("--record-rate", arguments->record_rate, "Rows per second in simulate.csv; default 200")
       ->type_name("HZ");
-  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays the run in a browser");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   add_mujoco_options(*verb, *arguments);
@@ -228,7 +231,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
               "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
-             "0 success, 8 failure by the task's criteria; others as prowl plan.");
+             "0 success, 8 failure by the criteria of the task; others as prowl plan.");
   verb->callback([arguments, verb, &status] {
     check_engine(*verb, arguments->engine);
     status = run_simulate(*arguments);

@@ -26,7 +26,7 @@ struct SweepArguments {
   PerturbationRanges ranges;
   int cases = 200;
   std::uint64_t seed = 1;
-  int breakdown_cases = 20;
+  int breakdown_cases = 0;
   bool json = false;
 };
 
@@ -55,6 +55,9 @@ int run_sweep(const SweepArguments& arguments) {
     options.push_back(
         perturbed(tracker, arguments.options, arguments.ranges, arguments.seed + static_cast<std::uint64_t>(i)));
   }
+  print_progress(fmt::format("{} simulation{} of {:.1f} s of motion{}\n", arguments.cases,
+                             arguments.cases == 1 ? "" : "s", tracker.end() + plan.task.success.rest,
+                             arguments.breakdown_cases > 0 ? ", then those of one perturbation alone" : ""));
   record.cases = with_bar("simulations", interrupted, [&](const SweepProgress& on_done) {
     return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
   });
@@ -96,32 +99,36 @@ int run_sweep(const SweepArguments& arguments) {
 void add_sweep_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<SweepArguments>();
   PerturbationRanges& ranges = arguments->ranges;
-  CLI::App* const verb = app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each perturbed in another way");
+  CLI::App* const verb =
+      app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each time perturbed differently");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option("--n", arguments->cases, "How many; default 200")->type_name("N")->check(CLI::Range(1, 1000000));
-  verb->add_option("--seed", arguments->seed, "Of the first case, the others count on; default 1")
+  verb->add_option("--n", arguments->cases, "Number of simulations; default 200")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  verb->add_option("--seed", arguments->seed, "Seed of the first case; the others count up from it; default 1")
       ->check(whole_number())
       ->type_name("N");
-  verb->add_option("--mass-spread", ranges.mass, "Masses are off by up to this share; default 0.1")
+  verb->add_option("--mass-spread", ranges.mass, "Largest error of the masses, as a share; default 0.1")
       ->type_name("X")
       ->check(number_between(0.0, 0.9));
-  verb->add_option("--push-impulse", ranges.push, "Impulse on the base; default 10")
+  verb->add_option("--push-impulse", ranges.push, "Impulse of the pushes on the base; default 10")
       ->type_name("NS")
       ->check(nonnegative_number());
-  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet, "While two feet or fewer are down; default 2")
+  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet,
+                   "The same while two feet or fewer are on the ground; default 2")
       ->type_name("NS")
       ->check(nonnegative_number());
-  verb->add_option("--breakdown", arguments->breakdown_cases,
-                   "Simulations for each size of a perturbation alone; default 20, 0: do not look for it")
+  verb->add_option(
+          "--breakdown", arguments->breakdown_cases,
+          "Also look for the size at which each perturbation alone breaks the plan, with N simulations for each size")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
-  verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");
+  verb->add_flag("--open-loop", arguments->options.open_loop, "Apply the planned torques only, without feedback");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,
-             {"prowl sweep out/hyq_crouch --n 200 --seed 1",
-              "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2 --breakdown 0"},
-             "0 if all were simulated, whatever came of them;\n"
+             {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2"},
+             "0 if all simulations ran, with or without success;\n"
              "130 interrupted (Ctrl-C keeps the simulations that have finished).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });
 }

@@ -45,8 +45,39 @@ TEST_F(Command, SuggestsWhatWasMeant) {
   const Outcome option = run("$prowl plan hold.toml --intervalls 7");
   EXPECT_EQ(option.status, 2);
   EXPECT_THAT(option.error, HasSubstr("did you mean '--intervals'?"));
-  EXPECT_EQ(run("$prowl").status, 2);
   EXPECT_EQ(run("$prowl plan").status, 2);
+}
+
+TEST_F(Command, PrintsItsHelpAlone) {
+  const Outcome alone = run("$prowl");
+  EXPECT_EQ(alone.status, 2) << "nothing was done";
+  EXPECT_EQ(alone.out, run("$prowl --help").out);
+  EXPECT_EQ(alone.error, "");
+}
+
+// What CLI11 says of it has the value of the option, too, and in the other order.
+TEST_F(Command, NamesTheMisspeltOptionOnly) {
+  const std::string more = "\nMore with prowl plan --help.\n";
+  EXPECT_EQ(run("$prowl plan hold.toml --interval 3").error,
+            "prowl: unknown option --interval; did you mean '--intervals'?" + more);
+  EXPECT_EQ(run("$prowl plan hold.toml --interval=3 --out out").error,
+            "prowl: unknown option --interval; did you mean '--intervals'?" + more);
+  EXPECT_EQ(run("$prowl plan hold.toml other.toml").error, "prowl: unexpected argument 'other.toml'" + more);
+  EXPECT_THAT(run("$prowl plna hold.toml").error, StartsWith("prowl: unknown command 'plna'; did you mean 'plan'?\n"));
+  EXPECT_THAT(run("$prowl new").error, StartsWith("prowl: a command is missing; need one of: robot, task"));
+}
+
+TEST_F(Command, TellsAllMistakesOfAFileInOneRun) {
+  folder_.write("wrong.toml",
+                "robot = \"hyq.toml\"\n[[phase]]\ncontacts = \"all\"\nduration = 2.0\nintervals = 0\n"
+                "[solver]\ntolerence = 1e-6\n");
+  const Outcome wrong = run("$prowl plan wrong.toml $dirs");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.error, AllOf(StartsWith("prowl: wrong.toml:4:1: "), HasSubstr("\nwrong.toml:5:13: "),
+                                 HasSubstr("\nwrong.toml:7:1: ")));
+  const auto error = nlohmann::json::parse(run("$prowl plan wrong.toml $dirs --json").out).at("error");
+  EXPECT_EQ(error.at("line"), 4);
+  EXPECT_THAT(error.at("message").get<std::string>(), HasSubstr("tolerence"));
 }
 
 TEST_F(Command, ShowsARobot) {
