@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <sstream>
+#include <string_view>
 
 #include "cli/process/exit_status.hpp"
+#include "cli/screen/help_format.hpp"
 #include "cli/screen/json_result.hpp"
 #include "cli/screen/output.hpp"
 #include "cli/verbs/commands.hpp"
@@ -61,6 +64,39 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   return "";
 }
 
+/// What CLI11 lists from the last argument to the first, with the values of options: the first of them alone. "" if
+/// there is none.
+std::string unexpected(const CLI::App& app, bool lacks_a_verb) {
+  const std::vector<std::string> remaining = app.remaining(true);
+  if (remaining.empty()) return "";
+  const std::string& first = remaining.front();
+  if (first.starts_with('-') && first.size() > 1) return "unknown option " + first.substr(0, first.find('='));
+  return (lacks_a_verb ? "unknown command '" : "unexpected argument '") + first + "'";
+}
+
+/// Of a command, or a verb that has verbs, without one.
+std::string missing_verb(const CLI::App& app, int argc, const char* const* argv) {
+  const CLI::App* verb = &app;
+  for (int i = 1; i < argc; ++i) {
+    for (const CLI::App* below : verb->get_subcommands([&](const CLI::App* any) { return any->get_name() == argv[i]; }))
+      verb = below;
+  }
+  std::string names;
+  for (const CLI::App* below : verb->get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + below->get_name();
+  return "a command is missing; need one of: " + names;
+}
+
+std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
+  const bool lacks_a_verb = std::string_view(error.what()) == "A subcommand is required";
+  std::string message = error.what();
+  if (lacks_a_verb || dynamic_cast<const CLI::ExtrasError*>(&error)) {
+    const std::string other = unexpected(app, lacks_a_verb);
+    message = !other.empty() ? other : lacks_a_verb ? missing_verb(app, argc, argv) : message;
+  }
+  return message + suggestion(app, argc, argv);
+}
+
 /// The verb of a command line, or "" if it names none.
 std::string verb_of(int argc, const char* const* argv) { return argc > 1 && argv[1][0] != '-' ? argv[1] : ""; }
 
@@ -82,23 +118,18 @@ int report_error(int argc, const char* const* argv, const std::string& text, int
 int run(int argc, char** argv) {
   int status = kPassed;
   CLI::App app("Prowl plans whole-body motions of legged robots and checks them.", "prowl");
+  app.formatter(std::make_shared<HelpFormatter>());
   app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
   app.footer(
-      "Examples:\n  prowl robot robots/hyq.toml          what Prowl understands of a robot\n"
-      "  prowl plan tasks/hyq/crouch.toml     plan a motion into out/hyq_crouch\n"
-      "  prowl check out/hyq_crouch           check it again\n"
-      "  prowl diagnose tasks/hyq/crouch.toml why there is no plan, and what would change that\n"
-      "  prowl simulate out/hyq_crouch        run it in MuJoCo\n"
-      "  prowl compare tasks/hyq/hold.toml --solver riccati,ipopt   the same problem solved in several ways, in one "
-      "table\n"
-      "  prowl figures out/hyq_crouch         draw plan, gains and simulation\n"
-      "  prowl report out/hyq_crouch          replay it in a browser\n"
-      "  prowl view tasks/hyq/walk.toml       look at the iterates in a browser while it is planned\n"
-      "  prowl export out/hyq_crouch --format npz,mcap   for NumPy, Foxglove, ROS 2, MuJoCo\n"
-      "  prowl new robot URDF                 a robot file to start from; prowl new task likewise\n"
-      "  prowl doctor                         what works here, and what is slow or missing\n\nMore with prowl VERB "
-      "--help.");
+      "Examples:\n  prowl robot robots/hyq.toml            what Prowl reads of a robot\n"
+      "  prowl plan tasks/hyq/crouch.toml       plan a motion into out/hyq_crouch\n"
+      "  prowl report out/hyq_crouch            replay it in a browser\n"
+      "  prowl simulate out/hyq_crouch          run it in MuJoCo\n"
+      "  prowl diagnose tasks/hyq/crouch.toml   why there is no plan, and how to get one\n"
+      "  prowl new robot URDF                   start with your own robot\n"
+      "  prowl doctor                           what works on this machine\n\n"
+      "More with prowl VERB --help.");
   add_plan_command(app, status);
   add_check_command(app, status);
   add_diagnose_command(app, status);
@@ -113,6 +144,10 @@ int run(int argc, char** argv) {
   add_new_command(app, status);
   add_doctor_command(app, status);
   add_completion_command(app, status);
+  if (argc == 1) {
+    print_result(app.help());
+    return kBadInput;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -122,7 +157,7 @@ int run(int argc, char** argv) {
       print_result(text.str());
       return kPassed;
     }
-    return report_error(argc, argv, error.what() + suggestion(app, argc, argv), kBadInput,
+    return report_error(argc, argv, parse_message(app, error, argc, argv), kBadInput,
                         "\nMore with prowl " + first_verb(app, argc, argv) + "--help.");
   }
   return status;

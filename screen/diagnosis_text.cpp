@@ -82,7 +82,8 @@ std::string what_is_missing(const Diagnosis& diagnosis, const MotionProblem& pro
   if (!missing.empty()) return missing;
   if (diagnosis.elastic_status == SolveStatus::converged) {
     return fmt::format(
-        "not solved ({}), though on {} mesh intervals no limit has to give way: the solver may have missed a solution",
+        "not solved ({}), although no limit has to give way on {} mesh intervals: the solver may have missed a "
+        "solution",
         diagnosis.message, diagnosis.search_intervals);
   }
   return fmt::format("not solved ({})", diagnosis.message);
@@ -106,11 +107,10 @@ std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& pro
   perhaps.resize(std::min(perhaps.size(), kMostPerhaps));
   if (proved.empty() && perhaps.empty())
     return "no change of one number was found that makes it solvable on its own mesh";
-  std::string help =
-      proved.empty()
-          ? ""
-          : fmt::format("{} with {}", is_fine ? "solvable" : "solved but for the error of its mesh (--refine)",
-                        fmt::join(proved, ", or "));
+  std::string help = proved.empty()
+                         ? ""
+                         : fmt::format("{} with {}", is_fine ? "solvable" : "solvable on a finer mesh (--refine)",
+                                       fmt::join(proved, ", or "));
   if (perhaps.empty()) return help;
   return fmt::format("{} with {}", help.empty() ? "perhaps solvable" : help + ", perhaps", fmt::join(perhaps, ", or "));
 }
@@ -121,7 +121,7 @@ std::string how_it_is_found(const Diagnosis& diagnosis) {
     return "the task has a plan with prowl plan --one-mesh, though none by way of coarse meshes";
   if (diagnosis.status == SolveStatus::converged) return "the task has a plan";
   return fmt::format(
-      "the task has a plan (its mesh was solved from the initial guess), but not as prowl plan goes about it: {}",
+      "the task has a plan (its mesh was solved from the initial guess), but prowl plan does not find it: {}",
       diagnosis.stopped_by.empty() ? diagnosis.message : diagnosis.stopped_by);
 }
 
@@ -184,9 +184,9 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   for (const Change& change : diagnosis.changes) {
     const std::string proof =
         change.passes      ? "this plan passes its certificate"
-        : change.is_proved ? "on the mesh of the task, whose error is too large for the certificate: --refine"
+        : change.is_proved ? "on the mesh of the task, which is too coarse for the certificate: --refine"
         : change.was_tried && diagnosis.search_intervals == diagnosis.task_intervals
-            ? "solved from the initial guess, but prowl plan's motion is none that passes its certificate"
+            ? "solved from the initial guess, but the motion of prowl plan fails its certificate"
         : change.was_tried
             ? fmt::format("solved on {} mesh intervals, but not on the task's own", diagnosis.search_intervals)
             : fmt::format("solved on {} mesh intervals only", diagnosis.search_intervals);
@@ -198,9 +198,9 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   }
   if (diagnosis.solvable) return text;
   if (diagnosis.interrupted)
-    text += "interrupted: not all that could help was tried\n";
+    text += "interrupted before all changes were tried\n";
   else if (diagnosis.out_of_time)
-    text += "the time is up: not all that could help was tried (--max-time)\n";
+    text += "the time was up before all changes were tried (--max-time)\n";
   return text;
 }
 

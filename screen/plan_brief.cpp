@@ -4,15 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "screen/mesh_advice.hpp"
+#include "screen/motion_sentence.hpp"
 #include "screen/plan_summary.hpp"
 
 namespace prowl {
 namespace {
 
-constexpr std::size_t kScreen = 80;  // [columns]
 constexpr std::size_t kMostRows = 10;
 
 /// Shown also where they pass.
@@ -20,7 +21,7 @@ constexpr std::array kOfEveryPlan{"goal position", "contact drift", "friction co
 
 bool is_draft(const CertificateCheck& check) { return check.passed && !(check.worst <= check.certified_limit); }
 
-/// The checks to show, in order; if they are too many, the first of those that failed.
+/// The checks to show, in order: all that failed; if the others are too many beside them, those alone.
 std::vector<const CertificateCheck*> shown_checks(const Certificate& certificate) {
   std::vector<const CertificateCheck*> failed, shown;
   for (const CertificateCheck& check : certificate.checks) {
@@ -28,57 +29,78 @@ std::vector<const CertificateCheck*> shown_checks(const Certificate& certificate
     if (!check.passed) failed.push_back(&check);
     if (!check.passed || is_draft(check) || always) shown.push_back(&check);
   }
-  if (shown.size() <= kMostRows) return shown;
-  if (failed.size() > kMostRows) failed.resize(kMostRows);
-  return failed.empty() ? shown : failed;
+  return shown.size() <= kMostRows || failed.empty() ? shown : failed;
 }
 
-/// Of names the end tells more: "..of arm_right_4_joint".
-std::string cut(const std::string& text, std::size_t width) {
+/// Without the quantity of a coordinate, if need be: "RR_calf_joint" for "velocity of RR_calf_joint". Of names the end
+/// tells more: "..arm_right_4_joint".
+std::string cut(std::string text, std::size_t width) {
+  if (const std::size_t of = text.find(" of "); text.size() > width && of != std::string::npos) text.erase(0, of + 4);
   return text.size() <= width ? text : ".." + text.substr(text.size() - (width - 2));
 }
 
-std::string check_table(const std::vector<const CertificateCheck*>& checks) {
-  constexpr std::size_t kVerdict = 5, kGap = 2;
-  std::size_t name_width = 5, worst_width = 5;
+/// Share of the limit: "65 %"; none of what leaves a margin.
+std::string used(const CertificateCheck& check) {
+  constexpr double kMost = 9.99;
+  const double share = check.worst / check.limit;
+  if (!std::isfinite(share)) return "-";
+  return share > kMost ? ">999 %" : fmt::format("{:.0f} %", 100.0 * std::max(0.0, share));
+}
+
+const char* verdict(const CertificateCheck& check) {
+  return !check.passed ? "FAIL" : is_draft(check) ? "draft" : "pass";
+}
+
+std::string check_table(const std::vector<const CertificateCheck*>& checks, std::size_t columns) {
+  using Row = std::array<std::string, 6>;
+  std::vector<Row> rows = {{"check", "worst", "limit", "used", "where", ""}};
   for (const CertificateCheck* check : checks) {
-    name_width = std::max(name_width, check->name.size());
-    worst_width = std::max(worst_width, with_unit(check->worst, check->unit).size());
+    rows.push_back({check->name, with_unit(check->worst, check->unit), with_unit(check->limit, ""), used(*check),
+                    check->where, verdict(*check)});
   }
-  const std::size_t where_width = kScreen - name_width - worst_width - kVerdict - 4 * kGap;
+  constexpr std::size_t kWhere = 4, kGap = 2, kNarrowest = 8;
+  std::array<std::size_t, 6> width{};
+  for (const Row& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  }
+  std::size_t others = width.size() * kGap;
+  for (std::size_t i = 0; i < width.size(); ++i) others += i == kWhere ? 0 : width[i];
+  width[kWhere] = std::min(width[kWhere], std::max(kNarrowest, columns > others ? columns - others : 0));
   std::string text;
-  const auto line = [&](const std::string& name, const std::string& worst, const std::string& where,
-                        const char* verdict) {
-    const std::string row = fmt::format("  {:<{}}  {:>{}}  {:<{}}  {}", name, name_width, worst, worst_width,
-                                        cut(where, where_width), where_width, verdict);
-    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
-  };
-  line("check", "worst", "where", "");
-  for (const CertificateCheck* check : checks) {
-    line(check->name, with_unit(check->worst, check->unit), check->where,
-         !check->passed     ? "FAIL"
-         : is_draft(*check) ? "draft"
-                            : "pass");
+  for (Row& row : rows) {
+    row[kWhere] = cut(row[kWhere], width[kWhere]);
+    const std::string line = fmt::format("  {:<{}}  {:>{}}  {:>{}}  {:>{}}  {:<{}}  {}", row[0], width[0], row[1],
+                                         width[1], row[2], width[2], row[3], width[3], row[4], width[4], row[5]);
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
   return text;
 }
 
-std::string certificate_brief(const Certificate& certificate, const std::filesystem::path& directory) {
-  const std::vector<const CertificateCheck*> shown = shown_checks(certificate);
-  std::string text = fmt::format("certificate: {}, grade: {}\n", certificate.passed ? "passed" : "FAILED",
-                                 to_string(certificate.grade));
-  text += check_table(shown);
-  text += fmt::format("worst < 0: so much is left; limits and all {} checks: prowl check {}\n",
-                      certificate.checks.size(), directory.string());
-  return text + failed_checks_line(certificate);
+std::string certificate_brief(const Certificate& certificate, const std::filesystem::path& directory,
+                              std::size_t columns) {
+  return verdict_line(certificate) + check_table(shown_checks(certificate), columns) +
+         fmt::format("Negative values are margin left. All {} checks: prowl check {}\n", certificate.checks.size(),
+                     directory.string());
+}
+
+/// For somebody who has not seen a plan before: what the robot does, and what it takes.
+std::string sentences(const PlanRecord& record) {
+  const MotionProblem& problem = record.task.problem;
+  const Plan& plan = record.plan;
+  if (!is_good(plan)) return "";
+  const std::string motion = motion_in_words(problem, plan.trajectory), torque = torque_in_words(plan.certificate);
+  const std::string margin = missing_margin(problem, plan.trajectory, plan.certificate);
+  return fmt::format("{} in {:.2f} s; planned in {:.1f} s.{}{}\n", motion, plan.trajectory.duration(),
+                     plan.result.seconds, torque.empty() ? "" : " ", torque) +
+         (margin.empty() ? "" : fmt::format("note: {}\n", margin));
 }
 
 }  // namespace
 
-std::string plan_brief(const PlanRecord& record, const std::filesystem::path& directory) {
+std::string plan_brief(const PlanRecord& record, const std::filesystem::path& directory, std::size_t columns) {
   if (!record.plan.reasons.empty()) return plan_report(record);
-  return plan_summary(record) + certificate_brief(record.plan.certificate, directory) + mesh_advice(record) +
-         (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
+  return plan_summary(record) + sentences(record) + certificate_brief(record.plan.certificate, directory, columns) +
+         mesh_advice(record) + (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
 }
 
 }  // namespace prowl

@@ -14,7 +14,7 @@ namespace {
 const char* in_words(SolveStatus status) {
   switch (status) {
     case SolveStatus::converged: return "converged";
-    case SolveStatus::infeasible: return "infeasible: the solver came to rest where the constraints cannot be met";
+    case SolveStatus::infeasible: return "infeasible: the solver found no motion that meets the constraints";
     case SolveStatus::iteration_limit: return "not finished: limit of iterations";
     case SolveStatus::time_limit: return "not finished: limit of time";
     case SolveStatus::interrupted: return "not finished: interrupted";
@@ -22,6 +22,24 @@ const char* in_words(SolveStatus status) {
     case SolveStatus::solver_failed: return "the solver failed";
   }
   return "unknown";
+}
+
+/// 1e-06 as "1e-6".
+std::string short_power(double value) {
+  std::string text = fmt::format("{:g}", value);
+  if (const std::size_t zero = text.find("e-0"); zero != std::string::npos) text.erase(zero + 2, 1);
+  return text;
+}
+
+/// What a grade is good for, in a clause behind it.
+std::string meaning(Grade grade) {
+  const std::string error = short_power(CertificateLimits::integration_error_certified);
+  switch (grade) {
+    case Grade::failed: return "";
+    case Grade::draft: return fmt::format(" (good for simulation; certified: error < {})", error);
+    case Grade::certified: return fmt::format(" (error < {})", error);
+  }
+  return "";
 }
 
 /// Whether nothing costs anything: then all motions that keep the constraints are as good.
@@ -70,7 +88,7 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
   const SolveResult& result = record.plan.result;
   const double duration = record.plan.trajectory.duration();
   if (!record.plan.reasons.empty()) {
-    std::string text = fmt::format("{} {}{}: infeasible, and certain to be: the solver did not start\n",
+    std::string text = fmt::format("{} {}{}: infeasible, which is proven: the solver did not start\n",
                                    problem.robot.name(), problem.name, when);
     for (const std::string& reason : record.plan.reasons) text += fmt::format("  reason       {}\n", reason);
     return text;
@@ -86,16 +104,20 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
                       result.constraint_violation, result.dual_violation);
   if (is_zero(problem.running_cost) && is_zero(problem.terminal_cost)) {
     text +=
-        "  note         without [cost] all motions are as good, and what comes out need not be smooth "
+        "  note         without [cost] all motions count as equally good, so the result need not be smooth "
         "(docs/task-file.md)\n";
   }
   if (result.status != SolveStatus::converged) text += fmt::format("  message      {}\n", result.message);
   if (result.status != SolveStatus::converged && record.plan.certificate.passed) {
-    text +=
-        "  note         the motion passes its certificate all the same; only the solver's own tolerance is not met\n";
+    text += "  note         the motion still passes its certificate; it misses only the tolerance of the solver\n";
   }
   for (const std::string& hint : record.plan.hints) text += fmt::format("  hint         {}\n", hint);
   return text;
+}
+
+std::string verdict_line(const Certificate& certificate) {
+  return fmt::format("certificate: {}, grade: {}{}\n", certificate.passed ? "passed" : "FAILED",
+                     to_string(certificate.grade), meaning(certificate.grade));
 }
 
 std::string certificate_summary(const Certificate& certificate) {
@@ -104,8 +126,7 @@ std::string certificate_summary(const Certificate& certificate) {
     name_width = std::max(name_width, check.name.size());
     where_width = std::max(where_width, check.where.size());
   }
-  std::string text = fmt::format("certificate: {}, grade: {}\n", certificate.passed ? "passed" : "FAILED",
-                                 to_string(certificate.grade));
+  std::string text = verdict_line(certificate);
   const auto line = [&](const std::string& name, const std::string& worst, const std::string& limit,
                         const std::string& time, const std::string& where, const std::string& verdict) {
     text += fmt::format("  {:<{}}  {:>14}  {:>14}  {:>9}  {:<{}}  {}\n", name, name_width, worst, limit, time, where,
@@ -125,10 +146,10 @@ std::string certificate_summary(const Certificate& certificate) {
       if (phase.rank < phase.rows)
         ranks.push_back(fmt::format("'{}' rank {} of {} rows", phase.phase, phase.rank, phase.rows));
     }
-    text += fmt::format("  forces of {}: a choice, those of other contacts are unique ({})\n",
+    text += fmt::format("  The forces of {} are one choice of many; those of other contacts are unique ({}).\n",
                         fmt::join(certificate.redundant_contacts, ", "), fmt::join(ranks, ", "));
   }
-  text += "A check passes if worst <= limit; where worst is negative, it is what is left to the bound.\n";
+  text += "A check passes if worst <= limit. A negative worst value is the margin left.\n";
   return text + failed_checks_line(certificate);
 }
 
@@ -137,17 +158,17 @@ std::string feedback_summary(const FeedbackDesign& feedback, double step) {
                                  feedback.num_samples(), step * 1e3, feedback.seconds, feedback.whole.bandwidth);
   const auto worst = std::max_element(feedback.decay.begin(), feedback.decay.end(),
                                       [](const PhaseDecay& a, const PhaseDecay& b) { return a.worst < b.worst; });
-  text += fmt::format("  of a start deviation at most {:.1e} is left at the end ({})\n", feedback.whole.worst,
-                      feedback.whole.worst_direction);
+  text += fmt::format("  feedback reduces an initial deviation to at most {:.1e} of its size ({})\n",
+                      feedback.whole.worst, feedback.whole.worst_direction);
   if (worst->worst > 1.0) {
-    text += fmt::format("  it grows at most in phase '{}', {:.1f} times ({})\n", worst->name, worst->worst,
+    text += fmt::format("  largest growth within a phase: {1:.1f} times in '{0}' ({2})\n", worst->name, worst->worst,
                         worst->worst_direction);
   }
   if (!feedback.stands_on) {
     text += feedback.slowest_rate < 0.0
-                ? "  WARNING: the gains do not hold the robot after the end; tracking.bandwidth_radps leaves too "
-                  "little of them\n"
-                : "  no gains to stand on with after the end: its contacts do not hold the robot\n";
+                ? "  WARNING: the gains do not hold the robot after the end; tracking.bandwidth_radps makes them too "
+                  "weak\n"
+                : "  no gains for standing after the end: the contacts do not hold the robot\n";
   }
   return text;
 }

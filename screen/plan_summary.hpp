@@ -9,6 +9,9 @@ namespace prowl {
 /// "HyQ crouch: converged", mesh, size, iterations, in a few lines. `when` goes after the name: " (as planned)".
 std::string plan_summary(const PlanRecord& record, const std::string& when = "");
 
+/// "certificate: passed, grade: draft (good for simulation; certified: error < 1e-6)".
+std::string verdict_line(const Certificate& certificate);
+
 /// Verdict, grade and a table of all checks: worst value, limit, time and place; the failed ones again in one line.
 std::string certificate_summary(const Certificate& certificate);
 

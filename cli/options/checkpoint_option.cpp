@@ -17,15 +17,17 @@ namespace fs = std::filesystem;
 
 void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
   CLI::Option* const folder = add_folder(verb, "--checkpoint", arguments.folder,
-                                         "Keep the best iterate in this folder while it solves, for --resume");
-  verb.add_option(
-          "--checkpoint-every", arguments.every,
-          fmt::format("Seconds between two that are written; default {:g}, 0: each that is better", arguments.every))
+                                         "Keep the best iterate of a long solve in this folder, for --resume");
+  folder->group(kOutputOptions);
+  verb.add_option("--checkpoint-every", arguments.every,
+                  fmt::format("Least seconds between two checkpoints; default {:g}; 0 keeps each better iterate",
+                              arguments.every))
       ->check(number_in(NumberRange::nonnegative()))
       ->type_name("S")
-      ->needs(folder);
-  add_folder(verb, "--resume", arguments.resume,
-             "Go on from this checkpoint, or from a plan that was not finished, of the same task");
+      ->needs(folder)
+      ->group(kOutputOptions);
+  add_folder(verb, "--resume", arguments.resume, "Continue from this checkpoint or unfinished plan of the same task")
+      ->group(kSolverOptions);
 }
 
 namespace {
@@ -57,12 +59,12 @@ std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& argumen
   if (arguments.folder.empty()) return nullptr;
   const fs::path folder = real_path(arguments.folder), plan_folder = real_path(out);
   if (folder == plan_folder) {
-    throw InputError(fmt::format(
-        "--checkpoint {}: is where the plan goes, and may hold an earlier one; need another folder", arguments.folder));
+    throw InputError(
+        fmt::format("--checkpoint {}: this is the folder of the plan; need another folder", arguments.folder));
   }
   if (is_in(folder, plan_folder) || is_in(plan_folder, folder)) {
     throw InputError(
-        fmt::format("--checkpoint {}: the plan goes to {}, and each takes its folder's place as a whole; need a folder "
+        fmt::format("--checkpoint {}: the plan goes to {}, and neither folder may contain the other; need a folder "
                     "beside it",
                     arguments.folder, out.string()));
   }
@@ -73,11 +75,11 @@ std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& argumen
   PlanRecord so_far{.task = task, .plan = {}, .versions = versions(), .warm_start = request.start.folder};
   if (is_resumed) so_far.plan = request.start.record->plan;
   if (!is_resumed && fs::exists(folder / "plan.json")) {
-    print_note(fmt::format("replaces what is in {}; --resume would go on from it", arguments.folder));
+    print_note(fmt::format("this replaces the checkpoint in {}; --resume would continue from it", arguments.folder));
   }
   auto checkpoint = std::make_unique<Checkpoint>(arguments.folder, arguments.every, std::move(so_far));
   checkpoint->watch(request.on_iterate,
-                    [](const std::string& why) { print_note("no checkpoint, planning goes on: " + why); });
+                    [](const std::string& why) { print_note("no checkpoint written, planning continues: " + why); });
   return checkpoint;
 }
 

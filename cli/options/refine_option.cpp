@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "cli/options/shared_options.hpp"
+
 namespace prowl::cli {
 namespace {
 
@@ -29,13 +31,12 @@ void add_refine(CLI::App& verb, std::optional<MeshTolerance>& tolerance) {
       "");
   verb.add_option_function<std::string>(
           "--refine", [&tolerance](const std::string& text) { tolerance = tolerance_of(text); },
-          "Split and merge mesh intervals until the errors measured on them are those of draft (default), certified, "
-          "or "
-          "this re-integration error")
+          "Refine the mesh until its measured errors meet draft (default), certified, or this re-integration error")
       ->expected(0, 1)
       ->default_str(to_string(Grade::draft))
       ->check(is_tolerance)
-      ->type_name("TOL");
+      ->type_name("TOL")
+      ->group(kMeshOptions);
 }
 
 std::string in_words(const RefineRound& round, const MeshTolerance& tolerance) {

@@ -25,7 +25,7 @@ CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& fo
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
   CLI::Validator is_folder = CLI::ExistingDirectory;
   is_folder.description("");  // the help says DIR already
-  verb.add_option("--package-dir", folders, "Where to look for package://; may be given again")
+  verb.add_option("--package-dir", folders, "Folder that contains packages of package:// URIs; may be given again")
       ->check(is_folder)
       ->type_name("DIR")
       ->expected(1)
@@ -33,8 +33,8 @@ void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
 }
 
 void add_json(CLI::App& verb, bool& json) {
-  verb.add_flag("--json", json, "Print one JSON object on stdout, for errors too");
-  verb.add_flag_callback("--quiet", be_quiet, "No progress on stderr; warnings and errors stay");
+  verb.add_flag("--json", json, "Print one JSON object on stdout, for errors too")->group(kOutputOptions);
+  verb.add_flag_callback("--quiet", be_quiet, "No progress on stderr; warnings and errors stay")->group(kOutputOptions);
 }
 
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
@@ -43,16 +43,18 @@ void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
     const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
     verb.add_option(option, value, fmt::format("{}{}; in place of solver.{}", key.meaning, unit, name))
         ->check(number_in(key.range))
-        ->type_name(type);
+        ->type_name(type)
+        ->group(kSolverOptions);
   };
   add("--max-time", overrides.max_seconds, "max_time_s", "S");
   add("--max-iterations", overrides.max_iterations, "max_iterations", "N");
   add("--tolerance", overrides.tolerance, "tolerance", "X");
 }
 
-void add_intervals(CLI::App& verb, TaskOverrides& overrides) {
-  verb.add_option("--intervals", overrides.intervals,
-                  "Mesh intervals in all, shared out over the phases as in the task file")
+CLI::Option* add_intervals(CLI::App& verb, TaskOverrides& overrides) {
+  return verb
+      .add_option("--intervals", overrides.intervals,
+                  "Number of mesh intervals, divided among the phases as in the task file")
       ->check(interval_count())
       ->type_name("N");
 }
@@ -69,9 +71,10 @@ void add_hessian(CLI::App& verb, HessianKind& hessian) {
           [&hessian, exact](const std::string& name) {
             hessian = name == exact ? HessianKind::exact : HessianKind::gauss_newton;
           },
-          "Second derivatives: exact (default), or gauss-newton: of the cost alone")
+          "Second derivatives: exact (default), or gauss-newton, which takes those of the cost alone")
       ->check(CLI::IsMember({exact, gauss_newton}))
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group(kSolverOptions);
 }
 
 CLI::Validator number_in(const NumberRange& range) {

@@ -10,6 +10,11 @@
 
 namespace prowl::cli {
 
+// Groups of --help; what is in none is basic and comes first.
+inline constexpr const char* kMeshOptions = "Mesh";
+inline constexpr const char* kSolverOptions = "Solver";
+inline constexpr const char* kOutputOptions = "Output";
+
 // Options that several verbs have, in the same words.
 /// An option that names a folder, which "" is none.
 CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning);
@@ -20,7 +25,7 @@ void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);  ///< --max-ti
 void add_hessian(CLI::App& verb, HessianKind& hessian);            ///< --hessian
 
 /// --intervals; its range is that of the key in a task file.
-void add_intervals(CLI::App& verb, TaskOverrides& overrides);
+CLI::Option* add_intervals(CLI::App& verb, TaskOverrides& overrides);
 CLI::Validator interval_count();
 
 /// A finite number in that range; CLI11's own checks let NaN through.

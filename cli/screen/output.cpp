@@ -8,6 +8,8 @@
 #include <cstring>
 
 #include "cli/process/interrupt.hpp"
+#include "cli/screen/paint.hpp"
+#include "cli/screen/terminal.hpp"
 #include "prowl/error.hpp"
 #include "prowl/text/shown_text.hpp"
 
@@ -27,7 +29,10 @@ void open_standard_streams() {
   }
 }
 
-void print_result(const std::string& text) { print_bytes(printable(text)); }
+void print_result(const std::string& text) {
+  const std::string shown = printable(text);
+  print_bytes(has_colour(STDOUT_FILENO) ? paint(shown) : shown);
+}
 
 void print_bytes(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
@@ -37,7 +42,10 @@ void print_bytes(const std::string& text) {
   if (!nobody_reads) throw FileError(std::string("standard output: ") + std::strerror(reason));
 }
 
-void print_message(const std::string& text) { draw(printable(text)); }
+void print_message(const std::string& text) {
+  const std::string shown = printable(text);
+  draw(has_colour(STDERR_FILENO) ? paint(shown) : shown);
+}
 
 void print_note(const std::string& text) { print_message("note: " + text + "\n"); }
 

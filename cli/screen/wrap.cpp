@@ -6,8 +6,6 @@
 namespace prowl::cli {
 namespace {
 
-constexpr std::size_t kColumns = 80;
-
 /// Where the lines that follow begin.
 std::size_t hanging_indent(const std::string& line) {
   constexpr std::size_t kLongestLabel = 16;
@@ -19,16 +17,16 @@ std::size_t hanging_indent(const std::string& line) {
 
 }  // namespace
 
-std::string wrap(const std::string& text) {
+std::string wrap(const std::string& text, std::size_t columns) {
   std::istringstream lines(text);
   std::string wrapped;
   for (std::string line; std::getline(lines, line);) {
-    const std::size_t indent = line.size() > kColumns ? hanging_indent(line) : 0;
-    while (line.size() > kColumns) {
-      std::size_t end = line.rfind(' ', kColumns);
+    const std::size_t indent = line.size() > columns ? hanging_indent(line) : 0;
+    while (line.size() > columns) {
+      std::size_t end = line.rfind(' ', columns);
       const std::size_t next = end == std::string::npos ? end : line.find(' ', end + 1);
-      const bool fits = std::min(next, line.size()) - end - 1 <= kColumns - indent;  // the word on a line of its own
-      if (end == std::string::npos || end <= indent || !fits) end = line.find(' ', kColumns);
+      const bool fits = std::min(next, line.size()) - end - 1 <= columns - indent;  // the word on a line of its own
+      if (end == std::string::npos || end <= indent || !fits) end = line.find(' ', columns);
       if (end == std::string::npos) break;
       wrapped += line.substr(0, end) + "\n";
       line = std::string(indent, ' ') + line.substr(line.find_first_not_of(' ', end));

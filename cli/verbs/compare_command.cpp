@@ -201,9 +201,9 @@ void add_compare_command(CLI::App& app, int& status) {
   add_names(*verb, "--contact", arguments->contacts, contact_names(), "Forms of the contact constraint");
   add_names(*verb, "--orientation", arguments->orientations, orientation_names(),
             "Coordinates of the base's orientation");
-  add_names(*verb, "--solver", arguments->solvers, all_solver_names(), "Who solves it");
+  add_names(*verb, "--solver", arguments->solvers, all_solver_names(), "Solvers");
   verb->add_option("--intervals", arguments->intervals,
-                   "Meshes: intervals in all, shared out over the phases as in the task file; with commas between")
+                   "Numbers of mesh intervals, divided among the phases as in the task file; with commas between")
       ->check(interval_count())
       ->type_name("LIST")
       ->delimiter(',')
@@ -212,7 +212,7 @@ void add_compare_command(CLI::App& app, int& status) {
   add_solver_limits(*verb, arguments->overrides);
   add_hessian(*verb, arguments->hessian);
   verb->add_option("--guess", arguments->guess,
-                   "What all start from: smooth (default), or straight lines from posture to posture")
+                   "Initial guess of all runs: smooth (default), or straight lines from posture to posture")
       ->check(CLI::IsMember(guess_names()))
       ->type_name("NAME");
   verb->add_option("--snopt-library", arguments->snopt_library,
@@ -229,7 +229,7 @@ void add_compare_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",
               "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},
-             "0 if all were run, whatever came of them: the table tells; 2 bad input, also if no\n"
+             "0 if all ran; the table tells the results; 2 bad input, also if no\n"
              "combination can be run; 4 files; 130 interrupted (Ctrl-C keeps the runs that have finished).");
   verb->callback([arguments, &status] { status = run_compare(*arguments); });
 }

@@ -53,7 +53,7 @@ int run_diagnose(const DiagnoseArguments& arguments) {
 
 void add_diagnose_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
-  CLI::App* const verb = app.add_subcommand("diagnose", "Find out why a task has no plan, and what would change that");
+  CLI::App* const verb = app.add_subcommand("diagnose", "Find out why a task has no plan, and what would help");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   verb->add_option("--max-time", arguments->max_seconds,
                    fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
@@ -63,9 +63,9 @@ void add_diagnose_command(CLI::App& app, int& status) {
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,
              {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
-             "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, whether or not a\n"
-             "cause was found; 6 time or iterations were up before that was known; 7 there is a plan, but its\n"
-             "certificate fails; 130 interrupted: what was found so far.");
+             "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, with or without a known\n"
+             "cause; 6 time or iterations ran out before that was known; 7 there is a plan, but its\n"
+             "certificate fails; 130 interrupted: prints the findings so far.");
   verb->callback([arguments, &status] { status = run_diagnose(*arguments); });
 }
 

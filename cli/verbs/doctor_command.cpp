@@ -80,8 +80,8 @@ int run_doctor(bool as_json) {
 
 void add_doctor_command(CLI::App& app, int& status) {
   const auto as_json = std::make_shared<bool>(false);
-  CLI::App* const verb = app.add_subcommand(
-      "doctor", "Look at what Prowl needs here: what works, what is slow or missing, and the remedy");
+  CLI::App* const verb =
+      app.add_subcommand("doctor", "Check this machine: what works, what is slow or missing, and the remedy");
   add_json(*verb, *as_json);
   set_footer(*verb, {"prowl doctor"},
              "0 planning works, even if something is slow or a verb like figures lacks its parts;\n"

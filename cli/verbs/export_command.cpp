@@ -27,17 +27,17 @@ void add_export_command(CLI::App& app, int& status) {
       ->type_name("FORMAT");
   add_folder(*verb, "--out", arguments->out, "Folder for the files; default: DIR/exports");
   verb->add_option("--rate", arguments->rate,
-                   "Samples a second; default: the nodes of the plan, all rows of the simulation")
+                   "Samples per second; default: the nodes of the plan, all rows of the simulation")
       ->type_name("HZ");
   verb->add_flag("--simulation", arguments->simulation,
-                 "The simulated motion of simulate.csv in place of the planned one");
+                 "Export the simulated motion of simulate.csv instead of the planned one");
   add_python(*verb, arguments->python, "numpy, for mcap also mcap and mcap-ros2-support");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,
              {"prowl export out/hyq_crouch --format csv,npz --rate 500",
               "prowl export out/hyq_crouch --format mcap --simulation"},
-             "0 if they are written, 2 bad input, 4 files. What they hold, and who reads them: docs/exports.md.");
+             "0 if the files are written, 2 bad input, 4 files. Their content: docs/exports.md.");
   verb->callback([arguments, verb, &status] { status = run_python_verb(*verb, *arguments); });
 }
 

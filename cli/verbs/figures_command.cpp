@@ -16,7 +16,7 @@ void add_figures_command(CLI::App& app, int& status) {
   add_plan_directory(*verb, arguments->directory);
   add_folder(*verb, "--out", arguments->out, "Folder for the figures; default: DIR/figures");
   verb->add_option("--joint", arguments->joint,
-                   "Whose gains to draw; default: the first knee, or else the first leg's last joint")
+                   "Joint whose gains are drawn; default: the first knee, or the last joint of the first leg")
       ->type_name("NAME");
   add_python(*verb, arguments->python, "numpy, scipy and matplotlib");
   add_json(*verb, arguments->json);
@@ -24,7 +24,7 @@ void add_figures_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl simulate out/hyq_crouch && prowl figures out/hyq_crouch",
               "prowl figures out/hyq_crouch --joint lf_hfe_joint --out figures"},
-             "0 if they are drawn, 2 bad input, 4 files.");
+             "0 if the figures are drawn, 2 bad input, 4 files.");
   verb->callback([arguments, verb, &status] { status = run_python_verb(*verb, *arguments); });
 }
 

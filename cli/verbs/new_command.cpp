@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 #include "prowl/files/json_text.hpp"
 #include "prowl/model/robot_inspection.hpp"
 #include "prowl/starter/new_task.hpp"
+#include "prowl/starter/packaged_robots.hpp"
 #include "prowl/starter/robot_template.hpp"
 #include "prowl/task_file/robot_file.hpp"
 #include "prowl/task_file/task_file.hpp"
@@ -48,12 +48,21 @@ std::string file_stem(const std::string& name) {
   return stem.empty() ? "robot" : stem;
 }
 
+/// Throws InputError that names the nearest packaged robot if there is no such file.
 fs::path urdf_path(const std::string& text, const PackageSearch& search) {
-  if (text.find("://") == std::string::npos) return text;
+  std::error_code unknown;  // which the reader then tells
+  if (text.find("://") == std::string::npos) {
+    if (!fs::exists(text, unknown) && !unknown)
+      throw InputError(fmt::format("{}: no such file{}", text, nearest_packaged_robot(text, search)));
+    return text;
+  }
   try {
     return resolve_uri(text, fs::current_path() / "robot.toml", {}, search);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", text, error.what()));
+    const std::string nearest =
+        text.starts_with("package://example-robot-data/") ? nearest_packaged_robot(text, search) : "";
+    throw InputError(nearest.empty() ? fmt::format("{}: {}", text, error.what())
+                                     : fmt::format("{}: not found{}", text, nearest));
   }
 }
 
@@ -77,18 +86,19 @@ int run_new_robot(const NewRobotArguments& arguments) {
       fmt::format("{}: {:.1f} kg, {} legs, {} contacts, {}\nwritten to {}\n", model.name(), model.mass(),
                   robot.search.legs.size(), model.contacts().size(),
                   robot.posture.found ? fmt::format("standing with the base {:.3f} m up", robot.posture.height)
-                                      : "NO posture found that stands on them",
+                                      : "NO standing posture found",
                   out.string());
   for (const RobotWarning& warning : inspection.warnings) report += fmt::format("warning: {}\n", warning.text);
   print_result(report +
-               fmt::format("next: look at its guesses, then prowl robot {0} and prowl new task {0}\n", out.string()));
+               fmt::format("next: check the guesses in the file, then run prowl robot {0} and prowl new task {0}\n",
+                           out.string()));
   return kPassed;
 }
 
 void add_new_robot(CLI::App& verb, int& status) {
   const auto arguments = std::make_shared<NewRobotArguments>();
-  CLI::App* const robot =
-      verb.add_subcommand("robot", "Write a robot file for a URDF: feet, posture and limits as far as it can tell");
+  CLI::App* const robot = verb.add_subcommand(
+      "robot", "Write a robot file for a URDF, with its feet, a posture and limits as far as they can be guessed");
   robot->add_option("urdf", arguments->urdf, "URDF of a legged robot: a path, or package://NAME/PATH")
       ->required()
       ->type_name("URDF");
@@ -97,7 +107,7 @@ void add_new_robot(CLI::App& verb, int& status) {
   add_package_dirs(*robot, arguments->package_dirs);
   set_footer(*robot,
              {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml"},
-             "0, 2 bad input and nothing is written, 4 files. What it guesses it says in comments.");
+             "0, 2 bad input and nothing is written, 4 files. Comments in the file mark all guesses.");
   robot->callback([arguments, &status] { status = run_new_robot(*arguments); });
 }
 
@@ -109,8 +119,6 @@ struct NewTaskArguments {
   bool json = false;
 };
 
-constexpr std::array kKinds = {NewTaskKind::hold, NewTaskKind::stand, NewTaskKind::crouch, NewTaskKind::step};
-
 int run_new_task(const NewTaskArguments& arguments) {
   const fs::path robot_file = arguments.robot;
   const fs::path out = arguments.file.out.empty() ? fs::path("tasks") / robot_file.stem() / (arguments.kind + ".toml")
@@ -118,11 +126,9 @@ int run_new_task(const NewTaskArguments& arguments) {
   check_new_file(out, arguments.file.force);
   const PackageSearch search = package_search(arguments.package_dirs);
   const RobotModel robot = load_robot(read_text_file(robot_file), search);
-  const auto kind =
-      std::find_if(kKinds.begin(), kKinds.end(), [&](NewTaskKind k) { return to_string(k) == arguments.kind; });
   NewTask task;
   try {
-    task = new_task(robot, *kind);
+    task = new_task(robot, arguments.kind);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", robot_file.string(), error.what()));
   }
@@ -136,26 +142,26 @@ int run_new_task(const NewTaskArguments& arguments) {
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});
     return kPassed;
   }
-  print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}\n", robot.name(), arguments.kind, out.string(),
-                           out.string()));
+  const bool is_quick = task.pattern == "pace" || task.pattern == "bound";  // whose errors are in a few intervals
+  print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}{}\n", robot.name(), arguments.kind, out.string(),
+                           out.string(), is_quick ? " --refine" : ""));
   return kPassed;
 }
 
 void add_new_task(CLI::App& verb, int& status) {
   const auto arguments = std::make_shared<NewTaskArguments>();
-  CLI::App* const task = verb.add_subcommand("task", "Write a task file for a robot, in its size, that plans as it is");
+  CLI::App* const task =
+      verb.add_subcommand("task", "Write a task file for a robot, scaled to its size and ready to plan");
   task->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
-  std::vector<std::string> names;
-  for (const NewTaskKind kind : kKinds) names.push_back(to_string(kind));
-  task->add_option(
-          "--kind", arguments->kind,
-          "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step forward")
-      ->check(CLI::IsMember(names))
+  task->add_option("--kind", arguments->kind,
+                   "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step "
+                   "forward; walk, trot, pace, bound: two strides of that gait on four legs")
+      ->check(CLI::IsMember(new_task_kinds()))
       ->type_name("NAME");
   add_new_file(*task, arguments->file, "tasks/ROBOT/KIND.toml");
   add_json(*task, arguments->json);
   add_package_dirs(*task, arguments->package_dirs);
-  set_footer(*task, {"prowl new task robots/go2.toml --kind step --out step.toml && prowl plan step.toml"},
+  set_footer(*task, {"prowl new task robots/go2.toml --kind trot --out trot.toml && prowl plan trot.toml"},
              "0, 2 bad input and nothing is written, 4 files.");
   task->callback([arguments, &status] { status = run_new_task(*arguments); });
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "cli/options/checkpoint_option.hpp"
 #include "cli/options/refine_option.hpp"
@@ -70,6 +71,14 @@ void check_step(const Task& task, std::optional<double> step) {
   }
 }
 
+/// More threads than cores wait for each other.
+void note_threads(int threads) {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  if (cores == 0 || threads <= cores) return;
+  print_note(fmt::format("--threads {}: this machine has {} core{}, and more threads than that are no faster", threads,
+                         cores, cores == 1 ? "" : "s"));
+}
+
 /// As check(), with the names of the options: those of the request, which are the same.
 void check_options(const PlanRequest& request) {
   try {
@@ -98,15 +107,15 @@ void advise(const PlanArguments& arguments, const PlannedTask& planned, int stat
   const bool may_go_on = !is_good(planned.record.plan) && (status == kLimit || status == kInterrupted);
   const int reached = planned.record.plan.mesh.num_intervals(), wanted = planned.record.task.mesh.num_intervals();
   if (may_go_on && !arguments.request.refine && reached < wanted) {
-    print_note(fmt::format("stopped on a coarse mesh, of {} intervals in place of {}; the certificate is of that one",
+    print_note(fmt::format("stopped on a coarse mesh of {} intervals instead of {}; the certificate is for that mesh",
                            reached, wanted));
   }
   if (may_go_on) {
-    print_message(fmt::format("to go on from there: --resume {}{}, all else as before\n", out.string(),
-                              arguments.warm_start.empty() ? "" : " in place of --warm-start"));
+    print_message(fmt::format("to continue from there, repeat the command with --resume {}{}\n", out.string(),
+                              arguments.warm_start.empty() ? "" : " instead of --warm-start"));
   }
   if (status == kNotSolved || status == kLimit) {
-    print_message(fmt::format("why, and what would change that: prowl diagnose {}\n", arguments.task));
+    print_message(fmt::format("to find out why, and what would help: prowl diagnose {}\n", arguments.task));
   }
 }
 
@@ -121,6 +130,7 @@ int run_plan(const PlanArguments& arguments) {
                                                           : std::filesystem::path(arguments.out);
   check_plan_directory(out);
   check_step(task, arguments.step);
+  note_threads(request.threads);
   for (const std::string& line : implausibilities(task.problem, task.mesh)) print_note(line);
 
   ProgressPrinter progress;
@@ -141,10 +151,11 @@ int run_plan(const PlanArguments& arguments) {
   const PlanRecord& record = planned.record;
   if (!planned.why_no_gains.empty()) print_note(planned.why_no_gains);
 
-  if (holds_good_plan(out)) print_note("replaces an earlier plan that passed, in " + out.string());
+  if (holds_good_plan(out)) print_note("this replaces an earlier plan that passed, in " + out.string());
   write_plan(out, record, arguments.step);
   if (arguments.report) write_report(record, out, out / kReportFile, search);
-  if (!arguments.json) print_result(wrap(plan_brief(record, out) + fmt::format("written to {}\n", out.string())));
+  if (!arguments.json)
+    print_result(wrap(plan_brief(record, out, columns()) + fmt::format("written to {}\n", out.string())));
   const int status =
       planned.interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   advise(arguments, planned, status, out);
@@ -166,35 +177,42 @@ void add_plan_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("plan", "Plan the motion of a task file and check it");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
-  add_json(*verb, arguments->json);
-  verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv, sampled every so many seconds")
-      ->check(number_in(NumberRange::positive()))
-      ->type_name("S");
-  verb->add_option("--solver", arguments->request.solver, "Who solves it; default " + arguments->request.solver)
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays the plan in a browser");
+  add_package_dirs(*verb, arguments->package_dirs);
+  CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
+                                             "Print the phases, also those of a gait, and plan nothing");
+  add_intervals(*verb, arguments->overrides)->group(kMeshOptions);
+  add_refine(*verb, arguments->request.refine);
+  verb->add_flag_callback(
+          "--one-mesh", [arguments] { arguments->request.coarse_first = false; },
+          "Solve on this mesh at once, without coarser ones first")
+      ->group(kMeshOptions);
+  verb->add_option("--solver", arguments->request.solver, "Solver to use; default " + arguments->request.solver)
       ->check(CLI::IsMember(solver_names()))
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group(kSolverOptions);
   verb->add_option("--threads", arguments->request.threads,
                    fmt::format("Threads that evaluate the problem, not with fatrop; default {}. The result is the same",
                                arguments->request.threads))
       ->check(CLI::Range(1, kMostThreads))
-      ->type_name("N");
+      ->type_name("N")
+      ->group(kSolverOptions);
   add_hessian(*verb, arguments->request.hessian);
   add_solver_limits(*verb, arguments->overrides);
-  add_intervals(*verb, arguments->overrides);
-  add_refine(*verb, arguments->request.refine);
-  verb->add_flag_callback(
-      "--no-gains", [arguments] { arguments->request.gains = false; }, "Leave out the feedback gains, tracker.bin");
-  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
-  verb->add_flag_callback(
-      "--one-mesh", [arguments] { arguments->request.coarse_first = false; },
-      "Solve on this mesh at once, not on coarser ones first");
   add_folder(*verb, "--warm-start", arguments->warm_start,
-             "Start from the plan in this folder: of the same robot and phases; goal, mesh and limits may differ");
+             "Start from the plan in this folder, of the same robot and phases; goal, mesh and limits may differ")
+      ->group(kSolverOptions);
   add_checkpoint(*verb, arguments->checkpoint);
   verb->get_option("--resume")->excludes("--warm-start");
-  add_package_dirs(*verb, arguments->package_dirs);
-  CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
-                                             "Print the phases, those of a gait too, and plan nothing");
+  verb->add_option("--dt", arguments->step, "Also write trajectory_uniform.csv with this time between samples")
+      ->check(number_in(NumberRange::positive()))
+      ->type_name("S")
+      ->group(kOutputOptions);
+  verb->add_flag_callback(
+          "--no-gains", [arguments] { arguments->request.gains = false; },
+          "Do not write tracker.bin, the feedback gains")
+      ->group(kOutputOptions);
+  add_json(*verb, arguments->json);
   for (const char* unused : {"--out", "--dt", "--solver", "--max-time", "--max-iterations", "--one-mesh", "--refine",
                              "--no-gains", "--report", "--checkpoint", "--resume"}) {
     phases->excludes(unused);
@@ -208,7 +226,7 @@ void add_plan_command(CLI::App& app, int& status) {
               "prowl plan tasks/hyq/crouch.toml --refine certified"},
              "0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files;\n"
              "5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails;\n"
-             "130 interrupted (Ctrl-C keeps the best motion so far, marked as not finished).");
+             "130 interrupted (Ctrl-C keeps the best motion so far, marked as unfinished).");
   verb->callback([arguments, &status] { status = run_plan(*arguments); });
 }
 

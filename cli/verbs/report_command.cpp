@@ -56,14 +56,14 @@ void add_report_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("report", "Write a page that replays a plan in a browser");
   add_plan_directory(*verb, arguments->directory);
   verb->add_option("other", arguments->other, "Folder of a second plan, to compare with the first")->type_name("DIR");
-  verb->add_option("--out", arguments->out, "Where to write it; default: DIR/report.html")->type_name("FILE");
+  verb->add_option("--out", arguments->out, "File to write; default: DIR/report.html")->type_name("FILE");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(
       *verb,
       {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html",
        "prowl report out/hyq_walk out/hyq_trot --out compared.html"},
-      "0 if it is written, 2 bad input, 4 files. It is one file that needs no network and no other file.");
+      "0 if the page is written, 2 bad input, 4 files. The page is one file and needs no network.");
   verb->callback([arguments, &status] {
     const fs::path directory = arguments->directory;
     const fs::path out = arguments->out.empty() ? directory / kReportFile : fs::path(arguments->out);

@@ -36,9 +36,9 @@ int run_robot(const RobotArguments& arguments) {
 
 void add_robot_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<RobotArguments>();
-  CLI::App* const verb = app.add_subcommand("robot", "Show what Prowl understands of a robot, and what looks wrong");
+  CLI::App* const verb = app.add_subcommand("robot", "Show what Prowl reads of a robot, with warnings");
   verb->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
-  verb->add_flag("--frames", arguments->frames, "List also the frames that contacts may be fixed to");
+  verb->add_flag("--frames", arguments->frames, "Also list the frames to which contacts may be fixed");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,

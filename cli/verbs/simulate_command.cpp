@@ -158,38 +158,40 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
   SimulationOptions& options = arguments.options;
   const std::vector<CLI::Option*> all = {
       verb.add_flag("--perfect-state", options.perfect_state,
-                    "The controller sees the true state: no sensors, no estimator"),
+                    "The controller reads the true state, without sensors and estimator"),
       verb.add_option("--noise", options.noise_scale,
-                      fmt::format("Factor on the sensors' noise and bias; default {:g}", options.noise_scale))
+                      fmt::format("Factor on noise and bias of the sensors; default {:g}", options.noise_scale))
           ->type_name("X"),
       verb.add_option("--delay", arguments.delay_ms,
-                      fmt::format("From sensors to torque; default {:g}", arguments.delay_ms))
+                      fmt::format("Delay from sensors to torques; default {:g}", arguments.delay_ms))
           ->check(number_in({.lower = 0.0, .upper = 1000.0}))
           ->type_name("MS"),
-      verb.add_option(
-              "--bandwidth", options.bandwidth,
-              fmt::format("Of the actuators, first order, 0: they follow at once; default {:g}", options.bandwidth))
+      verb.add_option("--bandwidth", options.bandwidth,
+                      fmt::format("Bandwidth of the actuators, first order; 0: they follow at once; default {:g}",
+                                  options.bandwidth))
           ->type_name("HZ"),
       verb.add_option("--mass", options.physics.mass_scale,
                       fmt::format("Factor on all masses and inertias; default {:g}", options.physics.mass_scale))
           ->type_name("X"),
-      verb.add_option("--friction", arguments.friction, "Of all surfaces; default: as in the task")->type_name("MU"),
+      verb.add_option("--friction", arguments.friction, "Friction of all surfaces; default: as in the task")
+          ->type_name("MU"),
       verb.add_option("--push", arguments.push,
                       "Push the base: time [s] and impulse [N s], world axes; may be given again")
           ->type_name("T IX IY IZ")
           ->expected(4)
           ->take_all(),
       verb.add_option("--push-duration", arguments.push_duration,
-                      fmt::format("Of every push; default {:g}", arguments.push_duration))
+                      fmt::format("Duration of every push; default {:g}", arguments.push_duration))
           ->type_name("S")
           ->check(number_in(NumberRange::positive())),
-      verb.add_option("--step", options.physics.step, fmt::format("Of the physics; default {:g}", options.physics.step))
+      verb.add_option("--step", options.physics.step,
+                      fmt::format("Time step of the physics; default {:g}", options.physics.step))
           ->type_name("S"),
-      verb.add_option("--seed", options.seed, fmt::format("Of all random numbers; default {}", options.seed))
+      verb.add_option("--seed", options.seed, fmt::format("Seed of all random numbers; default {}", options.seed))
           ->check(whole_number())
           ->type_name("N"),
       verb.add_option("--case", arguments.sweep_case,
-                      "Perturbed as the case of that seed in prowl sweep without options")
+                      "Perturb as prowl sweep without options does in the case of that seed")
           ->check(whole_number())
           ->type_name("SEED")};
   for (CLI::Option* const option : all) option->group(kMujocoOptions);
@@ -200,11 +202,11 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
 void add_rollout_options(CLI::App& verb, SimulateArguments& arguments) {
   const std::vector<CLI::Option*> all = {
       verb.add_option("--base-offset-m", arguments.base_offset,
-                      "Start with the base moved by so much, world axes [m], and the feet in place")
+                      "Start with the base moved by this much, world axes [m], feet in place")
           ->type_name("X Y Z")
           ->expected(3),
       verb.add_option("--base-offset-rad", arguments.base_offset_rpy,
-                      "Start with the base turned by so much, its own axes [rad], and the feet in place")
+                      "Start with the base turned by this much, its own axes [rad], feet in place")
           ->type_name("ROLL PITCH YAW")
           ->expected(3)};
   for (CLI::Option* const option : all) option->group(kRolloutOptions);
@@ -217,20 +219,20 @@ void add_simulate_command(CLI::App& app, int& status) {
   CLI::App* const verb =
       app.add_subcommand("simulate", "Run a plan with its feedback in MuJoCo, or in its own dynamics");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option(
-          "--engine", arguments->engine,
-          "mujoco (default): as on a robot; rollout: the dynamics of the plan forward in time, contacts as scheduled")
+  verb->add_option("--engine", arguments->engine,
+                   "mujoco (default): physics with contacts and sensors; rollout: the dynamics of the plan, contacts "
+                   "as scheduled")
       ->check(CLI::IsMember({"mujoco", "rollout"}))
       ->type_name("NAME");
-  verb->add_flag("--open-loop", arguments->open_loop, "Feedforward torques only");
-  verb->add_option(
-          "--control-rate", arguments->control_rate,
-          fmt::format("Default {:g}; with --engine rollout 0: at every moment", SimulationOptions{}.control_rate))
+  verb->add_flag("--open-loop", arguments->open_loop, "Apply the planned torques only, without feedback");
+  verb->add_option("--control-rate", arguments->control_rate,
+                   fmt::format("Rate of the controller; default {:g}; with --engine rollout 0 means continuous",
+                               SimulationOptions{}.control_rate))
       ->type_name("HZ");
   verb->add_option("--record-rate", arguments->record_rate,
-                   fmt::format("Rows a second in simulate.csv; default {:g}", arguments->record_rate))
+                   fmt::format("Rows per second in simulate.csv; default {:g}", arguments->record_rate))
       ->type_name("HZ");
-  verb->add_flag("--report", arguments->report, "Also write report.html, which replays it in a browser");
+  verb->add_flag("--report", arguments->report, "Also write report.html, which replays the run in a browser");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   add_mujoco_options(*verb, *arguments);
@@ -238,7 +240,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
               "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
-             "0 success, 8 failure by the task's criteria; others as prowl plan.");
+             "0 success, 8 failure by the criteria of the task; others as prowl plan.");
   verb->callback([arguments, verb, &status] {
     check_engine(*verb, arguments->engine);
     status = run_simulate(*arguments);

@@ -26,7 +26,7 @@ struct SweepArguments {
   PerturbationRanges ranges;
   int cases = 200;
   std::uint64_t seed = 1;
-  int breakdown_cases = 20;
+  int breakdown_cases = 0;
   bool json = false;
 };
 
@@ -55,6 +55,9 @@ int run_sweep(const SweepArguments& arguments) {
     options.push_back(
         perturbed(tracker, arguments.options, arguments.ranges, arguments.seed + static_cast<std::uint64_t>(i)));
   }
+  print_progress(fmt::format("{} simulation{} of {:.1f} s of motion{}\n", arguments.cases,
+                             arguments.cases == 1 ? "" : "s", tracker.end() + plan.task.success.rest,
+                             arguments.breakdown_cases > 0 ? ", then those of one perturbation alone" : ""));
   record.cases = with_bar("simulations", interrupted, [&](const SweepProgress& on_done) {
     return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
   });
@@ -96,38 +99,40 @@ int run_sweep(const SweepArguments& arguments) {
 void add_sweep_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<SweepArguments>();
   PerturbationRanges& ranges = arguments->ranges;
-  CLI::App* const verb = app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each perturbed in another way");
+  CLI::App* const verb =
+      app.add_subcommand("sweep", "Run a plan in MuJoCo many times, each time perturbed differently");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option("--n", arguments->cases, fmt::format("How many; default {}", arguments->cases))
+  verb->add_option("--n", arguments->cases, fmt::format("Number of simulations; default {}", arguments->cases))
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   verb->add_option("--seed", arguments->seed,
-                   fmt::format("Of the first case, the others count on; default {}", arguments->seed))
+                   fmt::format("Seed of the first case; the others count up from it; default {}", arguments->seed))
       ->check(whole_number())
       ->type_name("N");
   verb->add_option("--mass-spread", ranges.mass,
-                   fmt::format("Masses are off by up to this share; default {:g}", ranges.mass))
+                   fmt::format("Largest error of the masses, as a share; default {:g}", ranges.mass))
       ->type_name("X")
       ->check(number_in({.lower = 0.0, .upper = 0.9}));
-  verb->add_option("--push-impulse", ranges.push, fmt::format("Impulse on the base; default {:g}", ranges.push))
+  verb->add_option("--push-impulse", ranges.push,
+                   fmt::format("Impulse of the pushes on the base; default {:g}", ranges.push))
       ->type_name("NS")
       ->check(number_in(NumberRange::nonnegative()));
-  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet,
-                   fmt::format("While two feet or fewer are down; default {:g}", ranges.push_on_two_feet))
+  verb->add_option(
+          "--push-impulse-on-two-feet", ranges.push_on_two_feet,
+          fmt::format("The same while two feet or fewer are on the ground; default {:g}", ranges.push_on_two_feet))
       ->type_name("NS")
       ->check(number_in(NumberRange::nonnegative()));
-  verb->add_option("--breakdown", arguments->breakdown_cases,
-                   fmt::format("Simulations for each size of a perturbation alone; default {}, 0: do not look for it",
-                               arguments->breakdown_cases))
+  verb->add_option(
+          "--breakdown", arguments->breakdown_cases,
+          "Also look for the size at which each perturbation alone breaks the plan, with N simulations for each size")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
-  verb->add_flag("--open-loop", arguments->options.open_loop, "Feedforward torques only");
+  verb->add_flag("--open-loop", arguments->options.open_loop, "Apply the planned torques only, without feedback");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,
-             {"prowl sweep out/hyq_crouch --n 200 --seed 1",
-              "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2 --breakdown 0"},
-             "0 if all were simulated, whatever came of them;\n"
+             {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2"},
+             "0 if all simulations ran, with or without success;\n"
              "130 interrupted (Ctrl-C keeps the simulations that have finished).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });
 }

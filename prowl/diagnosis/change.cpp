@@ -112,4 +112,21 @@ std::vector<Knob> knobs_of(const MotionProblem& problem) {
   return knobs;
 }
 
+std::string in_words(const Knob& knob, double amount) {
+  const std::string value = knob.words ? knob.words(amount)
+                                       : fmt::format("{}{:.3g}{}", knob.is_factor ? "x " : "", knob.value(amount),
+                                                     knob.unit.empty() || knob.is_factor ? "" : " " + knob.unit);
+  if (knob.kind == "goal") return knob.subject + " " + value;
+  if (knob.kind == "clearance") return "swing clearance " + value;
+  const std::string subject = knob.subject.empty() ? (knob.kind == "duration" ? "all phases" : "all joints")
+                              : knob.kind != "duration" || knob.phase < 0 ? knob.subject
+                                                                          : "phase '" + knob.subject + "'";
+  const std::string what = knob.kind == "torque"           ? "torque limits"
+                           : knob.kind == "joint_velocity" ? "velocity limits"
+                           : knob.kind == "joint_position" ? "position ranges"
+                           : knob.kind == "place"          ? "foothold"
+                                                           : knob.kind;
+  return fmt::format("{} of {} {}", what, subject, value);
+}
+
 }  // namespace prowl

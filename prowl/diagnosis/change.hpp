@@ -30,6 +30,9 @@ struct Knob {
   std::function<std::string(double amount)> besides = {};  ///< what else it turns; may be empty
 };
 
+/// "torque limits of all joints x 1.5", "friction of floor 0.61", "goal 1, base z 0.254 m": what is tried.
+std::string in_words(const Knob& knob, double amount);
+
 /// What needs more than twenty times the torque is another robot. What a file asks may be in millimetres.
 inline const double kMostAmount = std::log(20.0), kMostOfWay = std::log(1000.0);
 

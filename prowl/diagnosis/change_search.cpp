@@ -119,8 +119,11 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const Mesh& 
   std::vector<bool> done(knobs.size(), false);
   double enough = std::numeric_limits<double>::infinity();  // of the smallest found, weighted
   double before = 0.0;
+  int tries = 0;
   for (double turned = kFirst; before < kNoMatch * enough; turned *= kFurther) {
     bool any_left = false;
+    int about = tries;  // with those of this round; whether there is a next one is not known
+    for (std::size_t i = 0; i < knobs.size(); ++i) about += !done[i] && before / knobs[i].weight < knobs[i].most;
     for (std::size_t i = 0; i < knobs.size(); ++i) {
       const Knob& knob = knobs[i];
       const double too_little = before / knob.weight,
@@ -128,7 +131,8 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const Mesh& 
       if (done[i] || too_little >= knob.most) continue;
       if (!may_go_on()) break;
       any_left = true;
-      if (on_step) on_step(fmt::format("{} {} {:.3g} {}", knob.kind, knob.subject, knob.value(amount), knob.unit));
+      ++tries;
+      if (on_step) on_step(fmt::format("{} ({} of about {})", in_words(knob, amount), tries, about));
       if (before == 0.0) ++result.tried;
       if (!solves(knob, amount, mesh)) continue;
       done[i] = true;

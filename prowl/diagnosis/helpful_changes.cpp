@@ -189,8 +189,7 @@ class HelpfulChanges {
       if (amount == last) break;
       if (!run_.search.may_go_on()) return {};
       last = amount;
-      run_.step(fmt::format("on the mesh of the task, {} {} {:.3g} {}", found.knob.kind, found.knob.subject,
-                            found.knob.value(amount), found.knob.unit));
+      run_.step("on the mesh of the task, " + in_words(found.knob, amount));
       try {
         Plan plan = run_.planned({found.knob.problem(amount), run_.problem.mesh}, 1.0);
         was_tried = was_tried && run_.what_stopped(plan.result).empty();

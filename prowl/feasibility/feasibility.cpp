@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
@@ -23,13 +24,15 @@ using Eigen::VectorXd;
 constexpr double kAtItsPlace = 1e-3;  // [m]
 constexpr double kFull = 0.999;       // of the weight, or of a torque limit: less is less
 
-/// Contacts that a posture does not have where they have to be.
+/// Contacts that a posture does not have where they have to be; several share one line, with the numbers of the worst.
 std::vector<std::string> missed_places(const MotionProblem& problem, const ContactSchedule& schedule, int p,
                                        const VectorXd& q, const std::string& when) {
   const auto places = prescribed_places(problem, schedule);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
   std::vector<std::string> missed;
+  std::string worst;
+  double largest = 0.0;
   const auto& held = problem.phases[p].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& phase_contact = held[i];
@@ -40,10 +43,16 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
         surface.at(nearest_in_patch(surface, surface.coordinates(is)), contact.radius));
     const double gap = (is - should).norm();
     if (gap <= kAtItsPlace) continue;
-    missed.push_back(
-        fmt::format("{}: no posture found that has contact {} in its place: {:.3g} m off", when, contact.name, gap));
+    missed.push_back(contact.name);
+    if (gap > largest) worst = contact.name;
+    largest = std::max(largest, gap);
   }
-  return missed;
+  if (missed.empty()) return {};
+  return {
+      missed.size() == 1
+          ? fmt::format("{}: no posture found that has contact {} at its foothold: {:.3g} m off", when, worst, largest)
+          : fmt::format("{}: no posture found that has the {} contacts {} at their footholds: {} is {:.3g} m off", when,
+                        missed.size(), fmt::join(missed, ", "), worst, largest)};
 }
 
 /// "goal 1, end of phase 'stand'"; "" for nodes at which there is nothing to look at.

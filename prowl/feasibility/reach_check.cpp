@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "prowl/dynamics/body_bounds.hpp"
 #include "prowl/feasibility/prescribed_places.hpp"
 #include "prowl/model/surface.hpp"
@@ -37,6 +40,13 @@ std::vector<Held> held_in(const MotionProblem& problem, const ContactSchedule& s
   return held;
 }
 
+/// A contact that is farther from the root of its leg than the leg is long.
+struct TooFar {
+  const Held* held;
+  double distance;  ///< at least [m]
+  double excess() const { return distance - held->leg.length; }
+};
+
 /// Least distance from the root of its leg to where the contact has to be [m].
 double least_distance(const Held& held, const BoundaryCondition& condition) {
   const PointBounds root = point_bounds(condition, held.leg.root);
@@ -45,6 +55,77 @@ double least_distance(const Held& held, const BoundaryCondition& condition) {
   const Vector3d nearest =
       held.surface.at(nearest_in_patch(held.surface, held.surface.coordinates(root.lower)), held.contact.radius);
   return root.distance(nearest);
+}
+
+/// The same fact about several contacts is one line, with the numbers of the one that is farthest off.
+std::string too_far_in_words(const std::vector<TooFar>& all, std::size_t held) {
+  const auto worst =
+      std::ranges::max_element(all, [](const TooFar& a, const TooFar& b) { return a.excess() < b.excess(); });
+  const Held& contact = *worst->held;
+  const std::string numbers = fmt::format("{:.3g} m or more from {}, where its leg begins, which is {:.3g} m long",
+                                          worst->distance, contact.first_joint, contact.leg.length);
+  if (all.size() == 1) return fmt::format("contact {} is out of reach: {}", contact.contact.name, numbers);
+  std::string names;
+  for (const TooFar& one : all) names += (names.empty() ? "" : ", ") + one.held->contact.name;
+  return fmt::format("{} contacts are out of reach, by {:.2g} m or more: {} is {}",
+                     all.size() == held ? fmt::format("all {}", held) : fmt::format("{} ({})", all.size(), names),
+                     worst->excess(), contact.contact.name, numbers);
+}
+
+/// Contacts that a base of any orientation has to reach together.
+struct Group {
+  std::vector<const Held*> held;
+  double length = 0.0;                             ///< mean of the legs [m]
+  Eigen::Vector3d root = Eigen::Vector3d::Zero();  ///< mean of their roots, base frame [m]
+  explicit Group(std::vector<const Held*> contacts) : held(std::move(contacts)) {
+    for (const Held* one : held) {
+      length += one->leg.length / static_cast<double>(held.size());
+      root += one->leg.root / static_cast<double>(held.size());
+    }
+  }
+};
+
+/// Least distance from the mean root of the legs to the mean of where the contacts have to be [m]: of those whose place
+/// is not known, along the normal of the one surface that they share.
+double least_distance(const Group& group, const BoundaryCondition& condition) {
+  const PointBounds root = point_bounds(condition, group.root);
+  const auto count = static_cast<double>(group.held.size());
+  if (std::ranges::all_of(group.held, [](const Held* one) { return one->place.has_value(); })) {
+    Vector3d mean = Vector3d::Zero();
+    for (const Held* one : group.held) mean += *one->place / count;
+    return root.distance(mean);
+  }
+  const Surface& surface = group.held.front()->surface;
+  if (std::ranges::any_of(group.held, [&](const Held* one) { return &one->surface != &surface; })) return 0.0;
+  double height = surface.normal.dot(surface.point);  // of the contacts
+  for (const Held* one : group.held) height += one->contact.radius / count;
+  return std::max({0.0, root.least_along(surface.normal) - height, root.least_along(-surface.normal) + height});
+}
+
+/// The mean of the distances from root to contact is no less than that of the means, however the base is turned:
+///
+///   mean length >= mean |p_i - (p_base + R root_i)| >= |mean p_i - (p_base + R mean root_i)|
+///
+/// Of roots on all sides of the base the mean is near its origin, so that the rotation hardly matters.
+std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const BoundaryCondition& condition) {
+  std::vector<std::vector<const Held*>> groups(1);
+  for (const Held& one : held) groups.front().push_back(&one);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) groups.push_back({&held[j], &held[i]});
+  }
+  for (std::vector<const Held*>& contacts : groups) {
+    if (contacts.size() < 2) continue;
+    const Group group(std::move(contacts));
+    const double distance = least_distance(group, condition);
+    if (!(distance > group.length + kMargin)) continue;
+    std::string names;
+    for (const Held* one : group.held) names += (names.empty() ? "" : ", ") + one->contact.name;
+    return fmt::format(
+        "contacts {} are out of reach however the base is turned: {:.3g} m or more from where their legs begin, on "
+        "average, and these are {:.3g} m long",
+        names, distance, group.length);
+  }
+  return "";
 }
 
 }  // namespace
@@ -57,14 +138,14 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, con
     const std::vector<Held> held = held_in(problem, schedule, places, p);
     for (const BoundaryCondition& condition : problem.boundary_conditions) {
       if (!is_during(condition, p)) continue;
+      std::vector<TooFar> too_far;
       for (const Held& one : held) {
         const double distance = least_distance(one, condition);
-        if (!(distance > one.leg.length + kMargin)) continue;
-        reasons.push_back(
-            fmt::format("{}, phase '{}': contact {} is out of reach: {:.3g} m or more from {}, where its leg "
-                        "begins, which is {:.3g} m long",
-                        condition.name, phase, one.contact.name, distance, one.first_joint, one.leg.length));
+        if (distance > one.leg.length + kMargin) too_far.push_back({&one, distance});
       }
+      const std::string reason =
+          too_far.empty() ? why_the_group_is_out_of_reach(held, condition) : too_far_in_words(too_far, held.size());
+      if (!reason.empty()) reasons.push_back(fmt::format("{}, phase '{}': {}", condition.name, phase, reason));
     }
     for (std::size_t i = 0; i < held.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {

@@ -100,7 +100,8 @@ enum class FolderAbove { has_to_exist, is_made };
 /// old. This user's alone where there is a `folder`, or one for files: what they replace may be private.
 class SiblingFolder {
  public:
-  SiblingFolder(const fs::path& folder, FolderAbove above) {
+  /// `shown`: what the user calls the folder, or the one that it is in where that has to exist; "" for `folder`.
+  explicit SiblingFolder(const fs::path& folder, FolderAbove above, const fs::path& shown = {}) {
     const fs::path parent = folder.parent_path();
     remove_leftovers(parent);
     std::error_code error;
@@ -111,7 +112,7 @@ class SiblingFolder {
       path_ = parent / fmt::format(".prowl-{}-{}.new", ::getpid(), taken);
       if (::mkdir(path_.c_str(), mode) == 0) return;
       const bool is_gone = errno == ENOENT && above == FolderAbove::is_made;
-      if ((errno != EEXIST && !is_gone) || attempt == kMostAttempts) fail(path_, "cannot make this folder", errno);
+      if ((errno != EEXIST && !is_gone) || attempt == kMostAttempts) fail_to_make(folder, above, shown, errno);
       if (errno == EEXIST) ++taken;
     }
   }
@@ -130,6 +131,17 @@ class SiblingFolder {
   }
 
  private:
+  [[noreturn]] static void fail_to_make(const fs::path& folder, FolderAbove above, const fs::path& shown, int error) {
+    const fs::path name = shown.empty() ? folder : shown;
+    if (above == FolderAbove::has_to_exist)
+      fail(shown.empty() ? folder.parent_path() : shown, "cannot write here", error);
+    const std::string reason =
+        error == EACCES || error == EPERM || error == EROFS
+            ? fmt::format("no permission to write in {} ({})", folder.parent_path().string(), std::strerror(error))
+            : std::string(std::strerror(error));
+    throw FileError(fmt::format("{}: cannot be made: {}", name.string(), reason));
+  }
+
   /// But where one above it goes meanwhile: the next attempt makes that, too.
   static void make_folder(const fs::path& folder) {
     std::error_code error;
@@ -189,7 +201,7 @@ void check_exchangeable(const fs::path& path) {
 /// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them
 /// again: permissions tell nothing of /proc, of names too long, or of a disk that is full. A kill may leave an empty
 /// folder.
-void try_to_make(const fs::path& path) {
+void try_to_make(const fs::path& path, const fs::path& shown) {
   std::error_code error;
   std::vector<fs::path> missing;  // from the inside out
   for (fs::path above = path.parent_path(); !fs::exists(above, error) && above != above.parent_path();) {
@@ -200,7 +212,7 @@ void try_to_make(const fs::path& path) {
     for (const fs::path& folder : missing) ::rmdir(folder.c_str());
   };
   try {
-    const SiblingFolder trial(path, FolderAbove::is_made);
+    const SiblingFolder trial(path, FolderAbove::is_made, shown);
     if (fs::exists(path, error)) {
       trial.finish(path);
     } else if (::rename(trial.path().c_str(), path.c_str()) == 0) {
@@ -277,13 +289,13 @@ fs::path real_path(const fs::path& folder) {
 void check_replaceable(const fs::path& folder, const std::set<std::string>& own_names) {
   const fs::path path = real_path(folder);
   check_old(path, folder, own_names);
-  try_to_make(path);
+  try_to_make(path, folder);
 }
 
 void write_folder_atomically(const fs::path& folder, const std::map<std::string, std::string>& files,
                              const std::set<std::string>& own_names) {
   const fs::path path = real_path(folder);
-  const SiblingFolder fresh(path, FolderAbove::is_made);
+  const SiblingFolder fresh(path, FolderAbove::is_made, folder);
   for (const auto& [name, text] : files) write_new(fresh.path() / name, text, path / name);
   try {
     check_old(path, folder, own_names);
@@ -302,7 +314,7 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
 }
 
 void check_writable(const fs::path& folder) {
-  const SiblingFolder trial(real_path(folder) / "file", FolderAbove::has_to_exist);
+  const SiblingFolder trial(real_path(folder) / "file", FolderAbove::has_to_exist, folder);
 }
 
 void write_files_atomically(const fs::path& folder, const std::map<std::string, std::string>& files) {
@@ -313,7 +325,7 @@ void write_files_atomically(const fs::path& folder, const std::map<std::string, 
     if (fs::exists(old) && !fs::is_regular_file(old))
       throw FileError(fmt::format("{}: not a file", (place / name).string()));
   }
-  const SiblingFolder fresh(place / "file", FolderAbove::has_to_exist);
+  const SiblingFolder fresh(place / "file", FolderAbove::has_to_exist, folder);
   for (const auto& [name, text] : files) write_new(fresh.path() / name, text, place / name);
   for (const auto& [name, text] : files) {
     const fs::path target = place / name;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/files/text_file.hpp"
@@ -52,6 +53,14 @@ void set_limits(const std::vector<LimitGuess>& guesses, RobotDescription& descri
   }
 }
 
+/// The URDF's name, or that of its file; "b1_description", a package, is of "b1".
+std::string robot_name(const std::string& outline_name, const std::filesystem::path& urdf) {
+  std::string name = is_name(outline_name) ? outline_name : is_name(urdf.stem().string()) ? urdf.stem().string() : "";
+  constexpr std::string_view kPackage = "_description";
+  if (name.ends_with(kPackage)) name.erase(name.size() - kPackage.size());
+  return name.empty() ? "robot" : name;
+}
+
 }  // namespace
 
 NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& search) {
@@ -60,9 +69,7 @@ NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& searc
   description.urdf = std::filesystem::absolute(urdf).lexically_normal();
   description.urdf_text = read_text_file(description.urdf, kLargestUrdf).text;
   const UrdfOutline outline = urdf_outline(description.urdf.string(), description.urdf_text);
-  description.name = is_name(outline.name)                       ? outline.name
-                     : is_name(description.urdf.stem().string()) ? description.urdf.stem().string()
-                                                                 : "robot";
+  description.name = robot_name(outline.name, description.urdf);
   description.limits = usable_limits(outline);
 
   const RobotModel bare(description);

@@ -15,7 +15,7 @@ namespace prowl {
 
 /// A robot description made from a URDF alone, and how each part of it came about.
 struct NewRobot {
-  RobotDescription description;  ///< with contacts, posture and limits; its name is the URDF's
+  RobotDescription description;  ///< with contacts, posture and limits; its name is the URDF's without "_description"
   double mass = 0.0;             ///< [kg]
   LegSearch search;
   std::vector<FootContacts> feet;  ///< one a leg

@@ -13,6 +13,7 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/leg_kinematics.hpp"
+#include "prowl/motion/gait.hpp"
 #include "prowl/starter/rounding.hpp"
 
 namespace prowl {
@@ -169,19 +170,68 @@ void choose_step(const RobotModel& robot, NewTask& task) {
   task.place.z() = 0.0;
 }
 
-}  // namespace
+/// Speeds and sizes of walking animals and robots go with their height h: strides with h, times with sqrt(h) (equal
+/// Froude numbers). These are for a base 0.6 m up.
+constexpr double kReferenceHeight = 0.6;
+struct GaitScale {
+  const char* pattern;
+  double stride;                ///< [s]
+  double length;                ///< of the height [-]
+  double intervals_per_second;  ///< enough for grade draft of walk and trot; pace and bound take --refine
+};
+constexpr GaitScale kGaitScales[] = {
+    {"walk", 3.0, 0.4, 150.0}, {"trot", 0.8, 0.35, 150.0}, {"pace", 0.7, 0.2, 150.0}, {"bound", 0.7, 0.2, 150.0}};
+constexpr GaitScale kOtherGait = {"", 0.8, 0.2, 150.0};
+constexpr double kHyqGaitWeight = 1e-4;  // of torques
 
-std::string to_string(NewTaskKind kind) {
-  switch (kind) {
-    case NewTaskKind::hold: return "hold";
-    case NewTaskKind::stand: return "stand";
-    case NewTaskKind::crouch: return "crouch";
-    case NewTaskKind::step: return "step";
+void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& task) {
+  if (!find_feet(robot)) {
+    throw InputError(
+        fmt::format("robot '{}': a gait needs four contacts, one fore left, fore right, hind left and hind right; it "
+                    "has {}; no --kind {}",
+                    robot.name(), robot.contacts().size(), pattern));
   }
-  return "";
+  const auto* const known =
+      std::ranges::find_if(kGaitScales, [&](const GaitScale& scale) { return pattern == scale.pattern; });
+  const GaitScale& scale = known == std::end(kGaitScales) ? kOtherGait : *known;
+  const double time = std::sqrt(task.height / kReferenceHeight);
+  constexpr double kStep = 0.05;  // [s] that a person would write
+  task.pattern = pattern;
+  task.stride_duration = kStep * std::max(1.0, std::round(scale.stride * time / kStep));
+  task.stride_length = std::max(0.01, hundredths(scale.length * task.height));
+  task.intervals_per_second = 10.0 * std::ceil(0.1 * scale.intervals_per_second / time);
+  task.torque_weight = one_digit(kHyqGaitWeight * std::pow(kHyqMass / robot.mass(), 2));
 }
 
-NewTask new_task(const RobotModel& robot, NewTaskKind kind) {
+const std::vector<std::pair<std::string, NewTaskKind>>& standing_kinds() {
+  static const std::vector<std::pair<std::string, NewTaskKind>> kinds = {{"hold", NewTaskKind::hold},
+                                                                         {"stand", NewTaskKind::stand},
+                                                                         {"crouch", NewTaskKind::crouch},
+                                                                         {"step", NewTaskKind::step}};
+  return kinds;
+}
+
+NewTaskKind kind_of(const std::string& name) {
+  const auto found = std::ranges::find(standing_kinds(), name, [](const auto& kind) { return kind.first; });
+  return found == standing_kinds().end() ? NewTaskKind::gait : found->second;
+}
+
+}  // namespace
+
+std::vector<std::string> new_task_kinds() {
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : standing_kinds()) names.push_back(name);
+  for (const GaitPattern& pattern : gait_patterns()) names.push_back(pattern.name);
+  return names;
+}
+
+std::string kind_name(const NewTask& task) {
+  const auto found = std::ranges::find(standing_kinds(), task.kind, [](const auto& kind) { return kind.second; });
+  return found == standing_kinds().end() ? task.pattern : found->first;
+}
+
+NewTask new_task(const RobotModel& robot, const std::string& name) {
+  const NewTaskKind kind = kind_of(name);
   NewTask task;
   task.kind = kind;
   task.height = robot.nominal_configuration()(2);
@@ -203,6 +253,7 @@ NewTask new_task(const RobotModel& robot, NewTaskKind kind) {
   }
   if (kind == NewTaskKind::stand) choose_shift(robot, task);
   if (kind == NewTaskKind::step) choose_step(robot, task);
+  if (kind == NewTaskKind::gait) choose_gait(robot, name, task);
   return task;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "prowl/model/configuration.hpp"
+#include "prowl/motion/gait.hpp"
 #include "prowl/starter/new_task.hpp"
 #include "prowl/task_file/toml/toml_text.hpp"
 
@@ -54,6 +55,17 @@ intervals = {settle_intervals}
 
 )";
 
+constexpr const char* kGait =
+    R"(# A gait: feet swing in turn while the others stand. Where they land is left to the optimiser. Other kinds: {others}.
+[gait]
+kind = "{kind}"
+strides = {strides}
+stride_s = {stride:.4g}          # of one stride, in which each foot swings once
+stride_length_m = {length:.3g}   # forward; heading_rad turns the way
+intervals_per_second = {rate:.0f}   # of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do
+
+)";
+
 constexpr const char* kGoalsNote =
     R"(# Goals hold exactly; what is not named is free. Displacements are from the start: forward, left, up [m].
 )";
@@ -99,6 +111,18 @@ base_angular_acceleration = 1.0
 joint_acceleration = 0.02
 )";
 
+constexpr const char* kCostOfGait = R"(joint_position = 1.0
+joint_velocity = 1.0
+base_orientation = 10.0
+base_linear_velocity = 1.0
+base_angular_velocity = 1.0
+base_linear_acceleration = 0.1
+base_angular_acceleration = 0.1
+joint_acceleration = {joints}
+)";
+
+constexpr int kStrides = 2;
+
 std::string vector(const Eigen::Vector3d& v) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
@@ -118,6 +142,8 @@ std::string what(const NewTask& task) {
     case NewTaskKind::step:
       return fmt::format("A step of {:.0f} cm forward with {}.", 100.0 * task.length,
                          task.soles ? "the left foot" : task.swing.front());
+    case NewTaskKind::gait:
+      return fmt::format("{} strides of {:.0f} cm, gait: {}.", kStrides, 100.0 * task.stride_length, task.pattern);
   }
   return "";
 }
@@ -145,6 +171,16 @@ std::string step_phases(const NewTask& task) {
                     : phases("[0.3, 1.2]   # the optimiser chooses", 70, "[0.25, 0.6]", 80, "[0.3, 1.2]", 70);
 }
 
+std::string gait(const NewTask& task) {
+  std::vector<std::string> others;
+  for (const GaitPattern& pattern : gait_patterns()) {
+    if (pattern.name != task.pattern) others.push_back(pattern.name);
+  }
+  return fmt::format(fmt::runtime(kGait), fmt::arg("others", fmt::join(others, ", ")), fmt::arg("kind", task.pattern),
+                     fmt::arg("strides", kStrides), fmt::arg("stride", task.stride_duration),
+                     fmt::arg("length", task.stride_length), fmt::arg("rate", task.intervals_per_second));
+}
+
 /// Roll, pitch and yaw of a base that has `rpy` already and is turned by `turn` about the world's axes.
 Eigen::Vector3d turned(const Eigen::Vector3d& rpy, const Eigen::Vector3d& turn) {
   return rpy_from_rotation(rotation_from_rpy(turn) * rotation_from_rpy(rpy));
@@ -167,6 +203,7 @@ std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double durati
     case NewTaskKind::step:
       return goal("phase = \"settle\"   # at its end\n", {(task.soles ? 0.5 : 0.25) * task.length, 0.0, 0.0}, rpy,
                   true);
+    case NewTaskKind::gait: break;  // the length of its strides says where to go
   }
   return "";
 }
@@ -175,7 +212,12 @@ std::string cost(const NewTask& task) {
   std::string text = kCostNote;
   if (task.kind == NewTaskKind::step && task.soles)
     text += "force = 1e-6   # forces of the corners of one sole are not unique: the small ones\n";
-  text += task.soles ? kCostOfSoles : task.kind == NewTaskKind::step ? kCostOfStepOnPoints : kCostOfPoints;
+  // A trot needs quick legs; smoother joints keep the errors of the mesh small where there is time.
+  text += task.kind == NewTaskKind::gait
+              ? fmt::format(fmt::runtime(kCostOfGait), fmt::arg("joints", task.pattern == "trot" ? 0.001 : 0.005))
+          : task.soles                     ? kCostOfSoles
+          : task.kind == NewTaskKind::step ? kCostOfStepOnPoints
+                                           : kCostOfPoints;
   return text + fmt::format("torque = {:g}\n", task.torque_weight);
 }
 
@@ -186,7 +228,8 @@ std::string task_template(const NewTask& task, const RobotModel& robot, const st
   const int intervals = intervals_of(task, robot.contacts().size());
   std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("what", what(task)), fmt::arg("robot", robot.name()),
                                  fmt::arg("mass", robot.mass()), fmt::arg("height", task.height),
-                                 fmt::arg("kind", to_string(task.kind)), fmt::arg("file", toml_string(robot_file)));
+                                 fmt::arg("kind", kind_name(task)), fmt::arg("file", toml_string(robot_file)));
+  if (task.kind == NewTaskKind::gait) return text + gait(task) + cost(task);
   text += task.kind == NewTaskKind::step
               ? step_phases(task)
               : fmt::format(fmt::runtime(kOnePhase), fmt::arg("duration", duration), fmt::arg("intervals", intervals));

@@ -81,8 +81,10 @@ std::string place_of(const SourceText& source, const std::string& key) {
 
 }  // namespace
 
-RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search, const RobotReading& reading) {
-  const TomlDocument document(source);
+namespace {
+
+RobotDescription read_robot(const TomlDocument& document, const SourceText& source, const PackageSearch& search,
+                            const RobotReading& reading) {
   document.refuse_key("phase", "this looks like a task file; need the robot file that it names");
   const TomlTable root = document.root(robot_file_keys());
   RobotDescription robot;
@@ -108,6 +110,13 @@ RobotDescription parse_robot_file(const SourceText& source, const PackageSearch&
     robot.urdf_text = reading.urdf_copy->text;
   }
   return robot;
+}
+
+}  // namespace
+
+RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search, const RobotReading& reading) {
+  const TomlDocument document(source);
+  return document.read_with([&] { return read_robot(document, source, search, reading); });
 }
 
 RobotDescription read_robot_file(const std::filesystem::path& path, const PackageSearch& search) {

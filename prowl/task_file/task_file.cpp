@@ -330,6 +330,7 @@ std::filesystem::path robot_path(const SourceText& task_file, const TomlTable& r
 TomlTable task_root(const TomlDocument& document) {
   document.refuse_key(
       "urdf", "this looks like a robot file; need a task file, which names its robot file with robot = \"...\"");
+  document.check_all_keys(task_file_keys());
   return document.root(task_file_keys());
 }
 
@@ -342,18 +343,26 @@ std::string name_of_file(const std::filesystem::path& path) {
   return name;
 }
 
-}  // namespace
+/// The robot, or a mistake more of the document that names it, as InputError.
+RobotModel robot_of(const TomlDocument& document, const SourceText& robot_file, const PackageSearch& search,
+                    const std::optional<SourceText>& urdf) {
+  try {
+    return load_robot(robot_file, search, {.urdf_copy = urdf});
+  } catch (const InputError& error) {
+    document.add_mistake(error.what());
+    throw;
+  }
+}
 
-Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
-                const TaskOverrides& overrides, const std::optional<SourceText>& urdf) {
-  const TomlDocument document(task_file);
+Task read_document(const TomlDocument& document, const SourceText& task_file, const SourceText& robot_file,
+                   const PackageSearch& search, const TaskOverrides& overrides, const std::optional<SourceText>& urdf) {
   const TomlTable root = task_root(document);
   root.need("robot").as_text();
   check_overrides(task_file, overrides);
   const SolverOptions solver = read_solver(root, overrides);
   const TaskSimulation simulation = read_simulation(root);
   auto [problem, mesh, file_intervals] =
-      read_problem(root, load_robot(robot_file, search, {.urdf_copy = urdf}), robot_file, overrides);
+      read_problem(root, robot_of(document, robot_file, search, urdf), robot_file, overrides);
   const auto name = root.find("name");
   problem.name = name ? name->as_name() : name_of_file(task_file.path);
   try {
@@ -372,6 +381,14 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
           .robot_file = robot_file,
           .overrides = overrides,
           .file_intervals = std::move(file_intervals)};
+}
+
+}  // namespace
+
+Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
+                const TaskOverrides& overrides, const std::optional<SourceText>& urdf) {
+  const TomlDocument document(task_file);
+  return document.read_with([&] { return read_document(document, task_file, robot_file, search, overrides, urdf); });
 }
 
 Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides) {

@@ -45,8 +45,39 @@ TEST_F(Command, SuggestsWhatWasMeant) {
   const Outcome option = run("$prowl plan hold.toml --intervalls 7");
   EXPECT_EQ(option.status, 2);
   EXPECT_THAT(option.error, HasSubstr("did you mean '--intervals'?"));
-  EXPECT_EQ(run("$prowl").status, 2);
   EXPECT_EQ(run("$prowl plan").status, 2);
+}
+
+TEST_F(Command, PrintsItsHelpAlone) {
+  const Outcome alone = run("$prowl");
+  EXPECT_EQ(alone.status, 2) << "nothing was done";
+  EXPECT_EQ(alone.out, run("$prowl --help").out);
+  EXPECT_EQ(alone.error, "");
+}
+
+// What CLI11 says of it has the value of the option, too, and in the other order.
+TEST_F(Command, NamesTheMisspeltOptionOnly) {
+  const std::string more = "\nMore with prowl plan --help.\n";
+  EXPECT_EQ(run("$prowl plan hold.toml --interval 3").error,
+            "prowl: unknown option --interval; did you mean '--intervals'?" + more);
+  EXPECT_EQ(run("$prowl plan hold.toml --interval=3 --out out").error,
+            "prowl: unknown option --interval; did you mean '--intervals'?" + more);
+  EXPECT_EQ(run("$prowl plan hold.toml other.toml").error, "prowl: unexpected argument 'other.toml'" + more);
+  EXPECT_THAT(run("$prowl plna hold.toml").error, StartsWith("prowl: unknown command 'plna'; did you mean 'plan'?\n"));
+  EXPECT_THAT(run("$prowl new").error, StartsWith("prowl: a command is missing; need one of: robot, task"));
+}
+
+TEST_F(Command, TellsAllMistakesOfAFileInOneRun) {
+  folder_.write("wrong.toml",
+                "robot = \"hyq.toml\"\n[[phase]]\ncontacts = \"all\"\nduration = 2.0\nintervals = 0\n"
+                "[solver]\ntolerence = 1e-6\n");
+  const Outcome wrong = run("$prowl plan wrong.toml $dirs");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.error, AllOf(StartsWith("prowl: wrong.toml:4:1: "), HasSubstr("\nwrong.toml:5:13: "),
+                                 HasSubstr("\nwrong.toml:7:1: ")));
+  const auto error = nlohmann::json::parse(run("$prowl plan wrong.toml $dirs --json").out).at("error");
+  EXPECT_EQ(error.at("line"), 4);
+  EXPECT_THAT(error.at("message").get<std::string>(), HasSubstr("tolerence"));
 }
 
 TEST_F(Command, ShowsARobot) {
@@ -363,7 +394,7 @@ TEST_F(Command, TakesThreadsHessianAndTolerance) {
 TEST_F(Command, SaysThatATaskWithoutCostIsLeftToChance) {
   folder_.write("free.toml", kPhase);
   EXPECT_THAT(run("$prowl plan free.toml $dirs --out out").out,
-              HasSubstr("  note         without [cost] all motions are as good"));
+              HasSubstr("  note         without [cost] all motions count as equally good"));
   EXPECT_THAT(run("$prowl plan hold.toml $dirs --out out").out, Not(HasSubstr("without [cost]")));
 }
 
@@ -426,13 +457,13 @@ TEST_F(Command, SaysWhyThereIsNoMotionWithoutTryingOne) {
   folder_.write("far.toml", kHold + "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0, 0, 1.5]\n");
   const Outcome far = run("$prowl plan far.toml $dirs --out out");
   EXPECT_EQ(far.status, 3) << far.error;
-  EXPECT_THAT(far.out, AllOf(HasSubstr("goal 1, phase 'phase 1': contact lf_foot is out of reach"),
-                             HasSubstr("written to out")));
+  EXPECT_THAT(unwrapped(far.out), AllOf(HasSubstr("goal 1, phase 'phase 1': "), HasSubstr("lf_foot"),
+                                        HasSubstr("out of reach"), HasSubstr("written to out")));
   EXPECT_THAT(far.out, Not(HasSubstr("certificate"))) << "of an initial guess";
   EXPECT_THAT(far.error, Not(HasSubstr("iteration"))) << "a solve for nothing";
   EXPECT_EQ(plan().at("status"), "infeasible");
   EXPECT_EQ(plan().at("finished"), false);
-  EXPECT_EQ(plan().at("reasons").size(), 4u);
+  EXPECT_EQ(plan().at("reasons").size(), 1u) << "the same of four feet is one fact";
 
   folder_.write("slope.toml", kHold + R"([[surface]]
 name = "slope"

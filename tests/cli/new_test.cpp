@@ -161,6 +161,22 @@ TEST_F(NewRobot, ReplacesAFileOnlyWhenTold) {
   EXPECT_EQ(run("$prowl new task mine.toml $dirs --out mine.toml").status, 2);
 }
 
+TEST_F(NewRobot, IsCalledAsItsMakerCallsIt) {
+  ASSERT_EQ(make("b1_description/urdf/b1.urdf", "new.toml").status, 0);
+  EXPECT_EQ(inspected("new.toml").at("name"), "b1") << "and not as the package of its URDF";
+}
+
+TEST_F(NewRobot, SuggestsAPackagedRobot) {
+  const std::string b1 = "package://example-robot-data/robots/b1_description/urdf/b1.urdf";
+  for (const char* wrong : {"b1", "b1.urdf", "package://example-robot-data/robots/b1/b1.urdf"}) {
+    const Outcome none = run(std::string("$prowl new robot ") + wrong + " $dirs");
+    EXPECT_EQ(none.status, 2) << wrong;
+    EXPECT_THAT(none.error, HasSubstr("did you mean " + b1 + "? Packaged robots: ")) << wrong;
+    EXPECT_EQ(std::ranges::count(none.error, '\n'), 1) << none.error;
+  }
+  EXPECT_THAT(run("$prowl new robot go22 $dirs").error, HasSubstr("go2_description/urdf/go2.urdf?"));
+}
+
 TEST_F(NewRobot, WritesNothingForWhatIsNoLeggedRobot) {
   folder_.write("folder/file", "");
   folder_.write("empty.urdf", "");
@@ -203,6 +219,43 @@ TEST_F(NewTask, StepOfLaikagoPasses) { expect_that_it_plans(kUrdfs[5], "step"); 
 TEST_F(NewTask, StandOfASoloThatMovesInAPlanePasses) { expect_that_it_plans(kUrdfs[12], "stand"); }
 TEST_F(NewTask, StandOfARobotThatFacesAlongYPasses) { expect_that_it_plans(kUrdfs[13], "stand"); }
 TEST_F(NewTask, HoldOfTalosPasses) { expect_that_it_plans(kUrdfs[4], "hold"); }
+
+// Four commands from a URDF to a trotting robot in a browser, without an edit.
+TEST_F(NewTask, TrotOfB1GoesFromUrdfToReport) {
+  const std::string b1 = "package://example-robot-data/robots/b1_description/urdf/b1.urdf";
+  for (const std::string& command : {"new robot " + b1, std::string("new task robots/b1.toml --kind trot"),
+                                     std::string("plan tasks/b1/trot.toml"), std::string("report out/b1_trot")}) {
+    const Outcome outcome = run("$prowl " + command + " $dirs");
+    ASSERT_EQ(outcome.status, 0) << command << "\n" << outcome.out << outcome.error;
+  }
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "out/b1_trot/report.html"));
+}
+
+TEST_F(NewTask, TrotOfGo2Passes) { expect_that_it_plans(kUrdfs[2], "trot"); }
+TEST_F(NewTask, WalkOfHyqPasses) { expect_that_it_plans(kUrdfs[0], "walk"); }
+TEST_F(NewTask, WalkOfAnymalPasses) { expect_that_it_plans(kUrdfs[1], "walk"); }
+
+// Each gait that a task file may have is written as a task that can be read, and says how to plan it.
+TEST_F(NewTask, KnowsEveryGait) {
+  ASSERT_EQ(make("b1_description/urdf/b1.urdf", "b1.toml").status, 0);
+  for (const std::string gait : {"walk", "trot", "pace", "bound"}) {
+    const Outcome made = run("$prowl new task b1.toml $dirs --kind " + gait + " --out " + gait + ".toml");
+    EXPECT_EQ(made.status, 0) << made.error;
+    EXPECT_EQ(made.out.ends_with(" --refine\n"), gait == "pace" || gait == "bound") << made.out;
+    EXPECT_THAT(test::read_file(folder_.path() / (gait + ".toml")), HasSubstr("kind = \"" + gait + "\""));
+    const Outcome phases = run("$prowl plan " + gait + ".toml $dirs --print-phases");
+    EXPECT_EQ(phases.status, 0) << phases.error;
+    EXPECT_THAT(phases.out, HasSubstr("stride 2: "));
+  }
+}
+
+// On feet in other places than a quadruped's there is no gait, and this is said.
+TEST_F(NewTask, GaitsNeedFourFeet) {
+  ASSERT_EQ(make(kUrdfs[4].path, "talos.toml").status, 0);
+  const Outcome task = run("$prowl new task talos.toml $dirs --kind trot --out trot.toml");
+  EXPECT_EQ(task.status, 2);
+  EXPECT_THAT(task.error, HasSubstr("a gait needs four contacts"));
+}
 
 TEST_F(NewTask, CrouchGoesAsDeepAsTheRobotCan) {
   // Limits that leave the knees 0.3 rad: a smaller crouch, that still passes.

@@ -23,7 +23,7 @@ class Progress : public test::Command {
     EXPECT_THAT(piped.error, AllOf(HasSubstr(" " + what + ": 00:"), HasSubstr(" left\n"))) << command;
     for (const char* control : {"\r", "\b", "\x1b"})
       EXPECT_THAT(piped.error + piped.out, Not(HasSubstr(control))) << command;
-    const std::string terminal = in_terminal(command);
+    const std::string terminal = in_terminal(command, 100, "NO_COLOR=1");
     EXPECT_THAT(terminal, AllOf(HasSubstr(" " + what + "\r\n0%   10"), HasSubstr("|----|"), HasSubstr(" left")))
         << command;
     EXPECT_THAT(terminal, HasSubstr(" " + what + ": 00:")) << command << ": does not end";

@@ -56,6 +56,15 @@ TEST_F(Sweep, KeepsFinishedCasesOnInterrupt) {
   EXPECT_EQ(whole.at("worst").size(), static_cast<std::size_t>(finished));
 }
 
+TEST_F(Sweep, RunsAsManyAsAskedForAndSaysSoFirst) {
+  const Outcome sweep = run("$prowl sweep out $dirs --n 4");
+  EXPECT_EQ(sweep.status, 0) << sweep.error;
+  EXPECT_THAT(sweep.error, testing::MatchesRegex("4 simulations of [0-9.]* s of motion\n1 of 4 simulations.*"));
+  EXPECT_THAT(sweep.error, Not(HasSubstr("alone")));
+  EXPECT_EQ(result().at("cases"), 4);
+  EXPECT_TRUE(result().at("breakdowns").empty()) << "which are asked for with --breakdown";
+}
+
 TEST_F(Sweep, LeavesOutBreakdownsThatAreNotFoundOnInterrupt) {
   const Outcome stopped = interrupted_at("of one perturbation alone", "--n 2 --breakdown 1");
   EXPECT_EQ(stopped.status, 130) << stopped.error;
@@ -68,7 +77,7 @@ TEST_F(Sweep, LeavesOutBreakdownsThatAreNotFoundOnInterrupt) {
 TEST_F(Sweep, TellsEveryTenthInAPipe) {
   const Outcome sweep = run("$prowl sweep out $dirs --n 10 --breakdown 0");
   EXPECT_EQ(sweep.status, 0);
-  EXPECT_EQ(std::ranges::count(sweep.error, '\n'), 10) << sweep.error;
+  EXPECT_EQ(std::ranges::count(sweep.error, '\n'), 11) << "what is to be done, and ten tenths: " << sweep.error;
   EXPECT_THAT(sweep.error, AllOf(HasSubstr("2 of 10 simulations: 00:"), HasSubstr(" left\n"),
                                  HasSubstr("10 of 10 simulations: 00:")));
   for (const char* control : {"\r", "\b", "\x1b"}) EXPECT_THAT(sweep.error, Not(HasSubstr(control)));

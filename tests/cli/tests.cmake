@@ -26,6 +26,7 @@ if(PROWL_BUILD_CLI)
   # A command of verbs of verbs, for the completion of what prowl itself need not have.
   add_executable(cli_completion_tree ${CMAKE_CURRENT_LIST_DIR}/completion_tree.cpp ${PROJECT_SOURCE_DIR}/cli/verbs/completion_command.cpp
     ${PROJECT_SOURCE_DIR}/cli/process/interrupt.cpp ${PROJECT_SOURCE_DIR}/cli/screen/output.cpp
+    ${PROJECT_SOURCE_DIR}/cli/screen/paint.cpp ${PROJECT_SOURCE_DIR}/cli/screen/terminal.cpp
     ${PROJECT_SOURCE_DIR}/cli/options/shared_options.cpp)
   target_link_libraries(cli_completion_tree PRIVATE prowl::plan_folder CLI11::CLI11 fmt::fmt)
   target_compile_definitions(cli_completion_test PRIVATE PROWL_COMPLETION_TREE="$<TARGET_FILE:cli_completion_tree>")
@@ -37,7 +38,7 @@ if(PROWL_BUILD_CLI)
   set_tests_properties(cli/bad_input PROPERTIES TIMEOUT 1200 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
 
   # What prowl writes, read by somebody else's code; and a terminal for it that closes.
-  set(python_tests determinism plan_schema hang_up)
+  set(python_tests determinism plan_schema hang_up terminal)
   if(PROWL_BUILD_PYTHON)
     list(APPEND python_tests figures exports export_command)
   endif()

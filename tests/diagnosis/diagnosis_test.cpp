@@ -59,6 +59,18 @@ TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
   EXPECT_TRUE(found.changes.empty());
 }
 
+// What is tried is told in words, with how much of it is done.
+TEST_F(DiagnosisTest, CountsWhatItTries) {
+  std::vector<std::string> steps;
+  const auto keep = [&](const std::string& what) { steps.push_back(what); };
+  diagnose(prepared(kCrouch, test::kWeakHyqFile), RiccatiSolver(), IpoptSolver(), {.on_step = keep});
+  std::erase_if(steps, [](const std::string& what) { return !what.starts_with("trying ") || !what.ends_with(")"); });
+  ASSERT_GT(steps.size(), 3u);
+  EXPECT_THAT(steps[0], testing::MatchesRegex("trying .* \\(1 of about [0-9]+\\)"));
+  EXPECT_THAT(steps[1], testing::MatchesRegex("trying .* \\(2 of about [0-9]+\\)"));
+  EXPECT_THAT(steps, testing::Contains(testing::StartsWith("trying torque limits of all joints x 1.5 (")));
+}
+
 /// A mesh too coarse is no matter of the task, and needs no search.
 TEST_F(DiagnosisTest, OfAPlanThatFailsItsCertificateNamesTheChecks) {
   const DiscreteProblem coarse = prepared(kCrouch);
@@ -90,7 +102,7 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
       << "two ways to the same: a range wider on both sides";
   EXPECT_THAT(diagnosis_headline(found, stiff.problem),
               AllOf(HasSubstr("phase 1 'crouch', lh_kfe_joint, joint position at 1 s: "),
-                    HasSubstr("rad beyond its bound; solved but for the error of its mesh (--refine) with position "
+                    HasSubstr("rad beyond its bound; solvable on a finer mesh (--refine) with position "
                               "range of lh_kfe_joint ["),
                     HasSubstr("] rad instead of [1.4, 1.55] rad")));
 }
@@ -159,8 +171,8 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
     EXPECT_FALSE(found.needs_one_mesh)
         << "eight intervals have no coarser mesh, and this one was seen not to be solved";
     EXPECT_THAT(diagnosis_headline(found, crouch.problem),
-                AllOf(testing::StartsWith("the task has a plan (its mesh was solved from the initial guess), but not "
-                                          "as prowl plan goes about it: "),
+                AllOf(testing::StartsWith("the task has a plan (its mesh was solved from the initial guess), but "
+                                          "prowl plan does not find it: "),
                       HasSubstr(status == SolveStatus::time_limit ? "the time was up after " : "optimal"),
                       HasSubstr("local integration error")))
         << "eight intervals are few";
@@ -183,7 +195,7 @@ TEST_F(DiagnosisTest, NamesOneMeshWhereThatWasSeenToDo) {
       diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed), IpoptSolver(), {});
   EXPECT_TRUE(neither.solvable);
   EXPECT_FALSE(neither.needs_one_mesh);
-  EXPECT_THAT(diagnosis_headline(neither, crouch.problem), HasSubstr("but not as prowl plan goes about it: "));
+  EXPECT_THAT(diagnosis_headline(neither, crouch.problem), HasSubstr("but prowl plan does not find it: "));
 }
 
 /// A task that takes longer than its part of the time may have a plan, whatever a coarse mesh says.
@@ -253,7 +265,7 @@ TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
   EXPECT_TRUE(found.solvable) << "the search has iterations of its own";
   EXPECT_FALSE(found.needs_one_mesh) << "it has the same limit";
   EXPECT_THAT(diagnosis_headline(found, problem(kCrouch)),
-              HasSubstr("not as prowl plan goes about it: stopped after its solver.max_iterations (2), but it fails "
+              HasSubstr("but prowl plan does not find it: stopped after its solver.max_iterations (2), but it fails "
                         "its certificate: "));
 }
 
@@ -277,12 +289,11 @@ TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
   found.changes.back().passes = false;
   EXPECT_THAT(
       diagnosis_headline(found, crouch),
-      HasSubstr(
-          "; solved but for the error of its mesh (--refine) with swing clearance 3 m instead of 1 m, perhaps with "));
+      HasSubstr("; solvable on a finer mesh (--refine) with swing clearance 3 m instead of 1 m, perhaps with "));
   found.changes.back().passes = true;
   found.changes.front().was_tried = true;
   EXPECT_THAT(diagnosis_text(found, crouch),
-              HasSubstr("(solved from the initial guess, but prowl plan's motion is none that passes its certificate)"))
+              HasSubstr("(solved from the initial guess, but the motion of prowl plan fails its certificate)"))
       << "8 are its own";
   found.task_intervals = 60;
   EXPECT_THAT(diagnosis_text(found, crouch), HasSubstr("(solved on 8 mesh intervals, but not on the task's own)"));

@@ -21,37 +21,6 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem) {
   return contacts_out_of_reach(problem, ContactSchedule(problem));
 }
 
-TEST(ReachCheck, LetsPassWhatTheLegsReach) {
-  EXPECT_THAT(contacts_out_of_reach(test::standing_problem()), IsEmpty());
-  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.1, 0.0, -0.15})), IsEmpty());
-  // Straight legs: HyQ stands at 0.61 m, its legs are 0.78 m.
-  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.1})), IsEmpty());
-}
-
-TEST(ReachCheck, NamesGoalPhaseContactAndLeg) {
-  const auto reasons = contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5}));
-  ASSERT_THAT(reasons, SizeIs(4));
-  EXPECT_THAT(reasons, Each(AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("is 0.7"))));
-  EXPECT_THAT(reasons[0], AllOf(HasSubstr("lf_foot"), HasSubstr("lf_haa_joint")));
-}
-
-TEST(ReachCheck, ConcludesNothingFromWhatAGoalLeavesFree) {
-  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5});
-  problem.boundary_conditions[1].configuration_lower(2) = -0.6;  // anything from below the start up to there
-  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
-  problem = test::with_base_goal(test::standing_problem(), {0.6, 0.0, 0.0});
-  EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(4));
-  problem.boundary_conditions[1].configuration_lower(0) = -std::numeric_limits<double>::infinity();
-  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
-}
-
-TEST(ReachCheck, TakesAnyRotationWhereTheGoalLeavesItFree) {
-  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.4});
-  EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(4));
-  problem.boundary_conditions[1].configuration_lower.segment<3>(3).setConstant(-1.0);
-  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "it may hang its head";
-}
-
 MotionProblem stepping() {
   MotionProblem problem = test::standing_problem();
   Phase lifted = problem.phases[0], landed = problem.phases[0];
@@ -61,6 +30,89 @@ MotionProblem stepping() {
   problem.phases.push_back(lifted);
   problem.phases.push_back(landed);
   return problem;
+}
+
+TEST(ReachCheck, LetsPassWhatTheLegsReach) {
+  EXPECT_THAT(contacts_out_of_reach(test::standing_problem()), IsEmpty());
+  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.1, 0.0, -0.15})), IsEmpty());
+  // Straight legs: HyQ stands at 0.61 m, its legs are 0.78 m.
+  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.1})), IsEmpty());
+}
+
+TEST(ReachCheck, NamesGoalPhaseContactAndLeg) {
+  const auto reasons = contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5}));
+  ASSERT_THAT(reasons, SizeIs(1)) << "the same of four feet is one fact";
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("all 4 contacts"), HasSubstr("is 0.7")));
+  EXPECT_THAT(reasons[0], testing::ContainsRegex("by 0.3[0-9]* m or more: .._foot is 1.* from .._haa_joint"));
+}
+
+TEST(ReachCheck, NamesTheContactsThatAreOutOfReachAndTheFarthest) {
+  MotionProblem problem = test::with_base_goal(stepping(), {0.0, 0.0, 0.0});
+  problem.phases[2].contacts[0].place = Eigen::Vector3d(1.5, 0.3, 0.0);
+  problem.phases[2].contacts[1].place = Eigen::Vector3d(2.5, -0.3, 0.0);
+  problem.phases[1].contacts.erase(problem.phases[1].contacts.begin());
+  std::vector<std::string> reasons = contacts_out_of_reach(problem);
+  std::erase_if(reasons, [](const std::string& reason) { return reason.find("apart") != std::string::npos; });
+  ASSERT_THAT(reasons, SizeIs(1));
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("2 (lf_foot, rf_foot) contacts"), HasSubstr("rf_foot is 2.")));
+}
+
+TEST(ReachCheck, ConcludesNothingFromWhatAGoalLeavesFree) {
+  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5});
+  problem.boundary_conditions[1].configuration_lower(2) = -0.6;  // anything from below the start up to there
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
+  problem = test::with_base_goal(test::standing_problem(), {0.6, 0.0, 0.0});
+  EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(1));
+  problem.boundary_conditions[1].configuration_lower(0) = -std::numeric_limits<double>::infinity();
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
+}
+
+/// A standing robot whose base is to be so much higher at the end, however it is turned.
+MotionProblem raised(double height) {
+  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, height});
+  problem.boundary_conditions[1].configuration_lower.segment<3>(3).setConstant(-4.0);
+  problem.boundary_conditions[1].configuration_upper.segment<3>(3).setConstant(4.0);
+  return problem;
+}
+
+TEST(ReachCheck, TakesAnyRotationWhereTheGoalLeavesItFree) {
+  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.4})), SizeIs(1));
+  MotionProblem problem = raised(0.4);
+  std::erase_if(problem.phases[0].contacts, [](const PhaseContact& held) { return held.contact >= 2; });
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "on its fore feet it may hang its head";
+}
+
+// A base of free orientation brings one leg nearer only by taking another away.
+TEST(ReachCheck, ProvesAHeightOutOfReachHoweverTheBaseIsTurned) {
+  EXPECT_THAT(contacts_out_of_reach(raised(0.1)), IsEmpty());
+  const auto reasons = contacts_out_of_reach(raised(0.5));
+  ASSERT_THAT(reasons, SizeIs(1));
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("lf_foot, rf_foot, lh_foot, rh_foot"),
+                                HasSubstr("however the base is turned"), HasSubstr("1.1")));
+  MotionProblem aside = raised(0.5);
+  const double infinity = std::numeric_limits<double>::infinity();
+  aside.boundary_conditions[1].configuration_lower.head<2>().setConstant(-infinity);
+  aside.boundary_conditions[1].configuration_upper.head<2>().setConstant(infinity);
+  EXPECT_THAT(contacts_out_of_reach(aside), SizeIs(1)) << "wherever it stands";
+}
+
+TEST(ReachCheck, ProvesAHeightOutOfReachForFootholdsThatTheOptimiserChooses) {
+  MotionProblem problem = raised(0.5);
+  Phase flight = problem.phases[0];
+  flight.name = "flight";
+  flight.contacts.clear();
+  problem.phases.push_back(flight);
+  problem.phases.push_back(problem.phases[0]);
+  problem.phases[2].name = "landed";
+  problem.boundary_conditions[1].at = PhaseFraction::end_of(2);
+  EXPECT_THAT(contacts_out_of_reach(problem),
+              testing::ElementsAre(AllOf(HasSubstr("phase 'landed'"), HasSubstr("however the base is turned"))));
+  problem.boundary_conditions[1].at = PhaseFraction{1, 0.5};
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "in the air it may be anywhere";
+  problem.boundary_conditions[1].at = PhaseFraction::end_of(2);
+  problem.surfaces.push_back({.name = "platform", .point = {0.0, 0.0, 0.5}});
+  for (PhaseContact& held : problem.phases[2].contacts) held.surface = 1;
+  EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
 }
 
 TEST(ReachCheck, TakesThePlacesOfLandings) {
@@ -94,7 +146,7 @@ TEST(ReachCheck, TakesTheNearestOfAPatchWhereTheOptimiserChooses) {
 /// Where a posture is found there is one: that is what must never be called out of reach.
 TEST(ReachCheck, NeverForbidsAPostureThatExists) {
   std::mt19937 rng(12);
-  int found = 0, forbidden = 0;
+  int found = 0, forbidden = 0, forbidden_however_turned = 0;
   for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2()}) {
     const MotionProblem standing = test::standing_problem(robot);
     const double height = robot.nominal_configuration()(2);
@@ -107,13 +159,19 @@ TEST(ReachCheck, NeverForbidsAPostureThatExists) {
       set_base_rotation(q, base_rotation(q) * so3::exp(test::random_vector(rng, 3, 0.3)));
       const bool is_forbidden = !contacts_out_of_reach(problem).empty();
       forbidden += is_forbidden;
+      problem.boundary_conditions[1].configuration_lower.segment<3>(3).setConstant(-4.0);
+      problem.boundary_conditions[1].configuration_upper.segment<3>(3).setConstant(4.0);
+      const bool is_forbidden_however_turned = !contacts_out_of_reach(problem).empty();
+      forbidden_however_turned += is_forbidden_however_turned;
       if (!inverse_kinematics(robot, q, targets).converged) continue;
       ++found;
       EXPECT_FALSE(is_forbidden) << robot.name();
+      EXPECT_FALSE(is_forbidden_however_turned) << robot.name();
     }
   }
   EXPECT_GT(found, 50);
   EXPECT_GT(forbidden, 20);
+  EXPECT_GT(forbidden_however_turned, 10);
 }
 
 }  // namespace

@@ -242,6 +242,37 @@ TEST_F(AtomicFolder, RefusesAFolderThatIsReadOnly) {
   EXPECT_EQ(test::read_file(out_ / "a.txt"), "1");
 }
 
+/// The user gave no other name than this one.
+TEST_F(AtomicFolder, NamesAFolderThatCannotBeMadeAsTheUserDoes) {
+  const fs::path locked = folder_.path() / "locked";
+  fs::create_directory(locked);
+  fs::permissions(locked, fs::perms::owner_read | fs::perms::owner_exec);
+  const uid_t user = ::geteuid();
+  constexpr uid_t kNobody = 65534;
+  if (user == 0) {  // root may write everywhere
+    fs::permissions(folder_.path(), fs::perms::all);
+    ASSERT_EQ(::chown(locked.c_str(), kNobody, static_cast<gid_t>(-1)), 0);
+    ASSERT_EQ(::seteuid(kNobody), 0);
+  }
+  const auto message = [](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string made = message([&] { check_replaceable(locked / "x", kNames); }),
+                    written = message([&] { write_folder_atomically(locked / "x", {{"a.txt", "2"}}, kNames); }),
+                    inside = message([&] { check_writable(locked); });
+  ASSERT_EQ(::seteuid(user), 0);
+  fs::permissions(locked, fs::perms::owner_all);
+  const std::string begin = (locked / "x").string() + ": cannot be made: no permission to write in " + locked.string();
+  EXPECT_THAT(made, testing::StartsWith(begin));
+  EXPECT_THAT(written, testing::StartsWith(begin));
+  EXPECT_THAT(inside, testing::StartsWith(locked.string() + ": cannot write here: "));
+}
+
 TEST_F(AtomicFolder, ReplacesThePlaceThatALinkPointsTo) {
   write_folder_atomically(folder_.path() / "real", {{"a.txt", "1"}}, kNames);
   fs::create_directory_symlink(folder_.path() / "real", out_);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <sstream>
 
 #include "prowl/task_file/robot_file.hpp"
 #include "prowl/task_file/task_file.hpp"
@@ -215,6 +216,49 @@ TEST_F(FileMistakes, DeclaredRangesAreKept) {
   check_ranges("robot.toml", robot_file_keys(), robot_contexts(),
                [this](const auto& text) { return robot_message(text); });
   check_ranges("task.toml", task_file_keys(), task_contexts(), [this](const auto& text) { return task_message(text); });
+}
+
+// One run tells all of them, from the top of the file to its end.
+TEST_F(FileMistakes, SeveralAreToldAtOnce) {
+  const std::string text =
+      "robot = \"hyq.toml\"\n[[phase]]\nname = \"stand\"\ncontacts = \"all\"\nduration = 2\nintervals = \"five\"\n"
+      "[[goal]]\ntime_s = \"late\"\nbase_displacment_m = [0, 0, 0.1]\n[solver]\ntolerance = 5\n";
+  const std::string message = task_message(text);
+  std::istringstream lines(message);
+  std::vector<std::string> all;
+  for (std::string line; std::getline(lines, line);) all.push_back(line);
+  EXPECT_THAT(all, testing::ElementsAre(StartsWith("task.toml:5:1: phase[0].duration: unknown key"),
+                                        StartsWith("task.toml:6:13: phase[0].intervals: \"five\" is not allowed"),
+                                        StartsWith("task.toml:8:10: goal[0].time_s: \"late\" is not allowed"),
+                                        StartsWith("task.toml:9:1: goal[0].base_displacment_m: unknown key"),
+                                        StartsWith("task.toml:11:13: solver.tolerance: 5 is not allowed")))
+      << message;
+}
+
+TEST_F(FileMistakes, SeveralOfARobotAreToldAtOnce) {
+  const std::string message = robot_message(test::kHyqFile +
+                                            "[limits.lf_haa_joint]\ntorque_nm = 3\nvelocity_radps = -1\n"
+                                            "[limits.rf_haa_joint]\nposition_rad = 2\n");
+  EXPECT_THAT(message, AllOf(HasSubstr("torque_nm: unknown key; did you mean 'torque_Nm'?"),
+                             HasSubstr("\nrobot.toml:24:18: limits.lf_haa_joint.velocity_radps: -1 is not allowed"),
+                             HasSubstr("\nrobot.toml:26:16: limits.rf_haa_joint.position_rad: 2 is not allowed")));
+}
+
+TEST_F(FileMistakes, OfTheRobotComesAfterThoseOfTheTask) {
+  folder_.write("broken.toml", test::kHyqFile + "[limits.lf_haa_joint]\ntorque_Nm = -3\n");
+  const std::string message = task_message("robot = \"broken.toml\"\nnaem = \"x\"\n" + kStanding);
+  EXPECT_THAT(message, AllOf(StartsWith("task.toml:2:1: naem: unknown key"),
+                             HasSubstr("\nbroken.toml:23:13: limits.lf_haa_joint.torque_Nm: -3 is not allowed")));
+}
+
+// What follows from a value that was put in place of a wrong one is no mistake of the user.
+TEST_F(FileMistakes, WhatFollowsFromAMistakeIsNotTold) {
+  const std::string late = test::replaced(kStanding, "duration_s = 2", "duration_s = \"two\"");
+  EXPECT_THAT(task_message("robot = \"hyq.toml\"\n" + late + "[[goal]]\ntime_s = 2\nbase_displacement_m = [0, 0, 0]\n"),
+              AllOf(StartsWith("task.toml:5:14: phase[0].duration_s: \"two\""), testing::Not(HasSubstr("\n"))));
+  std::string many = "robot = \"hyq.toml\"\n" + kStanding;
+  for (int i = 0; i < 15; ++i) many += fmt::format("wrong_{} = 1\n", i);
+  EXPECT_THAT(task_message(many), AllOf(HasSubstr("wrong_9"), testing::EndsWith("\nand 5 more")));
 }
 
 TEST_F(FileMistakes, MisspeltTables) {

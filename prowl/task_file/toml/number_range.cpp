@@ -19,4 +19,11 @@ bool NumberRange::contains(double value) const {
   return std::abs(value) <= kLargest && value <= upper && (above_lower ? value > lower : value >= lower);
 }
 
+double NumberRange::any_inside() const {
+  for (const double value : {1.0, 0.0, 0.5 * (lower + upper), lower + 1.0, upper - 1.0, lower, upper}) {
+    if (std::isfinite(value) && contains(value)) return value;
+  }
+  return 0.0;
+}
+
 }  // namespace prowl

@@ -14,6 +14,7 @@ struct NumberRange {
   const char* hint = "";       ///< said after the range
   std::string limits() const;  ///< "> 0", "from 1 to 10"; "" if any number will do
   bool contains(double value) const;
+  double any_inside() const;  ///< a number that is allowed, in place of one that is not
 
   static NumberRange any() { return {}; }
   static NumberRange positive() { return {.lower = 0.0, .above_lower = true}; }

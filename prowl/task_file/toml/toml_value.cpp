@@ -75,19 +75,47 @@ std::optional<std::string> place_of(const SourceText& source, const std::string&
   return std::nullopt;
 }
 
+/// Of a key of a table: a mistake, thrown if nobody collects them.
+void refuse_key(const TomlValue& table, const toml::key& key, const std::string& message) {
+  const std::string text = fmt::format("{}{}: {}", at(table.source(), key.source()),
+                                       join_path(table.path(), shown(std::string(key.str()))), message);
+  if (!table.mistakes()) throw InputError(text);
+  const toml::source_position begin = key.source().begin;
+  table.mistakes()->add(static_cast<int>(begin.line), static_cast<int>(begin.column), text);
+}
+
+/// Keys of the table and of those below it that are declared as tables.
+void check_keys(const TomlValue& value, const FileKeys& keys, const std::string& declared) {
+  if (value.is_list()) {
+    for (const TomlValue& entry : value.as_list()) check_keys(entry, keys, declared);
+  }
+  if (!value.is_table()) return;
+  const TomlTable table(value, keys, declared);
+  for (const auto& [key, node] : *value.node().as_table()) {
+    const std::string name(key.str()), below = join_path(declared, name);
+    if (std::ranges::none_of(keys, [&below](const FileKey& known) { return known.table == below; })) continue;
+    check_keys(*table.find(name), keys, below);
+  }
+}
+
 }  // namespace
 
-void TomlValue::fail(const std::string& message) const {
-  throw InputError(fmt::format("{}{}{}{}", at(*source_, node_->source()), path_, path_.empty() ? "" : ": ", message));
+void Mistakes::add(int line, int column, const std::string& message) {
+  std::vector<std::string>& here = found_[{line, column}];
+  if (std::ranges::find(here, message) == here.end()) here.push_back(message);
 }
 
-void TomlValue::fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const {
-  fail(unknown(fmt::format("{} {}", what, describe(*node_)), node_->value_or<std::string>(""), known));
-}
-
-void TomlValue::fail_type(const std::string& needed, const std::string& hint) const {
-  const std::string unit = key_ == nullptr || key_->unit.empty() ? "" : fmt::format(" [{}]", key_->unit);
-  fail(fmt::format("{} is not allowed; need {}{}{}", describe(*node_), needed, unit, hint));
+void Mistakes::raise() const {
+  constexpr std::size_t kMost = 10;  // that anybody mends at a time
+  std::string text;
+  std::size_t count = 0;
+  for (const auto& [position, messages] : found_) {
+    for (const std::string& message : messages) {
+      if (count++ < kMost) text += (text.empty() ? "" : "\n") + message;
+    }
+  }
+  if (count > kMost) text += fmt::format("\nand {} more", count - kMost);
+  if (count > 0) throw InputError(text);
 }
 
 const FileKey& TomlValue::key() const {
@@ -95,21 +123,60 @@ const FileKey& TomlValue::key() const {
   return *key_;
 }
 
+std::string TomlValue::located(const std::string& message) const {
+  return fmt::format("{}{}{}{}", at(*source_, node_->source()), path_, path_.empty() ? "" : ": ", message);
+}
+
+void TomlValue::fail(const std::string& message) const { throw InputError(located(message)); }
+
+void TomlValue::refuse(const std::string& message) const {
+  if (!mistakes_) fail(message);
+  const toml::source_position begin = node_->source().begin;
+  mistakes_->add(static_cast<int>(begin.line), static_cast<int>(begin.column), located(message));
+}
+
+void TomlValue::fail_mistake(const std::string& message) const {
+  refuse(message);
+  fail(message);
+}
+
+std::string TomlValue::not_allowed(const std::string& needed, const std::string& hint) const {
+  const std::string unit = key_ == nullptr || key_->unit.empty() ? "" : fmt::format(" [{}]", key_->unit);
+  return fmt::format("{} is not allowed; need {}{}{}", describe(*node_), needed, unit, hint);
+}
+
+void TomlValue::refuse_type(const std::string& needed, const std::string& hint) const {
+  refuse(not_allowed(needed, hint));
+}
+
+void TomlValue::fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const {
+  fail_mistake(unknown(fmt::format("{} {}", what, describe(*node_)), node_->value_or<std::string>(""), known));
+}
+
+void TomlValue::fail_type(const std::string& needed, const std::string& hint) const {
+  fail_mistake(not_allowed(needed, hint));
+}
+
 double TomlValue::as_number(const NumberRange& range) const {
-  if (!node_->is_number()) fail_type(in_words(range));
-  const double value = node_->value_or(std::numeric_limits<double>::quiet_NaN());
-  if (std::isfinite(value) && std::abs(value) > NumberRange::kLargest) {
-    fail(fmt::format("{:g} is not allowed; need a number of at most {:g} in size", value, NumberRange::kLargest));
+  const double value = node_->is_number() ? node_->value_or(std::numeric_limits<double>::quiet_NaN()) : 0.0;
+  if (!node_->is_number()) {
+    refuse_type(in_words(range));
+  } else if (std::isfinite(value) && std::abs(value) > NumberRange::kLargest) {
+    refuse(fmt::format("{:g} is not allowed; need a number of at most {:g} in size", value, NumberRange::kLargest));
+  } else if (!range.contains(value)) {
+    refuse_type(in_words(range), range.hint);
+  } else {
+    return value;
   }
-  if (!range.contains(value)) fail_type(in_words(range), range.hint);
-  return value;
+  return range.any_inside();
 }
 
 int TomlValue::as_integer() const {
   const auto* integer = node_->as_integer();
   // NumberRange::kLargest is an int, too.
   if (!integer || !key().range.contains(static_cast<double>(integer->get()))) {
-    fail_type("an integer " + key().range.limits(), node_->is_floating_point() ? ", without a point" : "");
+    refuse_type("an integer " + key().range.limits(), node_->is_floating_point() ? ", without a point" : "");
+    return static_cast<int>(key().range.any_inside());
   }
   return static_cast<int>(integer->get());
 }
@@ -133,7 +200,7 @@ std::vector<TomlValue> TomlValue::as_list() const {
   if (list->size() > kMost) fail(fmt::format("a list of {} is not allowed; need at most {}", list->size(), kMost));
   std::vector<TomlValue> values;
   for (std::size_t i = 0; i < list->size(); ++i) {
-    values.emplace_back(*source_, (*list)[i], fmt::format("{}[{}]", path_, i), key_);
+    values.emplace_back(*source_, (*list)[i], fmt::format("{}[{}]", path_, i), key_, mistakes_);
   }
   return values;
 }
@@ -144,6 +211,10 @@ std::vector<TomlValue> TomlValue::as_list(std::size_t size) const {
 }
 
 Eigen::Vector3d TomlValue::as_vector3() const {
+  if (!is_list() || node_->as_array()->size() != 3) {
+    refuse_type("a list of 3");
+    return Eigen::Vector3d::UnitZ();
+  }
   const std::vector<TomlValue> entries = as_list(3);
   return {entries[0].as_number(), entries[1].as_number(), entries[2].as_number()};
 }
@@ -155,11 +226,15 @@ Bounds TomlValue::as_bounds() const {
     const std::vector<TomlValue> ends = as_list(2);
     const Bounds bounds{ends[0].as_number(), ends[1].as_number()};
     if (bounds.lower > bounds.upper) {
-      fail(fmt::format("[{:g}, {:g}] is not allowed; need [min, max] with min <= max", bounds.lower, bounds.upper));
+      refuse(fmt::format("[{:g}, {:g}] is not allowed; need [min, max] with min <= max", bounds.lower, bounds.upper));
+      return {bounds.upper, bounds.lower};
     }
     return bounds;
   }
-  if (!node_->is_number()) fail_type("a finite number, [min, max] or \"free\"");
+  if (!node_->is_number()) {
+    refuse_type("a finite number, [min, max] or \"free\"");
+    return {-kInfinity, kInfinity};
+  }
   const double value = as_number();
   return {value, value};
 }
@@ -171,13 +246,20 @@ Bounds TomlValue::as_range() const {
   }
   const std::vector<TomlValue> ends = as_list(2);
   const Bounds bounds{ends[0].as_number(), ends[1].as_number()};
-  if (bounds.lower > bounds.upper) fail("min > max is not allowed; need [min, max]");
+  if (bounds.lower > bounds.upper) {
+    refuse("min > max is not allowed; need [min, max]");
+    return {bounds.upper, bounds.lower};
+  }
   return bounds;
 }
 
 std::size_t TomlValue::as_one_of(const std::string& what, const std::vector<std::string>& known) const {
   const auto found = std::find(known.begin(), known.end(), as_text());
-  if (found == known.end()) fail_unknown_name(what, known);
+  if (found == known.end()) {
+    if (!mistakes_ || known.empty()) fail_unknown_name(what, known);
+    refuse(unknown(fmt::format("{} {}", what, describe(*node_)), as_text(), known));
+    return 0;
+  }
   return static_cast<std::size_t>(found - known.begin());
 }
 
@@ -187,7 +269,7 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::as_free_named_values(c
   std::vector<std::pair<std::string, TomlValue>> values;
   for (const auto& [key, node] : *table) {
     const std::string name(key.str());
-    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, shown(name)), key_));
+    values.emplace_back(name, TomlValue(*source_, node, join_path(path_, shown(name)), key_, mistakes_));
   }
   return values;
 }
@@ -197,10 +279,9 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::as_named_values(const 
   std::vector<std::pair<std::string, TomlValue>> values = as_free_named_values(what);
   for (const auto& [key, node] : *node_->as_table()) {
     const std::string name(key.str());
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw InputError(fmt::format("{}{}: {}", at(*source_, key.source()), join_path(path_, shown(name)),
-                                   unknown(what, name, known)));
-    }
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    refuse_key(*this, key, unknown(what, name, known));
+    std::erase_if(values, [&name](const auto& value) { return value.first == name; });
   }
   return values;
 }
@@ -209,13 +290,14 @@ TomlTable::TomlTable(const TomlValue& value, const FileKeys& keys, const std::st
     : value_(value), keys_(&keys), declared_(declared) {
   const std::vector<std::string> names = key_names(keys, declared);
   if (!value.is_table())
-    value.fail(fmt::format("{} is not allowed; need a table with {}", describe(value.node()), fmt::join(names, ", ")));
+    value.fail_mistake(
+        fmt::format("{} is not allowed; need a table with {}", describe(value.node()), fmt::join(names, ", ")));
   for (const auto& [key, node] : *value.node().as_table()) {
     const std::string name(key.str());
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
-    throw InputError(fmt::format("{}{}: unknown key{}{} Known: {}", at(value.source(), key.source()),
-                                 path_of(shown(name)), did_you_mean(name, names), where_else(keys, name),
-                                 fmt::join(names, ", ")));
+    refuse_key(value, key,
+               fmt::format("unknown key{}{} Known: {}", did_you_mean(name, names), where_else(keys, name),
+                           fmt::join(names, ", ")));
   }
 }
 
@@ -224,14 +306,27 @@ std::string TomlTable::path_of(const std::string& key) const { return join_path(
 std::optional<TomlValue> TomlTable::find(const std::string& key) const {
   const toml::node* node = table().get(key);
   if (!node) return std::nullopt;
-  return TomlValue(value_.source(), *node, path_of(key), &file_key(*keys_, declared_, key));
+  return TomlValue(value_.source(), *node, path_of(key), &file_key(*keys_, declared_, key), value_.mistakes());
+}
+
+std::optional<TomlValue> TomlTable::find_misspelt(const std::string& key) const {
+  const std::vector<std::string> names = key_names(*keys_, declared_);
+  for (const auto& [wrong, node] : table()) {
+    const std::string name(wrong.str());
+    if (std::ranges::find(names, name) == names.end() && nearest_name(name, names) == key)
+      return TomlValue(value_.source(), node, path_of(key), &file_key(*keys_, declared_, key), value_.mistakes());
+  }
+  return std::nullopt;
 }
 
 TomlValue TomlTable::need(const std::string& key) const {
   if (auto value = find(key)) return *value;
+  if (value_.mistakes()) {
+    if (auto value = find_misspelt(key)) return *value;
+  }
   const FileKey& declared = file_key(*keys_, declared_, key);
-  TomlValue(value_.source(), value_.node(), path_of(key), &declared)
-      .fail(fmt::format("missing; need {}: {}", declared.value(), declared.meaning));
+  TomlValue(value_.source(), value_.node(), path_of(key), &declared, value_.mistakes())
+      .fail_mistake(fmt::format("missing; need {}: {}", declared.value(), declared.meaning));
 }
 
 std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {
@@ -274,7 +369,15 @@ void TomlDocument::refuse_key(const std::string& key, const std::string& message
 }
 
 TomlTable TomlDocument::root(const FileKeys& keys) const {
-  return TomlTable(TomlValue(source_, table_, "", nullptr), keys, "");
+  return TomlTable(TomlValue(source_, table_, "", nullptr, &mistakes_), keys, "");
+}
+
+void TomlDocument::check_all_keys(const FileKeys& keys) const {
+  check_keys(TomlValue(source_, table_, "", nullptr, &mistakes_), keys, "");
+}
+
+void TomlDocument::add_mistake(const std::string& message) const {
+  mistakes_.add(std::numeric_limits<int>::max(), 0, message);  // after those of this file
 }
 
 std::optional<std::string> find_place(const SourceText& source, const std::string& path) {

@@ -4,11 +4,13 @@
 #include <toml++/toml.h>
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "prowl/error.hpp"
 #include "prowl/files/text_file.hpp"
 #include "prowl/task_file/toml/file_keys.hpp"
 
@@ -19,13 +21,29 @@ struct Bounds {
   double lower, upper;
 };
 
+/// What is wrong with a file, collected while it is read on with values that are allowed.
+class Mistakes {
+ public:
+  void add(int line, int column, const std::string& message);  ///< once, if it is added twice
+  bool empty() const { return found_.empty(); }
+  /// All as one InputError, a line each, from the top of the file to its end; nothing if there are none.
+  void raise() const;
+
+ private:
+  std::map<std::pair<int, int>, std::vector<std::string>> found_;
+};
+
 /// One value of a TOML file that knows its file, the path of its key and the declaration of the key, whose range its
-/// numbers keep. Every as_... throws InputError "file:line:column: path: what it is; what is needed". The document and
-/// the declaration must outlive it.
+/// numbers keep. A wrong type, number or name is a mistake "file:line:column: path: what it is; what is needed". Of a
+/// document that collects them a number, a vector or a choice is then one that is allowed, so that the rest can be
+/// read; else, and where there is nothing to go on with, it is thrown as InputError. The document and the declaration
+/// must outlive it.
 class TomlValue {
  public:
-  TomlValue(const SourceText& source, const toml::node& node, std::string path, const FileKey* key)
-      : source_(&source), node_(&node), path_(std::move(path)), key_(key) {}
+  /// `key` is nullptr of a table with keys of its own.
+  TomlValue(const SourceText& source, const toml::node& node, std::string path, const FileKey* key,
+            Mistakes* mistakes = nullptr)
+      : source_(&source), node_(&node), path_(std::move(path)), key_(key), mistakes_(mistakes) {}
 
   double as_number() const { return as_number(key().range); }
   double as_number(const NumberRange& range) const;  ///< for what is narrower than the key, or not one number
@@ -55,23 +73,33 @@ class TomlValue {
   const SourceText& source() const { return *source_; }
   const std::string& path() const { return path_; }
   const FileKey& key() const;  ///< its declaration
+  Mistakes* mistakes() const { return mistakes_; }
 
+  /// Throws what is wrong between values: after a mistake it may follow from that, and is left out.
   [[noreturn]] void fail(const std::string& message) const;
+  /// Collects a mistake of its own and throws it: there is nothing to go on with.
+  [[noreturn]] void fail_mistake(const std::string& message) const;
   [[noreturn]] void fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const;
 
  private:
   [[noreturn]] void fail_type(const std::string& needed, const std::string& hint = "") const;
+  /// Collects a mistake, or throws it if nobody does.
+  void refuse(const std::string& message) const;
+  void refuse_type(const std::string& needed, const std::string& hint = "") const;
+  std::string located(const std::string& message) const;
+  std::string not_allowed(const std::string& needed, const std::string& hint) const;
 
   const SourceText* source_;
   const toml::node* node_;
   std::string path_;
-  const FileKey* key_;  ///< nullptr: a table with keys of its own
+  const FileKey* key_;
+  Mistakes* mistakes_;
 };
 
 /// A table with exactly the keys that file_keys.hpp declares for it.
 class TomlTable {
  public:
-  /// `declared` names the table among `keys` ("phase" for phase[1]). Throws InputError on a key that is not declared.
+  /// `declared` names the table among `keys` ("phase" for phase[1]). A key that is not declared is a mistake.
   TomlTable(const TomlValue& value, const FileKeys& keys, const std::string& declared);
 
   std::optional<TomlValue> find(const std::string& key) const;
@@ -85,6 +113,8 @@ class TomlTable {
 
  private:
   const toml::table& table() const { return *value_.node().as_table(); }
+  /// The value of the key that was misspelt, if that was this one.
+  std::optional<TomlValue> find_misspelt(const std::string& key) const;
   std::string path_of(const std::string& key) const;
 
   TomlValue value_;
@@ -99,12 +129,30 @@ class TomlDocument {
   TomlDocument(const TomlDocument&) = delete;  // values point into it
   TomlDocument& operator=(const TomlDocument&) = delete;
   TomlTable root(const FileKeys& keys) const;
+  /// What `read` returns, which reads this document: if that finds mistakes, all of them are thrown as one InputError.
+  template <class Read>
+  auto read_with(const Read& read) const {
+    try {
+      auto result = read();
+      mistakes_.raise();
+      return result;
+    } catch (const InputError&) {
+      mistakes_.raise();
+      throw;
+    }
+  }
+  /// Looks for keys that are not declared in the whole file, also where reading may not come to.
+  void check_all_keys(const FileKeys& keys) const;
+  /// A mistake in another file that this one names, or one without a location.
+  void add_mistake(const std::string& message) const;
+
   /// Throws `message` at the key if the top has it: the sign of another kind of file.
   void refuse_key(const std::string& key, const std::string& message) const;
 
  private:
   SourceText source_;
   toml::table table_;
+  mutable Mistakes mistakes_;
 };
 
 /// "file:line:column: " of a key path ("contact[1].frame") in a file that parses, or of the deepest part of the path
