@@ -116,7 +116,14 @@ ALLOWED = {
         "prowl/tracker",
         "prowl/plan_folder",
     ],
-    "prowl/starter": ["prowl/text", "prowl/files", "prowl/model", "prowl/dynamics", "prowl/task_file"],
+    "prowl/starter": [
+        "prowl/text",
+        "prowl/files",
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/task_file",
+    ],
     # Beside the planner.
     "alternatives": [
         "prowl/files",
@@ -133,6 +140,8 @@ ALLOWED = {
     "screen": [
         "prowl/files",
         "prowl/model",
+        "prowl/motion",
+        "prowl/trajectory",
         "prowl/mesh",
         "prowl/certificate",
         "prowl/diagnosis",
