@@ -22,8 +22,14 @@ command = robots = None
 
 def contrast(path: pathlib.Path) -> float:
     """Difference of the brightest and the darkest grey: 255 at most, next to 0 in a picture of nothing."""
-    low, high = Image.open(path).convert("L").getextrema()
+    with Image.open(path) as picture:
+        low, high = picture.convert("L").getextrema()
     return high - low
+
+
+def size(path: pathlib.Path) -> tuple[int, int]:
+    with Image.open(path) as picture:
+        return picture.size
 
 
 class Pictures(unittest.TestCase):
@@ -37,19 +43,19 @@ class Pictures(unittest.TestCase):
         for task, name in shown.items():
             with self.subTest(task=task):
                 self.assertEqual(name, f"{task.replace('/', '-')}.webp")
-                self.assertEqual(Image.open(PICTURES / name).size, (240, 180))
+                self.assertEqual(size(PICTURES / name), (240, 180))
                 self.assertGreater(contrast(PICTURES / name), 100)
         self.assertLess(sum((PICTURES / name).stat().st_size for name in shown.values()), 2e6)
 
     def test_the_readme_shows_a_robot_that_moves(self):
         readme = (ROOT / "README.md").read_text("utf-8")
         (name,) = re.findall(r"!\[[^\]]+\]\(docs/pictures/([\w-]+\.webp)\)", readme)
-        moving = Image.open(PICTURES / name)
-        self.assertGreater(moving.n_frames, 20)
         self.assertLess((PICTURES / name).stat().st_size, 3e6)
-        first = moving.convert("RGB")
-        moving.seek(moving.n_frames // 2)
-        self.assertNotEqual(first.tobytes(), moving.convert("RGB").tobytes())
+        with Image.open(PICTURES / name) as moving:
+            self.assertGreater(moving.n_frames, 20)
+            first = moving.convert("RGB").tobytes()
+            moving.seek(moving.n_frames // 2)
+            self.assertNotEqual(first, moving.convert("RGB").tobytes())
         self.assertLessEqual(len(readme.splitlines()), 120)
 
     def test_the_script_films_a_plan(self):
@@ -63,7 +69,7 @@ class Pictures(unittest.TestCase):
             self.assertEqual(run.returncode, 0, run.stderr)
             (picture,) = pathlib.Path(folder).iterdir()
             self.assertEqual(picture.name, "hyq-hold.webp")
-            self.assertEqual(Image.open(picture).size, (240, 180))
+            self.assertEqual(size(picture), (240, 180))
             self.assertGreater(contrast(picture), 100, "the robot is not in the picture")
 
     def test_the_script_names_what_it_does_not_know(self):
