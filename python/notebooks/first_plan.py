@@ -32,13 +32,28 @@ plan = prowl.solve(task)
 plan
 
 # %% [markdown]
+# ## See it move
+# The page of `prowl report`: below this cell in a notebook, in the browser for a script.
+
+# %%
+plan.show()
+
+# %% [markdown]
 # ## Is it any good?
 # Converged is a claim of the solver. The certificate is a check of the finished motion by code with other dynamics and no solver:
 # how well it obeys the dynamics, whether contacts hold, whether torques and friction stay within their limits.
 
 # %%
-print(plan.certificate)
 assert plan.good
+print("grade:", plan.certificate.grade)
+plan.certificate
+
+# %% [markdown]
+# ## Plots
+# Base, contact forces, torques of the joints that work hardest, and their share of the limits.
+
+# %%
+plan.plot()
 
 # %% [markdown]
 # ## The motion as arrays
@@ -46,22 +61,15 @@ assert plan.good
 
 # %%
 robot = plan.robot
-figure, (height, torque, force) = plt.subplots(3, 1, sharex=True, figsize=(8, 8), layout="constrained")
 motion = plan.sample(0.005)  # between the nodes as the planner means it
-height.plot(motion.t, motion.q[:, 2])
-height.plot(plan.t, plan.q[:, 2], ".", markersize=3)
-height.set_ylabel("height of the base [m]")
+figure, torque = plt.subplots(figsize=(8, 3), layout="constrained")
 for j, name in enumerate(robot.joint_names):
     if name.startswith("lf_"):
         torque.plot(motion.t, motion.tau[:, j], label=name)
 torque.axhline(robot.torque_limit[0], color="0.6", linewidth=1)
 torque.set_ylabel("torque [N m]")
+torque.set_xlabel("time [s]")
 torque.legend()
-for c, name in enumerate(robot.contact_names):
-    force.plot(motion.t, motion.f[:, c, 2], label=name)
-force.set_ylabel("normal force [N]")
-force.set_xlabel("time [s]")
-force.legend()
 plt.show()
 
 lowest = motion.q[:, 2].min() - motion.q[0, 2]
@@ -76,6 +84,13 @@ assert abs(lowest + 0.17) < 0.01
 simulation = prowl.simulate(plan)
 print(simulation.summary())
 assert simulation.success
+simulation
+
+# %% [markdown]
+# The same page with the simulation beside the plan:
+
+# %%
+plan.show(simulation)
 
 # %% [markdown]
 # ## Keep it

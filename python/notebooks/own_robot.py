@@ -81,7 +81,7 @@ print("warnings:", robot.warnings())
 assert robot.mass > 19 and robot.contact_names == ["lf_foot", "lh_foot", "rf_foot", "rh_foot"]
 
 # %% [markdown]
-# A mistake is told with its place and its remedy:
+# A mistake is told with its location and its remedy:
 
 # %%
 try:
@@ -91,21 +91,21 @@ except prowl.InputError as error:
 
 # %% [markdown]
 # ## A task for it
-# Down by 8 cm and up again. Keys and units are those of docs/task-file.md.
+# Down by 8 cm and up again. Keys and units are those of docs/task-file.md; the robot is the object from above.
 
 # %%
-import tomli_w  # comes with Prowl
+rest = np.zeros(3)
 
-(folder / "quad.toml").write_text(tomli_w.dumps(description))
-rest = [0.0, 0.0, 0.0]
-task = prowl.parse_task(
-    {
+
+def crouch(depth: float) -> dict:
+    """A task as a dict: lists may be NumPy arrays."""
+    return {
         "name": "crouch",
-        "robot": "quad.toml",
+        "robot": robot,
         "surface": [{"name": "floor", "friction": 0.6}],
         "phase": [{"contacts": "all", "duration_s": 1.2, "intervals": 80}],
         "goal": [
-            {"time_s": 0.6, "base_displacement_m": [0.0, 0.0, -0.08], "base_rpy_rad": rest},
+            {"time_s": 0.6, "base_displacement_m": np.array([0.0, 0.0, -depth]), "base_rpy_rad": rest},
             {
                 "time_s": 1.2,
                 "base_displacement_m": rest,
@@ -120,10 +120,10 @@ task = prowl.parse_task(
             "joint_acceleration": 0.01,
             "torque": 1e-4,
         },
-    },
-    folder=folder,
-)
-plan = prowl.solve(task)
+    }
+
+
+plan = prowl.solve(crouch(0.08))
 print(plan.summary())
 assert plan.good
 
@@ -133,12 +133,8 @@ assert plan.good
 # a plan that is not good, with reasons or hints.
 
 # %%
-import tomllib
-
 for depth in (0.08, 0.14, 0.20, 0.26):
-    document = tomllib.loads(task.text)
-    document["goal"][0]["base_displacement_m"][2] = -depth
-    deeper = prowl.solve(prowl.parse_task(document, folder=folder), start_from=plan, gains=False)
+    deeper = prowl.solve(crouch(depth), start_from=plan, gains=False)
     torque = np.abs(deeper.tau).max() / robot.torque_limit.max()
     print(
         f"{100 * depth:3.0f} cm: {deeper.status}, certificate {deeper.certificate.grade}, {100 * torque:.0f} % of the torque"

@@ -26,8 +26,9 @@ import numpy as np
 
 import prowl
 
-plan = prowl.solve(prowl.read_task("hyq/crouch"))
+plan = prowl.solve("hyq/crouch")
 tracker = plan.tracker
+assert tracker is not None  # the plan is good
 print(tracker, tracker.K.shape, "joints x (position and velocity), for each of", len(tracker), "samples")
 
 # %% [markdown]

@@ -2,11 +2,11 @@
 
     import prowl
 
-    task = prowl.read_task("hyq/crouch")     # one that comes with Prowl, or a path
-    plan = prowl.solve(task)                 # Ctrl-C stops it
+    plan = prowl.solve("hyq/crouch")         # a task that comes with Prowl, a path, a dict; Ctrl-C stops it
     print(plan.certificate)                  # whether it is any good
     plan.t, plan.q, plan.tau, plan.f         # NumPy arrays, no copies
     prowl.simulate(plan).success             # in MuJoCo, with its feedback gains
+    plan.show()                              # the robot in motion, in a notebook or the browser
     plan.write("out/crouch")                 # what the command writes
 
 Conventions are Pinocchio's: q has the base position in the world [m], its quaternion x y z w, then the joints [rad or m];
@@ -22,7 +22,6 @@ if _util.find_spec("prowl._prowl") is None:
         "scripts/setup builds it, or install the wheel"
     )
 
-from . import _notebook
 from ._exports import Export, export
 from ._figures import Figures, figures
 from ._files import parse_robot, parse_task, read_robot, read_task, shipped_robots, shipped_tasks
@@ -39,6 +38,7 @@ from ._prowl import (
     FileError,
     InputError,
     Interrupted,
+    Iterate,
     JudgedPoint,
     Link,
     Motion,
@@ -50,10 +50,11 @@ from ._prowl import (
     Robot,
     Simulation,
     Surface,
+    Sweep,
+    SweepCase,
     Task,
     Tracker,
     __version__,
-    diagnose,
     difference,
     integrate,
     read_plan,
@@ -61,10 +62,10 @@ from ._prowl import (
     solver_names,
     versions,
 )
-from ._solve import solve
-
-_notebook.show_as_tables()
-del _notebook
+from ._runs.diagnose import diagnose
+from ._runs.solve import solve
+from ._runs.sweep import sweep
+from ._show.page import Report, report
 
 __all__ = [
     "Certificate",
@@ -81,6 +82,7 @@ __all__ = [
     "FileError",
     "InputError",
     "Interrupted",
+    "Iterate",
     "JudgedPoint",
     "Link",
     "Motion",
@@ -89,9 +91,12 @@ __all__ = [
     "Plan",
     "Program",
     "Progress",
+    "Report",
     "Robot",
     "Simulation",
     "Surface",
+    "Sweep",
+    "SweepCase",
     "Task",
     "Tracker",
     "__version__",
@@ -105,10 +110,12 @@ __all__ = [
     "read_plan",
     "read_robot",
     "read_task",
+    "report",
     "shipped_robots",
     "shipped_tasks",
     "simulate",
     "solve",
     "solver_names",
+    "sweep",
     "versions",
 ]

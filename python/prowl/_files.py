@@ -3,38 +3,41 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 from . import _prowl
+from ._documents import Document, toml_text
 
 _HERE = Path(__file__).resolve().parent
 # In a wheel beside this file; installed, share/prowl/python/prowl, above it; in a build, build/python/prowl, those of
 # the repository.
 _PLACES = (_HERE / "share" / "prowl", _HERE.parents[1], _HERE.parents[2])
-_SHARE = next(folder for folder in _PLACES if (folder / "tasks").is_dir())
+SHARE = next(folder for folder in _PLACES if (folder / "tasks").is_dir())
 
 
 def shipped_tasks() -> list[str]:
     """Names of the tasks that come with Prowl, such as "hyq/crouch", for read_task()."""
-    folder = _SHARE / "tasks"
+    folder = SHARE / "tasks"
     return sorted(path.relative_to(folder).with_suffix("").as_posix() for path in folder.glob("*/*.toml"))
 
 
 def shipped_robots() -> list[str]:
     """Names of the robots that come with Prowl, such as "hyq", for read_robot()."""
-    return sorted(path.stem for path in (_SHARE / "robots").glob("*.toml"))
+    return sorted(path.stem for path in (SHARE / "robots").glob("*.toml"))
 
 
 def _find(name: str | os.PathLike[str], shipped: list[str], folder: str) -> Path:
     path = Path(name)
-    if path.exists() or os.fspath(name) not in shipped:
+    if path.is_file() or os.fspath(name) not in shipped:
         if not path.suffix and not path.exists():
-            raise _prowl.InputError(f"{path}: no such file, nor one that comes with Prowl: {', '.join(shipped)}")
+            nearest = _prowl.did_you_mean(os.fspath(name), shipped)
+            raise _prowl.InputError(
+                f"{path}: no such file, nor one that comes with Prowl{nearest} Known: {', '.join(shipped)}"
+            )
         return path
-    return _SHARE / folder / f"{name}.toml"
+    return SHARE / folder / f"{name}.toml"
 
 
 # Has the URDFs of the shipped robots; HyQ's is also in Prowl's own wheel.
@@ -47,26 +50,30 @@ def _remedy(path: Path) -> Iterator[None]:
     try:
         yield
     except _prowl.InputError as error:
-        if _SHARE not in path.parents or "package://example-robot-data" not in str(error):
+        if SHARE not in path.parents or "package://example-robot-data" not in str(error):
             raise
         raise _prowl.InputError(
             f"{path}: the URDF of its robot comes with another package: pip install {_ROBOTS}"
         ) from error
 
 
+def _robot_of(task: Document, folder: Path) -> tuple[Document, tuple[Path, str] | None]:
+    """The task with the path of its robot file, and that file if the dict has a Robot."""
+    if isinstance(task, str) or "robot" not in task:
+        return task, None
+    robot = task["robot"]
+    if isinstance(robot, _prowl.Robot):
+        return {**task, "robot": os.fspath(robot.path)}, (robot.path, robot.text)
+    if not isinstance(robot, str | os.PathLike) or (folder / robot).is_file() or Path(robot).suffix:
+        return task, None
+    try:
+        return {**task, "robot": os.fspath(_find(robot, shipped_robots(), "robots"))}, None
+    except _prowl.InputError as error:
+        raise _prowl.InputError(f"robot: {error}") from None
+
+
 def _folders(package_dirs: Sequence[str | os.PathLike[str]]) -> list[str]:
     return [os.fspath(folder) for folder in package_dirs]
-
-
-def _toml(document: str | Mapping[str, Any]) -> str:
-    if isinstance(document, str):
-        return document
-    import tomli_w  # figures() and export() do without
-
-    try:
-        return tomli_w.dumps(document)
-    except (TypeError, AttributeError) as error:  # of None, a NumPy array, keys that are no strings
-        raise _prowl.InputError(f"document: {error}; need a dict of what a TOML file can hold") from error
 
 
 def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os.PathLike[str]] = ()) -> _prowl.Robot:
@@ -80,16 +87,17 @@ def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os
 
 
 def parse_robot(
-    document: str | Mapping[str, Any],
+    document: Document,
     *,
     folder: str | os.PathLike[str] = ".",
     package_dirs: Sequence[str | os.PathLike[str]] = (),
 ) -> _prowl.Robot:
-    """A robot from the text of a robot file, or from a dict of the same keys. Paths in it are relative to `folder`.
+    """A robot from the text of a robot file, or from a dict of the same keys, where arrays are NumPy's or lists. Paths in
+    it are relative to `folder`.
 
     Messages call it FOLDER/robot.toml, with the lines of the text; of a dict, of the text that it makes: look at the key.
     """
-    return _prowl.parse_robot(_toml(document), Path(folder) / "robot.toml", _folders(package_dirs))
+    return _prowl.parse_robot(toml_text(document), Path(folder) / "robot.toml", _folders(package_dirs))
 
 
 def read_task(
@@ -120,7 +128,7 @@ def read_task(
 
 
 def parse_task(
-    document: str | Mapping[str, Any],
+    document: Document,
     *,
     folder: str | os.PathLike[str] = ".",
     package_dirs: Sequence[str | os.PathLike[str]] = (),
@@ -131,13 +139,16 @@ def parse_task(
 ) -> _prowl.Task:
     """A task from the text of a task file, or from a dict of the same keys, as tomllib.loads(task.text) gives it.
 
-    The robot file that it names is relative to `folder`: task.path.parent for a task that was changed. The other
-    arguments are those of read_task(). Messages call it FOLDER/task.toml, with the lines of the text; of a dict, of the
+    A dict may have a Robot, or the name of one that comes with Prowl, as its robot, and NumPy's arrays in place of lists. A
+    robot file that it names is relative to `folder`: task.path.parent for a task that was changed. The other arguments are
+    those of read_task(). Messages call it FOLDER/task.toml, with the lines of the text; of a dict, of the
     text that it makes: look at the key.
     """
+    document, robot_file = _robot_of(document, Path(folder))
     return _prowl.parse_task(
-        _toml(document),
+        toml_text(document),
         Path(folder) / "task.toml",
+        robot_file=robot_file,
         package_dirs=_folders(package_dirs),
         intervals=intervals,
         max_iterations=max_iterations,

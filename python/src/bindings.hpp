@@ -14,6 +14,8 @@ void bind_motion(nanobind::module_& module);
 void bind_tracker(nanobind::module_& module);
 void bind_plan(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
+void bind_sweep(nanobind::module_& module);
+void bind_page(nanobind::module_& module);
 void bind_solve(nanobind::module_& module);
 void bind_diagnosis(nanobind::module_& module);
 void bind_dynamics(nanobind::module_& module);

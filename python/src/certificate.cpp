@@ -5,6 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
+#include "package_function.hpp"
 #include "screen/plan_summary.hpp"
 
 namespace prowl::python {
@@ -38,6 +39,9 @@ void bind_certificate(nb::module_& module) {
       .def_ro("redundant_contacts", &Certificate::redundant_contacts,
               "Contacts whose forces are one choice of many; those of all others follow from the motion.")
       .def("__str__", &certificate_summary)
+      .def(
+          "_repr_html_", [](nb::handle self) { return call_package("prowl._show.notebook", "certificate_html", self); },
+          nb::sig("def _repr_html_(self) -> str"))
       .def("__repr__", [](const Certificate& certificate) {
         return fmt::format("<prowl.Certificate {}, {} checks>", to_string(certificate.grade),
                            certificate.checks.size());

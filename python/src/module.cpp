@@ -19,6 +19,8 @@ NB_MODULE(_prowl, module) {
   bind_tracker(module);
   bind_plan(module);
   bind_simulation(module);
+  bind_sweep(module);
+  bind_page(module);
   bind_solve(module);
   bind_diagnosis(module);
   bind_dynamics(module);

@@ -8,6 +8,7 @@
 
 #include "bindings.hpp"
 #include "module_files.hpp"
+#include "package_function.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
 #include "prowl/files/csv_table.hpp"
@@ -16,6 +17,8 @@
 #include "prowl/plan_folder/trajectory_csv.hpp"
 #include "prowl/simulation/simulation.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
+#include "prowl/transcription/cost_terms.hpp"
+#include "robot_source.hpp"
 #include "screen/plan_summary.hpp"
 
 namespace prowl::python {
@@ -80,6 +83,31 @@ Motion simulated_motion(const PlanObject& plan, double step) {
   return Motion(motion);
 }
 
+nb::dict term_costs(const PlanObject& plan) {
+  nb::dict costs;
+  for (const CostTerm& term : cost_terms(plan.problem(), plan.record.plan.trajectory)) {
+    costs[term.key.c_str()] = term.cost;
+  }
+  return costs;
+}
+
+nb::dict term_rates(const PlanObject& plan) {
+  nb::dict rates;
+  for (const CostTerm& term : cost_terms(plan.problem(), plan.record.plan.trajectory)) {
+    if (!term.key.starts_with(kTerminalCost)) rates[term.key.c_str()] = new_array(term.rate);
+  }
+  return rates;
+}
+
+/// Functions of the package that a plan has as methods.
+nb::object show(nb::handle plan, nb::handle simulation, int height) {
+  return call_package("prowl._show.page", "show", plan, simulation, height);
+}
+nb::object plot(nb::handle plan, nb::handle simulation) {
+  return call_package("prowl._show.plot", "plot", plan, simulation);
+}
+nb::object html(nb::handle plan) { return call_package("prowl._show.notebook", "plan_html", plan); }
+
 }  // namespace
 
 PlanObject::PlanObject(PlanRecord plan_record, std::optional<std::filesystem::path> directory)
@@ -132,6 +160,12 @@ void bind_plan(nb::module_& module) {
           "hints", [](const PlanObject& p) { return p.record.plan.hints; },
           "What may be the matter, after a solve that did not converge.")
       .def_prop_ro("cost", [](const PlanObject& p) { return p.record.plan.result.cost; })
+      .def_prop_ro("cost_terms", &term_costs, nb::sig("def cost_terms(self) -> dict[str, float]"),
+                   "The cost term by term, by the keys of the task file (\"torque\", "
+                   "\"terminal_cost.base_position\"); their sum is `cost`.")
+      .def_prop_ro("cost_rates", &term_rates,
+                   nb::sig("def cost_rates(self) -> dict[str, numpy.typing.NDArray[numpy.float64]]"),
+                   "Terms of the running cost at each node (N) [1/s], by the keys of the task file.")
       .def_prop_ro(
           "iterations", [](const PlanObject& p) { return p.record.plan.result.iterations; }, "On all meshes together.")
       .def_prop_ro(
@@ -146,8 +180,14 @@ void bind_plan(nb::module_& module) {
       .def_prop_ro(
           "task", [](const PlanObject& p) -> const Task& { return p.record.task; }, nb::rv_policy::reference_internal)
       .def_prop_ro(
-          "robot", [](const PlanObject& p) -> const RobotModel& { return p.problem().robot; },
-          nb::rv_policy::reference_internal)
+          "robot",
+          [=](nb::handle self) {
+            return robot_of(self, plan(self).problem().robot, plan(self).record.task.robot_file);
+          },
+          nb::sig("def robot(self) -> Robot"))
+      .def_prop_ro(
+          "path", [](const PlanObject& p) { return p.read_from; },
+          "The folder that it was read from; None for a plan that was solved.")
       .def_prop_ro(
           "tracker", [](const PlanObject& p) { return p.tracker; }, nb::sig("def tracker(self) -> Tracker | None"),
           "Reference and feedback gains on a fine grid, and the control law; None if there are no gains.")
@@ -174,6 +214,15 @@ void bind_plan(nb::module_& module) {
       .def(
           "to_json", [](const PlanObject& p) { return plan_report_json(p.record, p.read_from.value_or("")); },
           "plan.json (docs/plan-directory.md) but for the texts of task, robot and URDF.")
+      .def("show", &show, nb::arg("simulation").none() = nb::none(), nb::kw_only(), nb::arg("height") = 720,
+           nb::sig("def show(self, simulation: Simulation | None = None, *, height: int = 720) -> None"),
+           "Shows the page of `prowl report`: in a notebook below the cell, `height` pixels high; else in the browser.")
+      .def("plot", &plot, nb::arg("simulation").none() = nb::none(),
+           nb::sig("def plot(self, simulation: Simulation | None = None) -> matplotlib.figure.Figure"),
+           "Draws base height, contact forces, joint torques and the largest share of the torque limits over time, "
+           "with\n"
+           "Matplotlib. Returns the figure: a notebook shows it, figure.savefig(path) writes it.")
+      .def("_repr_html_", &html, nb::sig("def _repr_html_(self) -> str"))
       .def("write", &write, nb::arg("directory"), nb::arg("step") = nb::none(),
            "Writes the folder that `prowl plan` writes (docs/plan-directory.md), whole or not at all; with `step` [s] "
            "also\n"

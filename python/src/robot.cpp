@@ -14,6 +14,7 @@
 #include "prowl/model/robot_model.hpp"
 #include "prowl/model/urdf/link_tree.hpp"
 #include "prowl/task_file/robot_file.hpp"
+#include "robot_source.hpp"
 #include "screen/robot_summary.hpp"
 
 namespace prowl::python {
@@ -21,13 +22,21 @@ namespace {
 
 using Folders = std::vector<std::string>;
 
-RobotModel read_robot(const std::filesystem::path& path, const Folders& package_dirs) {
-  return load_robot(read_text_file(path), package_search(package_dirs), {.needs_contacts = false});
+nb::object load(const SourceText& file, const Folders& package_dirs) {
+  return with_source(nb::cast(load_robot(file, package_search(package_dirs), {.needs_contacts = false})), file);
 }
 
-RobotModel parse_robot(const std::string& text, const std::filesystem::path& path, const Folders& package_dirs) {
-  return load_robot({std::filesystem::absolute(path), text}, package_search(package_dirs), {.needs_contacts = false});
+nb::object read_robot(const std::filesystem::path& path, const Folders& package_dirs) {
+  return load(read_text_file(path), package_dirs);
 }
+
+nb::object parse_robot(const std::string& text, const std::filesystem::path& path, const Folders& package_dirs) {
+  return load({std::filesystem::absolute(path), text}, package_dirs);
+}
+
+/// Keys of the attributes that with_source() sets.
+constexpr const char* kPath = "_path";
+constexpr const char* kText = "_text";
 
 using Numbers = std::array<double, 3>;
 
@@ -123,6 +132,16 @@ Vector robot_view(nb::handle self) {
 
 }  // namespace
 
+nb::object with_source(nb::object robot, const SourceText& file) {
+  nb::setattr(robot, kPath, nb::cast(std::filesystem::absolute(file.path)));
+  nb::setattr(robot, kText, nb::str(file.text.data(), file.text.size()));
+  return robot;
+}
+
+nb::object robot_of(nb::handle owner, const RobotModel& robot, const SourceText& file) {
+  return with_source(nb::cast(robot, nb::rv_policy::reference_internal, owner), file);
+}
+
 void bind_robot(nb::module_& module) {
   nb::class_<ContactPoint>(
       module, "Contact",
@@ -144,7 +163,8 @@ void bind_robot(nb::module_& module) {
       "A legged robot: rigid bodies on a floating base, and its limits. Immutable.\n\n"
       "Conventions are Pinocchio's. Configuration q, nq = 7 + nu: position of the base in the world [m], its\n"
       "quaternion x y z w, joint positions [rad or m]. Velocity v, nv = 6 + nu: linear and angular velocity of\n"
-      "the base in the base frame [m/s, rad/s], joint rates. Torques tau: nu [N m].")
+      "the base in the base frame [m/s, rad/s], joint rates. Torques tau: nu [N m].",
+      nb::dynamic_attr())
       .def_prop_ro("name", &RobotModel::name)
       .def_prop_ro("nq", &RobotModel::nq, "Numbers in q.")
       .def_prop_ro("nv", &RobotModel::nv, "Numbers in v.")
@@ -153,6 +173,12 @@ void bind_robot(nb::module_& module) {
       .def_prop_ro("joint_names", &RobotModel::joint_names, "nu names, in the order of q, v and tau.")
       .def_prop_ro("contacts", &RobotModel::contacts, nb::rv_policy::reference_internal)
       .def_prop_ro("contact_names", &contact_names, "In the order of contact forces.")
+      .def_prop_ro(
+          "path", [](nb::handle self) { return self.attr(kPath); }, nb::sig("def path(self) -> pathlib.Path"),
+          "The robot file that it came from.")
+      .def_prop_ro(
+          "text", [](nb::handle self) { return self.attr(kText); }, nb::sig("def text(self) -> str"),
+          "Text of the robot file.")
       .def_prop_ro(
           "urdf", [](const RobotModel& robot) { return robot.description().urdf; }, "Path of the URDF.")
       .def_prop_ro("urdf_text", &urdf_text, "Text of the URDF.")
@@ -189,9 +215,13 @@ void bind_robot(nb::module_& module) {
                            robot.contacts().size(), robot.mass());
       });
   module.def("read_robot", &read_robot, nb::arg("path"), nb::arg("package_dirs") = Folders{},
+             nb::sig("def read_robot(path: str | os.PathLike, package_dirs: collections.abc.Sequence[str] = []) -> "
+                     "Robot"),
              "Reads a robot file, docs/robot-file.md.");
   module.def(
       "parse_robot", &parse_robot, nb::arg("text"), nb::arg("path"), nb::arg("package_dirs") = Folders{},
+      nb::sig("def parse_robot(text: str, path: str | os.PathLike, package_dirs: collections.abc.Sequence[str] = []) "
+              "-> Robot"),
       "Reads the text of a robot file; paths in it are relative to the folder of `path`, where no file needs to be.");
 }
 

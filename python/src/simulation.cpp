@@ -9,6 +9,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
+#include "package_function.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
 #include "prowl/plan_folder/simulation_files.hpp"
@@ -157,6 +158,16 @@ void bind_simulation(nb::module_& module) {
       .def(
           "summary", [](const SimulationObject& s) { return simulation_summary(s.plan->record, s.record); },
           "What `prowl simulate` prints of it.")
+      .def(
+          "to_json", [](const SimulationObject& s) { return simulation_json(s.plan->record, s.record); },
+          "Text of simulate.json (docs/simulation.md).")
+      .def(
+          "to_csv",
+          [](const SimulationObject& s) { return simulation_csv(s.plan->problem().robot, s.record.result.samples); },
+          "Text of simulate.csv (docs/simulation.md).")
+      .def(
+          "_repr_html_", [](nb::handle self) { return call_package("prowl._show.notebook", "simulation_html", self); },
+          nb::sig("def _repr_html_(self) -> str"))
       .def("write", &write, nb::arg("directory"), "Writes simulate.json and simulate.csv into the folder of the plan.")
       .def(
           "__len__", [](const SimulationObject& s) { return s.t.size(); }, "Samples, S.")

@@ -20,10 +20,16 @@ struct Progress {
   SolveProgress solve;
 };
 
+/// An iteration with the motion that the solver is at.
+struct Iterate : Progress {
+  Motion motion;
+};
+
 /// Tells Python of iterations, which may stop the solver.
 class Observer : public Stop {
  public:
-  explicit Observer(nb::object callback) : callback_(std::move(callback)) {}
+  Observer(nb::object on_iteration, nb::object on_iterate)
+      : on_iteration_(std::move(on_iteration)), on_iterate_(std::move(on_iterate)) {}
 
   void watch(PlanRequest& request) {
     request.interrupt = &stop();
@@ -31,9 +37,15 @@ class Observer : public Stop {
     request.on_iteration = [this](const SolveProgress& solve) {
       progress_.solve = solve;
       ask([this] {
-        if (!callback_.is_none()) callback_(progress_);
+        if (!on_iteration_.is_none()) on_iteration_(progress_);
       });
     };
+    if (!on_iterate_.is_none()) {
+      request.on_iterate = [this](const Plan& iterate) {
+        Iterate told{progress_, Motion(iterate.trajectory)};
+        ask([&] { on_iterate_(std::move(told)); });
+      };
+    }
     constexpr int kSamples = 20;  // between two looks for Ctrl-C: about 10 ms
     request.on_gain = [this, calls = 0](int, int) mutable {
       if (calls++ % kSamples == 0) ask([] {});
@@ -42,14 +54,14 @@ class Observer : public Stop {
   }
 
  private:
-  nb::object callback_;
+  nb::object on_iteration_, on_iterate_;
   Progress progress_;
 };
 
 nb::object solve(const Task& task, const std::string& solver, int threads, bool coarse_first,
-                 const PlanObject* start_from, bool gains, nb::object on_iteration) {
+                 const PlanObject* start_from, bool gains, nb::object on_iteration, nb::object on_iterate) {
   PlanRequest request{.solver = solver, .threads = threads, .coarse_first = coarse_first, .gains = gains};
-  Observer observer(std::move(on_iteration));
+  Observer observer(std::move(on_iteration), std::move(on_iterate));
   observer.watch(request);
   if (start_from) {
     const bool is_solution = start_from->record.plan.result.status == SolveStatus::converged;
@@ -93,13 +105,17 @@ void bind_solve(nb::module_& module) {
         return fmt::format("<prowl.Progress {} intervals, iteration {}: cost {:.6g}, violation {:.2e}>", p.intervals,
                            p.solve.iteration, p.solve.cost, p.solve.constraint_violation);
       });
+  nb::class_<Iterate, Progress>(module, "Iterate", "One iteration of a solver, with the motion that it is at.")
+      .def_ro("motion", &Iterate::motion, nb::rv_policy::reference_internal,
+              "At the nodes of the mesh that is being solved; it does not obey the dynamics yet.");
   module.def("solver_names", &solver_names, "Names of the solvers; the first is the default.");
   module.def("solve", &solve, nb::arg("task"), nb::kw_only(), nb::arg("solver") = solver_names().front(),
              nb::arg("threads") = 1, nb::arg("coarse_first") = true, nb::arg("start_from").none() = nb::none(),
-             nb::arg("gains") = true, nb::arg("on_iteration") = nb::none(),
+             nb::arg("gains") = true, nb::arg("on_iteration") = nb::none(), nb::arg("on_iterate") = nb::none(),
              nb::sig("def solve(task: Task, *, solver: str = 'riccati', threads: int = 1, coarse_first: bool = True, "
                      "start_from: Plan | None = None, gains: bool = True, "
-                     "on_iteration: collections.abc.Callable[[Progress], object] | None = None) -> Plan"),
+                     "on_iteration: collections.abc.Callable[[Progress], object] | None = None, "
+                     "on_iterate: collections.abc.Callable[[Iterate], object] | None = None) -> Plan"),
              "prowl.solve without the display of progress.");
 }
 

@@ -2,6 +2,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -10,6 +11,7 @@
 #include "module_files.hpp"
 #include "prowl/simulation/mujoco_xml.hpp"
 #include "prowl/task_file/task_file.hpp"
+#include "robot_source.hpp"
 #include "screen/phase_table.hpp"
 
 namespace prowl::python {
@@ -54,11 +56,18 @@ Task read_task(const std::filesystem::path& path, const Folders& package_dirs, s
   return read_task_file(path, package_search(package_dirs), {intervals, max_iterations, max_time, tolerance});
 }
 
-Task parse_task_text(const std::string& text, const std::filesystem::path& path, const Folders& package_dirs,
+/// A robot file: path and text.
+using RobotFile = std::pair<std::filesystem::path, std::string>;
+
+Task parse_task_text(const std::string& text, const std::filesystem::path& path,
+                     const std::optional<RobotFile>& robot_file, const Folders& package_dirs,
                      std::optional<int> intervals, std::optional<int> max_iterations, std::optional<double> max_time,
                      std::optional<double> tolerance) {
-  return read_task_text({std::filesystem::absolute(path), text}, package_search(package_dirs),
-                        {intervals, max_iterations, max_time, tolerance});
+  const SourceText task_file{std::filesystem::absolute(path), text};
+  const TaskOverrides overrides{intervals, max_iterations, max_time, tolerance};
+  const PackageSearch search = package_search(package_dirs);
+  if (!robot_file) return read_task_text(task_file, search, overrides);
+  return parse_task(task_file, {robot_file->first, robot_file->second}, search, overrides);
 }
 
 }  // namespace
@@ -90,8 +99,12 @@ void bind_task(nb::module_& module) {
       "another goal, change the text and parse it again.")
       .def_prop_ro("name", [](const Task& task) { return task.problem.name; })
       .def_prop_ro(
-          "robot", [](const Task& task) -> const RobotModel& { return task.problem.robot; },
-          nb::rv_policy::reference_internal)
+          "robot",
+          [](nb::handle self) {
+            const Task& task = nb::cast<const Task&>(self);
+            return robot_of(self, task.problem.robot, task.robot_file);
+          },
+          nb::sig("def robot(self) -> Robot"))
       .def_prop_ro("phases", &phases)
       .def_prop_ro(
           "surfaces", [](const Task& task) { return task.problem.surfaces; }, "That the phases name.")
@@ -124,9 +137,10 @@ void bind_task(nb::module_& module) {
              "Reads a task file, docs/task-file.md.");
   module.def(
       "parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
-      nb::arg("package_dirs") = Folders{}, nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
-      nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
-      "Reads the text of a task file; what it names is relative to the folder of `path`, where no file needs to be.");
+      nb::arg("robot_file").none() = nb::none(), nb::arg("package_dirs") = Folders{}, nb::arg("intervals") = nb::none(),
+      nb::arg("max_iterations") = nb::none(), nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
+      "Reads the text of a task file; what it names is relative to the folder of `path`, where no file needs to be.\n"
+      "robot_file: path and text in place of the file that the task names.");
 }
 
 }  // namespace prowl::python

@@ -154,3 +154,30 @@ def test_progress_tells_every_iteration(crouch, capsys):
     assert len(seen) == plan.iterations
     assert seen[-1][2] == pytest.approx(plan.cost, rel=1e-6)
     assert f"{len(seen)} iterations" in capsys.readouterr().err
+
+
+def test_iterates_have_their_motion(crouch):
+    progress, iterates = [], []
+    plan = prowl.solve(crouch.task, on_iteration=progress.append, on_iterate=iterates.append)
+    np.testing.assert_array_equal(plan.q, crouch.q, err_msg="who watches changes nothing")
+    assert [(at.intervals, at.iteration) for at in iterates] == [(p.intervals, p.iteration) for p in progress]
+    assert all(isinstance(at, prowl.Progress) and len(at.motion) == at.intervals + 1 for at in iterates)
+    np.testing.assert_allclose(iterates[-1].motion.q, plan.q, atol=1e-6)
+    assert np.abs(iterates[0].motion.tau - iterates[3].motion.tau).max() > 1e-3, "they differ on the way"
+    motion = iterates[0].motion
+    first = motion.q.copy()
+    del iterates[:]
+    gc.collect()
+    np.testing.assert_array_equal(motion.q, first)
+
+
+def test_what_on_iterate_raises_ends_the_solve(crouch):
+    calls = []
+
+    def stop(at: prowl.Iterate) -> None:
+        calls.append(at)
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError, match="enough"):
+        prowl.solve(crouch.task, on_iterate=stop)
+    assert len(calls) == 1

@@ -5,3 +5,4 @@ prowl_test(transcription/slope prowl::transcription prowl::guess prowl::certific
 prowl_test(transcription/limits prowl::transcription prowl::guess)
 prowl_test(transcription/flat_feet prowl::transcription prowl::guess prowl::solvers pinocchio::pinocchio_default)
 prowl_test(transcription/node_functions prowl::transcription)
+prowl_test(transcription/cost_terms prowl::transcription prowl::guess)

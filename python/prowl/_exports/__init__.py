@@ -6,8 +6,13 @@ import os
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from .. import _prowl
+from .._plans import Folders, PlanOrFolder, as_plan, folder_with, output_folder
+
+if TYPE_CHECKING:
+    from .samples import Samples
 
 
 @dataclass(frozen=True)
@@ -24,55 +29,65 @@ class Export:
 
 
 def export(
-    directory: str | os.PathLike[str],
+    plan: PlanOrFolder,
     formats: str | Sequence[str],
     *,
     out: str | os.PathLike[str] | None = None,
     rate: float | None = None,
-    simulation: bool = False,
-    package_dirs: Sequence[str | os.PathLike[str]] = (),
+    simulation: bool | _prowl.Simulation = False,
+    package_dirs: Folders = (),
 ) -> Export:
-    """Writes the plan in a folder for other programs, as `prowl export` does.
+    """Writes a plan for other programs, as `prowl export` does.
 
-    formats: one or more of "csv", "json", "npz", "mcap", "joint-trajectory" and "mujoco". out: folder for the files, which
-    may hold others; DIRECTORY/exports if None. rate: samples a second; the nodes of the plan, or all rows of the
-    simulation, if None. simulation: the true motion of simulate.csv in place of the plan. package_dirs: as of read_task().
+    plan: a Plan, or the folder of one. formats: one or more of "csv", "json", "npz", "mcap", "joint-trajectory" and
+    "mujoco". out: folder for the files, which may hold others; the folder exports in that of the plan if None. rate: samples
+    a second; the nodes of the plan, or all rows of the simulation, if None. simulation: the true motion in place of the
+    plan, of this Simulation, or if True of simulate.csv in the folder of the plan. package_dirs: as of read_task().
 
     Needs numpy, for "mcap" also mcap and mcap-ros2-support. Warns of a plan that is not good. Raises InputError, FileError;
     files that were there are replaced one by one, each whole or not at all.
     """
-    folder = os.fspath(directory)
     names = [formats] if isinstance(formats, str) else list(formats)
     for name in names:
         if name not in _prowl.export_format_names():
             choices = ", ".join(_prowl.export_format_names())
             raise _prowl.InputError(f"format: {name} is not allowed; need one of {choices}")
-    plan = _prowl.read_plan(folder, [os.fspath(path) for path in package_dirs])
-    if simulation and "csv" in names:
-        simulated = os.path.join(folder, "simulate.csv")
+    source = as_plan(plan, package_dirs)
+    if simulation is not False and "csv" in names:
+        simulated = os.path.join(source.path or "", "simulate.csv")
         raise _prowl.InputError(f"format: csv is not allowed; of a simulation there is {simulated} already")
+    folder = output_folder(source, out, "exports")
 
-    from .samples import sample_plan, sample_simulation  # with numpy
+    from .samples import sample_plan  # with numpy
 
-    samples = sample_simulation(plan, rate) if simulation else sample_plan(plan, rate)
-    if not plan.good:
-        certificate = "passed" if plan.certificate.passed else "failed"
-        warnings.warn(f"this plan is not good: {plan.status}, certificate {certificate}", stacklevel=2)
-    files = _files(plan, samples, set(names), rate)
-    place = os.path.join(folder, "exports") if out is None else os.fspath(out)
-    _prowl.write_files(place, files)
+    samples = sample_plan(source, rate) if simulation is False else _simulated(source, simulation, rate)
+    if not source.good:
+        certificate = "passed" if source.certificate.passed else "failed"
+        warnings.warn(f"this plan is not good: {source.status}, certificate {certificate}", stacklevel=2)
+    files = _files(source, samples, set(names), rate)
+    _prowl.write_files(folder, files)
     return Export(
-        plan,
-        "simulation" if simulation else "plan",
+        source,
+        "plan" if simulation is False else "simulation",
         len(samples.motion),
         float(samples.motion.t[-1]),
         samples.gains is not None,
-        place,
+        folder,
         {name: len(files[name]) for name in sorted(files)},
     )
 
 
-def _files(plan: _prowl.Plan, samples, formats: set[str], rate: float | None) -> dict[str, bytes]:
+def _simulated(plan: _prowl.Plan, simulation: bool | _prowl.Simulation, rate: float | None) -> Samples:
+    """Samples of the simulation in the plan's folder, or of this one, which is put into a folder first."""
+    from .samples import sample_simulation
+
+    if isinstance(simulation, bool):
+        return sample_simulation(plan, rate)
+    with folder_with(plan, simulation) as folder:
+        return sample_simulation(as_plan(folder), rate)
+
+
+def _files(plan: _prowl.Plan, samples: Samples, formats: set[str], rate: float | None) -> dict[str, bytes]:
     """Files of all formats, by name."""
     from . import texts
 

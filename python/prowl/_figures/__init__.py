@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from .. import _prowl
+from .._plans import Folders, PlanOrFolder, as_plan, folder_with, output_folder
 
 
 @dataclass(frozen=True)
@@ -22,16 +23,18 @@ class Figures:
 
 
 def figures(
-    directory: str | os.PathLike[str],
+    plan: PlanOrFolder,
     *,
+    simulation: _prowl.Simulation | None = None,
     out: str | os.PathLike[str] | None = None,
     joint: str | None = None,
-    package_dirs: Sequence[str | os.PathLike[str]] = (),
+    package_dirs: Folders = (),
     on_progress: Callable[[int, int], object] | None = None,
 ) -> Figures:
-    """Draws the plan in a folder, its gains and its simulation, as `prowl figures` does: SVG, PNG and CSV.
+    """Draws a plan, its gains and its simulation, as `prowl figures` does: SVG, PNG and CSV.
 
-    out: folder for the figures, which holds nothing else; DIRECTORY/figures if None. joint: whose gains to draw; the first
+    plan: a Plan, or the folder of one. simulation: of the plan; that in the folder of the plan if None. out: folder for the
+    figures, which holds nothing else; the folder figures in that of the plan if None. joint: whose gains to draw; the first
     knee, or else the last joint of the first leg, if None. package_dirs: as of read_task(). on_progress: called with the
     number of figures that are drawn, and of all.
 
@@ -40,20 +43,28 @@ def figures(
     """
     from . import draw, tables  # with Matplotlib, which takes a second to load
 
-    folder = os.fspath(directory)
-    place = os.path.join(folder, "figures") if out is None else os.fspath(out)
-    plan = _prowl.read_plan(folder, [os.fspath(path) for path in package_dirs])
-    gains_joint = tables.gains_joint(plan.robot, joint)
-    _prowl.check_replaceable(place, _prowl.figure_file_names())
-
-    if plan.tracker is None:
-        warnings.warn(f"no gains in {folder}: without figure gains; prowl plan writes them (tracker.bin)", stacklevel=2)
-    if not (Path(folder) / "simulate.csv").exists():
-        missing = f"no simulation in {folder}: planned motion only, without base_error and joint_error"
-        remedy = f"\nfor all figures first\n  prowl simulate {folder}" if plan.tracker is not None else ""
-        warnings.warn(missing + remedy, stacklevel=2)
-    files = draw.draw(tables.Shown(plan, Path(folder), gains_joint), on_progress)
-    _prowl.write_folder(place, files, _prowl.figure_file_names())
+    drawn = as_plan(plan, package_dirs)
+    folder = output_folder(drawn, out, "figures")
+    gains_joint = tables.gains_joint(drawn.robot, joint)
+    _prowl.check_replaceable(folder, _prowl.figure_file_names())
+    with folder_with(drawn, simulation) as source:
+        for warning in _warnings(drawn, source):
+            warnings.warn(warning, stacklevel=2)
+        files = draw.draw(tables.Shown(drawn, source, gains_joint), on_progress)
+    _prowl.write_folder(folder, files, _prowl.figure_file_names())
     names = sorted(files)
     pictures = [name.removesuffix(".png") for name in names if name.endswith(".png")]
-    return Figures(plan, place, pictures, names)
+    return Figures(drawn, folder, pictures, names)
+
+
+def _warnings(plan: _prowl.Plan, source: Path) -> Iterator[str]:
+    """Which figures are left out, and why."""
+    where = f" in {plan.path}" if plan.path is not None else ""
+    if plan.tracker is None:
+        yield f"no gains{where}: without figure gains; prowl plan writes them (tracker.bin)"
+    if (source / "simulate.csv").exists():
+        return
+    remedy = f"prowl simulate {plan.path}" if plan.path is not None else "simulation=prowl.simulate(plan)"
+    yield f"no simulation{where}: planned motion only, without base_error and joint_error" + (
+        f"\nfor all figures first\n  {remedy}" if plan.tracker is not None else ""
+    )

@@ -1,0 +1,1 @@
+"""What computes: solve(), diagnose(), sweep(), with bars of their progress."""

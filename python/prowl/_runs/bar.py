@@ -1,0 +1,62 @@
+"""Bars of progress by tqdm, in a terminal or in a notebook."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from .. import _prowl
+
+
+def can_show() -> bool:
+    """Somebody is looking, and tqdm is there."""
+    if not (sys.stderr.isatty() or "ipykernel" in sys.modules):
+        return False
+    try:
+        import tqdm.auto  # noqa: F401
+    except ImportError:
+        return False
+    return True
+
+
+def _bar(**options: Any) -> Any:
+    try:
+        from tqdm.auto import tqdm
+    except ImportError as error:
+        raise _prowl.InputError("progress=True needs tqdm: pip install tqdm") from error
+    return tqdm(leave=True, mininterval=0.1, **options)
+
+
+@contextmanager
+def solve_bar(name: str) -> Iterator[Callable[[_prowl.Progress], None]]:
+    """Iterations as they come. How many there will be nobody knows."""
+    bar = _bar(desc=name, unit=" iterations")
+
+    def show(progress: _prowl.Progress) -> None:
+        bar.set_description(f"{name}, {progress.intervals} intervals", refresh=False)
+        bar.set_postfix_str(f"cost {progress.cost:.4g}, violation {progress.constraint_violation:.1e}", refresh=False)
+        bar.update()
+
+    try:
+        yield show
+    finally:
+        bar.close()
+
+
+@contextmanager
+def sweep_bar() -> Iterator[Callable[[int, int], None]]:
+    """Simulations that are done, with the time left."""
+    bar = _bar(desc="simulations", unit=" simulations")
+
+    def show(done: int, total: int) -> None:
+        if bar.total is not None and done < bar.n:  # the next round
+            bar.reset()
+        bar.total = total
+        bar.update(done - bar.n)
+
+    try:
+        yield show
+    finally:
+        bar.close()

@@ -1,0 +1,75 @@
+"""solve(), with a display of progress."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from .. import _prowl
+from .bar import can_show, solve_bar
+from .._files import parse_task, read_task
+
+AnyTask = _prowl.Task | str | os.PathLike[str] | Mapping[str, Any]
+
+
+def as_task(task: AnyTask) -> _prowl.Task:
+    """The task itself; read if it is a name or a path, parsed if it is a dict."""
+    if isinstance(task, _prowl.Task):
+        return task
+    if isinstance(task, str | os.PathLike):
+        return read_task(task)
+    if isinstance(task, Mapping):
+        return parse_task(task)
+    kind = type(task).__name__
+    raise _prowl.InputError(f"task: {kind} is not allowed; need a Task, the name of a shipped one, a path or a dict")
+
+
+def solve(
+    task: AnyTask,
+    *,
+    solver: str = "riccati",
+    threads: int = 1,
+    coarse_first: bool = True,
+    start_from: _prowl.Plan | None = None,
+    gains: bool = True,
+    progress: bool | None = None,
+    on_iteration: Callable[[_prowl.Progress], object] | None = None,
+    on_iterate: Callable[[_prowl.Iterate], object] | None = None,
+) -> _prowl.Plan:
+    """Plans the motion of a task and checks it.
+
+    task: a Task, the name of one that comes with Prowl ("hyq/crouch"), the path of a task file, or a dict of its keys as
+    for parse_task(). solver: one of solver_names(). threads: that evaluate the problem; the result is the same.
+    coarse_first: coarser meshes first. start_from: an earlier plan of the same robot and phases. gains: also design
+    feedback gains, for a plan that is good. progress: show iterations with tqdm; None does so in a terminal and in a
+    notebook if tqdm is installed. on_iteration: called with a Progress after each iteration; what it raises ends the solve
+    and is raised here. on_iterate: the same with an Iterate, which also has the motion; that takes time at each iteration.
+
+    A problem that is too hard is no exception: look at plan.good, plan.status and plan.hints. Ctrl-C raises Interrupted, a
+    KeyboardInterrupt, within an iteration; its `plan` is the best motion so far. Other threads run meanwhile.
+    """
+    asked = as_task(task)
+
+    def run(tell: Callable[[_prowl.Progress], object] | None) -> _prowl.Plan:
+        return _prowl.solve(
+            asked,
+            solver=solver,
+            threads=threads,
+            coarse_first=coarse_first,
+            start_from=start_from,
+            gains=gains,
+            on_iteration=tell,
+            on_iterate=on_iterate,
+        )
+
+    if not (can_show() if progress is None else progress):
+        return run(on_iteration)
+    with solve_bar(asked.name) as show:
+
+        def both(iteration: _prowl.Progress) -> None:
+            show(iteration)
+            if on_iteration is not None:
+                on_iteration(iteration)
+
+        return run(both)
