@@ -54,17 +54,17 @@ void add_json(CLI::App& verb, bool& json) {
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
   const FileKeys& keys = task_file_keys();
   verb.add_option("--max-time", overrides.max_seconds,
-                  key_meaning(keys, "solver", "max_time_s") + " [s]; in place of solver.max_time_s")
+                  "Limit: " + key_meaning(keys, "solver", "max_time_s") + " [s]; instead of solver.max_time_s")
       ->check(positive_number())
       ->type_name("S")
       ->group(kSolverOptions);
   verb.add_option("--max-iterations", overrides.max_iterations,
-                  key_meaning(keys, "solver", "max_iterations") + "; in place of solver.max_iterations")
+                  "Limit: " + key_meaning(keys, "solver", "max_iterations") + "; instead of solver.max_iterations")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()))
       ->type_name("N")
       ->group(kSolverOptions);
   verb.add_option("--tolerance", overrides.tolerance,
-                  key_meaning(keys, "solver", "tolerance") + "; in place of solver.tolerance")
+                  "Tolerance " + key_meaning(keys, "solver", "tolerance") + "; instead of solver.tolerance")
       ->check(number_between(1e-12, 1e-2))
       ->type_name("X")
       ->group(kSolverOptions);
