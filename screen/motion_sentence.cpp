@@ -122,10 +122,10 @@ std::string motion_in_words(const MotionProblem& problem, const Trajectory& traj
   const std::vector<Vector3d> d = displacements(trajectory);
   const bool travels = d.back().head<2>().norm() >= kVisibleMove;
   const bool flies = std::ranges::any_of(problem.phases, [](const Phase& phase) { return phase.contacts.empty(); });
-  if (flies) return fmt::format("{} jumps{}", robot, travels ? " " + travel(d.back()) : "");
+  if (flies) return fmt::format("{} jumps{}", robot, travels ? fmt::format(" {}", travel(d.back())) : "");
   if (const std::size_t steps = landings(problem, schedule).size(); steps > 0) {
     return fmt::format("{} takes {}{}", robot, counted(steps, "step", "steps"),
-                       travels ? " and moves " + travel(d.back()) : "");
+                       travels ? fmt::format(" and moves {}", travel(d.back())) : "");
   }
   const std::size_t feet = lifted(problem, schedule).size();
   return fmt::format("{} {}{}", robot, base_in_words(trajectory, d),

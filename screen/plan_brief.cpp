@@ -55,8 +55,9 @@ std::string check_table(const std::vector<const CertificateCheck*>& checks, std:
   using Row = std::array<std::string, 6>;
   std::vector<Row> rows = {{"check", "worst", "limit", "used", "where", ""}};
   for (const CertificateCheck* check : checks) {
-    rows.push_back({check->name, with_unit(check->worst, check->unit), with_unit(check->limit, ""), used(*check),
-                    check->where, verdict(*check)});
+    const std::string unit = check->unit == "of limit" ? "" : check->unit;  // the share says that
+    rows.push_back({check->name, with_unit(check->worst, unit), with_unit(check->limit, ""), used(*check), check->where,
+                    verdict(*check)});
   }
   constexpr std::size_t kWhere = 4, kGap = 2, kNarrowest = 8;
   std::array<std::size_t, 6> width{};
@@ -90,8 +91,8 @@ std::string sentences(const PlanRecord& record) {
   if (!is_good(plan)) return "";
   const std::string motion = motion_in_words(problem, plan.trajectory), torque = torque_in_words(plan.certificate);
   const std::string margin = missing_margin(problem, plan.trajectory, plan.certificate);
-  return fmt::format("{} in {:.2f} s; planned in {:.1f} s.{}{}\n", motion, plan.trajectory.duration(),
-                     plan.result.seconds, torque.empty() ? "" : " ", torque) +
+  return fmt::format("{} in {:.2f} s; planned in {:.1f} s.\n{}{}", motion, plan.trajectory.duration(),
+                     plan.result.seconds, torque, torque.empty() ? "" : "\n") +
          (margin.empty() ? "" : fmt::format("note: {}\n", margin));
 }
 

@@ -158,8 +158,8 @@ std::string feedback_summary(const FeedbackDesign& feedback, double step) {
                                  feedback.num_samples(), step * 1e3, feedback.seconds, feedback.whole.bandwidth);
   const auto worst = std::max_element(feedback.decay.begin(), feedback.decay.end(),
                                       [](const PhaseDecay& a, const PhaseDecay& b) { return a.worst < b.worst; });
-  text += fmt::format("  feedback reduces an initial deviation to at most {:.1e} of its size ({})\n",
-                      feedback.whole.worst, feedback.whole.worst_direction);
+  text += fmt::format("  initial deviations decay to at most {:.1e} of their size ({})\n", feedback.whole.worst,
+                      feedback.whole.worst_direction);
   if (worst->worst > 1.0) {
     text += fmt::format("  largest growth within a phase: {1:.1f} times in '{0}' ({2})\n", worst->name, worst->worst,
                         worst->worst_direction);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -41,10 +42,9 @@ void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
   const auto add = [&](const char* option, auto& value, const char* name, const char* type) {
     const FileKey& key = file_key(task_file_keys(), "solver", name);
     const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
-    verb.add_option(option, value, fmt::format("{}{}; in place of solver.{}", key.meaning, unit, name))
-        ->check(number_in(key.range))
-        ->type_name(type)
-        ->group(kSolverOptions);
+    std::string meaning = fmt::format("{}{}; instead of solver.{}", key.meaning, unit, name);
+    meaning.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning.front())));
+    verb.add_option(option, value, meaning)->check(number_in(key.range))->type_name(type)->group(kSolverOptions);
   };
   add("--max-time", overrides.max_seconds, "max_time_s", "S");
   add("--max-iterations", overrides.max_iterations, "max_iterations", "N");

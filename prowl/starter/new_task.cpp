@@ -177,11 +177,14 @@ struct GaitScale {
   const char* pattern;
   double stride;                ///< [s]
   double length;                ///< of the height [-]
+  double duty_factor;           ///< 0: that of the pattern
   double intervals_per_second;  ///< enough for grade draft of walk and trot; pace and bound take --refine
 };
-constexpr GaitScale kGaitScales[] = {
-    {"walk", 3.0, 0.4, 150.0}, {"trot", 0.8, 0.35, 150.0}, {"pace", 0.7, 0.2, 150.0}, {"bound", 0.7, 0.2, 150.0}};
-constexpr GaitScale kOtherGait = {"", 0.8, 0.2, 150.0};
+constexpr GaitScale kGaitScales[] = {{"walk", 3.0, 0.4, 0.0, 170.0},
+                                     {"trot", 0.8, 0.35, 0.55, 200.0},
+                                     {"pace", 0.7, 0.2, 0.0, 150.0},
+                                     {"bound", 0.7, 0.2, 0.0, 150.0}};
+constexpr GaitScale kOtherGait = {"", 0.8, 0.2, 0.0, 150.0};
 constexpr double kHyqGaitWeight = 1e-4;  // of torques
 
 void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& task) {
@@ -195,10 +198,11 @@ void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& t
       std::ranges::find_if(kGaitScales, [&](const GaitScale& scale) { return pattern == scale.pattern; });
   const GaitScale& scale = known == std::end(kGaitScales) ? kOtherGait : *known;
   const double time = std::sqrt(task.height / kReferenceHeight);
-  constexpr double kStep = 0.05;  // [s] that a person would write
+  constexpr double kTimeStep = 0.05;  // [s] that a person would write
   task.pattern = pattern;
-  task.stride_duration = kStep * std::max(1.0, std::round(scale.stride * time / kStep));
+  task.stride_duration = kTimeStep * std::max(1.0, std::round(scale.stride * time / kTimeStep));
   task.stride_length = std::max(0.01, hundredths(scale.length * task.height));
+  task.duty_factor = scale.duty_factor;
   task.intervals_per_second = 10.0 * std::ceil(0.1 * scale.intervals_per_second / time);
   task.torque_weight = one_digit(kHyqGaitWeight * std::pow(kHyqMass / robot.mass(), 2));
 }

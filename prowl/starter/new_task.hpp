@@ -24,6 +24,7 @@ struct NewTask {
   std::string pattern;                              ///< gait: its name, as in gait_patterns()
   double stride_duration = 0.0;                     ///< gait [s]
   double stride_length = 0.0;                       ///< gait
+  double duty_factor = 0.0;                         ///< gait; 0: the usual one of its pattern
   double intervals_per_second = 0.0;                ///< gait
   double torque_weight = 0.0;
 };

@@ -62,7 +62,7 @@ kind = "{kind}"
 strides = {strides}
 stride_s = {stride:.4g}          # of one stride, in which each foot swings once
 stride_length_m = {length:.3g}   # forward; heading_rad turns the way
-intervals_per_second = {rate:.0f}   # of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do
+{duty}intervals_per_second = {rate:.0f}   # of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do
 
 )";
 
@@ -121,6 +121,7 @@ base_angular_acceleration = 0.1
 joint_acceleration = {joints}
 )";
 
+constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride in which a foot stands\n";
 constexpr int kStrides = 2;
 
 std::string vector(const Eigen::Vector3d& v) {

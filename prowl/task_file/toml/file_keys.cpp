@@ -353,7 +353,7 @@ void add_solver(FileKeys& keys) {
               .form = "number",
               .range = {.lower = 1e-12, .upper = 1e-2},
               .fallback = shown(defaults.tolerance),
-              .meaning = "on optimality and on the constraints"});
+              .meaning = "tolerance on optimality and on the constraints"});
   solver.add({.name = "max_iterations",
               .form = "integer",
               .range = {.lower = 1},
