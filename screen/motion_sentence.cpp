@@ -129,14 +129,14 @@ std::string motion_in_words(const MotionProblem& problem, const Trajectory& traj
   }
   const std::size_t feet = lifted(problem, schedule).size();
   return fmt::format("{} {}{}", robot, base_in_words(trajectory, d),
-                     feet == 0 ? "" : " and lifts " + counted(feet, "foot", "feet"));
+                     feet == 0 ? "" : fmt::format(" and lifts {}", counted(feet, "foot", "feet")));
 }
 
 std::string torque_in_words(const Certificate& certificate) {
   const CertificateCheck* const torque = certificate.find("joint torque");
   if (!torque || !std::isfinite(torque->worst)) return "";
   return fmt::format("Largest torque: {:.0f} % of its limit{}.", 100.0 * torque->worst,
-                     torque->where.empty() ? "" : " at " + torque->where);
+                     torque->where.empty() ? "" : fmt::format(" at {}", torque->where));
 }
 
 std::string missing_margin(const MotionProblem& problem, const Trajectory& trajectory, const Certificate& certificate) {
