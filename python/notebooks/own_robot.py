@@ -66,7 +66,7 @@ legs = "\n".join(leg(name, x, y) for name, (x, y) in FEET.items())
 # frames are there to touch with?
 
 # %%
-description = {"name": "quad", "urdf": "quad.urdf"}
+description: dict = {"name": "quad", "urdf": "quad.urdf"}
 robot = prowl.parse_robot(description, folder=folder)
 print(robot, robot.frames(), sep="\n")
 

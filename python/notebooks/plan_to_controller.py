@@ -27,8 +27,8 @@ import numpy as np
 import prowl
 
 plan = prowl.solve("hyq/crouch")
+assert plan.tracker is not None  # the plan is good
 tracker = plan.tracker
-assert tracker is not None  # the plan is good
 print(tracker, tracker.K.shape, "joints x (position and velocity), for each of", len(tracker), "samples")
 
 # %% [markdown]
