@@ -1,7 +1,7 @@
 import { Chart } from "./chart";
 import type { Clock } from "./clock";
 import type { Check, ReportData } from "./data";
-import { barLength, groupOf, kGroups, percent, unitOf, usedShare, worstText } from "./checks";
+import { barLength, groupOf, kGroups, mergedByContact, percent, unitOf, usedShare, worstText } from "./checks";
 import { el, short } from "./dom";
 import { failedChecks, kGrades } from "./verdict";
 
@@ -43,7 +43,8 @@ export function certificate(
   );
   const failed = failedChecks(data.plan_json).length;
   const notes: HTMLElement[] = [];
-  for (const text of [...reasons, ...hints]) notes.push(el("li", {}, text));
+  const names = data.scene.contacts.map((contact) => contact.name);
+  for (const text of mergedByContact([...reasons, ...hints], names)) notes.push(el("li", {}, text));
   if (found.redundant_contacts.length > 0) {
     notes.push(
       el(

@@ -25,7 +25,7 @@ export function unitOf(check: Check, data: ReportData): string {
   const isLength = /^base [xyz]$/.test(coordinate) || torque?.unit === "N";
   const unit = isLength ? "m" : "rad";
   if (check.name.includes("velocity")) return `${unit}/s`;
-  return check.name === "start state" ? `${unit} or ${unit}/s` : unit;
+  return check.name === "start state" ? `${unit}, ${unit}/s` : unit;
 }
 
 /// Share of the limit that is used: 0 for a value inside its bound; null where there is no limit to compare with.
@@ -54,4 +54,17 @@ export function worstText(check: Check, unit: string): string {
   if (worst < 0) return `${short(-worst)}${suffix} left`;
   if (worst > 0 && limit !== null && worst < 1e-9 * limit) return `≈ 0${suffix}`;
   return `${short(worst)}${suffix}`;
+}
+
+/// Texts that differ by a contact's name only, as one that names all of these contacts.
+export function mergedByContact(texts: string[], contacts: string[]): string[] {
+  const groups = new Map<string, { text: string; names: string[] }>();
+  for (const text of texts) {
+    const name = contacts.find((one) => text.split(/[^\w]+/).includes(one));
+    const key = name ? text.replace(name, "\0") : text;
+    const group = groups.get(key) ?? { text: key, names: [] };
+    if (name) group.names.push(name);
+    groups.set(key, group);
+  }
+  return [...groups.values()].map(({ text, names }) => text.replace("\0", () => names.join(", ")));
 }

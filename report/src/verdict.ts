@@ -5,8 +5,8 @@ const kLimits: Record<string, string> = {
   time_limit: "out of time",
   interrupted: "interrupted",
   evaluation_failed: "a function has no value",
-  solver_failed: "no motion found",
-  infeasible: "no motion found",
+  solver_failed: "the solver failed",
+  infeasible: "no motion satisfies all constraints",
 };
 
 /// What each grade is good for, with the limits of the local integration error (CertificateLimits).
@@ -26,8 +26,8 @@ export function whyNot(plan: PlanJson): string {
   if (plan.reasons.length > 0 && plan.status === "infeasible") return "the task cannot be done";
   const failed = failedChecks(plan);
   if (failed.some((check) => check.name.startsWith("goal"))) return "goal not reached";
-  const hasGoal = plan.certificate.checks.some((check) => check.name.startsWith("goal"));
-  if (["solver_failed", "infeasible"].includes(plan.status) && hasGoal) return "no motion found that reaches the goal";
+  // A doubt, not a proof: where the guess already misses its footholds.
+  if (plan.hints.some((hint) => hint.startsWith("goal"))) return "goal seems out of reach";
   if (plan.status !== "converged") return kLimits[plan.status] ?? plan.status.replaceAll("_", " ");
   return failed.length === 1 ? `${failed[0].name} beyond its limit` : `${failed.length} checks failed`;
 }

@@ -29,11 +29,12 @@ test("a grade says what it is good for, where it stands", async ({ page }) => {
 
 test("a failed plan says what is wrong in words", async ({ page }) => {
   await open(page, "failed");
-  await expect(page.locator(".badge")).toHaveText("✗ no plan: no motion found that reaches the goal");
+  await expect(page.locator(".badge")).toHaveText("✗ no plan: goal seems out of reach");
   const failed = plan("failed").certificate.checks.filter((check: { passed: boolean }) => !check.passed).length;
   expect(failed).toBeGreaterThan(1);
   await expect(page.locator("#certificate-title")).toContainText(`${failed} of `);
   await expect(page.locator("tr.failed")).toHaveCount(failed);
+  await expect(page.locator(".notes li")).toHaveText([/lf_foot, lh_foot, rf_foot, rh_foot/]); // one line for four feet
   await expect(page.locator(".summary")).toContainText("stopped in");
   await expect(page.locator("header")).not.toContainText("solver_failed");
   await expect(page.locator("#certificate-title")).not.toContainText("grade");
@@ -80,6 +81,11 @@ test("checks stand in groups, with units and the share of the limit that is used
     if (check.worst < 0) await expect(row.locator(".worst")).toContainText("left");
   }
   await expect(page.locator(`tr[data-check="joint position beyond limit"] .limit`)).toHaveText("0.001 rad");
+  // All columns are in sight.
+  const wide = await page
+    .locator(".wide", { has: page.locator(".checks") })
+    .evaluate((one) => [one.scrollWidth, one.clientWidth]);
+  expect(wide[0]).toBeLessThanOrEqual(wide[1]);
   // Logarithmic bars: what uses more has a longer one.
   const lengths = await page.evaluate(() =>
     [...document.querySelectorAll<HTMLElement>(".used")].map((bar) => Number(bar.style.getPropertyValue("--share"))),
