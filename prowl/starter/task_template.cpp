@@ -121,7 +121,7 @@ base_angular_acceleration = 0.1
 joint_acceleration = {joints}
 )";
 
-constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride in which a foot stands\n";
+constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride in which a foot is in contact\n";
 constexpr int kStrides = 2;
 
 std::string vector(const Eigen::Vector3d& v) {
@@ -173,13 +173,15 @@ std::string step_phases(const NewTask& task) {
 }
 
 std::string gait(const NewTask& task) {
+  const std::string duty = task.duty_factor > 0.0 ? fmt::format(fmt::runtime(kDuty), task.duty_factor) : "";
   std::vector<std::string> others;
   for (const GaitPattern& pattern : gait_patterns()) {
     if (pattern.name != task.pattern) others.push_back(pattern.name);
   }
   return fmt::format(fmt::runtime(kGait), fmt::arg("others", fmt::join(others, ", ")), fmt::arg("kind", task.pattern),
                      fmt::arg("strides", kStrides), fmt::arg("stride", task.stride_duration),
-                     fmt::arg("length", task.stride_length), fmt::arg("rate", task.intervals_per_second));
+                     fmt::arg("length", task.stride_length), fmt::arg("duty", duty),
+                     fmt::arg("rate", task.intervals_per_second));
 }
 
 /// Roll, pitch and yaw of a base that has `rpy` already and is turned by `turn` about the world's axes.
