@@ -62,7 +62,7 @@ void add_report_command(CLI::App& app, int& status) {
   set_footer(
       *verb,
       {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html",
-       "prowl report out/hyq_walk out/hyq_trot --out compared.html"},
+       "prowl report out/hyq_crouch out/stand --out compared.html"},
       "0 if the page is written, 2 bad input, 4 files. The page is one file and needs no network.");
   verb->callback([arguments, &status] {
     const fs::path directory = arguments->directory;

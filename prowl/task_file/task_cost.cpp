@@ -18,7 +18,7 @@ ContactPositionCost read_contact_position(const TomlTable& table, const RobotMod
   cost.contact = static_cast<int>(found - names.begin());
   cost.reference = table.need("reference_m").as_vector3();
   table.need("weight");
-  Eigen::VectorXd weight(3);
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(3);
   read_axes(table, "weight", weight);
   cost.weight = weight;
   return cost;

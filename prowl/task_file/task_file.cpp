@@ -323,8 +323,10 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   return {std::move(problem), std::move(read.mesh), std::move(file_intervals)};
 }
 
-std::filesystem::path robot_path(const SourceText& task_file, const TomlTable& root) {
-  return (task_file.path.parent_path() / root.need("robot").as_text()).lexically_normal();
+std::filesystem::path robot_path(const TomlDocument& document, const SourceText& task_file, const TomlTable& root) {
+  const auto robot = root.find("robot");
+  if (!robot) document.read_with([&] { return root.need("robot"); });  // throws, also where the key is misspelt
+  return (task_file.path.parent_path() / robot->as_text()).lexically_normal();
 }
 
 TomlTable task_root(const TomlDocument& document) {
@@ -394,7 +396,7 @@ Task parse_task(const SourceText& task_file, const SourceText& robot_file, const
 Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides) {
   const TomlDocument document(task_file);
   const TomlTable root = task_root(document);
-  const std::filesystem::path robot = robot_path(task_file, root);
+  const std::filesystem::path robot = robot_path(document, task_file, root);
   std::error_code unknown;  // which read_text_file then tells
   if (!std::filesystem::exists(robot, unknown) && !unknown)
     root.need("robot").fail(fmt::format("no such file: {}", robot.string()));

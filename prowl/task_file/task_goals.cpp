@@ -71,7 +71,7 @@ PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phase
     }
     return moment_at_time(*time, phases, mesh);
   }
-  if (!phase) goal.need("time_s");
+  if (!phase) return moment_at_time(goal.need("time_s"), phases, mesh);  // which may be a misspelt one
   std::vector<std::string> names;
   for (const Phase& p : phases) names.push_back(p.name);
   const auto found = std::find(names.begin(), names.end(), phase->as_text());

@@ -109,7 +109,7 @@ TEST_F(Checkpoints, AreKeptWhereTheyAreResumed) {
   EXPECT_THAT(resumed.error, Not(HasSubstr("replaces")));
   EXPECT_LE(violation(), before);
   const Outcome again = run(plan + "--max-iterations 1");
-  EXPECT_THAT(again.error, HasSubstr("note: replaces what is in so_far; --resume would go on from it"));
+  EXPECT_THAT(again.error, HasSubstr("note: this replaces the checkpoint in so_far; --resume would continue from it"));
   EXPECT_GT(violation(), before);
 }
 
@@ -118,8 +118,8 @@ TEST_F(Checkpoints, StayOnTheMeshWhereTheTimeRanOut) {
   const std::string command = "$prowl plan bow.toml $dirs --intervals 200 --out out ";
   const Outcome stopped = run(command + "--max-time 1e-6 --checkpoint so_far --checkpoint-every 0");
   EXPECT_EQ(stopped.status, 6) << stopped.error;
-  EXPECT_THAT(stopped.error, HasSubstr("note: stopped on a coarse mesh, of 13 intervals in place of 200; "));
-  EXPECT_THAT(stopped.error, HasSubstr("to go on from there: --resume out, all else as before\n"));
+  EXPECT_THAT(stopped.error, HasSubstr("note: stopped on a coarse mesh of 13 intervals instead of 200; "));
+  EXPECT_THAT(stopped.error, HasSubstr("to continue from there, repeat the command with --resume out\n"));
   EXPECT_EQ(intervals(plan()), std::vector{13});
   EXPECT_EQ(plan().at("problem").at("phases").at(0).at("intervals"), 13);
   EXPECT_EQ(read_plan("so_far").at("problem").at("phases").at(0).at("intervals"), 13);

@@ -230,7 +230,7 @@ TEST_F(Faults, ACheckpointThatCannotBeWrittenIsANote) {
   const Outcome result = run("FAULTY_FILES='4 28' FAULTY_PATH=/checkpoints/ " + kFaulty + plan_other() +
                              "--checkpoint checkpoints/so_far --checkpoint-every 0");
   EXPECT_EQ(result.status, 0) << result.error;
-  EXPECT_THAT(result.error, HasSubstr("note: no checkpoint, planning goes on: "));
+  EXPECT_THAT(result.error, HasSubstr("note: no checkpoint written, planning continues: "));
   EXPECT_THAT(result.error, HasSubstr("No space left on device"));
   EXPECT_EQ(held(), "other");
   EXPECT_EQ(leftovers(), 0);

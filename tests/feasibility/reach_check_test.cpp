@@ -54,7 +54,7 @@ TEST(ReachCheck, NamesTheContactsThatAreOutOfReachAndTheFarthest) {
   std::vector<std::string> reasons = contacts_out_of_reach(problem);
   std::erase_if(reasons, [](const std::string& reason) { return reason.find("apart") != std::string::npos; });
   ASSERT_THAT(reasons, SizeIs(1));
-  EXPECT_THAT(reasons[0], AllOf(HasSubstr("2 (lf_foot, rf_foot) contacts"), HasSubstr("rf_foot is 2.")));
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("2 (lf_foot, lh_foot) contacts"), HasSubstr("lh_foot is 2.")));
 }
 
 TEST(ReachCheck, ConcludesNothingFromWhatAGoalLeavesFree) {
@@ -78,7 +78,7 @@ MotionProblem raised(double height) {
 TEST(ReachCheck, TakesAnyRotationWhereTheGoalLeavesItFree) {
   EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.4})), SizeIs(1));
   MotionProblem problem = raised(0.4);
-  std::erase_if(problem.phases[0].contacts, [](const PhaseContact& held) { return held.contact >= 2; });
+  std::erase_if(problem.phases[0].contacts, [](const PhaseContact& held) { return held.contact % 2 == 1; });
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "on its fore feet it may hang its head";
 }
 
@@ -87,8 +87,8 @@ TEST(ReachCheck, ProvesAHeightOutOfReachHoweverTheBaseIsTurned) {
   EXPECT_THAT(contacts_out_of_reach(raised(0.1)), IsEmpty());
   const auto reasons = contacts_out_of_reach(raised(0.5));
   ASSERT_THAT(reasons, SizeIs(1));
-  EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("lf_foot, rf_foot, lh_foot, rh_foot"),
-                                HasSubstr("however the base is turned"), HasSubstr("1.1")));
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("lf_foot, lh_foot, rf_foot, rh_foot"),
+                                HasSubstr("however the base is turned"), HasSubstr("1.08 m")));
   MotionProblem aside = raised(0.5);
   const double infinity = std::numeric_limits<double>::infinity();
   aside.boundary_conditions[1].configuration_lower.head<2>().setConstant(-infinity);

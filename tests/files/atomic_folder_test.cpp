@@ -1,7 +1,7 @@
 #include "prowl/files/atomic_folder.hpp"
 
-#include <grp.h>
 #include <gmock/gmock.h>
+#include <grp.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>

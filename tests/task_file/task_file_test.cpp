@@ -353,9 +353,9 @@ TEST_F(TaskFile, TellsARobotFile) {
 
 TEST_F(TaskFile, RefusesNotANumber) {
   EXPECT_EQ(message("torque = 1e-3", "torque = nan"),
-            "task.toml:14:10: cost.torque: nan is not allowed; need a finite number >= 0");
+            "task.toml:14:10: cost.torque: nan is not allowed; need a finite number >= 0 [1/(N m)²]");
   EXPECT_EQ(message("torque = 1e-3", "torque = inf"),
-            "task.toml:14:10: cost.torque: inf is not allowed; need a finite number >= 0");
+            "task.toml:14:10: cost.torque: inf is not allowed; need a finite number >= 0 [1/(N m)²]");
   EXPECT_EQ(message("[0.05,", "[nan,"),
             "task.toml:10:24: goal[0].base_displacement_m[0]: nan is not allowed; need a finite number [m]");
 }
@@ -396,8 +396,8 @@ TEST_F(TaskFile, RefusesZeroIntervals) {
 
 TEST_F(TaskFile, RefusesNoPhase) {
   EXPECT_EQ(message_of("robot = \"hyq.toml\"\n"),
-            "task.toml:1:1: phase: missing; need [[phase]], one or more, or [gait]: times with one set of contacts, in "
-            "order");
+            "task.toml:1:1: phase: missing; need [[phase]], one or more, or [gait]: periods with one set of contacts, "
+            "in order");
   EXPECT_EQ(message_of("robot = \"hyq.toml\"\nphase = []\n"),
             "task.toml:2:9: phase: an empty list is not allowed; need one phase or more");
 }

@@ -151,8 +151,8 @@ TEST_F(TaskGait, RefusesAGoalOfItsOwnBesideGoals) {
             "to go; need one of the two");
   EXPECT_EQ(
       message("stride_length_m = 0.2\n", ""),
-      "task.toml:2:1: gait.stride_length_m: missing; need number >= 0 [m]; not with [[goal]]: how far the base goes "
-      "along the surface in each");
+      "task.toml:2:1: gait.stride_length_m: missing; need number >= 0 [m]: distance that the base moves along the "
+      "surface in each stride; not with [[goal]]");
 }
 
 TEST_F(TaskGait, RefusesWhatIsNoGait) {

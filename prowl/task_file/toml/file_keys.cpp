@@ -259,14 +259,14 @@ void add_goal(FileKeys& keys) {
             .form = "number",
             .range = kPositive,
             .unit = "s",
-            .meaning = "time of the goal; either this or phase"});
+            .meaning = "time of the goal, at a node of the mesh; either this or phase"});
   goal.add({.name = "phase", .form = "string", .meaning = "the goal holds at the end of the phase with this name"});
   goal.add({.name = "fraction",
             .form = "number",
             .range = {.lower = 0.0, .upper = 1.0},
             .unit = "-",
             .fallback = "1",
-            .meaning = "part of the phase at which the goal holds, instead of its end"});
+            .meaning = "part of the phase at which the goal holds, at a node of the mesh, instead of its end"});
   goal.add({.name = "base_position_m", .form = kBounds3, .unit = "m", .meaning = "position of the base, world frame"});
   goal.add({.name = "base_displacement_m",
             .form = kBounds3,

@@ -102,7 +102,9 @@ void check_keys(const TomlValue& value, const FileKeys& keys, const std::string&
 
 void Mistakes::add(int line, int column, const std::string& message) {
   std::vector<std::string>& here = found_[{line, column}];
-  if (std::ranges::find(here, message) == here.end()) here.push_back(message);
+  if (std::ranges::find(here, message) != here.end()) return;
+  here.push_back(message);
+  ++count_;
 }
 
 void Mistakes::raise() const {
@@ -114,7 +116,7 @@ void Mistakes::raise() const {
       if (count++ < kMost) text += (text.empty() ? "" : "\n") + message;
     }
   }
-  if (count > kMost) text += fmt::format("\nand {} more", count - kMost);
+  if (count > kMost) text += fmt::format("\nand {}{} more", is_full() ? "at least " : "", count - kMost);
   if (count > 0) throw InputError(text);
 }
 
@@ -141,7 +143,8 @@ void TomlValue::fail_mistake(const std::string& message) const {
 }
 
 std::string TomlValue::not_allowed(const std::string& needed, const std::string& hint) const {
-  const std::string unit = key_ == nullptr || key_->unit.empty() ? "" : fmt::format(" [{}]", key_->unit);
+  const bool has_unit = key_ != nullptr && !key_->unit.empty() && key_->unit != "-";
+  const std::string unit = has_unit ? fmt::format(" [{}]", key_->unit) : "";
   return fmt::format("{} is not allowed; need {}{}{}", describe(*node_), needed, unit, hint);
 }
 
@@ -276,13 +279,14 @@ std::vector<std::pair<std::string, TomlValue>> TomlValue::as_free_named_values(c
 
 std::vector<std::pair<std::string, TomlValue>> TomlValue::as_named_values(const std::vector<std::string>& known,
                                                                           const std::string& what) const {
+  const auto is_known = [&known](const std::string& name) { return std::ranges::find(known, name) != known.end(); };
   std::vector<std::pair<std::string, TomlValue>> values = as_free_named_values(what);
   for (const auto& [key, node] : *node_->as_table()) {
+    if (mistakes_ && mistakes_->is_full()) break;
     const std::string name(key.str());
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    refuse_key(*this, key, unknown(what, name, known));
-    std::erase_if(values, [&name](const auto& value) { return value.first == name; });
+    if (!is_known(name)) refuse_key(*this, key, unknown(what, name, known));
   }
+  std::erase_if(values, [&is_known](const auto& value) { return !is_known(value.first); });
   return values;
 }
 
@@ -295,6 +299,7 @@ TomlTable::TomlTable(const TomlValue& value, const FileKeys& keys, const std::st
   for (const auto& [key, node] : *value.node().as_table()) {
     const std::string name(key.str());
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (value.mistakes() && value.mistakes()->is_full()) break;
     refuse_key(value, key,
                fmt::format("unknown key{}{} Known: {}", did_you_mean(name, names), where_else(keys, name),
                            fmt::join(names, ", ")));
@@ -307,6 +312,13 @@ std::optional<TomlValue> TomlTable::find(const std::string& key) const {
   const toml::node* node = table().get(key);
   if (!node) return std::nullopt;
   return TomlValue(value_.source(), *node, path_of(key), &file_key(*keys_, declared_, key), value_.mistakes());
+}
+
+bool TomlTable::has_unknown_key() const {
+  const std::vector<std::string> names = key_names(*keys_, declared_);
+  return std::ranges::any_of(table(), [&names](const auto& entry) {
+    return std::ranges::find(names, std::string(entry.first.str())) == names.end();
+  });
 }
 
 std::optional<TomlValue> TomlTable::find_misspelt(const std::string& key) const {
@@ -325,8 +337,10 @@ TomlValue TomlTable::need(const std::string& key) const {
     if (auto value = find_misspelt(key)) return *value;
   }
   const FileKey& declared = file_key(*keys_, declared_, key);
-  TomlValue(value_.source(), value_.node(), path_of(key), &declared, value_.mistakes())
-      .fail_mistake(fmt::format("missing; need {}: {}", declared.value(), declared.meaning));
+  const TomlValue missing(value_.source(), value_.node(), path_of(key), &declared, value_.mistakes());
+  const std::string message = fmt::format("missing; need {}: {}", declared.value(), declared.meaning);
+  if (value_.mistakes() && has_unknown_key()) missing.fail(message);  // one of those may be meant
+  missing.fail_mistake(message);
 }
 
 std::optional<TomlTable> TomlTable::find_table(const std::string& key) const {

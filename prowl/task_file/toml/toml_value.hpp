@@ -26,11 +26,15 @@ class Mistakes {
  public:
   void add(int line, int column, const std::string& message);  ///< once, if it is added twice
   bool empty() const { return found_.empty(); }
+  /// Whether there are so many that no more are looked for: a file of 60,000 wrong keys takes no time.
+  bool is_full() const { return count_ >= kMostCollected; }
   /// All as one InputError, a line each, from the top of the file to its end; nothing if there are none.
   void raise() const;
 
  private:
+  static constexpr int kMostCollected = 100;
   std::map<std::pair<int, int>, std::vector<std::string>> found_;
+  int count_ = 0;
 };
 
 /// One value of a TOML file that knows its file, the path of its key and the declaration of the key, whose range its
@@ -115,6 +119,7 @@ class TomlTable {
   const toml::table& table() const { return *value_.node().as_table(); }
   /// The value of the key that was misspelt, if that was this one.
   std::optional<TomlValue> find_misspelt(const std::string& key) const;
+  bool has_unknown_key() const;
   std::string path_of(const std::string& key) const;
 
   TomlValue value_;
