@@ -96,7 +96,7 @@ TEST(MissingMargin, IsToldOfFrictionWhereAFootCarriesLoad) {
   Eigen::VectorXd& force = trajectory.nodes[1].force;
   force(3) = 0.4999 * force(5);  // x of the second contact, against its z; friction is 0.5
   EXPECT_THAT(missing_margin(problem, trajectory, {}),
-              testing::MatchesRegex("next to no margin: friction at rf_foot \\(0\\.02[0-9]* N left\\)"));
+              testing::MatchesRegex("next to no margin: friction at lh_foot \\(0\\.02[0-9]* N left\\)"));
   force.segment<3>(3) = Vector3d(0.5, 0.0, 1.0);  // about to lift
   EXPECT_EQ(missing_margin(problem, trajectory, {}), "");
   problem.surfaces[0].friction = 0.001;
