@@ -32,6 +32,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names) {
+  constexpr std::size_t kLongest = 200;  // as of names: nobody means one of them by more, and the search takes its time
+  if (wrong.size() > kLongest) return "";
   const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
     return edit_distance(wrong, a) < edit_distance(wrong, b);
   });
@@ -39,8 +41,6 @@ std::string nearest_name(const std::string& wrong, const std::vector<std::string
 }
 
 std::string did_you_mean(const std::string& wrong, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 200;  // as of names: nobody means one of them by more, and the search takes its time
-  if (wrong.size() > kLongest) return "";
   const std::string nearest = nearest_name(wrong, names);
   return nearest.empty() ? nearest : "; did you mean '" + nearest + "'?";
 }

@@ -17,6 +17,7 @@ TEST(NearestName, IsTheOneWithTheFewestChangedLetters) {
 
 TEST(NearestName, IsEmptyWhereThereIsNone) {
   EXPECT_EQ(nearest_name("foot", {}), "");
+  EXPECT_EQ(nearest_name(std::string(1'000'000, 'x'), {"foot"}), "") << "longer than any name";
   EXPECT_EQ(did_you_mean("foot", {}), "");
   EXPECT_EQ(did_you_mean("fot", {"foot"}), "; did you mean 'foot'?");
 }
