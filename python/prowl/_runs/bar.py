@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -14,18 +15,24 @@ def can_show() -> bool:
     """Somebody is looking, and tqdm is there."""
     if not (sys.stderr.isatty() or "ipykernel" in sys.modules):
         return False
+    return _tqdm() is not None
+
+
+def _tqdm() -> Any:
+    """The bar for a terminal or a notebook; None if it is not installed."""
     try:
-        import tqdm.auto  # noqa: F401
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # a notebook without ipywidgets gets a bar of text, and needs no warning
+            from tqdm.auto import tqdm
     except ImportError:
-        return False
-    return True
+        return None
+    return tqdm
 
 
 def _bar(**options: Any) -> Any:
-    try:
-        from tqdm.auto import tqdm
-    except ImportError as error:
-        raise _prowl.InputError("progress=True needs tqdm: pip install tqdm") from error
+    tqdm = _tqdm()
+    if tqdm is None:
+        raise _prowl.InputError("progress=True needs tqdm: pip install tqdm")
     return tqdm(leave=True, mininterval=0.1, **options)
 
 
