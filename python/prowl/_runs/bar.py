@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from typing import Any
 
 from .. import _prowl
@@ -67,3 +67,22 @@ def sweep_bar() -> Iterator[Callable[[int, int], None]]:
         yield show
     finally:
         bar.close()
+
+
+def run_with_bar(
+    progress: bool | None,
+    bar: AbstractContextManager[Callable[..., None]],
+    run: Callable[[Callable[..., object] | None], Any],
+    tell: Callable[..., object] | None,
+) -> Any:
+    """What `run` returns, which reports to `tell`, and to the bar if progress is true, or None and somebody is looking."""
+    if not (can_show() if progress is None else progress):
+        return run(tell)
+    with bar as show:
+
+        def both(*news: Any) -> None:
+            show(*news)
+            if tell is not None:
+                tell(*news)
+
+        return run(both)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from .. import _prowl
-from .bar import can_show, solve_bar
+from .bar import run_with_bar, solve_bar
 from .._files import parse_task, read_task
 
 AnyTask = _prowl.Task | str | os.PathLike[str] | Mapping[str, Any]
@@ -63,13 +63,4 @@ def solve(
             on_iterate=on_iterate,
         )
 
-    if not (can_show() if progress is None else progress):
-        return run(on_iteration)
-    with solve_bar(asked.name) as show:
-
-        def both(iteration: _prowl.Progress) -> None:
-            show(iteration)
-            if on_iteration is not None:
-                on_iteration(iteration)
-
-        return run(both)
+    return run_with_bar(progress, solve_bar(asked.name), run, on_iteration)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from .. import _prowl
-from .bar import can_show, sweep_bar
+from .bar import run_with_bar, sweep_bar
 from .._plans import Folders, PlanOrFolder, as_plan
 
 
@@ -48,13 +48,4 @@ def sweep(
             on_progress=tell,
         )
 
-    if not (can_show() if progress is None else progress):
-        return run(on_progress)
-    with sweep_bar() as show:
-
-        def both(done: int, total: int) -> None:
-            show(done, total)
-            if on_progress is not None:
-                on_progress(done, total)
-
-        return run(both)
+    return run_with_bar(progress, sweep_bar(), run, on_progress)
