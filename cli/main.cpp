@@ -21,7 +21,7 @@ using namespace prowl::cli;
 
 std::string version_text() {
   std::string text;
-  for (const auto& [name, version] : prowl::versions()) {
+  for (const auto& [name, version] : prowl::all_versions()) {
     const std::string line = fmt::format("{} {}", name, version);
     text = name == "prowl" ? fmt::format("{}{}{}", line, text.empty() ? "" : "\n", text)
                            : fmt::format("{}{}{}", text, text.empty() ? "" : "\n", line);
@@ -172,8 +172,6 @@ int main(int argc, char** argv) {
   open_standard_streams();
   try {
     prowl::check_processor();
-    const std::string verb = verb_of(argc, argv);
-    if (!verb.empty() && verb != "doctor" && verb != "completion") prowl::check_libraries();  // doctor tells of them
     return run(argc, argv);
   } catch (const prowl::InputError& error) {
     return report(error, kBadInput);

@@ -16,17 +16,20 @@ elseif(NOT PROWL_SIMD MATCHES "^(avx2|baseline)$")
 endif()
 message(STATUS "Prowl: vector instructions: ${PROWL_SIMD}")
 
-# prowl_layer(<name> [FAST] [INTERNAL] [FOLDER folder] DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
+# prowl_layer(<name> [FAST] [INTERNAL] [FOLDER folder] [WITHOUT files of other targets] DEPENDS <layers and public libraries> PRIVATE <libraries that its headers do not show>)
 # One library a folder, so that the linker too refuses an include against the direction of the layers. FOLDER: <name>, in the
 # folder of the caller, if not said otherwise.
 # INTERNAL: used by the command and the Python package only; its headers and target are not installed.
 # FAST: most of the time of a solve is spent there; compiled for ${PROWL_SIMD}.
 function(prowl_layer name)
-  cmake_parse_arguments(ARG "FAST;INTERNAL" "FOLDER" "DEPENDS;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "FAST;INTERNAL" "FOLDER" "DEPENDS;PRIVATE;WITHOUT" ${ARGN})
   if(NOT ARG_FOLDER)
     set(ARG_FOLDER ${CMAKE_CURRENT_SOURCE_DIR}/${name})
   endif()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${ARG_FOLDER}/*.cpp)
+  foreach(other ${ARG_WITHOUT})
+    list(FILTER sources EXCLUDE REGEX "/${other}[.]cpp$")
+  endforeach()
   add_library(prowl_${name} ${sources})
   add_library(prowl::${name} ALIAS prowl_${name})
   target_compile_features(prowl_${name} PUBLIC cxx_std_20)
@@ -45,4 +48,16 @@ function(prowl_layer name)
   else()
     set_property(GLOBAL APPEND PROPERTY PROWL_LAYERS prowl_${name})
   endif()
+endfunction()
+
+# prowl_solver(<name>): a solver of others, prowl/solvers/foreign/<name>_solver.cpp, as a library of its own that prowl_solvers loads
+# when it is asked for. Programs that name its class link prowl::<name>.
+function(prowl_solver name)
+  add_library(prowl_${name} SHARED solvers/foreign/${name}_solver.cpp)
+  add_library(prowl::${name} ALIAS prowl_${name})
+  target_compile_options(prowl_${name} PRIVATE ${PROWL_STRICT_WARNINGS})
+  target_link_libraries(prowl_${name} PUBLIC prowl::solvers PRIVATE prowl_dep_${name} fmt::fmt ${CMAKE_DL_LIBS})
+  target_compile_definitions(prowl_${name} PRIVATE PROWL_FATROP_VERSION="${PROWL_FATROP_VERSION}")
+  set_target_properties(prowl_${name} PROPERTIES EXPORT_NAME ${name})
+  set_property(GLOBAL APPEND PROPERTY PROWL_LAYERS prowl_${name})
 endfunction()

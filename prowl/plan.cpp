@@ -121,11 +121,13 @@ void solve(Transcription& nlp, const Trajectory& guess, const Mesh& mesh, const 
 bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
 
 /// What may be the matter with a motion that fails its certificate; nothing if somebody interrupted it, who knows why.
-std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, const NlpSolver& solver) {
+std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, const NlpSolver& solver,
+                               const PlanOptions& options) {
   if (!plan.reasons.empty() || plan.certificate.passed || plan.result.status == SolveStatus::interrupted) return {};
   const Trajectory guess = initial_guess(asked);
+  const NlpSolver* const hint_solver = options.hint_solver ? options.hint_solver() : nullptr;
   return plan.result.status == SolveStatus::converged ? postures_that_lose_rank(asked.problem, guess)
-                                                      : doubts(asked, guess, solver);
+                                                      : doubts(asked, guess, hint_solver ? *hint_solver : solver);
 }
 
 }  // namespace
@@ -156,7 +158,7 @@ Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const Plan
   } while (level++ < coarser.size() && !is_stopped(plan.result.status));
 
   plan.certificate = certify(*problem, plan.trajectory);
-  plan.hints = hints(asked, plan, options.hint_solver ? *options.hint_solver : solver);
+  plan.hints = hints(asked, plan, solver, options);
   return plan;
 }
 

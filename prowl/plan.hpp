@@ -57,8 +57,9 @@ struct PlanOptions {
   /// Of the plan whose motion that is (Plan::result.stage_multipliers), if at hand and the mesh is the same.
   /// Sizes that do not fit are left out.
   std::vector<StageMultipliers> start_multipliers = {};
-  /// For the small programs behind the hints after a failure, which are no chains of stages; null: that of the plan.
-  const NlpSolver* hint_solver = nullptr;
+  /// For the small programs behind the hints after a failure, which are no chains of stages. Called after a failure
+  /// only, for it may load a library; empty or nullptr: the solver of the plan.
+  std::function<const NlpSolver*()> hint_solver = {};
   HessianKind hessian = HessianKind::exact;
   bool coarse_first = true;                          ///< false: on the mesh asked for at once
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty

@@ -96,7 +96,7 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
 }
 
 /// A combination that cannot be run is a line of the table, too, and takes nothing from the others.
-void run(const CompareArguments& arguments, const DiscreteProblem& discrete, const SolverOptions& options,
+void run_comparison(const CompareArguments& arguments, const DiscreteProblem& discrete, const SolverOptions& options,
          ComparedRun& line) {
   try {
     line.run = run_formulation(discrete, line.formulation, *solver_of(arguments, line.solver), options,
@@ -120,6 +120,9 @@ CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>
                        .hessian = arguments.hessian,
                        .guess = arguments.guess,
                        .versions = versions()};
+  for (const std::string& name : chosen(arguments.solvers, all_solver_names())) {
+    if (const auto solver = make_solver_if_installed(name)) record.versions[solver->name()] = solver->version();
+  }
   record.options.interrupt = &interrupted;
   std::deque<DiscreteProblem> problems;
   std::vector<std::pair<const DiscreteProblem*, ComparedRun>> lines;
@@ -133,7 +136,7 @@ CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>
   ProgressBar bar("runs", record.asked);
   for (auto& [problem, line] : lines) {
     bar.show(static_cast<int>(record.runs.size()));
-    run(arguments, *problem, record.options, line);
+    run_comparison(arguments, *problem, record.options, line);
     if (was_interrupted(line)) break;
     record.runs.push_back(std::move(line));
     if (interrupted) break;

@@ -66,7 +66,7 @@ Option option_of(const CLI::Option& option) {
   return read;
 }
 
-Verb verb_of(const CLI::App& app, const std::string& path = "") {
+Verb describe_verb(const CLI::App& app, const std::string& path = "") {
   Verb verb{path, app.get_name(), app.get_description(), {}, {}, {}};
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_positional()) {
@@ -76,7 +76,7 @@ Verb verb_of(const CLI::App& app, const std::string& path = "") {
     }
   }
   for (const CLI::App* below : app.get_subcommands([](const CLI::App*) { return true; })) {
-    verb.verbs.push_back(verb_of(*below, path + (path.empty() ? "" : " ") + below->get_name()));
+    verb.verbs.push_back(describe_verb(*below, path + (path.empty() ? "" : " ") + below->get_name()));
   }
   return verb;
 }
@@ -294,7 +294,7 @@ void add_completion_command(CLI::App& app, int& status) {
        "prowl completion zsh > ~/.zfunc/_prowl", "prowl completion fish > ~/.config/fish/completions/prowl.fish"},
       "0, 2 bad input. What else a shell needs: docs/command-line.md.");
   verb->callback([shell, &app, &status] {
-    const Verb command = verb_of(app);
+    const Verb command = describe_verb(app);
     print_bytes(*shell == "bash" ? bash(command) : *shell == "zsh" ? zsh(command) : fish(command));
     status = kPassed;
   });

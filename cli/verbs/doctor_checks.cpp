@@ -14,7 +14,6 @@
 #include "cli/verbs/python_verb.hpp"
 #include "prowl/error.hpp"
 #include "prowl/session/environment.hpp"
-#include "prowl/solvers/foreign/fatrop_solver.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -126,7 +125,7 @@ std::vector<Finding> check_build() {
        .text = std::string(PROWL_SIMD) +
                (could_be_faster ? "; avx2 would run here, 10 to 25 % faster, with other last digits" : ""),
        .remedy = could_be_faster ? "if wanted: cmake -DPROWL_SIMD=avx2" : ""});
-  for (const auto& [name, version] : versions()) {
+  for (const auto& [name, version] : all_versions()) {
     if (name == "prowl" || name == "vector instructions") continue;
     findings.push_back({.area = "build", .name = name, .text = version, .remedy = ""});
     if (const auto reason = name == "MuJoCo" ? why_no_mujoco() : std::nullopt) {
@@ -135,15 +134,6 @@ std::vector<Finding> check_build() {
       findings.back().remedy = "prowl simulate --engine rollout does without";
     }
   }
-  const std::string kernels = FatropSolver::linear_algebra();
-  findings.push_back(
-      {.area = "build",
-       .name = "BLASFEO",
-       .text =
-           kernels.empty()
-               ? "generic kernels: Fatrop's linear algebra takes about twice the time of AVX2 ones (docs/solvers.md)"
-               : "kernels for " + kernels,
-       .remedy = ""});
   return findings;
 }
 

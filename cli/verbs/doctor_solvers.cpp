@@ -80,7 +80,12 @@ Task tiny_task() {
 }
 
 Finding check_solver(const std::string& name, const Task& task) {
-  const std::unique_ptr<NlpSolver> solver = make_solver(name);
+  std::unique_ptr<NlpSolver> solver;
+  try {
+    solver = make_solver(name);
+  } catch (const InputError& error) {
+    return {.area = "solvers", .name = name, .state = Finding::State::missing, .text = error.what(), .remedy = ""};
+  }
   Finding finding{.area = "solvers", .name = solver->name(), .text = {}, .remedy = ""};
   const auto start = std::chrono::steady_clock::now();
   std::string outcome;

@@ -84,7 +84,7 @@ PlanRecord solve(const ViewArguments& arguments, const std::atomic<bool>& interr
 int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
   const PackageSearch search = package_search(arguments.package_dirs);
   PlanRecord record{
-      .task = read_task_file(arguments.target, search, arguments.overrides), .plan = {}, .versions = versions()};
+      .task = read_task_file(arguments.target, search, arguments.overrides), .plan = {}, .versions = versions_with(arguments.solver)};
   const DiscreteProblem asked(record.task.problem, record.task.mesh);
   if (!arguments.out.empty()) check_plan_directory(arguments.out);
   record.plan.trajectory = initial_guess(asked);

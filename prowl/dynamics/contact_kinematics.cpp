@@ -5,9 +5,6 @@ namespace prowl {
 namespace {
 
 using Eigen::Vector3d;
-constexpr std::size_t kBaseDofs = 6;
-constexpr std::size_t kFirstRotation =
-    3;  ///< places of the base (dofs 0-2 of q's tangent) move the world, not the robot
 
 }  // namespace
 

@@ -10,8 +10,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-constexpr Index kBaseDofs = 6;
-constexpr Index kFirstRotation = 3;  ///< inverse dynamics do not depend on the place of the base
 
 }  // namespace
 

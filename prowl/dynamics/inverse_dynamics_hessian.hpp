@@ -5,6 +5,9 @@
 
 namespace prowl {
 
+inline constexpr int kBaseDofs = 6;       ///< displacements and rotations of the base, first in v and in q's tangent
+inline constexpr int kFirstRotation = 3;  ///< displacements of the base move the world, not the robot
+
 /// Second derivatives of one scalar s(q, v, a): q in the tangent of configuration.hpp, v and a as they are.
 /// The scalars of interest are linear in a, so that s_va and s_aa vanish or are not needed.
 struct SecondDerivatives {

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMargin = 5e-3;  // [m]; above what goals and contacts are allowed to be off by
+constexpr double kReachMargin = 5e-3;  // [m]; above what goals and contacts are allowed to be off by
 
 /// A contact that a phase holds.
 struct Held {
@@ -117,7 +117,7 @@ std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const B
     if (contacts.size() < 2) continue;
     const Group group(std::move(contacts));
     const double distance = least_distance(group, condition);
-    if (!(distance > group.length + kMargin)) continue;
+    if (!(distance > group.length + kReachMargin)) continue;
     std::string names;
     for (const Held* one : group.held) names += (names.empty() ? "" : ", ") + one->contact.name;
     return fmt::format(
@@ -141,7 +141,7 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, con
       std::vector<TooFar> too_far;
       for (const Held& one : held) {
         const double distance = least_distance(one, condition);
-        if (distance > one.leg.length + kMargin) too_far.push_back({&one, distance});
+        if (distance > one.leg.length + kReachMargin) too_far.push_back({&one, distance});
       }
       const std::string reason =
           too_far.empty() ? why_the_group_is_out_of_reach(held, condition) : too_far_in_words(too_far, held.size());
@@ -152,7 +152,7 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, con
         if (!held[i].place || !held[j].place) continue;
         const double distance = (*held[i].place - *held[j].place).norm();
         const double span = held[i].leg.length + held[j].leg.length + (held[i].leg.root - held[j].leg.root).norm();
-        if (!(distance > span + kMargin)) continue;
+        if (!(distance > span + kReachMargin)) continue;
         reasons.push_back(fmt::format("phase '{}': contacts {} and {} are {:.3g} m apart, and their legs span {:.3g} m",
                                       phase, held[j].contact.name, held[i].contact.name, distance, span));
       }

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMargin = 0.01;  // [m]; far above what goals and contacts are allowed to be off by
+constexpr double kSlideMargin = 0.01;  // [m]; far above what goals and contacts are allowed to be off by
 
 /// When a moment is reached [s].
 struct TimeRange {
@@ -97,7 +97,7 @@ std::optional<std::string> why_it_slides(const MotionProblem& problem, const Con
       const double time = std::clamp(speed / acceleration, hold.time.first, hold.time.last);
       const double slid = 0.5 * acceleration * time * time - speed * time;
       const double allowed = slide->direction.dot(start.position) - hold.least_along_d;
-      if (!(slid > allowed + kMargin)) continue;
+      if (!(slid > allowed + kSlideMargin)) continue;
       return fmt::format(
           "phase '{}': {}. Within {:.3g} s the robot would {} {:.2f} m or more, and {} allows {:.2f} m at "
           "most",

@@ -11,7 +11,7 @@
 namespace prowl {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a phase
+constexpr double kPhaseRounding = 1e-9;  // of a phase
 
 }  // namespace
 
@@ -25,7 +25,7 @@ PhaseMesh::PhaseMesh(const std::vector<double>& lengths) : PhaseMesh(static_cast
     throw InputError(fmt::format("shares[{}]: {} is not allowed; need a part of the phase, > 0", i, lengths[i]));
   }
   const auto [shortest, longest] = std::ranges::minmax(lengths);
-  if (longest - shortest <= kRounding * longest) return;
+  if (longest - shortest <= kPhaseRounding * longest) return;
   const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.0);
   constexpr double kIsOne = 1e-12;
   shares_ = lengths;
@@ -46,7 +46,7 @@ double PhaseMesh::node_time(int k, double duration) const {
 std::optional<int> PhaseMesh::node_at(double fraction) const {
   double at = 0.0;
   for (int k = 0; k <= intervals_; ++k) {
-    if (std::abs(at - fraction) <= kRounding) return k;
+    if (std::abs(at - fraction) <= kPhaseRounding) return k;
     if (k < intervals_) at += step(k, 1.0);
   }
   return std::nullopt;
@@ -83,7 +83,7 @@ Mesh mesh_with_rate(const std::vector<Phase>& phases, double intervals_per_secon
   Mesh mesh;
   for (const Phase& phase : phases) {
     const double intervals =
-        phase.duration.max * intervals_per_second * (1.0 - kRounding);  // 0.3 s at 50/s: 15, not 16
+        phase.duration.max * intervals_per_second * (1.0 - kPhaseRounding);  // 0.3 s at 50/s: 15, not 16
     mesh.phases.emplace_back(std::max(kFewest, static_cast<int>(std::ceil(intervals))));
   }
   return mesh;

@@ -14,7 +14,7 @@ constexpr int kMost = 4;         // pieces of an interval, or intervals in one: 
 /// Of what an error may be: what is merged shall not be split again in the next round.
 constexpr double kMergeBelow = 0.25;
 constexpr double kLongest = 0.25;   // of a phase, for merged intervals: a swing has to leave, pass and land
-constexpr double kRounding = 1e-9;  // of a phase
+constexpr double kLengthRounding = 1e-9;  // of a phase
 /// Of a step over the one before: what the gains of contacts are good for (node_functions.cpp).
 constexpr double kMostGrowth = 4.0;
 
@@ -37,7 +37,7 @@ class PhaseIntervals {
  private:
   static void add(double length, int pieces, Lengths& lengths) {
     if (!lengths.empty())
-      pieces = std::max(pieces, static_cast<int>(std::ceil(length / (kMostGrowth * lengths.back()) - kRounding)));
+      pieces = std::max(pieces, static_cast<int>(std::ceil(length / (kMostGrowth * lengths.back()) - kLengthRounding)));
     lengths.insert(lengths.end(), static_cast<std::size_t>(pieces), length / pieces);
   }
 
@@ -57,7 +57,7 @@ class PhaseIntervals {
 
   bool may_be_one(int first, int end) const {
     const double joint = length(first, end);
-    if (joint > kLongest + kRounding) return false;
+    if (joint > kLongest + kLengthRounding) return false;
     for (int i = first; i < end; ++i) {
       if (parts_[i] * std::pow(joint / length(i, i + 1), 3) > kMergeBelow) return false;
     }

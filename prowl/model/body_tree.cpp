@@ -5,7 +5,6 @@
 namespace prowl {
 namespace {
 
-constexpr pinocchio::JointIndex kBaseJoint = 1;  // 0 is the world
 
 }  // namespace
 

@@ -9,6 +9,8 @@
 
 namespace prowl {
 
+inline constexpr pinocchio::JointIndex kBaseJoint = 1;  ///< 0 is the world
+
 struct PinocchioModel {
   pinocchio::Model model;
   std::vector<pinocchio::FrameIndex> contact_frames;  ///< one per contact of the robot, same order; origin = its point

@@ -60,7 +60,7 @@ void warn_of_joints(const RobotModel& robot, Kind kind, const std::string& flaw,
   if (!joints.empty()) warnings.push_back({kind, fmt::format("{}: {}", flaw, fmt::join(joints, ", "))});
 }
 
-void check_limits(const RobotModel& robot, Warnings& warnings) {
+void inspect_limits(const RobotModel& robot, Warnings& warnings) {
   warn_of_joints(
       robot, Kind::limit, fmt::format("torque limit of {} N m (or N) or more is no limit", kNoRealLimit),
       [&](Eigen::Index j) { return robot.torque_limit()(j) >= kNoRealLimit; }, warnings);
@@ -212,7 +212,7 @@ RobotInspection inspect(const RobotModel& robot) {
 
   RobotInspection result;
   check_inertias(robot, result.warnings);
-  check_limits(robot, result.warnings);
+  inspect_limits(robot, result.warnings);
   check_ground(robot, points, result.warnings);
   check_coincidence(robot, points, result.warnings);
   check_joint_symmetry(robot, result.warnings);

@@ -27,7 +27,6 @@ namespace {
 
 constexpr auto kLinkOrFixedJoint = static_cast<pinocchio::FrameType>(pinocchio::BODY | pinocchio::FIXED_JOINT);
 const char* const kWorldFrame = "universe";
-constexpr pinocchio::JointIndex kBaseJoint = 1;    // 0 is the world
 constexpr std::uintmax_t kLargestUrdf = 4u << 20;  // [bytes]; the largest known are below 1 MB
 
 std::string read_text(const std::filesystem::path& path) {

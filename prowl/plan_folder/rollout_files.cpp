@@ -9,7 +9,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kEngine = "rollout";
+constexpr const char* kRolloutEngine = "rollout";
 
 const TrackingPlan::Segment& last_segment(const Tracker& tracker, const Rollout& rollout) {
   const int segment = rollout.samples.empty() ? 0 : rollout.samples.back().segment;
@@ -102,7 +102,7 @@ std::string rollout_summary(const PlanRecord& plan, const RolloutRecord& record)
 
 std::string rollout_json(const PlanRecord& plan, const Tracker& tracker, const RolloutRecord& record) {
   const RolloutMeasures& measures = record.measures;
-  Json json = verdict_json(plan, {kEngine, record.failures, record.rollout.fell ? "fell" : "finished",
+  Json json = verdict_json(plan, {kRolloutEngine, record.failures, record.rollout.fell ? "fell" : "finished",
                                   record.rollout.end_time, last_segment(tracker, record.rollout).name});
   json.update({{"base_position_m", error_json(measures.base_position)},
                {"base_angle_rad", error_json(measures.base_angle)},

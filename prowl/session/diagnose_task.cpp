@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "prowl/error.hpp"
-#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
 
 namespace prowl {
@@ -18,7 +17,7 @@ Diagnosis diagnose_task(const Task& task, DiagnosisOptions options) {
   solver.interrupt = options.solver.interrupt;
   solver.on_iteration = std::move(options.solver.on_iteration);
   options.solver = std::move(solver);
-  return diagnose({task.problem, task.mesh}, *make_solver(solver_names().front()), IpoptSolver(), options);
+  return diagnose({task.problem, task.mesh}, *make_solver(solver_names().front()), *make_solver("ipopt"), options);
 }
 
 }  // namespace prowl

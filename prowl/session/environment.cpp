@@ -10,7 +10,6 @@
 
 #include "prowl/error.hpp"
 #include "prowl/simulation/physics.hpp"
-#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/foreign/library_release.hpp"
 #include "prowl/solvers/make_solver.hpp"
 
@@ -61,10 +60,6 @@ void check_processor() {
   }
 }
 
-void check_libraries() {
-  if (const auto reason = IpoptSolver::why_wrong_library()) throw InputError(*reason);
-}
-
 std::optional<std::string> why_no_mujoco() {
   return why_missing_instructions("libmujoco.so", "AVX", processor_features());
 }
@@ -74,15 +69,25 @@ void check_mujoco() {
 }
 
 std::map<std::string, std::string> versions() {
-  std::map<std::string, std::string> all = {
+  return {
       {"prowl", PROWL_VERSION},
       {"MuJoCo", Physics::version()},
       {"Pinocchio", PROWL_PINOCCHIO_VERSION},
       {"vector instructions", PROWL_SIMD},
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+}
+
+std::map<std::string, std::string> versions_with(const std::string& solver) {
+  std::map<std::string, std::string> all = versions();
+  const std::unique_ptr<NlpSolver> made = make_solver(solver);
+  all[made->name()] = made->version();
+  return all;
+}
+
+std::map<std::string, std::string> all_versions() {
+  std::map<std::string, std::string> all = versions();
   for (const std::string& name : solver_names()) {
-    const std::unique_ptr<NlpSolver> solver = make_solver(name);
-    all[solver->name()] = solver->version();
+    if (const auto solver = make_solver_if_installed(name)) all[solver->name()] = solver->version();
   }
   return all;
 }

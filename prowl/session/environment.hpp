@@ -23,14 +23,15 @@ std::string processor_features();
 /// that computes.
 void check_processor();
 
-/// Throws InputError, with the remedy, if libraries are loaded that Prowl cannot work with.
-void check_libraries();
-
 /// Throws InputError if MuJoCo cannot run on this processor; the reason alone.
 void check_mujoco();
 std::optional<std::string> why_no_mujoco();
 
-/// "prowl", "vector instructions", "Pinocchio", "MuJoCo", "Eigen" and the name of each solver -> version.
+/// "prowl", "vector instructions", "Pinocchio", "MuJoCo", "Eigen" -> version.
 std::map<std::string, std::string> versions();
+/// The same and the solver of that name (make_solver.hpp); throws InputError if there is none.
+std::map<std::string, std::string> versions_with(const std::string& solver);
+/// The same and all solvers that are installed: this loads their libraries.
+std::map<std::string, std::string> all_versions();
 
 }  // namespace prowl

@@ -9,16 +9,11 @@
 #include "prowl/error.hpp"
 #include "prowl/session/environment.hpp"
 #include "prowl/session/warm_start.hpp"
-#include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
 
 namespace prowl {
 
 namespace {
-
-const std::string& solver_name(const PlanRequest& request) {
-  return request.solver.empty() ? solver_names().front() : request.solver;
-}
 
 Trajectory start_from(const PlanStart& start, const DiscreteProblem& asked) {
   if (!start.record) return {};
@@ -84,6 +79,10 @@ std::string add_gains(const PlanRequest& request, PlanRecord& record) {
 
 }  // namespace
 
+const std::string& solver_name(const PlanRequest& request) {
+  return request.solver.empty() ? solver_names().front() : request.solver;
+}
+
 void check(const PlanRequest& request) {
   if (request.threads < 1 || request.threads > kMostThreads) {
     throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", request.threads, kMostThreads));
@@ -98,11 +97,15 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
   check(request);
   const DiscreteProblem asked(task.problem, task.mesh);
   const std::unique_ptr<NlpSolver> solver = make_solver(solver_name(request));
-  const IpoptSolver hint_solver;
+  std::unique_ptr<NlpSolver> hint_solver;
   PlanOptions options{.solver = task.solver,
                       .start_from = start_from(request.start, asked),
                       .resume = request.start.resume,
-                      .hint_solver = &hint_solver,
+                      .hint_solver =
+                          [&hint_solver] {
+                            hint_solver = make_solver_if_installed("ipopt");
+                            return hint_solver.get();
+                          },
                       .hessian = request.hessian,
                       .coarse_first = request.coarse_first,
                       .on_iterate = request.on_iterate};
@@ -111,7 +114,7 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
   Watch watch(request, options);
 
   PlannedTask planned{
-      .record = {.task = std::move(task), .plan = {}, .versions = versions(), .warm_start = request.start.folder},
+      .record = {.task = std::move(task), .plan = {}, .versions = versions_with(solver_name(request)), .warm_start = request.start.folder},
       .why_no_gains = {}};
   Plan& plan = planned.record.plan;
   if (request.refine) {

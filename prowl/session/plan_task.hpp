@@ -45,6 +45,8 @@ struct PlannedTask {
   std::string why_no_gains;  ///< "" if they were not asked for, or are there
 };
 
+const std::string& solver_name(const PlanRequest& request);  ///< one of solver_names()
+
 /// Throws InputError if the request makes no sense: a solver that does not exist, threads that it cannot use. Without
 /// it plan_task() throws the same, but only once the task is read.
 void check(const PlanRequest& request);

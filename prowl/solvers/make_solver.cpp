@@ -4,9 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "prowl/error.hpp"
-#include "prowl/solvers/foreign/fatrop_solver.hpp"
-#include "prowl/solvers/foreign/ipopt_solver.hpp"
-#include "prowl/solvers/foreign/uno_solver.hpp"
+#include "prowl/solvers/foreign/solver_library.hpp"
 #include "prowl/solvers/riccati/riccati_solver.hpp"
 
 namespace prowl {
@@ -18,11 +16,17 @@ const std::vector<std::string>& solver_names() {
 
 std::unique_ptr<NlpSolver> make_solver(const std::string& name) {
   if (name == "riccati") return std::make_unique<RiccatiSolver>();
-  if (name == "fatrop") return std::make_unique<FatropSolver>();
-  if (name == "ipopt") return std::make_unique<IpoptSolver>();
-  if (name == "ipopt-spral") return std::make_unique<IpoptSolver>(IpoptLinearSolver::spral);
-  if (name == "uno") return std::make_unique<UnoSolver>();
+  if (name == "fatrop" || name == "uno") return load_solver(name, name);
+  if (name == "ipopt" || name == "ipopt-spral") return load_solver("ipopt", name);
   throw InputError(fmt::format("solver: \"{}\" is not allowed; need one of {}", name, fmt::join(solver_names(), ", ")));
+}
+
+std::unique_ptr<NlpSolver> make_solver_if_installed(const std::string& name) {
+  try {
+    return make_solver(name);
+  } catch (const InputError&) {
+    return nullptr;
+  }
 }
 
 }  // namespace prowl

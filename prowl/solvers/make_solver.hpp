@@ -10,7 +10,10 @@ namespace prowl {
 
 const std::vector<std::string>& solver_names();  ///< the first is the default
 
-/// Throws InputError that lists the names for any other.
+/// Throws InputError that lists the names for any other, and with the remedy for one that is not installed.
 std::unique_ptr<NlpSolver> make_solver(const std::string& name);
+
+/// The same; nullptr instead of an exception.
+std::unique_ptr<NlpSolver> make_solver_if_installed(const std::string& name);
 
 }  // namespace prowl

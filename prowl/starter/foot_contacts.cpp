@@ -16,10 +16,9 @@ constexpr std::size_t kSoleJoints = 5;  // with fewer a leg cannot keep a sole l
 constexpr double kSnap = 0.35;          // [rad]
 constexpr double kSameHeight = 5e-3;    // [m]: spheres that touch together
 constexpr double kLargestBall = 0.25;   // of the leg's length: wheels are the largest
-constexpr double kToe = 0.02;           // [m]: the toe is the longer end of a foot, and ahead if neither is
-constexpr double kRounding = 1e-5;      // [m]
+constexpr double kPointRounding = 1e-5;      // [m]
 
-double rounded(double x) { return kRounding * std::round(x / kRounding) + 0.0; }
+double rounded(double x) { return kPointRounding * std::round(x / kPointRounding) + 0.0; }
 
 /// The foot turned so that its sole is level, about the origin of its body.
 Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {

@@ -13,7 +13,7 @@
 namespace prowl {
 namespace {
 
-constexpr double kTurn = 2.0 * std::numbers::pi;    // [rad]; a range beyond is none
+constexpr double kFullTurn = 2.0 * std::numbers::pi;    // [rad]; a range beyond is none
 constexpr double kStraight = 0.1, kMostBent = 2.6;  // [rad], of a knee
 constexpr double kSwing = 1.5;                      // [rad], of other joints of legs, either way
 constexpr double kVelocity = 10.0;                  // [rad/s]
@@ -74,7 +74,7 @@ std::vector<LimitGuess> guess_limits(const RobotModel& robot, const UrdfOutline&
     }
     LimitGuess guess{.joint = name, .position = {}, .velocity = {}, .torque = {}};
     guess.is_knee = knee != nullptr;
-    const bool is_endless = in_leg && !found->prismatic && (found->lower < -kTurn || found->upper > kTurn);
+    const bool is_endless = in_leg && !found->prismatic && (found->lower < -kFullTurn || found->upper > kFullTurn);
     if (!found->has_range() || is_endless) guess.position = range_of(j, knee, posture);
     if (!(found->velocity > 0.0)) guess.velocity = kVelocity;
     if (!(found->effort > 0.0))

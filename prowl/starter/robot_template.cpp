@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kHead =
+constexpr const char* kRobotHead =
     R"(# {name}: {mass:.1f} kg, {legs} legs. Written by `prowl new robot` from the URDF. What says "guess" is to be looked at;
 # `prowl robot {file}` shows what Prowl understands of it and warns. All keys: docs/robot-file.md.
 name = "{name}"
@@ -145,7 +145,7 @@ std::string robot_template(const NewRobot& robot, const std::string& urdf, const
                                                              : fmt::format("\n# No contacts: the limbs that end in {}.",
                                                                            fmt::join(robot.search.other_ends, ", "));
   std::string text =
-      fmt::format(fmt::runtime(kHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
+      fmt::format(fmt::runtime(kRobotHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
                   fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
                   fmt::arg("urdf", toml_string(urdf)), fmt::arg("others", others));
   for (const std::string& mesh : robot.missing_meshes)

@@ -5,6 +5,8 @@
 
 namespace prowl {
 
+inline constexpr double kToe = 0.02;  ///< [m]; the toe is the longer end of a foot, and ahead if neither is
+
 /// A rectangle along x and y [m].
 struct Rectangle {
   Eigen::Vector2d lower, upper;

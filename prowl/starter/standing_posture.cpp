@@ -8,15 +8,15 @@
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/starter/robot_pose.hpp"
+#include "prowl/starter/sole.hpp"
 
 namespace prowl {
 namespace {
 
 constexpr double kSweep = 0.01;           // [rad]
 constexpr double kHipApart = 0.1;         // of the leg: hip joints that meet in a point, or nearly so
-constexpr double kToe = 0.02;             // [m]: the toe is the longer end of a foot
-constexpr double kFitted = 1e-4;          // [m]
-constexpr double kRounding = 1e-4;        // [rad]
+constexpr double kPostureFitted = 1e-4;          // [m]
+constexpr double kJointRounding = 1e-4;        // [rad]
 constexpr std::size_t kSoleContacts = 3;  // from so many on the orientation of a foot counts
 // How far legs are stretched, in the order of the tries. A sole at 0.93: the knee of a humanoid at 45 degrees.
 constexpr double kStretchOfPoints[] = {0.8, 0.75, 0.85, 0.7, 0.65, 0.9, 0.95};
@@ -53,7 +53,7 @@ class PostureSearch {
       if (!joints) continue;
       result.found = true;
       result.stretch = stretch;
-      result.joints = joints->unaryExpr([](double x) { return kRounding * std::round(x / kRounding) + 0.0; });
+      result.joints = joints->unaryExpr([](double x) { return kJointRounding * std::round(x / kJointRounding) + 0.0; });
       pose_.set(result.joints);
       double ground = std::numeric_limits<double>::infinity();
       for (std::size_t c = 0; c < robot_.contacts().size(); ++c)
@@ -184,7 +184,7 @@ class PostureSearch {
       if (side * (q(7 + knee.joint) - knee.straight) < 0.3 * bent) continue;
       const InverseKinematics ik = inverse_kinematics(robot_, q, targets(leg, ground, shift));
       Eigen::VectorXd joints = ik.q.tail(robot_.nu());
-      if (ik.residual > kFitted || side * (joints(knee.joint) - knee.straight) < 0.3 * bent) continue;
+      if (ik.residual > kPostureFitted || side * (joints(knee.joint) - knee.straight) < 0.3 * bent) continue;
       if (is_inside(leg, joints)) return joints;
     }
     return std::nullopt;

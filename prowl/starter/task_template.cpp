@@ -12,7 +12,7 @@
 namespace prowl {
 namespace {
 
-constexpr const char* kHead = R"(# {what}
+constexpr const char* kTaskHead = R"(# {what}
 # Written by `prowl new task` for {robot}: {mass:.1f} kg, its base {height:.2f} m up. All keys: docs/task-file.md.
 name = "{kind}"
 robot = {file}   # relative to this file
@@ -32,7 +32,7 @@ intervals = {intervals}   # of the mesh. Too few, and the certificate fails by i
 
 )";
 
-constexpr const char* kSteps =
+constexpr const char* kStepsText =
     R"(# Phases: times with one set of contacts. A contact that the next phase lacks opens, one that the phase before lacked lands.
 # intervals: of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do.
 [[phase]]
@@ -161,7 +161,7 @@ std::string step_phases(const NewTask& task) {
   std::string landed = fmt::format("{{ contact = \"{}\", place_m = {} }}", task.swing.front(), vector(task.place));
   for (std::size_t i = 1; i < task.swing.size(); ++i) landed += ", \"" + task.swing[i] + '"';
   const auto phases = [&](const char* shift, int i, const char* swing, int j, const char* settle, int k) {
-    return fmt::format(fmt::runtime(kSteps), fmt::arg("stay", quoted(task.stay)), fmt::arg("landed", landed),
+    return fmt::format(fmt::runtime(kStepsText), fmt::arg("stay", quoted(task.stay)), fmt::arg("landed", landed),
                        fmt::arg("shift", shift), fmt::arg("shift_intervals", i), fmt::arg("swing", swing),
                        fmt::arg("swing_intervals", j), fmt::arg("settle", settle), fmt::arg("settle_intervals", k));
   };
@@ -229,7 +229,7 @@ std::string cost(const NewTask& task) {
 std::string task_template(const NewTask& task, const RobotModel& robot, const std::string& robot_file) {
   const double duration = task.kind == NewTaskKind::hold ? 1.0 : task.soles ? 2.4 : 2.0;
   const int intervals = intervals_of(task, robot.contacts().size());
-  std::string text = fmt::format(fmt::runtime(kHead), fmt::arg("what", what(task)), fmt::arg("robot", robot.name()),
+  std::string text = fmt::format(fmt::runtime(kTaskHead), fmt::arg("what", what(task)), fmt::arg("robot", robot.name()),
                                  fmt::arg("mass", robot.mass()), fmt::arg("height", task.height),
                                  fmt::arg("kind", kind_name(task)), fmt::arg("file", toml_string(robot_file)));
   if (task.kind == NewTaskKind::gait) return text + gait(task) + cost(task);

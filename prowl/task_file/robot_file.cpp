@@ -74,7 +74,7 @@ JointLimits read_limits(const TomlTable& table) {
 }
 
 /// Where a robot file has that key: of joints the name, which may be no joint's, of others the value.
-std::string place_of(const SourceText& source, const std::string& key) {
+std::string location_of_key(const SourceText& source, const std::string& key) {
   const bool is_joint = key.starts_with("limits.") || key.starts_with("nominal.");
   return (is_joint ? locate_key(source, key) : locate(source, key)) + key;
 }
@@ -128,9 +128,9 @@ RobotModel load_robot(const SourceText& source, const PackageSearch& search, con
   try {
     return RobotModel(description);
   } catch (const DescriptionError& error) {
-    throw InputError(fmt::format("{}: {}", place_of(source, error.key()), error.what()));
+    throw InputError(fmt::format("{}: {}", location_of_key(source, error.key()), error.what()));
   } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", place_of(source, "urdf"), error.what()));
+    throw InputError(fmt::format("{}: {}", location_of_key(source, "urdf"), error.what()));
   }
 }
 

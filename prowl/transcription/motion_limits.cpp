@@ -1,6 +1,6 @@
 #include "prowl/transcription/motion_limits.hpp"
 
-#include <limits>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -10,10 +10,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 bool binds(const VectorXd& lower, const VectorXd& upper, int i) {
-  return lower(i) > -kInfinity || upper(i) < kInfinity;
+  return std::isfinite(lower(i)) || std::isfinite(upper(i));
 }
 
 /// What the goals bind, by decision variable.
@@ -50,7 +48,7 @@ std::vector<MotionLimit> motion_limits(const NodeProgram& program) {
   const std::map<int, MotionLimit> of_goals = limits_of_goals(discrete, layout);
   std::vector<MotionLimit> result;
   const auto add = [&](MotionLimit limit, bool is_row, int index, int k, double lower, double upper) {
-    if (lower == -kInfinity && upper == kInfinity) return;
+    if (!std::isfinite(lower) && !std::isfinite(upper)) return;
     limit.is_row = is_row;
     limit.index = index;
     limit.node = k;

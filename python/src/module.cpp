@@ -10,7 +10,6 @@ NB_MODULE(_prowl, module) {
   module.doc() = "Prowl's library as seen from Python; use it through the package prowl.";
   bind_errors(module);
   prowl::check_processor();
-  prowl::check_libraries();
   bind_files(module);
   bind_robot(module);
   bind_task(module);
@@ -25,6 +24,6 @@ NB_MODULE(_prowl, module) {
   bind_diagnosis(module);
   bind_dynamics(module);
   bind_program(module);
-  module.def("versions", &prowl::versions, "Versions of Prowl and of what it uses.");
+  module.def("versions", &prowl::all_versions, "Versions of Prowl and of what it uses.");
   module.attr("__version__") = PROWL_VERSION;
 }

@@ -37,7 +37,7 @@ std::shared_ptr<PlanObject> read(const std::filesystem::path& directory, const s
   return std::make_shared<PlanObject>(read_plan(directory, package_search(package_dirs)), directory);
 }
 
-void write(const PlanObject& plan, const std::filesystem::path& directory, std::optional<double> step) {
+void save_plan(const PlanObject& plan, const std::filesystem::path& directory, std::optional<double> step) {
   if (plan.read_from) {
     throw InputError(
         fmt::format("this plan was read from {}, which has all of it: copy that folder", plan.read_from->string()));
@@ -223,7 +223,7 @@ void bind_plan(nb::module_& module) {
            "with\n"
            "Matplotlib. Returns the figure: a notebook shows it, figure.savefig(path) writes it.")
       .def("_repr_html_", &html, nb::sig("def _repr_html_(self) -> str"))
-      .def("write", &write, nb::arg("directory"), nb::arg("step") = nb::none(),
+      .def("write", &save_plan, nb::arg("directory"), nb::arg("step") = nb::none(),
            "Writes the folder that `prowl plan` writes (docs/plan-directory.md), whole or not at all; with `step` [s] "
            "also\n"
            "trajectory_uniform.csv.")

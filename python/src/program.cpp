@@ -18,7 +18,7 @@
 namespace prowl::python {
 namespace {
 
-using Numbers = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using ConstVector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Places = std::pair<Integers, Integers>;
 
 /// What a point of a program is worth: a FormulationRun of no solver.
@@ -45,24 +45,24 @@ class Program {
   const Eigen::VectorXd& start() const { return start_; }
   int nodes() const { return discrete_.num_nodes(); }
 
-  double cost(const Numbers& z) {
+  double cost(const ConstVector& z) {
     return locked([&] { return nlp_->cost(point(z)); });
   }
-  Array cost_gradient(const Numbers& z) {
+  Array cost_gradient(const ConstVector& z) {
     return filled(nlp_->num_variables(), [&](auto& values) { nlp_->cost_gradient(point(z), values); });
   }
-  Array constraints(const Numbers& z) {
+  Array constraints(const ConstVector& z) {
     return filled(nlp_->num_constraints(), [&](auto& values) { nlp_->constraints(point(z), values); });
   }
-  Array jacobian(const Numbers& z) {
+  Array jacobian(const ConstVector& z) {
     return filled(nlp_->jacobian_pattern().size(), [&](auto& values) { nlp_->jacobian(point(z), values); });
   }
-  Array hessian(const Numbers& z, double cost_factor, const Numbers& multipliers) {
+  Array hessian(const ConstVector& z, double cost_factor, const ConstVector& multipliers) {
     return filled(nlp_->hessian_pattern().size(), [&](auto& values) {
       nlp_->hessian(point(z), cost_factor, vector(multipliers, nlp_->num_constraints(), "multipliers"), values);
     });
   }
-  double dual_violation(const Numbers& z, const Numbers& multipliers) {
+  double dual_violation(const ConstVector& z, const ConstVector& multipliers) {
     return locked([&] {
       return prowl::dual_violation(*nlp_, point(z), vector(multipliers, nlp_->num_constraints(), "multipliers"));
     });
@@ -76,7 +76,7 @@ class Program {
     return nlp_->describe_constraint(row);
   }
 
-  JudgedPoint judge(const Numbers& z) {
+  JudgedPoint judge(const ConstVector& z) {
     return locked([&] {
       SolveResult result;
       result.z = point(z);
@@ -91,11 +91,11 @@ class Program {
   }
 
  private:
-  static Eigen::VectorXd vector(const Numbers& values, int size, const char* name) {
+  static Eigen::VectorXd vector(const ConstVector& values, int size, const char* name) {
     if (static_cast<int>(values.size()) == size) return Eigen::Map<const Eigen::VectorXd>(values.data(), size);
     throw InputError(fmt::format("{}: shape ({}) is not allowed; need ({})", name, values.size(), size));
   }
-  Eigen::VectorXd point(const Numbers& z) const { return vector(z, nlp_->num_variables(), "z"); }
+  Eigen::VectorXd point(const ConstVector& z) const { return vector(z, nlp_->num_variables(), "z"); }
   static void check_index(int index, int size) {
     if (index < 0 || index >= size) throw InputError(fmt::format("{} is not allowed; need 0 to {}", index, size - 1));
   }

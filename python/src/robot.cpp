@@ -38,7 +38,7 @@ nb::object parse_robot(const std::string& text, const std::filesystem::path& pat
 constexpr const char* kPath = "_path";
 constexpr const char* kText = "_text";
 
-using Numbers = std::array<double, 3>;
+using Point = std::array<double, 3>;
 
 std::vector<std::string> contact_names(const RobotModel& robot) {
   std::vector<std::string> names;
@@ -150,7 +150,7 @@ void bind_robot(nb::module_& module) {
       .def_ro("frame", &ContactPoint::frame, "A link or a fixed joint of the URDF.")
       .def_ro("radius", &ContactPoint::radius, "[m]")
       .def_prop_ro(
-          "offset", [](const ContactPoint& c) { return Numbers{c.offset.x(), c.offset.y(), c.offset.z()}; },
+          "offset", [](const ContactPoint& c) { return Point{c.offset.x(), c.offset.y(), c.offset.z()}; },
           "Of the centre from the frame's origin, in the frame [m].")
       .def("__repr__", [](const ContactPoint& c) { return fmt::format("<prowl.Contact {} at {}>", c.name, c.frame); });
   nb::class_<LinkView>(module, "Link", "A link of the URDF.")

@@ -53,7 +53,7 @@ SimulationObject::SimulationObject(std::shared_ptr<const PlanObject> simulated, 
 
 using PushArgument = std::pair<double, std::array<double, 3>>;  ///< time [s], impulse [N s]
 
-std::shared_ptr<SimulationObject> run(std::shared_ptr<const PlanObject> plan, bool open_loop, bool perfect_state,
+std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject> plan, bool open_loop, bool perfect_state,
                                       double noise, double delay, double bandwidth, double control_rate, double mass,
                                       std::optional<double> friction, const std::vector<PushArgument>& pushes,
                                       double push_duration, double step, std::uint64_t seed, double record_rate) {
@@ -92,7 +92,7 @@ const char* end_name(const SimulationObject& simulation) {
   return "unknown";
 }
 
-void write(const SimulationObject& simulation, const std::filesystem::path& directory) {
+void save_simulation(const SimulationObject& simulation, const std::filesystem::path& directory) {
   const nb::gil_scoped_release others_may_run;
   write_simulation(directory, simulation.plan->record, simulation.record);
 }
@@ -168,7 +168,7 @@ void bind_simulation(nb::module_& module) {
       .def(
           "_repr_html_", [](nb::handle self) { return call_package("prowl._show.notebook", "simulation_html", self); },
           nb::sig("def _repr_html_(self) -> str"))
-      .def("write", &write, nb::arg("directory"), "Writes simulate.json and simulate.csv into the folder of the plan.")
+      .def("write", &save_simulation, nb::arg("directory"), "Writes simulate.json and simulate.csv into the folder of the plan.")
       .def(
           "__len__", [](const SimulationObject& s) { return s.t.size(); }, "Samples, S.")
       .def("__repr__", [](const SimulationObject& s) {
@@ -176,7 +176,7 @@ void bind_simulation(nb::module_& module) {
                            s.record.result.success() ? "success" : "no success", end_name(s), s.record.result.end_time);
       });
   const SimulationOptions defaults;
-  module.def("simulate", &run, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false,
+  module.def("simulate", &simulate_plan, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false,
              nb::arg("perfect_state") = false, nb::arg("noise") = defaults.noise_scale,
              nb::arg("delay") = defaults.delay, nb::arg("bandwidth") = defaults.bandwidth,
              nb::arg("control_rate") = defaults.control_rate, nb::arg("mass") = defaults.physics.mass_scale,

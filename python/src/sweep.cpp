@@ -100,7 +100,7 @@ void check_arguments(const PlanObject& plan, int n, const PerturbationRanges& ra
     throw InputError("this plan has no gains to simulate it with: solve(gains=True) makes them for one that is good");
 }
 
-SweepObject run(std::shared_ptr<const PlanObject> plan, int n, std::uint64_t seed, double mass_spread,
+SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint64_t seed, double mass_spread,
                 double push_impulse, double push_impulse_on_two_feet, int breakdown, bool open_loop,
                 const nb::object& on_progress) {
   PerturbationRanges ranges;
@@ -172,7 +172,7 @@ void bind_sweep(nb::module_& module) {
                            s.rate().cases);
       });
   const PerturbationRanges defaults;
-  module.def("sweep", &run, nb::arg("plan"), nb::arg("n") = 200, nb::kw_only(), nb::arg("seed") = 1,
+  module.def("sweep", &sweep_plan, nb::arg("plan"), nb::arg("n") = 200, nb::kw_only(), nb::arg("seed") = 1,
              nb::arg("mass_spread") = defaults.mass, nb::arg("push_impulse") = defaults.push,
              nb::arg("push_impulse_on_two_feet") = defaults.push_on_two_feet, nb::arg("breakdown") = 0,
              nb::arg("open_loop") = false, nb::arg("on_progress") = nb::none(),

@@ -39,13 +39,13 @@ std::vector<PhaseView> phases(const Task& task) {
   return all;
 }
 
-using Numbers = std::array<double, 3>;
+using Point = std::array<double, 3>;
 
-Numbers numbers(const Eigen::Vector3d& values) { return {values.x(), values.y(), values.z()}; }
+Point as_point(const Eigen::Vector3d& values) { return {values.x(), values.y(), values.z()}; }
 
-std::vector<Numbers> corners(const Surface& surface) {
-  std::vector<Numbers> points;
-  for (const Eigen::Vector2d& corner : surface.patch) points.push_back(numbers(surface.at(corner)));
+std::vector<Point> corners(const Surface& surface) {
+  std::vector<Point> points;
+  for (const Eigen::Vector2d& corner : surface.patch) points.push_back(as_point(surface.at(corner)));
   return points;
 }
 
@@ -87,9 +87,9 @@ void bind_task(nb::module_& module) {
   nb::class_<Surface>(module, "Surface", "A plane in the world that contacts may touch, or a convex polygon of it.")
       .def_ro("name", &Surface::name)
       .def_prop_ro(
-          "point", [](const Surface& s) { return numbers(s.point); }, "Any point of the plane [m].")
+          "point", [](const Surface& s) { return as_point(s.point); }, "Any point of the plane [m].")
       .def_prop_ro(
-          "normal", [](const Surface& s) { return numbers(s.normal); }, "Unit vector out of the ground.")
+          "normal", [](const Surface& s) { return as_point(s.normal); }, "Unit vector out of the ground.")
       .def_ro("friction", &Surface::friction, "Coulomb's coefficient.")
       .def_prop_ro("patch", &corners, "Corners of the polygon in the world [m]; none for the whole plane.")
       .def("__repr__", [](const Surface& s) { return fmt::format("<prowl.Surface {}>", s.name); });

@@ -1,6 +1,6 @@
-prowl_test(diagnosis/elastic_solve prowl::diagnosis prowl::solvers)
+prowl_test(diagnosis/elastic_solve prowl::diagnosis prowl::solvers prowl::ipopt)
 prowl_test(diagnosis/change prowl::plan_folder prowl::diagnosis)
-prowl_test(diagnosis/diagnosis prowl::plan_folder prowl::diagnosis prowl::screen prowl::solvers)
+prowl_test(diagnosis/diagnosis prowl::plan_folder prowl::diagnosis prowl::screen prowl::solvers prowl::ipopt)
 if(PROWL_BUILD_CLI)
   # Five of bench/broken: of each part of a task, those that take seconds.
   add_test(NAME diagnosis/broken COMMAND ${PROWL_PYTHON} ${PROJECT_SOURCE_DIR}/bench/broken/run.py --prowl $<TARGET_FILE:prowl_cli>

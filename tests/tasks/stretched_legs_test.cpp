@@ -45,7 +45,7 @@ TEST_P(Stretch, IsSolvedOrExplainedAndNeverClaimed) {
   for (const double rise : {0.05, 0.09, 0.0985, 0.105, 0.15}) {
     const Plan plan =
         make_plan(stretch(rise), *make_solver(GetParam()),
-                  {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds}, .hint_solver = &hint_solver});
+                  {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds}, .hint_solver = [&] { return &hint_solver; }});
     const std::string words = std::to_string(rise) + " m: " + to_string(plan.result.status) + ", " + all_words(plan);
     EXPECT_LT(plan.result.seconds, 2.0 * kMostSeconds) << words;
     EXPECT_TRUE(plan.result.z.allFinite()) << words;

@@ -7,7 +7,6 @@
 namespace prowl {
 
 std::vector<RobotLink> link_tree(const RobotModel& robot) {
-  constexpr pinocchio::JointIndex kBaseJoint = 1;  // 0 is the world
   const pinocchio::Model& model = robot.pinocchio().model;
   std::vector<RobotLink> links;
   std::map<pinocchio::FrameIndex, int> index;  // of the links so far, by their frame; a parent has a smaller number

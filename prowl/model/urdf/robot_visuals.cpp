@@ -12,7 +12,6 @@
 namespace prowl {
 namespace {
 
-constexpr pinocchio::JointIndex kBaseJoint = 1;  // 0 is the world
 
 Eigen::Isometry3d to_isometry(const urdf::Pose& pose) {
   const urdf::Rotation& r = pose.rotation;

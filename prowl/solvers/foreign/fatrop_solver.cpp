@@ -338,7 +338,10 @@ void set_options(fatrop::OptionRegistry& registry, const SolverOptions& options)
 
 std::string FatropSolver::name() const { return "Fatrop"; }
 
-std::string FatropSolver::version() const { return PROWL_FATROP_VERSION; }
+std::string FatropSolver::version() const {
+  const std::string kernels = linear_algebra();
+  return fmt::format("{}, BLASFEO {}", PROWL_FATROP_VERSION, kernels.empty() ? "with generic kernels" : "for " + kernels);
+}
 
 std::string FatropSolver::linear_algebra() {
   char text[256] = {};  // the longest of its strings is far below that
@@ -423,3 +426,8 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
 }
 
 }  // namespace prowl
+
+/// What load_solver() looks for; the caller owns the result.
+extern "C" prowl::NlpSolver* prowl_make_solver(const char* /*name*/) {
+  return new prowl::FatropSolver();
+}

@@ -353,3 +353,9 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
 }
 
 }  // namespace prowl
+
+/// What load_solver() looks for; the caller owns the result.
+extern "C" prowl::NlpSolver* prowl_make_solver(const char* name) {
+  const bool spral = std::string_view(name) == "ipopt-spral";
+  return new prowl::IpoptSolver(spral ? prowl::IpoptLinearSolver::spral : prowl::IpoptLinearSolver::mumps);
+}

@@ -312,3 +312,8 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
 }
 
 }  // namespace prowl
+
+/// What load_solver() looks for; the caller owns the result.
+extern "C" prowl::NlpSolver* prowl_make_solver(const char* /*name*/) {
+  return new prowl::UnoSolver();
+}

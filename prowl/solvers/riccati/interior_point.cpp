@@ -22,8 +22,8 @@ constexpr double kKappaEpsilon = 10.0, kKappaMu = 0.2, kThetaMu = 1.5, kSMax = 1
 constexpr double kLargestRegularisation = 1e20, kLeastRegularisation = 1e-20;
 
 constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3.0;
-constexpr double kLargestMultiplier = 1e3;  ///< of an estimate that is of use
-constexpr double kNearlyFeasible = 1e-2, kHugeMultiplier = 1e5;
+constexpr double kLargestEstimate = 1e3;  ///< of an estimate that is of use
+constexpr double kNearlyFeasibleRows = 1e-2, kHugeMultiplier = 1e5;
 constexpr double kLargestCostSlope = 100.0;
 constexpr double kStepAccuracy = 1e-2;  ///< of Newton's equations, as a part of the tolerance: what a full step leaves
 
@@ -270,7 +270,7 @@ void InteriorPoint::estimate_multipliers() {
   for (VectorXd& links : right_links_) links.setZero();
   for (VectorXd& equalities : right_equalities_) equalities.setZero();
   kkt_.solve(gradient_, right_equalities_, right_links_);
-  const bool is_of_use = std::max(largest(kkt_.on_next()), largest(kkt_.on_equalities())) <= kLargestMultiplier;
+  const bool is_of_use = std::max(largest(kkt_.on_next()), largest(kkt_.on_equalities())) <= kLargestEstimate;
   for (int k = 0; k < num_stages_; ++k) {
     on_[k].next = is_of_use ? kkt_.on_next()[k] : VectorXd::Zero(on_[k].next.size());
     on_[k].equalities = is_of_use ? kkt_.on_equalities()[k] : VectorXd::Zero(on_[k].equalities.size());
@@ -394,7 +394,7 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
         continue;
       }
       linearise();
-      const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasible;
+      const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasibleRows;
       // A regularised step that removes a violation leaves multipliers in proportion to the regularisation, and these
       // bend the Lagrangian, which asks for more of it.
       if (regularisation_ > 0.0 && violation_is_small && largest_multiplier() > kHugeMultiplier) {

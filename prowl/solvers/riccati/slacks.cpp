@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kRounding = 1e-13;  ///< of an inequality, as a part of it or of one
+constexpr double kSlackRounding = 1e-13;  ///< of an inequality, as a part of it or of one
 
 }  // namespace
 
@@ -107,7 +107,7 @@ void Slacks::reset(const VectorXd& from, const VectorXd& values, double tau) {
   for (const Bound& b : below_) check(b, 1.0);
   for (const Bound& b : above_) check(b, -1.0);
   for (Index i = 0; i < size(); ++i) {
-    const double rounding = kRounding * std::max(1.0, std::abs(values(i)));
+    const double rounding = kSlackRounding * std::max(1.0, std::abs(values(i)));
     if (!outside_[i] && std::abs(values(i) - s(i)) > rounding) s(i) = values(i);
   }
 }

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 /// condition on a place leaves the square of the step, 1e-5.
 constexpr double kDependent = 1e-7;
 /// Pivots below are rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kPivotRounding = 1e-12;
 
 constexpr int kMostRefinements = 5;
 constexpr double kRefined = 1e-12;  ///< residual, as a part of the right sides: no better than this
@@ -123,7 +123,7 @@ int StageKkt::count_independent(const MatrixXd& equalities, const Pivots& pivots
   const double scale = equalities.cwiseAbs().maxCoeff();
   int count = 0;
   while (count < pivots.size() && std::abs(pivots(count)) > kDependent * scale) ++count;
-  is_exact_ = is_exact_ && (count == pivots.size() || std::abs(pivots(count)) < kRounding * scale);
+  is_exact_ = is_exact_ && (count == pivots.size() || std::abs(pivots(count)) < kPivotRounding * scale);
   return count;
 }
 
