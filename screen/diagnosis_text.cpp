@@ -30,10 +30,6 @@ std::string in_words(std::string kind) {
   return kind == "place" ? "landing place" : kind;
 }
 
-std::string with_unit(double value, const std::string& unit) {
-  return unit.empty() ? fmt::format("{:.3g}", value) : fmt::format("{:.3g} {}", value, unit);
-}
-
 /// "phase 2 'swing', lh_foot, friction at 0.410 s: 37 N short".
 std::string in_words(const Breach& breach, const MotionProblem& problem) {
   const std::string what = breach.kind == LimitKind::goal ? "" : ", " + in_words(std::string(to_string(breach.kind)));

@@ -52,8 +52,8 @@ const char* verdict(const CertificateCheck& check) {
 }
 
 std::string check_table(const std::vector<const CertificateCheck*>& checks, std::size_t columns) {
-  using Row = std::array<std::string, 6>;
-  std::vector<Row> rows = {{"check", "worst", "limit", "used", "where", ""}};
+  using CheckRow = std::array<std::string, 6>;
+  std::vector<CheckRow> rows = {{"check", "worst", "limit", "used", "where", ""}};
   for (const CertificateCheck* check : checks) {
     const std::string unit = check->unit == "of limit" ? "" : check->unit;  // the share says that
     rows.push_back({check->name, with_unit(check->worst, unit), with_unit(check->limit, ""), used(*check), check->where,
@@ -61,14 +61,14 @@ std::string check_table(const std::vector<const CertificateCheck*>& checks, std:
   }
   constexpr std::size_t kWhere = 4, kGap = 2, kNarrowest = 8;
   std::array<std::size_t, 6> width{};
-  for (const Row& row : rows) {
+  for (const CheckRow& row : rows) {
     for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
   }
   std::size_t others = width.size() * kGap;
   for (std::size_t i = 0; i < width.size(); ++i) others += i == kWhere ? 0 : width[i];
   width[kWhere] = std::min(width[kWhere], std::max(kNarrowest, columns > others ? columns - others : 0));
   std::string text;
-  for (Row& row : rows) {
+  for (CheckRow& row : rows) {
     row[kWhere] = cut(row[kWhere], width[kWhere]);
     const std::string line = fmt::format("  {:<{}}  {:>{}}  {:>{}}  {:>{}}  {:<{}}  {}", row[0], width[0], row[1],
                                          width[1], row[2], width[2], row[3], width[3], row[4], width[4], row[5]);

@@ -9,8 +9,6 @@ namespace {
 using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-constexpr Index kBaseDofs = 6;
-constexpr Index kFirstRotation = 3;  ///< momenta do not depend on the place of the base
 
 WorldInertia in_world(const Body& body, const Eigen::Isometry3d& placement) {
   const Vector3d center = placement * body.center, moment = body.mass * center;

@@ -10,7 +10,6 @@ namespace prowl {
 
 namespace {
 
-constexpr pinocchio::JointIndex kBaseJoint = 1;
 
 /// Where the chain from the base to a joint's body begins, and how long it is up to that joint's origin.
 struct Chain {

@@ -13,6 +13,8 @@
 namespace prowl {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Count {
   std::string phase;
   int successes = 0, cases = 0;
@@ -98,7 +100,6 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
 }
 
 std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record) {
-  using Json = nlohmann::ordered_json;
   const SuccessRate rate = overall(record);
   const PerturbationRanges& ranges = record.ranges;
   Json json = {{"schema_version", 1},

@@ -10,4 +10,4 @@ foreach(name checker load motion_task)
   set_tests_properties(bench/${name} PROPERTIES ENVIRONMENT
     "PYTHONPATH=${PROJECT_SOURCE_DIR}/bench;PYTHONDONTWRITEBYTECODE=1;OMP_NUM_THREADS=1;OPENBLAS_NUM_THREADS=1")
 endforeach()
-set_tests_properties(bench/load PROPERTIES COST 100)
+set_tests_properties(bench/load PROPERTIES COST 30)

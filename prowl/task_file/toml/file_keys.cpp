@@ -35,7 +35,7 @@ const char* const kOneOrRange = "number or [min, max]";
 const char* const kBounds3 = "3 x (number, \"free\" or [min, max])";
 const char* const kJointBounds = "{joint = number or [min, max]}";
 
-std::string shown(double number) { return fmt::format("{:g}", number); }
+std::string number_text(double number) { return fmt::format("{:g}", number); }
 
 /// The keys of one table.
 class Table {
@@ -112,7 +112,7 @@ void add_surface(FileKeys& keys) {
                .form = "number",
                .range = kPositive,
                .unit = "-",
-               .fallback = shown(Surface{}.friction),
+               .fallback = number_text(Surface{}.friction),
                .meaning = "Coulomb coefficient"});
 }
 
@@ -233,13 +233,13 @@ void add_gait(FileKeys& keys) {
             .form = "number",
             .range = kDuration,
             .unit = "s",
-            .fallback = shown(Gait{}.start),
+            .fallback = number_text(Gait{}.start),
             .meaning = "time with all feet in contact before the first stride"});
   gait.add({.name = "settle_s",
             .form = "number",
             .range = kDuration,
             .unit = "s",
-            .fallback = shown(Gait{}.settle),
+            .fallback = number_text(Gait{}.settle),
             .meaning = "time with all feet in contact after the last landing"});
   gait.add({.name = "surface",
             .form = "string",
@@ -249,7 +249,7 @@ void add_gait(FileKeys& keys) {
             .form = "number",
             .range = kPositive,
             .unit = "1/s",
-            .fallback = shown(kIntervalsPerSecond),
+            .fallback = number_text(kIntervalsPerSecond),
             .meaning = "mesh of every phase; at least 2 intervals each"});
 }
 
@@ -352,18 +352,18 @@ void add_solver(FileKeys& keys) {
   solver.add({.name = "tolerance",
               .form = "number",
               .range = {.lower = 1e-12, .upper = 1e-2},
-              .fallback = shown(defaults.tolerance),
+              .fallback = number_text(defaults.tolerance),
               .meaning = "tolerance on optimality and on the constraints"});
   solver.add({.name = "max_iterations",
               .form = "integer",
               .range = {.lower = 1},
-              .fallback = shown(defaults.max_iterations),
+              .fallback = number_text(defaults.max_iterations),
               .meaning = "stop after this many iterations, on each mesh"});
   solver.add({.name = "max_time_s",
               .form = "number",
               .range = kPositive,
               .unit = "s",
-              .fallback = shown(defaults.max_seconds),
+              .fallback = number_text(defaults.max_seconds),
               .meaning = "stop after this much wall-clock time"});
 }
 
@@ -377,14 +377,14 @@ void add_tracking(FileKeys& keys) {
                   .form = form,
                   .range = kDeviation,
                   .unit = unit,
-                  .fallback = shown(deviation),
+                  .fallback = number_text(deviation),
                   .meaning = meaning});
   };
   tracking.add({.name = "step_s",
                 .form = "number",
                 .range = {.lower = 1e-4, .upper = 0.1},
                 .unit = "s",
-                .fallback = shown(defaults.step),
+                .fallback = number_text(defaults.step),
                 .meaning = "time between two gains"});
   add_deviation("base_position_m", kOneOrThree, "m", deviations.base_position,
                 "deviation that costs 1 per second; a smaller value makes the robot stiffer");
@@ -405,13 +405,13 @@ void add_tracking(FileKeys& keys) {
                 .form = "number",
                 .range = kNonnegative,
                 .unit = "s",
-                .fallback = shown(defaults.landing_time),
+                .fallback = number_text(defaults.landing_time),
                 .meaning = "a landing beside the foothold costs as much as that deviation during this time"});
   tracking.add({.name = "bandwidth_radps",
                 .form = "number",
                 .range = kPositive,
                 .unit = "rad/s",
-                .fallback = shown(defaults.largest_bandwidth),
+                .fallback = number_text(defaults.largest_bandwidth),
                 .meaning = "faster gains are reduced to this"});
 }
 
@@ -422,13 +422,13 @@ void add_simulation(FileKeys& keys) {
     simulation.add(
         {.name = name, .form = "number", .range = kPositive, .unit = unit, .fallback = fallback, .meaning = meaning});
   };
-  add("base_position_m", "m", shown(defaults.position),
+  add("base_position_m", "m", number_text(defaults.position),
       "largest distance of the base at rest from the end of the plan");
-  add("base_angle_rad", "rad", shown(defaults.angle), "largest angle of the base at rest from the end of the plan");
-  add("slip_m", "m", shown(defaults.slip), "largest slip of a foot in contact");
+  add("base_angle_rad", "rad", number_text(defaults.angle), "largest angle of the base at rest from the end of the plan");
+  add("slip_m", "m", number_text(defaults.slip), "largest slip of a foot in contact");
   add("friction", "-", "that of each [[surface]]",
       "friction coefficient of all surfaces; a larger one than in the plan gives a margin");
-  add("rest_s", "s", shown(defaults.rest), "time that the robot stands after the plan");
+  add("rest_s", "s", number_text(defaults.rest), "time that the robot stands after the plan");
 }
 
 FileKeys make_task_file_keys() {
@@ -466,7 +466,7 @@ FileKeys make_robot_file_keys() {
                .form = "number",
                .range = kNonnegative,
                .unit = "m",
-               .fallback = shown(ContactPoint{}.radius),
+               .fallback = number_text(ContactPoint{}.radius),
                .meaning = "radius of the ball around the point"});
   contact.add({.name = "offset_m",
                .form = "3 numbers",
