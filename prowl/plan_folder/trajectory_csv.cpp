@@ -165,7 +165,7 @@ Trajectory trajectory_from_csv(const MotionProblem& problem, const Mesh& mesh, c
   if (lines.size() != rows + 1) {
     throw InputError(fmt::format("{}: {} rows; the task's mesh has {} nodes", file, lines.size() - 1, rows));
   }
-  if (!ends_with_line) throw InputError(fmt::format("{}: the last line has no end; the file is cut short", file));
+  if (!ends_with_line) throw InputError(fmt::format("{}: the last line has no line end; the file is cut short", file));
   Trajectory trajectory;
   double begin = 0.0;
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {

@@ -366,7 +366,7 @@ TEST_F(PlanDirectory, RefusesATrajectoryThatDoesNotFit) {
   EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,1e300,")),
               HasSubstr("trajectory.csv:3: phase: 1e+300 is"));
   EXPECT_EQ(message_with(csv.substr(0, csv.size() - 1)),
-            "out/trajectory.csv: the last line has no end; the file is cut short");
+            "out/trajectory.csv: the last line has no line end; the file is cut short");
   EXPECT_EQ(message_with(with_cell(csv, 9, 73, "1")),
             "out/trajectory.csv:9: contact_rf_foot: 1 is not allowed; need 0, as in the task");
   EXPECT_EQ(message_with(with_cell(csv, 9, 69, "0.5")),
