@@ -203,7 +203,7 @@ TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   folder_.write("out/plan.json", "{\n  torn");
   EXPECT_EQ(message(), "out/plan.json:2:4: not JSON from here on: the file is cut short or was edited");
   EXPECT_EQ(test::message_of(folder_.path(), [&] { read_plan(out_ / "plan.json", test::test_search()); }),
-            "out/plan.json: a file; need the folder that prowl plan wrote");
+            "out/plan.json: this is a file; need the folder that prowl plan wrote");
 }
 
 TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
@@ -242,8 +242,8 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   write_version(0, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 0 is no longer read; need 1 to 3: plan again with prowl plan, task_file in "
-      "it has the task");
+      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 3: plan again with prowl plan; its "
+      "task_file contains the task");
   write_version(3, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
 }
@@ -335,8 +335,8 @@ TEST_F(PlanDirectory, KeepsTheUrdf) {
   EXPECT_EQ(read_plan(out_, {}).task.problem.robot.name(), "HyQ");
   folder_.write("hyq.urdf", test::read_file(urdf) + " ");
   EXPECT_EQ(message(),
-            "out/plan.json: hyq.urdf has changed since the plan was made; need the URDF as it was, or none "
-            "there: then the copy in plan.json is used");
+            "out/plan.json: hyq.urdf has changed since the plan was made; need the old URDF, or no file "
+            "there: Prowl then uses the copy in plan.json");
   std::filesystem::remove(urdf);
   EXPECT_EQ(read_plan(out_, {}).task.problem.robot.mass(), record_.task.problem.robot.mass());
 }
