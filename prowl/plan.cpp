@@ -33,7 +33,7 @@ std::vector<DiscreteProblem> coarser_problems(const DiscreteProblem& asked, cons
   return problems;
 }
 
-/// What is written of a problem that was not solved: the guess and how far it is off.
+/// Result for a problem that is not solved: the guess with its violation.
 SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
   SolveResult result;
   result.status = SolveStatus::infeasible;
@@ -46,7 +46,7 @@ SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
   return result;
 }
 
-/// The plan if its solve on this mesh were interrupted at this iterate, with what meshes before took.
+/// The plan if its solve on this mesh were interrupted at this iterate, with time and iterations of the meshes before.
 Plan interrupted_plan(const Plan& plan, const SolveResult& before, const Mesh& mesh, Transcription& nlp,
                       const VectorXd& z, const SolveProgress& progress) {
   Plan iterate{.trajectory = nlp.unpack(z),
@@ -61,7 +61,7 @@ Plan interrupted_plan(const Plan& plan, const SolveResult& before, const Mesh& m
                .reasons = {},
                .hints = {}};
   iterate.result.status = SolveStatus::interrupted;
-  iterate.result.message = "an iterate on the way";
+  iterate.result.message = "an iterate of an unfinished solve";
   iterate.result.cost = progress.cost;
   iterate.result.constraint_violation = progress.constraint_violation;
   iterate.result.dual_violation = progress.dual_violation;
@@ -72,20 +72,19 @@ Plan interrupted_plan(const Plan& plan, const SolveResult& before, const Mesh& m
   return iterate;
 }
 
-/// What the solver is told on this level: how good its start is, the time that is left, whom to tell of iterates.
+/// Options of the solver on this level: quality of the start, multipliers, remaining time.
 SolverOptions options_of_level(const PlanOptions& options, const Plan& plan, bool starts_from_task) {
   SolverOptions of_level = options.solver;
   const bool from_elsewhere = plan.levels.empty();  // --warm-start
   of_level.start_is_near =
       !starts_from_task && (from_elsewhere ? !options.resume : plan.result.status == SolveStatus::converged);
   of_level.start_multipliers = from_elsewhere ? options.start_multipliers : std::vector<StageMultipliers>{};
-  constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level only says so
+  constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level ends at once
   of_level.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
   return of_level;
 }
 
-/// Solves the program from the guess and adds what comes out to the plan. A problem with reasons against it is not
-/// solved.
+/// Solves the program from the guess and adds the result to the plan; with reasons against it, does not solve.
 void solve(Transcription& nlp, const Trajectory& guess, const Mesh& mesh, const NlpSolver& solver,
            const PlanOptions& options, SolverOptions of_level, Plan& plan) {
   if (options.on_level) options.on_level(mesh.num_intervals());
@@ -99,7 +98,7 @@ void solve(Transcription& nlp, const Trajectory& guess, const Mesh& mesh, const 
     of_level.on_iterate = [&](const VectorXd& z) {
       try {
         options.on_iterate(interrupted_plan(plan, before, mesh, nlp, z, progress));
-      } catch (const NumericalError&) {  // no motion, and the solver will find out
+      } catch (const NumericalError&) {  // no motion; the solver reports it
       }
     };
   }
@@ -116,11 +115,10 @@ void solve(Transcription& nlp, const Trajectory& guess, const Mesh& mesh, const 
   plan.num_constraints = nlp.num_constraints();
 }
 
-/// By someone who will not wait, whatever mesh is next: what a finer one makes of it in no time is further off, and
-/// worse to resume.
+/// After an interrupt or the time limit no finer mesh is begun: its first iterates are farther off and worse to resume.
 bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
 
-/// What may be the matter with a motion that fails its certificate; nothing if somebody interrupted it, who knows why.
+/// Computes Plan::hints.
 std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, const NlpSolver& solver,
                                const PlanOptions& options) {
   if (!plan.reasons.empty() || plan.certificate.passed || plan.result.status == SolveStatus::interrupted) return {};

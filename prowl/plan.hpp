@@ -12,7 +12,7 @@
 
 namespace prowl {
 
-/// How one mesh was solved on the way to the last.
+/// Result of the solve on one mesh.
 struct LevelResult {
   int intervals = 0;
   SolveStatus status = SolveStatus::solver_failed;
@@ -20,60 +20,58 @@ struct LevelResult {
   double seconds = 0.0, cpu_seconds = 0.0;
 };
 
-/// What comes out: a motion, how it was found, and whether it is any good.
+/// A motion with its solver's result and its certificate.
 struct Plan {
   Trajectory trajectory;
-  Mesh mesh;           ///< of the trajectory: the one asked for, or where the solve was stopped, a coarser one
+  Mesh mesh;           ///< of the trajectory: the requested one, or a coarser one if the solve was stopped
   std::string solver;  ///< its name
-  HessianKind hessian = HessianKind::exact;  ///< second derivatives that it was given
-  /// Of the last level; iterations and seconds of all levels together. Where an interrupt or the time limit stopped a
-  /// coarse level, that is the last, and the motion is on its mesh.
+  HessianKind hessian = HessianKind::exact;  ///< second derivatives given to the solver
+  /// Result of the last level, but iterations, seconds and times of all levels together. If an interrupt or the time
+  /// limit stopped a coarse level, that is the last, and the motion is on its mesh.
   SolveResult result;
   std::vector<LevelResult> levels;
   Certificate certificate;
   int num_variables = 0;
   int num_constraints = 0;
-  /// Why there can be no such motion, proven before the solve (proofs_of_infeasibility). If there is a reason the
-  /// status is infeasible, the solver did not run, and the trajectory is the initial guess.
+  /// Proofs before the solve that there is no motion (proofs_of_infeasibility). With a reason, the status is
+  /// infeasible, the solver did not run, and the trajectory is the initial guess.
   std::vector<std::string> reasons;
-  /// What may be the matter with a motion that fails its certificate: doubts, or, if the solve converged, singular
-  /// postures (postures_that_lose_rank). None if it was interrupted.
+  /// Possible causes if the motion fails its certificate: doubts() or, if the solve converged,
+  /// postures_that_lose_rank(). None after an interrupt.
   std::vector<std::string> hints;
 };
 
-/// Whether the plan may be used: the solver converged and the certificate passed.
+/// True if the solver converged and the certificate passed.
 inline bool is_good(const Plan& plan) {
   return plan.result.status == SolveStatus::converged && plan.certificate.passed;
 }
 
 struct PlanOptions {
   SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together
-  /// Empty: start from the task alone, on a coarse mesh first. Else start from this motion (see resample()).
+  /// Motion to start from (see resample()); empty: start from the task alone, on a coarse mesh first.
   Trajectory start_from = {};
-  /// start_from is an iterate of this problem, where a solve was stopped (Checkpoint): go on with its mesh, then with
-  /// the finer ones, and as from any guess. Else it is taken for a solution of a neighbouring problem, which the next
-  /// is near to.
+  /// True: start_from is an iterate of a stopped solve of this problem (Checkpoint). Continue on its mesh, then on
+  /// finer ones, as from any guess. False: it solves a neighbouring problem, and the solution is near it.
   bool resume = false;
-  /// Of the plan whose motion that is (Plan::result.stage_multipliers), if at hand and the mesh is the same.
-  /// Sizes that do not fit are left out.
+  /// Multipliers of the plan with that motion (Plan::result.stage_multipliers), if known and on the same mesh. Sizes
+  /// that do not fit are left out.
   std::vector<StageMultipliers> start_multipliers = {};
-  /// For the small programs behind the hints after a failure, which are no chains of stages. Called after a failure
-  /// only, for it may load a library; empty or nullptr: the solver of the plan.
+  /// Returns the solver for the small programs behind the hints, which are not chains of stages. Called only after a
+  /// failure, because it may load a library. Empty, or nullptr returned: the solver of the plan.
   std::function<const NlpSolver*()> hint_solver = {};
   HessianKind hessian = HessianKind::exact;
-  bool coarse_first = true;                          ///< false: on the mesh asked for at once
+  bool coarse_first = true;                          ///< false: only on the requested mesh
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
-  /// Each iterate as the plan that it would be if the solve were interrupted there, but without certificate and times
-  /// of evaluations. Costs an evaluation of all values; may be empty.
+  /// Receives each iterate as the plan of a solve interrupted there, without certificate and times of evaluations.
+  /// Costs an evaluation of all values; may be empty.
   std::function<void(Plan iterate)> on_iterate = {};
 };
 
-/// Whether a finer mesh may start from where this solve stopped; after a failure it starts from the task again.
+/// True if a finer mesh may start from the result of this solve; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status);
 
-/// The whole way from a problem to a certified motion. Throws InputError if bounds contradict each other or the motion
-/// to start from makes no sense, NumericalError if the model cannot be evaluated at the initial guess; a problem that
-/// is too hard is a status in the result.
+/// Plans a motion and certifies it. Throws InputError if bounds contradict each other or start_from does not fit,
+/// NumericalError if the model cannot be evaluated at the initial guess. A hard problem gives a status in the result.
 Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options);
 
 }  // namespace prowl

@@ -15,14 +15,14 @@ namespace prowl {
 namespace {
 
 constexpr int kPatience = 3;           // rounds without progress: some pass before all kinks of a motion are found
-constexpr double kWorthMerging = 0.8;  // of the intervals: to save fewer, another solve does not pay
+constexpr double kWorthMerging = 0.8;  // of the intervals: saving fewer is not worth another solve
 
 bool is_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
   return errors.local <= tolerance.local && errors.second <= tolerance.second &&
          errors.reintegration <= tolerance.reintegration;
 }
 
-/// A plan on its mesh, and how far that is off.
+/// A plan with the errors of its mesh.
 struct Candidate {
   Plan plan;
   std::vector<double> parts = {};
@@ -38,7 +38,7 @@ struct Candidate {
     parts = error_parts(plan.certificate, tolerance);
     meets_tolerance = is_within(mesh_errors(plan.certificate), tolerance);
   }
-  /// What passes its certificate comes before what has errors as asked for: other checks count, too.
+  /// A passed certificate comes before a met tolerance: other checks count, too.
   bool is_better_than(const Candidate& other) const {
     const auto rank = [](const Candidate& of) {
       return std::pair(of.meets_tolerance && of.plan.certificate.passed, of.meets_tolerance);
@@ -48,7 +48,7 @@ struct Candidate {
   }
 };
 
-/// Solves one mesh after the other, each from the motion of the last, and keeps the books of all.
+/// Solves one mesh after the other, each from the motion of the last, and adds up times and iterations.
 class Meshes {
  public:
   Meshes(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options)
@@ -56,11 +56,11 @@ class Meshes {
     options_.coarse_first = false;
   }
 
-  /// Certificates count, too: a fine mesh takes seconds of them.
+  /// Includes certificates, which take seconds on a fine mesh.
   bool is_time_over() const { return seconds_left() <= 0.0; }
 
   Candidate solve(const Mesh& mesh) {
-    constexpr double kShortestSeconds = 1e-3;  // of the first mesh, whatever is asked for
+    constexpr double kShortestSeconds = 1e-3;  // for the first mesh, with any limit
     PlanOptions options = options_;
     options.solver.max_seconds = std::max(seconds_left(), kShortestSeconds);
     std::optional<DiscreteProblem> other;  // asked_ is prepared already
@@ -72,14 +72,14 @@ class Meshes {
     total_.times += plan.result.times;
     return {std::move(plan)};
   }
-  /// From a motion that solves a coarser mesh, or from where a solve of one stopped.
+  /// From the motion on a coarser mesh, solved or stopped.
   Candidate solve_from(const Plan& plan, const Mesh& mesh) {
     options_.start_from = plan.trajectory;
     options_.resume = plan.result.status != SolveStatus::converged;
     options_.start_multipliers.clear();
     return solve(mesh);
   }
-  /// From the coarsest mesh on, the first that converges; each goes on from the one before, as in make_plan().
+  /// The first mesh that converges, from the coarsest on; each starts from the one before, as in make_plan().
   Candidate begin(const Mesh& mesh) {
     const bool from_coarse = coarse_first_ && options_.start_from.empty();
     std::optional<Candidate> first;
@@ -93,7 +93,7 @@ class Meshes {
     }
     return std::move(*first);
   }
-  /// What all meshes took, in place of what one did.
+  /// Replaces times and iterations of one mesh by those of all.
   void enter_books(Plan& plan) const {
     plan.levels = levels_;
     plan.result.iterations = total_.iterations;
@@ -113,8 +113,7 @@ class Meshes {
   std::vector<LevelResult> levels_;
 };
 
-/// Whether rounds still lead somewhere: to the tolerance on fewer intervals than ever before, to fewer intervals that
-/// are too coarse, or to a worst one that is clearly less so.
+/// Tests for progress: the tolerance on fewer intervals, fewer coarse intervals, or a clearly smaller worst error.
 class Progress {
  public:
   bool is_over(const Candidate& now) {
@@ -136,8 +135,8 @@ class Progress {
 
 std::string hint(const Candidate& best, const std::string& stopped) {
   return fmt::format(
-      "mesh refinement stopped, {}: {} of {} intervals are off by more than the tolerance, the worst by "
-      "{:.3g} times",
+      "mesh refinement stopped, {}: errors of {} of {} intervals exceed the tolerance, the worst is {:.3g} times the "
+      "tolerance",
       stopped, best.too_coarse(), best.intervals(), best.worst());
 }
 
@@ -152,7 +151,7 @@ RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& sol
   std::string stopped;
   for (int round = 1; now.plan.result.status == SolveStatus::converged; ++round) {
     const Certificate& certificate = now.plan.certificate;
-    if (certificate.interval_errors.empty()) break;  // a motion that is none
+    if (certificate.interval_errors.empty()) break;  // not a valid motion
     now.measure_errors(refine.tolerance);
     if (refine.on_round) {
       refine.on_round({now.intervals(), now.plan.result.iterations, mesh_errors(certificate), now.too_coarse()});
@@ -162,9 +161,9 @@ RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& sol
     const int intervals = next.num_intervals();
     if (now.meets_tolerance && intervals > kWorthMerging * now.intervals()) break;
     if (progress.is_over(now)) stopped = fmt::format("no progress in {} rounds", kPatience);
-    if (round >= refine.max_rounds) stopped = fmt::format("{} meshes", round);
+    if (round >= refine.max_rounds) stopped = fmt::format("after {} meshes", round);
     if (intervals > kMostIntervals) stopped = fmt::format("the next mesh would have {} intervals", intervals);
-    if (meshes.is_time_over()) stopped = "the time is up";
+    if (meshes.is_time_over()) stopped = "out of time";
     if (!stopped.empty()) break;
     now = meshes.solve_from(now.plan, next);
   }

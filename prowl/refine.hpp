@@ -7,34 +7,33 @@
 
 namespace prowl {
 
-/// One mesh and what came of it.
+/// Result on one mesh.
 struct RefineRound {
   int intervals = 0;
   int iterations = 0;
-  MeshTolerance errors;  ///< the worst
-  int too_coarse = 0;    ///< intervals that are off by more than the tolerance
+  MeshTolerance errors;  ///< worst of the motion
+  int too_coarse = 0;    ///< intervals with errors above the tolerance
 };
 
 struct RefineOptions {
   MeshTolerance tolerance;
-  int max_rounds = 12;                                    ///< meshes solved, the first one too
+  int max_rounds = 12;                                    ///< solved meshes, including the first
   std::function<void(const RefineRound&)> on_round = {};  ///< after each mesh that converged; may be empty
 };
 
 struct RefinedPlan {
   Plan plan;
-  bool meets_tolerance = false;  ///< if not, a hint of the plan tells why
-  bool interrupted = false;      ///< before the refinement was at its end; the plan may be a good one all the same
+  bool meets_tolerance = false;  ///< if not, a hint of the plan explains it
+  bool interrupted = false;      ///< before the refinement ended; the plan may still be good
 };
 
-/// As make_plan(), on meshes that follow the errors measured on the one before (mesh_refinement.hpp): from the coarsest
-/// on which make_plan() would begin, until the motion meets the tolerance and a mesh without what it has to spare would
-/// have more than four fifths of its intervals. Each motion is the guess of the next. PlanOptions::max_seconds is for
-/// all together, certificates too: no mesh is begun after it.
+/// Repeats make_plan() on meshes that follow the errors measured on the one before (mesh_refinement.hpp), each from the
+/// motion of the last. Starts on the coarsest mesh of make_plan(); ends when the motion meets the tolerance and the
+/// next mesh would save less than a fifth of the intervals. SolverOptions::max_seconds is for all meshes and
+/// certificates: no mesh begins after it.
 ///
-/// The result is of the mesh with the fewest intervals among those that meet the tolerance, the ones that pass their
-/// certificate first, else of the one that is nearest to the tolerance. A mesh that does not converge ends it, and so
-/// does an interrupt.
+/// Returns the plan with the fewest intervals among those that meet the tolerance, preferring those that pass their
+/// certificate; otherwise the plan nearest to the tolerance. A mesh without convergence, or an interrupt, ends it.
 RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options,
                               const RefineOptions& refine);
 

@@ -20,7 +20,7 @@ PhaseDynamics phase_dynamics(const MotionProblem& problem) {
   return dynamics;
 }
 
-/// Which contact forces the motion does not tell: all that internal_part leaves of them.
+/// Finds the contacts whose forces have an internal part.
 void find_redundant_contacts(const DiscreteProblem& discrete, const Trajectory& trajectory, PhaseDynamics& dynamics,
                              Certificate& certificate) {
   const MotionProblem& problem = discrete.problem;
@@ -29,11 +29,11 @@ void find_redundant_contacts(const DiscreteProblem& discrete, const Trajectory& 
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {
     const TrajectoryPoint& node = trajectory.nodes[discrete.mesh.first_node(static_cast<int>(p))];
     dynamics[p].evaluate(node.q, node.v, node.tau);
-    double free = 0.0;  // dimension of what may be chosen: the trace of the projector on it
+    double free = 0.0;  // dimension of the free forces: the trace of their projector
     for (Eigen::Index i = 0; i < node.force.size(); ++i) {
       const Eigen::VectorXd internal = dynamics[p].internal_part(Eigen::VectorXd::Unit(node.force.size(), i));
       free += internal(i);
-      if (internal.norm() > 1e-6) is_redundant[i / 3] = true;  // of 1; else 0 but for rounding
+      if (internal.norm() > 1e-6) is_redundant[i / 3] = true;  // of 1; below it is rounding
     }
     const int rows = 3 * static_cast<int>(problem.phases[p].contacts.size());
     certificate.contact_ranks.push_back({problem.phases[p].name, rows, rows - static_cast<int>(std::lround(free))});

@@ -9,16 +9,16 @@
 
 namespace prowl {
 
-/// What a finished motion may be off by; docs/verification.md says why these figures.
+/// Limits of the checks of a finished motion; docs/verification.md explains the values.
 struct CertificateLimits {
-  // Two where the grade depends on it.
+  // In pairs where the grade depends on them.
   static constexpr double integration_error_certified = 1e-6;  ///< scaled, per interval and coordinate [-]
   static constexpr double integration_error_draft = 1e-4;      ///< [-]
   static constexpr double second_error_certified = 2e-4;       ///< the same, summed over any second [-]
   static constexpr double second_error_draft = 3e-3;           ///< [-]
   static constexpr double reintegration_certified = 5e-6;      ///< scaled, at the end of an interval [-]
   static constexpr double reintegration_draft = 5e-4;          ///< [-]
-  static constexpr double defect = 1e-6;                       ///< scaled, also for the state at a phase switch [-]
+  static constexpr double defect = 1e-6;                       ///< scaled; also of the state at a phase transition [-]
   static constexpr double total_defect_certified = 1e-6;       ///< the same, summed over the motion [-]
   static constexpr double total_defect_draft = 1e-5;           ///< [-]
   static constexpr double start_state = 1e-6;                  ///< [m, rad, m/s, rad/s]
@@ -26,66 +26,65 @@ struct CertificateLimits {
   static constexpr double quaternion_norm = 1e-6;              ///< [-]
   static constexpr double contact_drift = 1e-3;                ///< [m]
   static constexpr double contact_velocity = 5e-3;             ///< [m/s]
-  static constexpr double contact_gap = 1e-3;                  ///< off its surface, patch, place where it closes [m]
+  static constexpr double contact_gap = 1e-3;                  ///< from surface, patch, foothold at landing [m]
   static constexpr double penetration = 1e-3;                  ///< [m]
-  static constexpr double missing_clearance = 0.1;             ///< of the clearance asked of swings [-]
-  static constexpr double force_over_weight = 1e-2;  ///< friction, unilateral force, load before opening [body weight]
-  static constexpr double planned_force_over_weight = 5e-2;  ///< planned against recovered force [body weight]
-  static constexpr double contact_acceleration = 1e-3;       ///< left over by the constrained dynamics [m/s^2]
-  static constexpr double torque_ratio = 1.001;              ///< of the joint's limit at its position and velocity [-]
-  static constexpr double velocity_ratio = 1.001;            ///< of the joint's limit [-]
-  static constexpr double joint_position = 1e-3;             ///< beyond the limit [rad] or [m]
-  static constexpr double goal_torque = 1e-3;                ///< of the joint's limit [-]
-  static constexpr double grid_step = 1e-3;                  ///< of the sampled checks [s]
-  static constexpr int grid_intervals = 10;                  ///< at least, in a mesh interval
+  static constexpr double missing_clearance = 0.1;             ///< missing part of the swing clearance [-]
+  static constexpr double force_over_weight = 1e-2;            ///< friction, pull, load before opening [body weight]
+  static constexpr double planned_force_over_weight = 5e-2;    ///< planned against recovered force [body weight]
+  static constexpr double contact_acceleration = 1e-3;         ///< residual of the constrained dynamics [m/s²]
+  static constexpr double torque_ratio = 1.001;                ///< torque / limit at this position and velocity [-]
+  static constexpr double velocity_ratio = 1.001;              ///< velocity / limit [-]
+  static constexpr double joint_position = 1e-3;               ///< beyond the limit [rad] or [m]
+  static constexpr double goal_torque = 1e-3;                  ///< violation / limit [-]
+  static constexpr double grid_step = 1e-3;                    ///< largest, of the sampled checks [s]
+  static constexpr int grid_intervals = 10;                    ///< fewest per mesh interval
 };
 
-/// One thing that has to hold, at its worst moment.
+/// One limit, and the worst value over the motion.
 struct CertificateCheck {
   std::string name;    ///< "contact drift", "friction cone", "joint torque", ...
   double worst = 0.0;  ///< in `unit`; NaN is a failure
   double limit = 0.0;  ///< passes if worst <= limit
-  std::string unit;    ///< "m", "N", "N m", "-", ...; "SI" where quantities of several kinds are in one check
+  std::string unit;    ///< "m", "N", "N m", "-", ...; "SI" if the check mixes quantities
   double time = 0.0;   ///< when the worst happens [s]
   std::string where;   ///< contact or joint or coordinate, "" if none
   bool passed = false;
-  double certified_limit = 0.0;  ///< what grade certified asks of `worst`; <= limit, most often the same
+  double certified_limit = 0.0;  ///< limit of grade certified; <= limit, usually equal
 };
 
-/// How far one mesh interval is off, at its largest coordinate, scaled [-].
+/// Errors of one mesh interval, of its worst coordinate, scaled [-].
 struct IntervalError {
   double start = 0.0, end = 0.0;  ///< [s]
   double error = 0.0;             ///< local integration error
-  std::string where;              ///< its coordinate of the state
-  double reintegration = 0.0;     ///< of the state at its end, against the true motion from its start
+  std::string where;              ///< worst coordinate of the state
+  double reintegration = 0.0;     ///< of the state at `end`, see reintegration.hpp
 };
 
-/// Rows of the contact Jacobian of a phase, and how many of them are independent. The forces of `rank` combinations
-/// follow from the motion; rows - rank are a choice.
+/// Rows and rank of the contact Jacobian of a phase. The motion determines `rank` combinations of the contact forces;
+/// the other rows - rank are free.
 struct ContactRank {
   std::string phase;
   int rows = 0, rank = 0;
 };
 
-/// Whether a finished motion is what was asked for, judged from the motion alone (docs/verification.md).
-/// A check that has nothing to look at (a flight has no contact drift) is not in the list.
+/// Verdict on a finished motion, from the motion alone (docs/verification.md). Checks without data (contact drift of a
+/// flight) are not in the list.
 struct Certificate {
   bool passed = false;
   Grade grade = Grade::failed;  ///< failed if any check fails; certified if all are within their certified_limit
   std::vector<CertificateCheck> checks;
-  std::vector<IntervalError> interval_errors;  ///< one a mesh interval, in order: where to refine the mesh
-  /// Contacts with forces that the motion does not tell (points of a flat foot): they are one choice of many, the
-  /// planner's, and only that one was checked against friction and pulling. In the robot's order.
+  std::vector<IntervalError> interval_errors;  ///< one per mesh interval, in order
+  /// Contacts whose forces the motion does not determine (points of a flat foot), in the robot's order. Friction and
+  /// pull are checked only for the forces that the planner chose.
   std::vector<std::string> redundant_contacts;
-  std::vector<ContactRank> contact_ranks;  ///< one a phase, at its first node
+  std::vector<ContactRank> contact_ranks;  ///< one per phase, at its first node
 
   /// A check by its name; null if it is not in the list.
   const CertificateCheck* find(const std::string& name) const;
 };
 
-/// Re-evaluates everything by dynamics of its own (ConstrainedDynamicsOracle), without the projection and without the
-/// transcription. Never throws because a motion is bad: that is a failed check. A motion whose nodes do not fit the
-/// problem, or with a NaN or infinity in it, gets these checks only: the others would mean nothing.
+/// Checks the motion with other dynamics than the planner's (ConstrainedDynamicsOracle). A bad motion fails a check and
+/// never throws. If the nodes do not fit the problem, or a number is not finite, only these checks run.
 Certificate certify(const DiscreteProblem& discrete, const Trajectory& trajectory);
 
 }  // namespace prowl

@@ -13,10 +13,9 @@
 namespace prowl {
 namespace {
 
-// Pivots of A below this part of the largest are rounding: rows that depend on each other leave 1e-14, and the smallest
-// that a real contact leaves (the light ends of a robot of 80 kg) is 1e-4. Some rows depend on each other only in the
-// plane in which the robot moves (knee and foot of both hind legs); a plan keeps to such a plane as far as its solver's
-// tolerance, and leaves 1e-8 to 1e-7.
+// Smaller pivots of A, over the largest, are rounding. Dependent rows leave 1e-14; the smallest pivot of a real contact
+// (light ends of a robot of 80 kg) is 1e-4. Some rows are dependent only in the plane of the motion (knee and foot of
+// both hind legs); a plan stays in that plane to its solver's tolerance and leaves 1e-8 to 1e-7.
 constexpr double kRankThreshold = 1e-6;
 
 }  // namespace
@@ -30,7 +29,7 @@ struct ConstrainedDynamicsOracle::Workspace {
   Eigen::LLT<Eigen::MatrixXd> mass;  // M = L L'
   Eigen::Matrix<double, 6, Eigen::Dynamic> frame_jacobian;
   Eigen::MatrixXd A_transposed;  // L⁻¹ J'
-  Factors factors;               // of it
+  Factors factors;               // of A_transposed
 
   Workspace(const PinocchioModel& model, const std::vector<int>& held)
       : pinocchio(model),
@@ -42,7 +41,7 @@ struct ConstrainedDynamicsOracle::Workspace {
   }
 
   void factorise(const Eigen::VectorXd& q) {
-    // With this type it is in Pinocchio's library; with another it takes half a minute to compile.
+    // Pinocchio's library contains this instantiation; another takes half a minute to compile.
     pinocchio::crba(pinocchio.model, data, Eigen::Ref<const Eigen::VectorXd>(q));
     mass.compute(data.M.selfadjointView<Eigen::Upper>());
     if (contacts.empty()) return;
@@ -57,7 +56,7 @@ struct ConstrainedDynamicsOracle::Workspace {
     factors.compute(A_transposed);
   }
 
-  // J a + J̇v, by kinematics instead of by J.
+  // J a + J̇v from kinematics, without J.
   Eigen::VectorXd contact_acceleration(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
     pinocchio::forwardKinematics(pinocchio.model, data, q, v, a);
     Eigen::VectorXd acceleration(A_transposed.cols());
@@ -70,7 +69,7 @@ struct ConstrainedDynamicsOracle::Workspace {
     return acceleration;
   }
 
-  // From the contacts held to all of the robot, zero elsewhere.
+  // Forces of all contacts of the robot, zero where not held.
   Eigen::VectorXd of_robot(const Eigen::VectorXd& held_force) const {
     Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(pinocchio.contact_frames.size()));
     for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -117,7 +116,7 @@ Eigen::VectorXd ConstrainedDynamicsOracle::internal_part(const Eigen::VectorXd& 
     held.segment<3>(3 * static_cast<Eigen::Index>(i)) = force.segment<3>(3 * w.contacts[i]);
   }
   if (w.contacts.empty() || w.factors.rank() == held.size()) return w.of_robot(Eigen::VectorXd::Zero(held.size()));
-  return w.of_robot(held - w.factors.solve(w.A_transposed * held));  // A'⁺ A': onto the forces that A' sees
+  return w.of_robot(held - w.factors.solve(w.A_transposed * held));  // A'⁺ A' projects on the forces with an effect
 }
 
 ConstrainedDynamicsOracle::ContactPoints ConstrainedDynamicsOracle::contact_points(const Eigen::VectorXd& q,

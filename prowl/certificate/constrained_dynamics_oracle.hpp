@@ -8,14 +8,14 @@
 
 namespace prowl {
 
-/// Forward dynamics with contact points held fixed: the second opinion of the certificate, which shares no code and no
-/// method with prowl/dynamics. By Gauss's principle of least constraint: of all accelerations that the contacts allow,
-/// the one nearest to that without contacts, in the metric of the mass matrix M = L L':
+/// Forward dynamics with contact points held fixed, for the certificate. It shares no code or method with
+/// prowl/dynamics. Gauss's principle of least constraint: among the accelerations that the contacts allow, a is nearest
+/// to the free one in the metric of the mass matrix M = L L':
 ///
 ///   x = L' a,  b = L⁻¹ (S' τ - h),  A = J L⁻ᵀ:     min |x - b|²  over  min |A x + J̇v|²,     A' f = x - b
 ///
-/// J may be rank deficient (flat feet): a is still unique, f is the one of least norm. No damping, no stabilisation.
-/// One oracle, one thread.
+/// J may be rank deficient (flat feet): a is still unique, f has least norm. No damping, no stabilisation.
+/// Not thread-safe: use one oracle per thread.
 class ConstrainedDynamicsOracle {
  public:
   /// `contacts`: indices into robot.contacts() that are held fixed. Keeps a reference to `robot`.
@@ -26,12 +26,12 @@ class ConstrainedDynamicsOracle {
   struct Motion {
     Eigen::VectorXd a;      ///< nv, rate of v
     Eigen::VectorXd force;  ///< 3 per contact of the robot, world frame [N]; zero where not held
-    double residual = 0.0;  ///< largest entry of |J a + J̇v| [m/s²]; not small: the contacts contradict each other
+    double residual = 0.0;  ///< largest entry of |J a + J̇v| [m/s²]; large if the contacts contradict each other
   };
   Motion evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
 
-  /// The part of `force` (3 per contact of the robot) that does nothing to the robot, J' part = 0, at the configuration
-  /// of the last evaluate(): what a planner may choose. Exactly zero where the contacts are independent.
+  /// The part of `force` (3 per contact of the robot) without effect on the robot, J' part = 0, at the configuration of
+  /// the last evaluate(). Exactly zero if the contacts are independent.
   Eigen::VectorXd internal_part(const Eigen::VectorXd& force) const;
 
   struct ContactPoints {

@@ -7,8 +7,8 @@
 
 namespace prowl {
 
-/// What is asked of a contact at the node where it closes (on its surface, inside its patch, at its prescribed place)
-/// and at the last before it opens (no load). At the start of the motion all contacts of the first phase close.
+/// Checks each contact at the node where it lands (on its surface, in its patch, on its foothold) and at the last node
+/// before it opens (no load). All contacts of the first phase land at the start.
 std::vector<CertificateCheck> contact_event_checks(const DiscreteProblem& discrete, const Trajectory& trajectory,
                                                    const ContactPlaces& places, PhaseDynamics& dynamics);
 

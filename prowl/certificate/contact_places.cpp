@@ -10,7 +10,7 @@ std::optional<int> surface_of(const Phase& phase, int contact) {
   return std::nullopt;
 }
 
-/// What follows from the phases around: opens, swings.
+/// Sets `opens` and `swings` from the other phases.
 void look_around(ContactPlaces& places, std::size_t contact) {
   const auto is_closed = [&](std::size_t phase) { return places[phase][contact].surface.has_value(); };
   for (std::size_t p = 0; p < places.size(); ++p) {

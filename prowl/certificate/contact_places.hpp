@@ -9,14 +9,14 @@
 
 namespace prowl {
 
-/// What one contact of the robot does in one phase.
+/// State of one contact of the robot in one phase.
 struct ContactPlace {
-  std::optional<int> surface;                        ///< the surface that it holds, if it is closed
-  bool closes = false;                               ///< closed here, open (or elsewhere) in the phase before
-  bool opens = false;                                ///< closed here, open in the phase after
-  bool swings = false;                               ///< open here, but closed some time before and some time after
-  double time = 0.0;                                 ///< when it closed [s]
-  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< where it was at the node where it closed, world frame [m]
+  std::optional<int> surface;                        ///< of the surface that it holds, if any
+  bool closes = false;                               ///< lands: it was open or elsewhere in the phase before
+  bool opens = false;                                ///< stands here, is open in the phase after
+  bool swings = false;                               ///< open here, stands in some phase before and some after
+  double time = 0.0;                                 ///< of its landing [s]
+  Eigen::Vector3d anchor = Eigen::Vector3d::Zero();  ///< position at its landing, world frame [m]
 };
 
 /// [phase][contact of the robot].

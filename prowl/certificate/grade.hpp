@@ -2,7 +2,7 @@
 
 namespace prowl {
 
-/// Of a certificate, as CertificateLimits tell them apart.
+/// Grade of a certificate; CertificateLimits contains the limits.
 enum class Grade { failed, draft, certified };
 
 const char* to_string(Grade grade);

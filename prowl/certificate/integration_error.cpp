@@ -32,8 +32,7 @@ Eigen::VectorXd integrated_residual(const MeshInterval& interval, ConstrainedDyn
   return half * sum;
 }
 
-/// Sum of the errors of the intervals in the last second; of the whole motion if it is shorter, of one interval if that
-/// is longer.
+/// Sum of the errors of the intervals in the last second, at least of one interval.
 class LastSecond {
  public:
   explicit LastSecond(Eigen::Index size) : sum_(Eigen::VectorXd::Zero(size)) {}

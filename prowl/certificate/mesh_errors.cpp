@@ -53,7 +53,7 @@ std::vector<double> error_parts(const Certificate& certificate, const MeshTolera
     return std::isfinite(of.error) && std::isfinite(of.reintegration) ? part : std::numeric_limits<double>::infinity();
   };
   const MeshTolerance errors = mesh_errors(certificate);
-  // As long as intervals are too coarse by themselves, the sum tells nothing of what is left of it.
+  // The sum counts only once every interval is short enough by itself.
   const bool is_for_the_sum =
       errors.local <= tolerance.local && errors.reintegration <= tolerance.reintegration && errors.second > 0.0;
   const double for_the_sum = errors.local * std::pow(tolerance.second / errors.second, 1.5);

@@ -21,7 +21,7 @@ struct MeshInterval {
   TrajectoryPoint at(double s) const {
     return is_hermite() ? hermite_point(left, right, middle_torque, s) : interpolate(left, right, s);
   }
-  /// dq/ds of it, as interpolated_rate().
+  /// dq/ds, as interpolated_rate().
   Eigen::VectorXd rate(double s) const {
     return is_hermite() ? hermite_rate(left, right, s) : interpolated_rate(left, right, s);
   }

@@ -15,11 +15,11 @@ namespace {
 using Limits = CertificateLimits;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kSameTime = 1e-9;  // of the two nodes of a phase switch [s]
+constexpr double kSameTime = 1e-9;  // largest difference at a phase transition [s]
 
 std::string node_name(std::size_t k) { return "node " + std::to_string(k); }
 
-/// What is wrong with node k of the trajectory, "" if nothing.
+/// Fault of node k of the trajectory, "" if none.
 std::string structure_fault(const MotionProblem& problem, const Trajectory& trajectory, std::size_t k, int phase) {
   const RobotModel& robot = problem.robot;
   const TrajectoryPoint& node = trajectory.nodes[k];
@@ -34,10 +34,10 @@ std::string structure_fault(const MotionProblem& problem, const Trajectory& traj
   return in_order ? "" : name + ": time";
 }
 
-/// How far x is outside [lower, upper]; negative inside, -inf if it is free.
+/// Distance of x outside [lower, upper]; negative inside, -inf if it is free.
 double violation(double x, double lower, double upper) { return std::max(lower - x, x - upper); }
 
-/// Worst violation of the start and of the goals, each kind of quantity by itself.
+/// Worst violations of the start and the goals, one per kind of quantity.
 struct BoundaryChecks {
   explicit BoundaryChecks(const GoalTolerance& tolerance)
       : position("goal position", "m", tolerance.position),
@@ -103,7 +103,7 @@ void check_continuity(const RobotModel& robot, const Trajectory& trajectory, std
     const TrajectoryPoint& left = trajectory.nodes[k];
     const TrajectoryPoint& right = trajectory.nodes[k + 1];
     const bool inside = left.phase == right.phase;
-    // A cubic meets both nodes whatever they are: what is wrong between them is integration error.
+    // A cubic always meets both nodes: its errors are integration errors.
     if (inside && trajectory.interpolation == Interpolation::hermite) continue;
     const TrajectoryPoint end = inside ? interpolate(left, right, right.time - left.time) : left;
     const Eigen::VectorXd gap = scaled_difference(end.q, end.v, right.q, right.v, scale).cwiseAbs();

@@ -14,7 +14,7 @@ namespace prowl {
 namespace {
 
 constexpr double kTolerance = 1e-10;  // absolute and relative, of each coordinate
-constexpr int kMaxSteps = 2000;       // an interval takes about ten; more means that the dynamics blow up
+constexpr int kMaxSteps = 2000;       // an interval takes about ten; with more the dynamics diverge
 
 using State = std::vector<double>;  // q, v
 
@@ -27,7 +27,7 @@ State state_rate(const State& x, const Eigen::VectorXd& tau, ConstrainedDynamics
   const Eigen::Index nv = tau.size() + 6;
   Eigen::VectorXd q = Eigen::Map<const Eigen::VectorXd>(x.data(), nv + 1);
   const Eigen::VectorXd v = Eigen::Map<const Eigen::VectorXd>(x.data() + nv + 1, nv);
-  // What has blown up stays so; handed a NaN, Pinocchio with assertions would end the program.
+  // A diverged state stays NaN: Pinocchio with assertions would end the program on it.
   if (!q.allFinite()) return State(x.size(), std::numeric_limits<double>::quiet_NaN());
   q.segment<4>(3).normalize();
   const Eigen::Quaterniond turn = base_quaternion(q);

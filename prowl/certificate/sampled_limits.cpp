@@ -14,7 +14,7 @@ namespace {
 
 using Limits = CertificateLimits;
 
-/// Where each contact is, against where it has to be.
+/// Checks position and velocity of each contact.
 class ContactChecks {
  public:
   ContactChecks(const MotionProblem& problem, const ContactPlaces& places) : problem_(problem), places_(places) {}
@@ -48,7 +48,7 @@ class ContactChecks {
   WorstCase penetration_{"penetration", "m", Limits::penetration};
 };
 
-/// What is missing at the highest point of every swing from the clearance above the planes without an edge.
+/// Checks the clearance at the highest point of every swing, above the planes without an edge.
 class SwingChecks {
  public:
   SwingChecks(const MotionProblem& problem, const ContactPlaces& places)
@@ -88,10 +88,10 @@ class SwingChecks {
   const MotionProblem& problem_;
   const ContactPlaces& places_;
   WorstCase missing_;
-  std::vector<double> highest_;  // of the swing so far, each contact [m]
+  std::vector<double> highest_;  // height of each contact in its swing so far [m]
 };
 
-/// What the ground has to do for the motion, by the true dynamics.
+/// Checks the contact forces of the true dynamics.
 class ForceChecks {
  public:
   explicit ForceChecks(const MotionProblem& problem)
@@ -110,10 +110,10 @@ class ForceChecks {
       const double normal = surface.normal.dot(force);
       const double tangential = (force - normal * surface.normal).norm();
       unilateral_.record(-normal, point.time, name);
-      // A pull is the unilateral check's: here it only leaves no room for friction.
+      // The unilateral check reports a pull; here it only allows no friction.
       friction_.record(tangential - surface.friction * std::max(normal, 0.0), point.time, name);
     }
-    if (!at_node) return;  // between nodes the planned force is linear, which the true one is not
+    if (!at_node) return;  // between nodes the planned force is linear, the true one is not
     for (std::size_t c = 0; c < problem_.robot.contacts().size(); ++c) {
       const Eigen::Vector3d error = (point.force - motion.force).segment<3>(3 * static_cast<Eigen::Index>(c));
       planned_.record(error.norm(), point.time, problem_.robot.contacts()[c].name);

@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// Contacts, forces and joint limits on a grid of at least ten points a mesh interval and a step of at most 1 ms, both
-/// ends of every phase included. The forces are those of true_motion.hpp, not the planner's.
+/// Checks contacts, forces and joint limits on a grid of at least ten pieces per mesh interval, of at most 1 ms each,
+/// with both ends of every phase. Forces come from true_motion.hpp, not from the planner.
 std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const Trajectory& trajectory,
                                              const ContactPlaces& places, PhaseDynamics& dynamics);
 

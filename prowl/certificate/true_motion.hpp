@@ -5,8 +5,8 @@
 
 namespace prowl {
 
-/// What the torques of a point of the motion really cause. Where contacts are redundant the motion does not tell the
-/// forces: these then have the planner's choice for the part that does nothing to the robot (linear between nodes).
+/// True accelerations and forces from the torques at a point of the motion. If contacts are redundant, the part of the
+/// forces without effect on the robot is the planner's (linear between nodes).
 inline ConstrainedDynamicsOracle::Motion true_motion(const TrajectoryPoint& point,
                                                      ConstrainedDynamicsOracle& dynamics) {
   auto motion = dynamics.evaluate(point.q, point.v, point.tau);

@@ -10,7 +10,7 @@
 
 namespace prowl {
 
-/// One check of a certificate while it looks for its worst moment.
+/// Finds the worst moment of one check.
 class WorstCase {
  public:
   WorstCase(std::string name, std::string unit, double limit)

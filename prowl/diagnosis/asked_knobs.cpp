@@ -20,7 +20,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The goal that part of the way from the start: pose, joints and velocities; not torques.
+/// The goal at that part of its distance from the start: pose, joints and velocities; not torques.
 BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, double part) {
   const VectorXd& start = problem.start_configuration();
   const int nu = problem.robot.nu();
@@ -30,7 +30,7 @@ BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, d
   const Vector3d turn = so3::log(from.transpose() * base_rotation(goal.q_ref));
   set_base_rotation(goal.q_ref, from * so3::exp(part * turn));
   for (int i = 0; i < problem.robot.nv(); ++i) {
-    if (i >= 3 && i < 6) continue;  // bounds on a rotation stay as wide as they are
+    if (i >= 3 && i < 6) continue;  // bounds on a rotation keep their width
     goal.configuration_lower(i) *= part;
     goal.configuration_upper(i) *= part;
   }
@@ -39,15 +39,15 @@ BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, d
   return goal;
 }
 
-/// An entry of a goal, and how far it is from the start, in its unit.
+/// An entry of a goal, and its distance from the start in its unit.
 struct Away {
   MotionLimit entry;
   double off = 0.0;
-  std::optional<double> at = {};  ///< the coordinate that it asks for, if it has one
-  int entries = 0;                ///< that are away from the start
+  std::optional<double> at = {};  ///< target of the coordinate, if it has one
+  int entries = 0;                ///< number of entries away from the start
 };
 
-/// The entry that is farthest away, each measured by its size. None: off is 0.
+/// The farthest entry, relative to its size; off = 0 if none is away.
 Away farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
   const RobotModel& robot = problem.robot;
   const VectorXd& start = problem.start_configuration();
@@ -105,9 +105,8 @@ Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& 
               },
           .besides =
               [away](double a) {
-                return away.entries > 1
-                           ? fmt::format("all that it asks for {:.3g} times as far from the start", std::exp(-a))
-                           : "";
+                return away.entries > 1 ? fmt::format("the whole goal {:.3g} times as far from the start", std::exp(-a))
+                                        : "";
               }};
 }
 
@@ -116,7 +115,7 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
   const PhaseContact& contact = problem.phases[phase].contacts[held];
   const Surface& surface = problem.surfaces[contact.surface];
   const Vector3d to = *contact.place;
-  const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // on the surface, as the place is
+  const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // projected on the surface
   const auto place = [root, to](double a) -> Vector3d { return root + std::exp(-a) * (to - root); };
   return {.kind = "place",
           .phase = phase,
@@ -135,14 +134,13 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
           .words =
               [place, root](double a) {
                 const Vector3d at = place(a);
-                constexpr double kRounding = 1e-9;  // [m] no -0 from the projection on the surface
+                constexpr double kRounding = 1e-9;  // [m]; avoids -0 from the projection
                 const Vector3d shown = (at.array().abs() < kRounding).select(0.0, at);
-                return fmt::format("[{:.6g}] m ({:.3g} m from where it stood)", fmt::join(shown, ", "),
+                return fmt::format("[{:.6g}] m ({:.3g} m from its previous position)", fmt::join(shown, ", "),
                                    (at - root).norm());
               }};
 }
 
-/// Feet lifted less.
 Knob clearance_knob(const MotionProblem& problem) {
   return {.kind = "clearance",
           .subject = "",

@@ -14,7 +14,7 @@ namespace prowl {
 
 namespace {
 
-constexpr double kMostFriction = 0.8;  // rubber on dry concrete, and who plans with more falls
+constexpr double kMostFriction = 0.8;  // rubber on dry concrete; robots that rely on more fall
 
 Knob friction_knob(const MotionProblem& problem, int surface) {
   const Surface& one = problem.surfaces[surface];
@@ -40,16 +40,16 @@ double seconds_of(const MotionProblem& problem, int phase, double sign) {
   return time;
 }
 
-/// Amount by which a duration may be turned: to what a task file may ask for.
+/// Largest amount for a duration, within the limits of task files.
 double most_of_duration(const MotionProblem& problem, int phase, double sign) {
   const double seconds = seconds_of(problem, phase, sign);
   if (sign < 0.0) return std::clamp(std::log(seconds / kShortestPhase), 0.0, kMostAmount);
-  constexpr double kUsual = 3.0;  // [s], of a phase that was written in milliseconds or so
+  constexpr double kUsual = 3.0;  // [s], for a phase given in milliseconds by mistake
   const double longest = kLongestMotion - (seconds_of(problem, -1, sign) - seconds);
   return std::min(std::max(kMostAmount, std::log(kUsual / seconds)), std::log(std::max(longest / seconds, 1.0)));
 }
 
-/// Phase -1: all together. sign -1: shorter.
+/// phase -1: all phases together; sign -1: shorter.
 Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
   const auto scaled = [phase, sign](MotionProblem changed, double a) {
     for (int p = 0; p < static_cast<int>(changed.phases.size()); ++p) {
@@ -57,7 +57,7 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
       Duration& duration = changed.phases[p].duration;
       const bool fixed = duration.is_fixed();
       (sign > 0.0 ? duration.max : duration.min) *= std::exp(sign * a);
-      // A flight that is too long may be too short, too: what lies between is left to the optimiser.
+      // A shorter flight keeps its old duration as the maximum: the optimiser chooses in between.
       if (fixed && sign > 0.0) duration.min = duration.max;
     }
     return changed;
@@ -74,21 +74,21 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
           }};
 }
 
-/// Phases of a gait come from one number, and there are many: up to so many phases have durations of their own to turn.
+/// Most phases with a knob each for their duration; a gait has many phases, from one number.
 constexpr int kMostPhases = 5;
 
-constexpr std::size_t kStands = 3;  // contacts; on fewer a robot cannot stay for as long as it likes
+constexpr std::size_t kStands = 3;  // contacts; with fewer, a robot cannot stand for long
 
 }  // namespace
 
 double printable_amount(const Knob& knob, double amount) {
   constexpr double kRounding = 1e-9;
   const double from = std::abs(knob.value(0.0)), to = std::abs(knob.value(amount));
-  if (from == 0.0) return amount;  // friction of ice: no factor helps
+  if (from == 0.0) return amount;  // no factor changes zero
   const double digit = std::pow(10.0, std::floor(std::log10(to)) - 2.0);
   const double rounded = digit * (to > from ? std::ceil(to / digit - kRounding) : std::floor(to / digit + kRounding));
   const double more = std::min(std::abs(std::log(rounded / from)), knob.most);
-  return more >= amount - kRounding ? more : amount;  // a range that may not be wider
+  return more >= amount - kRounding ? more : amount;  // a range at its widest
 }
 
 std::vector<Knob> knobs_of(const MotionProblem& problem) {

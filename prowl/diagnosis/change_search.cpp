@@ -18,17 +18,16 @@ namespace prowl {
 
 namespace {
 
-constexpr double kFirst = 0.4;       // amount: half as much again
-constexpr double kFurther = 2.5;     // from one amount to the next
-constexpr double kPrecision = 0.05;  // where a bisection ends: 5 % of the number, and 10 % of a large amount
-constexpr double kNoMatch = 2.0;     // a change is told of besides a smaller one up to so many times its amount
-/// Of the shipped tasks on about 20 intervals 21 drift by 0.6 mm or less, a jump by 4 mm, and those that only a finer
-/// mesh solves (three trots, a walk) by 25 mm and more.
+constexpr double kFirst = 0.4;       // first amount: a factor of 1.5
+constexpr double kFurther = 2.5;     // ratio of successive amounts
+constexpr double kPrecision = 0.05;  // a bisection ends at 5 % of the number, or 10 % of a large amount
+constexpr double kNoMatch = 2.0;     // larger multiples of the smallest amount are dropped
+/// On about 20 intervals, 21 shipped tasks drift by at most 0.6 mm, a jump by 4 mm, and those that need a finer mesh
+/// (three trots, a walk) by at least 25 mm.
 constexpr double kMostDrift = 5.0 * CertificateLimits::contact_drift;
-constexpr int kMostIterations = 200;  // on a coarse mesh; what has a solution takes 10 to 80, jumps up to 160
+constexpr int kMostIterations = 200;  // on a coarse mesh, where a solution takes 10 to 80, of jumps up to 160
 
-/// Stops a solve that gets nowhere: without a solution there is none to find, and that is what most solves of a search
-/// are.
+/// Stops a solve without progress: most problems of a search have no solution.
 class StallWatch {
  public:
   explicit StallWatch(SolverOptions& options) : interrupt_(options.interrupt), other_(std::move(options.on_iteration)) {
@@ -52,7 +51,7 @@ class StallWatch {
   }
 
   const std::atomic<bool>* interrupt_;
-  std::function<void(const SolveProgress&)> other_;  ///< that was to be told already
+  std::function<void(const SolveProgress&)> other_;  ///< the caller's callback
   std::atomic<bool> stop_ = false;
   double best_ = std::numeric_limits<double>::infinity();
   int since_ = 0;
@@ -82,7 +81,7 @@ std::optional<Trajectory> ChangeSearch::motion(const DiscreteProblem& discrete) 
     const SolveResult result = solver_.solve(nlp, nlp.pack(guess), options);
     if (result.status != SolveStatus::converged) return {};
     return nlp.unpack(result.z);
-  } catch (const Error&) {  // bounds that contradict each other, a model that cannot be evaluated: no plan either
+  } catch (const Error&) {  // contradictory bounds, a model that cannot be evaluated: no plan
     return {};
   }
 }
@@ -106,7 +105,7 @@ bool ChangeSearch::solves(const Knob& knob, double amount, const Mesh& mesh) con
 double ChangeSearch::bisected(const Knob& knob, double too_little, double enough, const Mesh& mesh) const {
   while (enough - too_little > std::max(kPrecision, 0.1 * enough) && may_go_on()) {
     const double middle = printable_amount(knob, 0.5 * (too_little + enough));
-    if (middle >= enough) break;  // as it is told, there is no number between
+    if (middle >= enough) break;  // no printable number in between
     (solves(knob, middle, mesh) ? enough : too_little) = middle;
   }
   return enough;
@@ -117,12 +116,12 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const Mesh& 
   ChangesFound result;
   std::vector<FoundChange>& found = result.found;
   std::vector<bool> done(knobs.size(), false);
-  double enough = std::numeric_limits<double>::infinity();  // of the smallest found, weighted
+  double enough = std::numeric_limits<double>::infinity();  // weighted amount of the smallest change
   double before = 0.0;
   int tries = 0;
   for (double turned = kFirst; before < kNoMatch * enough; turned *= kFurther) {
     bool any_left = false;
-    int about = tries;  // with those of this round; whether there is a next one is not known
+    int about = tries;  // up to the end of this round; another may follow
     for (std::size_t i = 0; i < knobs.size(); ++i) about += !done[i] && before / knobs[i].weight < knobs[i].most;
     for (std::size_t i = 0; i < knobs.size(); ++i) {
       const Knob& knob = knobs[i];
@@ -145,7 +144,7 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const Mesh& 
   result.out_of_time = seconds_left() <= 0.0;
   std::erase_if(found, [&](const FoundChange& one) { return one.weighted() > kNoMatch * enough; });
   std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
-  // What differs by less than bisections tell is equal, and a limit comes before what the task asks.
+  // Amounts within the precision of a bisection are equal; a limit then comes before a demand of the task.
   const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return !one.knob.is_asked; });
   if (first != found.end() && first->weighted() <= found.front().weighted() + kPrecision) {
     std::rotate(found.begin(), first, first + 1);

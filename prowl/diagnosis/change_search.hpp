@@ -14,7 +14,7 @@
 
 namespace prowl {
 
-/// A knob, and the least amount with which the problem was solved.
+/// A knob and the smallest amount with which the problem was solved.
 struct FoundChange {
   Knob knob;
   double amount = 0.0;
@@ -23,36 +23,35 @@ struct FoundChange {
 
 struct ChangesFound {
   std::vector<FoundChange> found;  ///< sorted by weighted amount
-  int tried = 0;                   ///< knobs that were turned
-  bool out_of_time = false;        ///< some were not, or not as far as they could have been
+  int tried = 0;                   ///< number of knobs
+  bool out_of_time = false;        ///< some knobs were not tried, or not up to their largest amount
 };
 
-/// Looks for small changes that make a problem solvable, by solving it again and again on its mesh, until the time is
-/// up.
+/// Looks for small changes that make a problem solvable: solves it on its mesh again and again until the time is up.
 class ChangeSearch {
  public:
   ChangeSearch(const NlpSolver& solver, const SolverOptions& options, double max_seconds)
       : solver_(solver), options_(options), end_(wall_seconds() + max_seconds) {}
-  /// The same search, which ends after that part of the time that is left.
+  /// The same search with that part of the remaining time.
   ChangeSearch within(double part) const;
 
   double seconds_left() const { return end_ - wall_seconds(); }
-  /// What a solve may take: a part of the time that is left, at most so many seconds, but never no time at all.
+  /// Time limit of a solve [s]: a part of the remaining time, at most `most`, never zero.
   double seconds_of_solve(double part = 1.0, double most = std::numeric_limits<double>::infinity()) const;
   bool interrupted() const { return options_.interrupt && options_.interrupt->load(); }
   bool may_go_on() const { return seconds_left() > 0.0 && !interrupted(); }
 
-  /// What the solver converges to on the problem's mesh from its guess. None if it does not, if there is a proof
-  /// against it, or the time is up.
+  /// Solution on the problem's mesh, from its initial guess. None if the solver does not converge, a proof excludes it,
+  /// or the time is up.
   std::optional<Trajectory> motion(const DiscreteProblem& discrete) const;
-  /// Whether there is one in which contacts stay where they are: on a coarse mesh they may drift by centimetres in
-  /// between the nodes, and what needs that has no plan.
+  /// True if there is a solution whose contacts hold still. On a coarse mesh they may drift by centimetres between the
+  /// nodes; such a motion has no plan.
   bool solves(const DiscreteProblem& discrete) const;
-  /// The same of the problem with a knob turned, on that mesh.
+  /// The same with a knob turned, on that mesh.
   bool solves(const Knob& knob, double amount, const Mesh& mesh) const;
 
-  /// All knobs are turned a little, then further and further, each until its problem is solved; then between the last
-  /// two amounts by bisection. Ends where what is left would be no match for the smallest, or when the time is up.
+  /// Turns all knobs a little, then further and further, each until its problem is solved; then bisects between its
+  /// last two amounts. Ends when larger amounts cannot compete with the smallest, or the time is up.
   ChangesFound smallest(const std::vector<Knob>& knobs, const Mesh& mesh,
                         const std::function<void(const std::string&)>& on_step) const;
 

@@ -12,7 +12,7 @@
 namespace prowl {
 
 bool holds_but_for_its_mesh(const Certificate& certificate) {
-  constexpr double kMost = 100.0;  // times its limit: an error that five times the intervals would take away
+  constexpr double kMost = 100.0;  // times its limit: five times the intervals would remove this error
   const auto is_near = [](const CertificateCheck& check) { return check.passed || check.worst <= kMost * check.limit; };
   return fails_by_mesh_only(certificate) && std::ranges::all_of(certificate.checks, is_near);
 }
@@ -20,7 +20,7 @@ bool holds_but_for_its_mesh(const Certificate& certificate) {
 Diagnosis diagnose(const DiscreteProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
                    const DiagnosisOptions& options) {
   constexpr double kOwnPart =
-      0.2;  // of the time, for a task that has no solution on one of its meshes; more, once the search is over
+      0.2;  // of the time, for a task without a solution on one of its meshes; go_on() adds the rest
   DiagnosisRun run(problem, solver, elastic_solver, options);
   TaskAsItIs as_it_is(run);
   Diagnosis& result = run.result;

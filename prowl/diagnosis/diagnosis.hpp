@@ -12,87 +12,76 @@
 
 namespace prowl {
 
-/// A change of one number with which the task was solved.
+/// A change of one number that makes the task solvable.
 struct Change {
   std::string
       kind;  ///< "friction", "torque", "joint_position", "joint_velocity", "goal", "place", "clearance", "duration"
-  int phase = -1;       ///< -1: not of one phase
-  std::string subject;  ///< surface, joints, goal, contact or phase; "" for all
-  bool is_factor =
-      false;  ///< `to` is what the limits of several joints, which may differ, are multiplied with; `from` is 1
+  int phase = -1;          ///< -1 for the whole motion
+  std::string subject;     ///< surface, joints, goal, contact or phase; "" for all
+  bool is_factor = false;  ///< `to` is a common factor on the limits of several joints; `from` is 1
   double from = 0.0, to = 0.0;
   std::string unit;
   std::string from_words,
-      to_words;         ///< the same in the terms of a file where these are others, with unit: "[-2.44, -0.97] rad"
-  std::string besides;  ///< what changes with it, "" if nothing: "all that it asks for 0.6 times as far"
-  double amount = 0.0;  ///< |log(to / from)|, or of a number that is 0 how far it was turned: how changes of different
-                        ///< numbers are compared
-  /// Solved on the task's own mesh, and what of its certificate fails is the error of that mesh; else solved on the
-  /// mesh of the search, and no more.
+      to_words;         ///< the same as in a file, with unit, if these differ: "[-2.44, -0.97] rad"
+  std::string besides;  ///< its side effects, "" if none: "the whole goal 0.6 times as far"
+  double amount = 0.0;  ///< |log(to / from)|, or the knob's amount if `from` is 0
+  /// Solved on the task's own mesh, and its certificate passes or fails by that mesh alone. Otherwise solved on the
+  /// search mesh only.
   bool is_proved = false;
-  bool passes = false;     ///< that, and the whole certificate
-  bool was_tried = false;  ///< on the task's own mesh, and no limit of time or iterations ended that; if it is not
-                           ///< proved, without success
+  bool passes = false;     ///< proved, and passes the whole certificate
+  bool was_tried = false;  ///< on the task's own mesh, without a stop by time or iterations
 };
 
-/// Why a task has no plan, as far as can be found out.
+/// Why a task has no plan.
 struct Diagnosis {
-  int task_intervals = 0;       ///< of the mesh of the task
-  bool solvable = false;        ///< the task as it is has a plan
+  int task_intervals = 0;       ///< of the task's mesh
+  bool solvable = false;        ///< the unchanged task has a plan
   Certificate certificate;      ///< of that plan
-  bool needs_one_mesh = false;  ///< make_plan finds that plan on the task's mesh at once (PlanOptions::coarse_first
-                                ///< false), not by way of coarse ones
-  /// What stopped make_plan of the task as it is before its end, in words: time, iterations, an interrupt. "" if
-  /// nothing did.
+  bool needs_one_mesh = false;  ///< make_plan finds that plan only with PlanOptions::coarse_first = false
+  /// Reason why make_plan of the unchanged task was stopped (time, iterations, interrupt); "" if it was not.
   std::string stopped_by;
   bool is_undecided() const { return !solvable && !stopped_by.empty(); }
-  /// Of make_plan of the task as it is. Not converged, and yet solvable: the task's mesh was solved from the initial
+  /// From make_plan of the unchanged task. If not converged but solvable, the task's mesh was solved from the initial
   /// guess.
   SolveStatus status = SolveStatus::solver_failed;
   std::string message;               ///< the solver's
   std::vector<std::string> reasons;  ///< proofs_of_infeasibility()
-  std::vector<std::string> hints;    ///< Plan::hints; doubts() besides a proof
-  /// From here on empty if the task has a plan, unless that was found late and fails its certificate by more than its
-  /// mesh. What is named: what the change turns that is smallest while joints are turned all together; if that did not
-  /// hold on the task's mesh, the one that did; if no change was found, the limit that gives way most. Empty if
-  /// neither.
+  std::vector<std::string> hints;    ///< Plan::hints; with a proof, doubts()
+  /// Empty from here on if the task has a plan, unless that was found late and fails its certificate by more than its
+  /// mesh. kind, phase and subject name the cause: the smallest change, with all joints together; if it fails on the
+  /// task's mesh, the change that holds there; without a change, the limit that gives way most; else nothing.
   std::string kind;
   int phase = -1;
   std::string subject;
-  SolveStatus elastic_status = SolveStatus::solver_failed;  ///< of the solve that the breaches are from
-  std::vector<Breach>
-      breaches;                 ///< of the limits of that kind alone if they suffice, else of all together; worst first
-  int search_intervals = 0;     ///< of the mesh that breaches and changes are from; 0: each mesh of the task was solved
-  std::vector<Change> changes;  ///< each by itself; the one that is proved, then smallest first; of joints, in the one
-                                ///< named first, those that gave way if they are enough
-  int tried = 0;                ///< numbers that were turned
-  bool out_of_time = false;     ///< before all was tried that could have been
-  bool interrupted = false;     ///< likewise
+  SolveStatus elastic_status = SolveStatus::solver_failed;  ///< of the solve behind the breaches
+  std::vector<Breach> breaches;  ///< worst first; of limits of that kind alone if they suffice, else of all
+  int search_intervals = 0;      ///< of the mesh of breaches and changes; 0: each mesh of the task was solved
+  std::vector<Change> changes;   ///< alternatives: the proved one, then smallest first; the first one turns only the
+                                 ///< joints that gave way, if these suffice
+  int tried = 0;                 ///< numbers that were changed
+  bool out_of_time = false;      ///< before everything was tried
+  bool interrupted = false;      ///< likewise
 };
 
-/// Whether all checks pass but for errors of the mesh, and those not by so much that on a finer one it would be another
-/// motion.
+/// True if all checks pass except errors of the mesh, and these are small enough that a finer mesh keeps the motion.
 bool holds_but_for_its_mesh(const Certificate& certificate);
 
 struct DiagnosisOptions {
   SolverOptions solver;                                  ///< tolerance, threads, interrupt
   double max_seconds = 120.0;                            ///< in all
-  std::function<void(const std::string&)> on_step = {};  ///< told what is being done, one line
+  std::function<void(const std::string&)> on_step = {};  ///< receives one line per step
 };
 
 /// Diagnoses a task:
-/// 1. proofs before the solve; then the meshes of the task, a search mesh of about 20 intervals first, up to one on
-/// which
-///    `solver` finds no motion; and the task as it is (make_plan), which may succeed all the same. If all meshes were
-///    solved, there is a motion and nothing to change, whatever became of that plan;
-/// 2. on that mesh, for each number that the task could have otherwise (knobs_of) by bisection the least change with
-///    which `solver` converges; kinds that cannot be the smallest any more are left after one solve;
-/// 3. an elastic solve by `elastic_solver` with the limits of the kind that was named, to read where, when and by how
-///    much;
-/// 4. joints are narrowed down to those that gave way, if these alone suffice;
-/// 5. the task with each of the smallest changes on its own mesh, up to the first that passes its certificate, or fails
-/// it by that mesh alone;
-/// 6. what is left of the time for the task as it is, if the time was up for it in step 1.
+/// 1. Look for proofs. Solve the task on its meshes, from about 20 intervals up, until `solver` finds no motion. Plan
+///    the unchanged task (make_plan), which may still succeed. If all meshes are solved, nothing has to change.
+/// 2. On the mesh without a motion, bisect the least amount of each knob (knobs_of) with which `solver` converges.
+///    Knobs that cannot be the smallest end after one solve.
+/// 3. Solve elastically with `elastic_solver` and limits of the named kind: where, when, by how much they give way.
+/// 4. Narrow joints down to those that gave way, if these suffice.
+/// 5. Plan the task with each of the smallest changes on its own mesh, up to the first that passes its certificate or
+///    fails by that mesh alone.
+/// 6. If time ran out for the unchanged task in step 1, resume it with the remaining time.
 Diagnosis diagnose(const DiscreteProblem& problem, const NlpSolver& solver, const NlpSolver& elastic_solver,
                    const DiagnosisOptions& options);
 

@@ -31,12 +31,12 @@ Plan DiagnosisRun::planned(const DiscreteProblem& of, double part, PlanOptions w
 std::string DiagnosisRun::what_stopped(const SolveResult& plan) const {
   if (plan.status == SolveStatus::interrupted) return "interrupted";
   if (plan.status == SolveStatus::iteration_limit) {
-    return fmt::format("stopped after its solver.max_iterations ({})", options.solver.max_iterations);
+    return fmt::format("stopped at solver.max_iterations ({})", options.solver.max_iterations);
   }
   if (plan.status != SolveStatus::time_limit) return "";
   return plan.seconds >= options.solver.max_seconds
-             ? fmt::format("stopped after its solver.max_time_s ({:g} s)", options.solver.max_seconds)
-             : fmt::format("the time was up after {:.1f} s of planning it", plan.seconds);
+             ? fmt::format("stopped at solver.max_time_s ({:g} s)", options.solver.max_seconds)
+             : fmt::format("time ran out after {:.1f} s of planning", plan.seconds);
 }
 
 }  // namespace prowl

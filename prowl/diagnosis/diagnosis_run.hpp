@@ -8,16 +8,15 @@
 
 namespace prowl {
 
-/// What the parts of a diagnosis share. The references must outlive it.
+/// Shared by the parts of a diagnosis. The references must outlive it.
 struct DiagnosisRun {
   DiagnosisRun(const DiscreteProblem& problem, const NlpSolver& solver, const NlpSolver& elastic,
                const DiagnosisOptions& options);
 
-  /// Tells who asked what is being done.
   void step(const std::string& what) const;
-  /// As prowl plan does, in a part of the time that is left, of which so much was spent on it before.
+  /// Plans as prowl plan does, in a part of the remaining time. `seconds_before` were already spent on this plan.
   Plan planned(const DiscreteProblem& of, double part, PlanOptions with = {}, double seconds_before = 0.0) const;
-  /// What stopped a plan before its end, in words; "" if nothing did.
+  /// Reason why a plan was stopped early, in words; "" if it was not.
   std::string what_stopped(const SolveResult& plan) const;
 
   const DiscreteProblem& problem;
@@ -25,7 +24,7 @@ struct DiagnosisRun {
   const NlpSolver& elastic;
   const DiagnosisOptions& options;
   ChangeSearch search;
-  DiscreteProblem searched;  ///< the problem on the mesh of the search
+  DiscreteProblem searched;  ///< the problem on the search mesh
   Diagnosis result;
 };
 

@@ -14,14 +14,14 @@ namespace prowl {
 
 namespace {
 
-constexpr double kSeen = 1e-3;  // of a limit's size: less is the tolerance of a solve that prices sums
+constexpr double kSeen = 1e-3;  // of a limit's size: less is within the tolerance of the solve
 
-/// Of the task's own cost, which is about 1 at a solution (docs/task-file.md): too little to buy a breach that is seen,
-/// and enough to keep the motion smooth. Without it the optimiser finds motions that a coarse mesh does not see
-/// through.
+/// Weight of the task's own cost, which is about 1 at a solution (docs/task-file.md): too small to pay for a visible
+/// breach, large enough to keep the motion smooth. Without it the optimiser finds motions that only a coarse mesh
+/// allows.
 constexpr double kOwnCost = 1e-3;
 
-/// Part of the motion's time that a node stands for; one moment counts in full.
+/// The node's share of the motion's time; 1 for a limit at one moment.
 double share(const MotionLimit& limit, const DiscreteProblem& discrete) {
   if (limit.kind == LimitKind::goal || limit.kind == LimitKind::place) return 1.0;
   const MeshNode& node = discrete.nodes[limit.node];

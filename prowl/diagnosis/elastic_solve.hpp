@@ -10,28 +10,26 @@
 
 namespace prowl {
 
-/// A limit that gives way in an elastic solve, where it does so most.
+/// A limit that gives way in an elastic solve, at its worst node.
 struct Breach {
   LimitKind kind = LimitKind::friction;
   int phase = 0;
-  double time = 0.0;    ///< in the motion of the elastic solve, which chooses free durations [s]
-  std::string subject;  ///< contact, joint, or what a goal is about
-  double amount = 0.0;  ///< how much is missing, > 0, in `unit`
+  double time = 0.0;    ///< in the motion of the elastic solve [s]
+  std::string subject;  ///< contact, joint, or entry of a goal
+  double amount = 0.0;  ///< violation > 0, in `unit`
   std::string unit;
   double relative = 0.0;  ///< amount / MotionLimit::size
-  double total = 0.0;     ///< over all nodes, as priced
+  double total = 0.0;     ///< price over all nodes
 };
 
 struct ElasticResult {
   SolveStatus status = SolveStatus::solver_failed;
-  std::vector<Breach>
-      breaches;  ///< one for each limit and phase, those that cost most first; none below 0.1 % of their size
+  std::vector<Breach> breaches;  ///< one per limit and phase, most expensive first; none below 0.1 % of its size
 };
 
-/// Solves the problem once more with limits that give way (ElasticNlp): dynamics, start, contacts and landings stay
-/// hard, and the limits for which `gives_way` says so have slacks. What holds at every node costs in proportion to its
-/// part of the motion's time, so that the answer does not depend on the mesh. The task's own cost counts for little: of
-/// all motions that breach least, a smooth one.
+/// Solves the problem with slacks on the limits for which `gives_way` returns true (ElasticNlp); dynamics, start,
+/// contacts and landings stay hard. A slack costs in proportion to its node's share of the motion's time, so the result
+/// does not depend on the mesh. A small part of the task's cost selects a smooth motion among those that breach least.
 ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& solver, const SolverOptions& options,
                             const std::function<bool(const MotionLimit&)>& gives_way);
 

@@ -19,11 +19,10 @@ namespace prowl {
 
 namespace {
 
-/// Of the time that is left, what an elastic solve may take: it is an explanation, and the changes are the answer.
-constexpr double kElasticPart = 0.5;
-constexpr double kSearchPart = 0.65;  // of the time that is left, for the search
+constexpr double kElasticPart = 0.5;  // of the remaining time, for an elastic solve, which only explains the changes
+constexpr double kSearchPart = 0.65;  // of the remaining time, for the search
 constexpr int kElasticIterations = 500;
-constexpr double kElasticTolerance = 1e-5;  // of a weight or a limit
+constexpr double kElasticTolerance = 1e-5;  // relative to a weight or a limit
 
 bool is_of_joints(LimitKind kind) {
   return kind == LimitKind::torque || kind == LimitKind::joint_velocity || kind == LimitKind::joint_position;
@@ -46,10 +45,10 @@ Change as_change(const FoundChange& found) {
           .amount = std::isfinite(ratio) ? ratio : found.amount};
 }
 
-/// What became of a change on the mesh of the task.
+/// Result of a change on the mesh of the task.
 struct Proof {
-  std::optional<Certificate> certificate;  ///< of its motion, if that holds but for the error of its mesh
-  bool was_tried = false;                  ///< nothing ended that early
+  std::optional<Certificate> certificate;  ///< of its motion, if only errors of the mesh fail
+  bool was_tried = false;                  ///< without an early stop
 };
 
 class HelpfulChanges {
@@ -58,8 +57,8 @@ class HelpfulChanges {
 
   void run() {
     run_.result.search_intervals = run_.searched.mesh.num_intervals();
-    if (!run_.result.reasons.empty() && run_.search.may_go_on()) {  // else the plan has told
-      run_.step("postures of the initial guess");
+    if (!run_.result.reasons.empty() && run_.search.may_go_on()) {  // otherwise they are in the plan
+      run_.step("checking postures of the initial guess");
       run_.result.hints = doubts(run_.problem, initial_guess(run_.problem), run_.elastic);
     }
     ChangesFound changes = run_.search.within(kSearchPart)
@@ -75,8 +74,8 @@ class HelpfulChanges {
   }
 
  private:
-  /// Reads where the limits give way of the kind that is to be changed; of all kinds if nothing is found to change, or
-  /// if it is the time, or if that kind alone does not do.
+  /// Names the cause and reads where limits of its kind give way; limits of all kinds if no change was found, if the
+  /// cause is a duration, or if that kind alone does not suffice.
   void name(const std::vector<FoundChange>& found) {
     if (!found.empty()) {
       const Knob& knob = found.front().knob;
@@ -93,7 +92,7 @@ class HelpfulChanges {
     run_.result.subject = worst.subject;
   }
 
-  /// What was named first does not help; what gave way for it did, and is told if there is no time for more.
+  /// Names the change that helped in place of the first one. Keeps the breaches if there is no time for new ones.
   void rename(const std::vector<FoundChange>& found) {
     std::vector<Breach> before = std::exchange(run_.result.breaches, {});
     const SolveStatus status = run_.result.elastic_status;
@@ -116,12 +115,12 @@ class HelpfulChanges {
       });
       run_.result.elastic_status = elastic.status;
       if (elastic.status == SolveStatus::converged) run_.result.breaches = elastic.breaches;
-    } catch (const Error&) {  // bounds that contradict each other: nothing to give way
+    } catch (const Error&) {  // contradictory bounds: nothing can give way
       run_.result.elastic_status = SolveStatus::evaluation_failed;
     }
   }
 
-  /// Joints that gave way are named, if no other has to.
+  /// Restricts a change of all joints to those that gave way, if these suffice.
   void narrow_down(std::vector<FoundChange>& found) {
     if (found.empty()) return;
     FoundChange& smallest = found.front();
@@ -129,21 +128,21 @@ class HelpfulChanges {
     LimitKind kind = LimitKind::friction;
     std::set<int> joints;
     std::vector<int> turnable;
-    double needed = 0.0;  // amount that brings each of them as far as the elastic solution went
+    double needed = 0.0;  // amount that takes each of them as far as the elastic solution
     for (const Breach& breach : run_.result.breaches) {
       if (!is_of_joints(breach.kind) || to_string(breach.kind) != smallest.knob.kind) continue;
       kind = breach.kind;
       const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
       if (turnable.empty()) turnable = turnable_joints(run_.searched.problem.robot, kind);
-      if (std::ranges::find(turnable, joint) == turnable.end()) return;  // these alone cannot do
+      if (std::ranges::find(turnable, joint) == turnable.end()) return;  // the others do not suffice
       joints.insert(joint);
-      const double sides = breach.kind == LimitKind::joint_position ? 2.0 : 1.0;  // on which the limit yields
+      const double sides = breach.kind == LimitKind::joint_position ? 2.0 : 1.0;  // a range widens on both sides
       needed = std::max(
           needed, std::log1p(sides * breach.amount / value_of_limit(run_.searched.problem.robot, breach.kind, joint)));
     }
     if (joints.empty() || static_cast<int>(joints.size()) == run_.searched.problem.robot.nu()) return;
     const Knob some = joint_knob(run_.searched.problem, kind, {joints.begin(), joints.end()});
-    constexpr double kALittleMore = 0.1;  // a solution has room, an elastic one none
+    constexpr double kALittleMore = 0.1;  // an elastic solution is exactly at its limits
     run_.step("trying " + some.subject);
     double last = 0.0;
     for (const double amount : {smallest.amount, needed + kALittleMore, needed + 4.0 * kALittleMore}) {
@@ -153,13 +152,13 @@ class HelpfulChanges {
       if (!run_.search.solves(some, turned, run_.searched.mesh)) continue;
       smallest = {some, turned};
       run_.result.subject = some.subject;
-      // Of fewer joints more may be needed than of something else.
+      // Fewer joints may need more than another knob.
       std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
       return;
     }
   }
 
-  /// Up to the first that holds: with that one there is something to go on with.
+  /// Tries changes on the mesh of the task, up to the first that holds.
   void prove(std::vector<FoundChange>& found) {
     constexpr std::size_t kMost = 3;
     for (std::size_t i = 0; i < std::min(found.size(), kMost); ++i) {
@@ -179,8 +178,7 @@ class HelpfulChanges {
     }
   }
 
-  /// The same change, as it is told, on the mesh of the task, the whole way to the certificate; a little more of it if
-  /// need be.
+  /// Plans the printed change on the mesh of the task, up to its certificate; turns it slightly further if needed.
   Proof proof_of(FoundChange& found) const {
     double last = -1.0;
     bool was_tried = true;
@@ -189,14 +187,14 @@ class HelpfulChanges {
       if (amount == last) break;
       if (!run_.search.may_go_on()) return {};
       last = amount;
-      run_.step("on the mesh of the task, " + in_words(found.knob, amount));
+      run_.step("planning with " + in_words(found.knob, amount));
       try {
         Plan plan = run_.planned({found.knob.problem(amount), run_.problem.mesh}, 1.0);
         was_tried = was_tried && run_.what_stopped(plan.result).empty();
         if (plan.result.status != SolveStatus::converged || !holds_but_for_its_mesh(plan.certificate)) continue;
         found.amount = amount;
         return {std::move(plan.certificate), true};
-      } catch (const Error&) {  // bounds that contradict each other
+      } catch (const Error&) {  // contradictory bounds
         continue;
       }
     }

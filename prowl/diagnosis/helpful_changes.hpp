@@ -4,9 +4,9 @@
 
 namespace prowl {
 
-/// The second part of a diagnosis, of a task without a plan: the smallest changes that make it solvable on the mesh of
-/// the search, where limits of that kind give way, and the first change that holds on the task's own mesh. What is
-/// found is in the run's result.
+/// Second part of a diagnosis, for a task without a plan. Finds the smallest changes that make it solvable on the
+/// search mesh, the limits of that kind that give way, and the first change that holds on the task's own mesh. Sets
+/// run.result.
 void look_for_changes(DiagnosisRun& run);
 
 }  // namespace prowl

@@ -16,7 +16,7 @@ LimitCurve::Table times(LimitCurve::Table table, double factor) {
   return table;
 }
 
-/// Wider by the same on both sides, as far as a torque over the position is known.
+/// Widens both sides equally, within torque_over_position.
 void widen(JointLimits& limits, double lower, double upper, double factor) {
   const double more = 0.5 * (upper - lower) * (factor - 1.0);
   limits.position_lower = lower - more;
@@ -51,7 +51,7 @@ std::string range_of(const RobotModel& robot, int joint) {
                      limit_of_joint(robot, LimitKind::joint_position, joint).unit);
 }
 
-/// Which keys of a robot file are turned besides the torque limits of these joints.
+/// Keys of the robot file that scale with the torque limits of these joints.
 std::string tables_with_torque(const RobotModel& robot, const std::vector<int>& joints, double factor) {
   std::set<std::string> tables;
   for (const RobotModel::TorqueCurve& curve : robot.torque_curves()) {
@@ -61,7 +61,7 @@ std::string tables_with_torque(const RobotModel& robot, const std::vector<int>& 
   return tables.empty() ? "" : fmt::format("and {} times {:.5g}", fmt::join(tables, " and "), factor);
 }
 
-/// Of joints whose position ranges go with a factor those that are not so wide, for their torque is not known beyond.
+/// Joints whose ranges widen by less than the factor because torque_over_position ends, with these ranges.
 std::string narrower_ranges(const MotionProblem& problem, const std::vector<int>& joints, double factor) {
   constexpr double kRounding = 1e-9;
   const RobotModel wider = with_joints(problem, LimitKind::joint_position, joints, factor).robot;
@@ -71,7 +71,7 @@ std::string narrower_ranges(const MotionProblem& problem, const std::vector<int>
     if (value_of_limit(wider, LimitKind::joint_position, j) >= factor * width * (1.0 - kRounding)) continue;
     ranges.push_back(fmt::format("{} {}", problem.robot.joint_names()[j], range_of(wider, j)));
   }
-  return ranges.empty() ? "" : fmt::format("but as far as torque_over_position goes {}", fmt::join(ranges, ", "));
+  return ranges.empty() ? "" : fmt::format("but within torque_over_position {}", fmt::join(ranges, ", "));
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
   };
   std::vector<std::string> names;
   for (const int j : joints) names.push_back(robot.joint_names()[j]);
-  const bool several = joints.size() > 1;  // whose limits may differ: the factor is what they have in common
+  const bool several = joints.size() > 1;  // their limits may differ, so they share a factor
   const bool all = several && static_cast<int>(joints.size()) == robot.nu();
   return {.kind = to_string(kind),
           .subject = all ? "" : fmt::format("{}", fmt::join(names, ", ")),

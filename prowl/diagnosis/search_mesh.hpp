@@ -4,8 +4,8 @@
 
 namespace prowl {
 
-/// A mesh of about 20 intervals, 4 or more a phase: as coarse as tells whether there is a motion at all, and cheap to
-/// solve again and again. Goals keep their nodes. The problem's own if it has no more.
+/// A mesh of about 20 intervals, at least 4 per phase: just fine enough to find a motion, and cheap to solve many
+/// times. Goals keep their nodes. Returns a mesh of at most 20 intervals unchanged.
 Mesh search_mesh(const DiscreteProblem& discrete);
 
 }  // namespace prowl

@@ -17,7 +17,7 @@ std::optional<Trajectory> TaskAsItIs::solve_all_meshes() {
   std::optional<Trajectory> motion;
   for (Mesh& mesh : meshes) {
     run_.searched = DiscreteProblem(run_.problem.problem, std::move(mesh));
-    run_.step(fmt::format("solving as it is, {} intervals", run_.searched.mesh.num_intervals()));
+    run_.step(fmt::format("solving the task on {} intervals", run_.searched.mesh.num_intervals()));
     motion = run_.search.motion(run_.searched);
     if (!motion) break;
   }
@@ -25,21 +25,21 @@ std::optional<Trajectory> TaskAsItIs::solve_all_meshes() {
 }
 
 void TaskAsItIs::plan(double part) {
-  run_.step("planning as it is");
+  run_.step("planning the task");
   plan_ = run_.planned(run_.problem, part);
   judge();
 }
 
 void TaskAsItIs::go_on() {
   if (!run_.search.may_go_on() || plan_.result.seconds >= run_.options.solver.max_seconds) return;
-  run_.step("planning as it is, from where it was stopped");
+  run_.step("planning the task, from where it stopped");
   const double seconds_before = plan_.result.seconds;
   PlanOptions options;
   options.resume = !plan_.trajectory.empty();
   options.start_from = std::move(plan_.trajectory);
   plan_ = run_.planned(run_.problem, 1.0, std::move(options), seconds_before);
   plan_.result.seconds += seconds_before;
-  // What was found meanwhile is of no use, unless this is a motion that only its mesh allows.
+  // A plan makes the changes useless, unless it fails by more than its mesh.
   if (plan_.result.status == SolveStatus::converged && holds_but_for_its_mesh(plan_.certificate)) {
     run_.result = {};
     run_.result.task_intervals = run_.problem.mesh.num_intervals();
@@ -52,7 +52,7 @@ void TaskAsItIs::take_from_own_mesh(const Trajectory& motion) {
   run_.result.certificate = certify(run_.problem, motion);
   const bool has_coarse_meshes = mesh_levels(run_.problem.problem, run_.problem.mesh).size() > 1;
   if (!run_.result.stopped_by.empty() || !has_coarse_meshes || !run_.search.may_go_on()) return;
-  run_.step("planning as it is, on its own mesh at once");
+  run_.step("planning the task on its own mesh only");
   PlanOptions options;
   options.coarse_first = false;
   Plan plan = run_.planned(run_.problem, 1.0, std::move(options));

@@ -6,20 +6,19 @@
 
 namespace prowl {
 
-/// The first part of a diagnosis: whether the task has a plan as it is. What is found is in the run's result.
+/// First part of a diagnosis: looks for a plan of the unchanged task. Sets run.result.
 class TaskAsItIs {
  public:
   explicit TaskAsItIs(DiagnosisRun& run) : run_(run) {}
 
-  /// The motion on the task's own mesh, if there is one on the search mesh, on all finer ones of the task and on that.
-  /// Else `searched` is on the coarsest without: there it costs least to look for changes. Feet may drift on coarse
-  /// ones: a finer one will tell.
+  /// Motion on the task's own mesh, if the search mesh and all finer meshes of the task have one. Otherwise `searched`
+  /// gets the coarsest mesh without a motion, where a search for changes costs least. Feet may drift on coarse meshes.
   std::optional<Trajectory> solve_all_meshes();
-  /// As prowl plan does, in a part of the time that is left.
+  /// Plans as prowl plan does, in a part of the remaining time.
   void plan(double part);
-  /// plan() did not get there, but the task's own mesh was solved from the initial guess.
+  /// For a task that plan() did not solve, but its own mesh was solved from the initial guess.
   void take_from_own_mesh(const Trajectory& motion);
-  /// From where the time was up for plan().
+  /// Resumes plan() if its time was up.
   void go_on();
 
  private:

@@ -11,7 +11,7 @@ namespace prowl {
 namespace {
 
 
-/// Where the chain from the base to a joint's body begins, and how long it is up to that joint's origin.
+/// Root of the chain from the base to a joint, and its length up to that joint's origin.
 struct Chain {
   Eigen::Vector3d root = Eigen::Vector3d::Zero();
   double length = 0.0;
@@ -53,7 +53,7 @@ MassMotion centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q, con
   RigidBodyTerms terms(robot);
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(robot.nv());
   terms.update_with_derivatives(q, rest, rest);
-  // The rows of the base's force: m (1, -[c]x, ...), c from the base in its frame, so that they give the momentum too.
+  // The rows of the base force are m (1, -[c]x, ...), c in the base frame; times v they give the momentum.
   const Eigen::Matrix3d moment = terms.mass_matrix().block<3, 3>(0, 3) / robot.mass();
   const Eigen::Vector3d c(moment(1, 2), moment(2, 0), moment(0, 1));
   const Eigen::Vector3d momentum = terms.mass_matrix().topRows<3>() * v;

@@ -6,15 +6,15 @@
 
 namespace prowl {
 
-/// How far a contact point can be from the base whatever the joints do: within `length` of `root`, a point of the base.
+/// Bound on the distance of a contact point from the base: within `length` of `root`, a point of the base.
 ///
 ///   |p - (p_base + R_base root)| <= length
 ///
-/// root is the origin of the first joint between the two, length the sum of the distances from joint to joint behind it
-/// and to the contact point, so that it bounds all postures, also those that the joint limits forbid.
+/// root is the origin of the first joint between the two; length sums the distances from joint to joint behind it, up
+/// to the contact point. The bound holds for all angles of the joints, also beyond their limits.
 struct ContactReach {
   Eigen::Vector3d root;  ///< base frame [m]
-  double length = 0.0;   ///< [m]; infinite behind a joint that slides without limits
+  double length = 0.0;   ///< [m]; infinite behind a prismatic joint without limits
   int first_joint = -1;  ///< index into RobotModel::joint_names(); -1 for a contact on the base itself
 };
 ContactReach contact_reach(const RobotModel& robot, int contact);
@@ -25,8 +25,7 @@ struct MassMotion {
 };
 MassMotion centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
-/// How far the centre of mass can be from the base whatever the joints do, likewise: within `radius` of `centre`, a
-/// point of the base.
+/// The same for the centre of mass: within `radius` of `centre`, a point of the base.
 struct MassReach {
   Eigen::Vector3d centre;  ///< base frame [m]
   double radius = 0.0;     ///< [m]

@@ -13,7 +13,8 @@ void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
   chains_.resize(contacts_.size());
   positions_.resize(rows());
   acceleration_.resize(rows());
-  if (jacobian_.rows() != rows() || jacobian_.cols() != terms.nv()) {  // else what is not set below is zero already
+  if (jacobian_.rows() != rows() ||
+      jacobian_.cols() != terms.nv()) {  // otherwise entries not set below are zero already
     jacobian_.setZero(rows(), terms.nv());
     positions_dq_.setZero(rows(), terms.nv());
   }
@@ -35,7 +36,7 @@ void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
   }
 }
 
-// The base moves all contacts: a dense product. A joint moves those behind it.
+// The base moves all contacts (a dense product), a joint only those behind it.
 void ContactKinematics::multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const {
   out.noalias() = jacobian_.leftCols<6>() * x.topRows<6>();
   for (Eigen::Index column = 0; column < x.cols(); ++column) {
@@ -67,7 +68,7 @@ void ContactKinematics::set_motion(const Eigen::VectorXd& v, const Eigen::Vector
 
 void ContactKinematics::propagate_motion(Chain& chain, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
                                          Eigen::Ref<Eigen::VectorXd> acceleration) {
-  // Outwards: how the bodies turn. The six degrees of freedom of the base act together, before all joints.
+  // Outwards: rotation of the bodies. The six degrees of freedom of the base act together, before all joints.
   Vector3d base_omega = Vector3d::Zero(), base_alpha = Vector3d::Zero();
   Vector3d base_velocity = Vector3d::Zero(), base_acceleration = Vector3d::Zero();  // of p, fixed to the base
   for (std::size_t i = 0; i < kBaseDofs; ++i) {
@@ -90,7 +91,7 @@ void ContactKinematics::propagate_motion(Chain& chain, const Eigen::VectorXd& v,
     link.omega_after = omega;
   }
 
-  // Inwards: how p moves relative to the body before each joint.
+  // Inwards: motion of p relative to the body before each joint.
   Vector3d v_rel = Vector3d::Zero(), a_rel = Vector3d::Zero();
   for (std::size_t i = chain.size(); i-- > kBaseDofs;) {
     Link& link = chain[i];
@@ -140,8 +141,8 @@ void ContactKinematics::acceleration_dv(Eigen::MatrixXd& dg_dv) const {
 //   ∂²g/∂q_k ∂v_l = w_k × ∂g/∂v_l + 2 V_k × d_l
 //   ∂²g/∂v_k ∂q_l = w_k × ∂g/∂v_l + (V_k + Ω_after × w_k) × d_l
 //   ∂²g/∂q_k ∂a_l = ∂²g/∂a_k ∂q_l = w_k × d_l,     ∂²g/∂v_k ∂v_l = 2 w_k × d_l
-// so that times a force all is three vectors of l, times those of k. Within the base, where V = 0, the two orders of
-// ∂²g/∂v ∂v are added, and the Hessian along q (+) d has the mean of the two orders of ∂²g/∂q ∂q.
+// Contracted with a force, these are products of three vectors of l with vectors of k. Within the base (V = 0) both
+// orders of ∂²g/∂v ∂v are added, and the Hessian along q ⊕ d is the mean of both orders of ∂²g/∂q ∂q.
 void ContactKinematics::add_acceleration_hessian_qq(const Eigen::VectorXd& lambda,
                                                     Eigen::Ref<Eigen::MatrixXd> qq) const {
   for (std::size_t c = 0; c < chains_.size(); ++c) {
@@ -228,7 +229,7 @@ void ContactKinematics::add_position_hessian(const Eigen::VectorXd& lambda, doub
       const Vector3d on_w = link.d.cross(force);
       const bool in_base = l < kBaseDofs;
       for (std::size_t k = kFirstRotation; k < (in_base ? kBaseDofs : l + 1); ++k) {
-        const double value = (in_base ? 0.5 : 1.0) * chain[k].w.dot(on_w);  // rotations of the base: the mean
+        const double value = (in_base ? 0.5 : 1.0) * chain[k].w.dot(on_w);  // base rotations: mean of both orders
         out(chain[k].dof, link.dof) += value;
         if (in_base || k < l) out(link.dof, chain[k].dof) += value;
       }

@@ -33,19 +33,19 @@ class ContactKinematics {
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }          ///< rows() x nv, for v
   const Eigen::MatrixXd& positions_dq() const { return positions_dq_; }  ///< rows() x nv, for the tangent of q
 
-  /// out = J x, and out -= Jᵀ y, with what is zero in J left out.
+  /// out = J x, and out -= Jᵀ y; both skip the zeros of J.
   void multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const;
   void subtract_transposed(const Eigen::MatrixXd& y, Eigen::MatrixXd& out) const;
 
-  /// Sets the motion (v, a) at which the rest is evaluated. v = 0, a = u makes g = J u: the derivatives of J u.
+  /// Sets the motion (v, a) of the evaluations below. v = 0, a = u makes g = J u.
   void set_motion(const Eigen::VectorXd& v, const Eigen::VectorXd& a);
   const Eigen::VectorXd& acceleration() const { return acceleration_; }  ///< g, rows()
   void acceleration_dq(Eigen::MatrixXd& dg_dq) const;                    ///< rows() x nv
   void acceleration_dv(Eigen::MatrixXd& dg_dv) const;                    ///< rows() x nv; dg/da is jacobian()
-  /// Adds the second derivatives of lambda . (J (a + velocity_gain v) + J̇ v) (lambda: rows()), with what was given to
-  /// set_motion as the acceleration in the brackets.
+  /// Adds the second derivatives of lambda . (J (a + velocity_gain v) + J̇ v) (lambda: rows()). The `a` of set_motion()
+  /// must be the bracketed term.
   void add_acceleration_hessian(const Eigen::VectorXd& lambda, double velocity_gain, SecondDerivatives& result) const;
-  /// The block qq of it alone.
+  /// Its block qq alone.
   void add_acceleration_hessian_qq(const Eigen::VectorXd& lambda, Eigen::Ref<Eigen::MatrixXd> qq) const;
 
   /// out(j, i) += ∂(Jᵀ f)_j / ∂q_i at fixed forces f (rows(), world frame). nv x nv.
@@ -62,7 +62,7 @@ class ContactKinematics {
     Eigen::Vector3d omega_after;   ///< angular velocity of the body behind the joint
     Eigen::Vector3d dg_dq, dg_dv;  ///< derivatives of the acceleration of p
 
-    /// Derivatives of omega and alpha behind the joint in q, seen from what turns with it.
+    /// Derivatives in q of omega and alpha behind the joint, in axes that turn with it.
     Eigen::Vector3d V() const { return omega.cross(w); }
     Eigen::Vector3d A() const { return alpha.cross(w) + omega.cross(omega.cross(w)); }
   };

@@ -58,15 +58,15 @@ void ForwardDynamics::evaluate_with_derivatives(const Eigen::VectorXd& q, const 
   if (!projector_.full_rank()) add_turn_of_force_space(df_.q);
 }
 
-// Redundant contacts leave a part e = (I − J J⁺)(J a + J̇ v) that no acceleration can remove (zero where J v = 0). It
-// counts in d(J⁺ e) = J⁺ (de + J⁺' dJ' e) = 0.
+// Redundant contacts leave a part e = (I − J J⁺)(J a + J̇ v) that no acceleration can remove (zero if J v = 0). It
+// enters d(J⁺ e) = J⁺ (de + J⁺' dJ' e) = 0.
 void ForwardDynamics::add_turn_of_lost_acceleration(Eigen::MatrixXd& dg_dq) const {
   Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(terms_.nv(), terms_.nv());
   kinematics_.add_force_derivative(kinematics_.acceleration(), turned);
   dg_dq += pinv_.transpose() * turned;
 }
 
-// Of all forces with the same J' f, f is the one in the range of J, which turns: (I − J J⁺) df = (I − J J⁺) dJ J⁺ f.
+// Among all forces with the same J' f, f is in the range of J, which turns: (I − J J⁺) df = (I − J J⁺) dJ J⁺ f.
 void ForwardDynamics::add_turn_of_force_space(Eigen::MatrixXd& df_dq) {
   kinematics_.set_motion(Eigen::VectorXd::Zero(terms_.nv()), pinv_ * f_);
   Eigen::MatrixXd turned;

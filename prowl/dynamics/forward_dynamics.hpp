@@ -10,14 +10,14 @@
 
 namespace prowl {
 
-/// Forward form of the projected dynamics: the accelerations and contact forces that torques cause
+/// Forward form of the projected dynamics: accelerations and contact forces from torques
 /// (docs/theory.md#forward-form, after Pardo et al. 2016 with the missing P restored):
 ///
 ///   a = Mc⁻¹ ( P (S' τ − h) + M C v ),   Mc = M + P M − (P M)',   C v = −J⁺ J̇ v     [m/s², rad/s²], base frame
 ///   f = J⁺' (M a + h − S' τ)                                                       [N], world frame
 ///
-/// C v is dP/dt v where J v = 0; elsewhere it is what keeps J J⁺ (J a + J̇ v) = 0. Contacts are any set, also none, or
-/// redundant ones, where a is still unique and f is the choice of least norm.
+/// C v is dP/dt v if J v = 0; otherwise it keeps J J⁺ (J a + J̇ v) = 0. The set of contacts may be empty or redundant;
+/// then a is still unique and f has least norm.
 /// One object holds the work space of one thread; results stay until the next evaluation.
 class ForwardDynamics {
  public:
@@ -33,14 +33,13 @@ class ForwardDynamics {
 
   /// a and f. Throws NumericalError if they are not finite.
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
-  /// The same, and their exact first derivatives (of f and a also where J v ≠ 0; the rank of J has to be constant
-  /// around q).
+  /// The same, with exact first derivatives, also if J v ≠ 0. The rank of J must be constant around q.
   void evaluate_with_derivatives(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
 
   const Eigen::VectorXd& acceleration() const { return a_; }           ///< a, nv
-  const Eigen::VectorXd& forces() const { return f_; }                 ///< f, 3 a contact, world frame
+  const Eigen::VectorXd& forces() const { return f_; }                 ///< f, 3 per contact, world frame
   const Derivatives& acceleration_derivatives() const { return da_; }  ///< nv rows
-  const Derivatives& force_derivatives() const { return df_; }         ///< 3 rows a contact
+  const Derivatives& force_derivatives() const { return df_; }         ///< 3 rows per contact
   const Projector& projector() const { return projector_; }            ///< of J at the last evaluation
 
  private:
@@ -57,8 +56,7 @@ class ForwardDynamics {
   Derivatives da_, df_;
 };
 
-/// Contacts count as dependent where Projector would find it but for such a distance [m]: for states a little off their
-/// contacts, as those of a motion between its nodes, of a rollout and of an estimator are.
+/// Rank threshold [m] for states slightly off their contacts: between nodes, of a rollout, of an estimator.
 inline constexpr double kContactRankThreshold = 1e-4;
 
 }  // namespace prowl

@@ -43,7 +43,7 @@ void InverseDynamicsHessian::add(const TreeMotion& tree, const Eigen::VectorXd& 
   for (std::size_t body = 1; body < parents_.size(); ++body) add_joint(tree, body, result);
 }
 
-// Outwards m and what each body adds to L, inwards the sums over what is behind a joint.
+// Outwards: m and the terms of each body. Inwards: their sums over the bodies behind a joint.
 void InverseDynamicsHessian::propagate(const TreeMotion& tree, const Eigen::VectorXd& lambda) {
   for (std::size_t i = 0; i < parents_.size(); ++i) {
     Adjoint& own = adjoints_[i];
@@ -59,7 +59,7 @@ void InverseDynamicsHessian::propagate(const TreeMotion& tree, const Eigen::Vect
     own.H = body.inertia * own.m;
     own.P = cross_force(body.velocity, own.H) - body.inertia * cross(body.velocity, own.m) -
             cross_force(own.m, body.inertia * body.velocity);
-    // -D_angular is how the rotational inertia changes as the body moves with m, and the cross product of a moment.
+    // -D_angular is the change of the rotational inertia as the body moves with m, plus the skew matrix of a moment.
     const Matrix3d half = so3::skew(own.m.tail<3>()) * body.inertia.rotational -
                           so3::skew(own.m.head<3>()) * so3::skew(body.inertia.moment);
     own.D_angular = -(half + half.transpose()) - so3::skew(own.H.tail<3>());
@@ -73,15 +73,15 @@ void InverseDynamicsHessian::propagate(const TreeMotion& tree, const Eigen::Vect
   }
 }
 
-// Before the base is the world: N = V = 0, A is gravity's alone. Rotations of the base do not commute, and the Hessian
-// along q (+) d has their mean.
+// The world is before the base: N = V = 0, and A contains gravity only. Rotations of the base do not commute; the
+// Hessian along q ⊕ d is the mean of both orders.
 void InverseDynamicsHessian::add_base(const TreeMotion& tree, SecondDerivatives& result) const {
   const Adjoint& all = adjoints_.front();
   Eigen::Matrix<double, 6, kBaseDofs> alpha, sigma;
   for (Index k = 0; k < kBaseDofs; ++k) {
     const SpatialVector S = tree.S.col(k);
     alpha.col(k) = cross_force(S, all.H);
-    // D_j with S_j x S_k . H taken out: the base's joint does not turn itself.
+    // D_j without S_j x S_k . H: the base's joint does not turn itself.
     sigma.col(k) = all.D(S) - alpha.col(k);
   }
   const Matrix3d turned = tree.A.middleCols<3>(kFirstRotation).transpose() * alpha.rightCols<3>();
@@ -90,7 +90,7 @@ void InverseDynamicsHessian::add_base(const TreeMotion& tree, SecondDerivatives&
       tree.S.leftCols<kBaseDofs>().transpose().lazyProduct(sigma);
 }
 
-// Joint k with all joints j before it. Every second derivative is linear in what belongs to j; the factors belong to k.
+// Joint k with all joints j before it. Every second derivative is linear in vectors of j, with factors of k.
 void InverseDynamicsHessian::add_joint(const TreeMotion& tree, std::size_t body, SecondDerivatives& result) const {
   const Adjoint& behind = adjoints_[body];
   const TreeMotion::Body& composite = tree.bodies[body];

@@ -8,18 +8,18 @@ namespace prowl {
 inline constexpr int kBaseDofs = 6;       ///< displacements and rotations of the base, first in v and in q's tangent
 inline constexpr int kFirstRotation = 3;  ///< displacements of the base move the world, not the robot
 
-/// Second derivatives of one scalar s(q, v, a): q in the tangent of configuration.hpp, v and a as they are.
-/// The scalars of interest are linear in a, so that s_va and s_aa vanish or are not needed.
+/// Second derivatives of one scalar s(q, v, a), q in the tangent of configuration.hpp.
+/// The scalars here are linear in a: s_va and s_aa vanish or are not needed.
 struct SecondDerivatives {
   Eigen::MatrixXd qq, qv, vv, qa;  ///< nv x nv each; entry (i, j) of qv is d2 s / dq_i dv_j
   explicit SecondDerivatives(int nv);
   void set_zero();
 };
 
-/// Spatial vectors have the velocity (force) at the world's origin in rows 0-2 and the angular velocity (moment) in
+/// Spatial vectors contain the velocity (force) at the world's origin in rows 0-2 and the angular velocity (moment) in
 /// rows 3-5, world axes.
 using SpatialVector = Eigen::Matrix<double, 6, 1>;
-using SpatialColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< one a degree of freedom
+using SpatialColumns = Eigen::Matrix<double, 6, Eigen::Dynamic>;  ///< one per degree of freedom
 
 /// Inertia about the world's origin, world axes.
 struct WorldInertia {
@@ -30,9 +30,9 @@ struct WorldInertia {
   SpatialVector operator*(const SpatialVector& motion) const;
 };
 
-/// A tree of bodies in motion, with what the first derivatives of its inverse dynamics leave behind (docs/theory.md,
-/// "Second derivatives of inverse dynamics"). Joint k turns about S_k; p is the body before it, v_k what is behind it;
-/// composites are all bodies behind a joint as one.
+/// A tree of bodies in motion, with by-products of the first derivatives of its inverse dynamics (docs/theory.md,
+/// "Second derivatives of inverse dynamics"). Joint k turns about S_k, between body p before it and body k behind it. A
+/// composite is all bodies behind a joint.
 struct TreeMotion {
   struct Body {
     SpatialVector velocity;
@@ -49,19 +49,19 @@ struct TreeMotion {
 };
 
 /// Second derivatives of lambda . RNEA(q, v, a) in O(n depth): Singh, Russell, Wensing, "On second-order derivatives of
-/// rigid-body dynamics", 2023, with the contraction inside the recursion, so that no tensor is formed.
-/// A tree on a base that floats; all other joints have one degree of freedom.
+/// rigid-body dynamics", 2023, contracted inside the recursion, without tensors.
+/// The tree has a floating base; all other joints have one degree of freedom.
 class InverseDynamicsHessian {
  public:
-  /// parents[i]: body before body i, -1 for the base, body 0, whose degrees of freedom are 0 ... 5; that of body i is
-  /// 5 + i.
+  /// parents[i]: body before body i; -1 for the base, body 0. The base has degrees of freedom 0 ... 5, body i has
+  /// number 5 + i.
   explicit InverseDynamicsHessian(std::vector<int> parents);
 
   /// Adds to the result.
   void add(const TreeMotion& tree, const Eigen::VectorXd& lambda, SecondDerivatives& result);
 
  private:
-  /// Of one body, then of all behind its joint.
+  /// Terms of one body; after propagate() summed over all bodies behind its joint, except m.
   struct Adjoint {
     SpatialVector m;            ///< velocity of the body at v = lambda
     SpatialVector H, P;         ///< I m;  v x* I m - I (v x m) - m x* I v

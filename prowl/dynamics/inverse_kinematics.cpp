@@ -13,9 +13,9 @@ namespace {
 using BoolArray = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
 constexpr int kMaxIterations = 200;
-constexpr double kFirstDamping = 1e-6;  // [m^2]: well below the square of a leg's lever, near Gauss-Newton at once
+constexpr double kFirstDamping = 1e-6;  // [m²]: far below the square of a leg's length, so nearly Gauss-Newton
 constexpr double kLeastDamping = 1e-14;
-constexpr double kMostDamping = 1e6;  // no descent even along the projected gradient: a minimum to rounding
+constexpr double kMostDamping = 1e6;  // no descent along the projected gradient: a minimum to rounding
 constexpr double kLeastStep = 1e-12;  // [rad]
 
 std::vector<int> contacts_of(const std::vector<ContactTarget>& targets) {
@@ -48,7 +48,7 @@ class Misfit {
   Eigen::VectorXd targets_;
 };
 
-/// Step of Levenberg-Marquardt over the joints that are not held at a limit.
+/// Levenberg-Marquardt step of the joints that are not held at a limit.
 Eigen::VectorXd damped_step(const Eigen::MatrixXd& J, const Eigen::VectorXd& gradient, const BoolArray& held,
                             double damping) {
   const Eigen::VectorXd free = (!held).cast<double>();

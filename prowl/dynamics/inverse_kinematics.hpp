@@ -7,7 +7,7 @@
 
 namespace prowl {
 
-/// Where a contact point of the robot should be.
+/// Target of a contact point.
 struct ContactTarget {
   int contact = 0;           ///< index into RobotModel::contacts()
   Eigen::Vector3d position;  ///< of the contact point (its offset included), world frame [m]
@@ -16,7 +16,7 @@ struct ContactTarget {
 struct InverseKinematics {
   Eigen::VectorXd q;       ///< nq; joints within their limits, base as given
   double residual = 0.0;   ///< largest distance of a contact from its target [m]
-  bool converged = false;  ///< residual <= kTolerance; if not, q is the nearest that was found
+  bool converged = false;  ///< residual <= kTolerance; if not, q is the nearest posture found
 
   static constexpr double kTolerance = 1e-8;  ///< [m]; near a solution one more step squares the error
 };
@@ -25,9 +25,9 @@ struct InverseKinematics {
 ///
 ///   minimise 1/2 sum_c |p_c(q) - target_c|^2  over the joints,  lower <= joints <= upper
 ///
-/// Levenberg-Marquardt with an active set of limits, from the joints of q_start, so that it finds the nearby posture
-/// (the knee keeps its side) and leaves joints alone that move no target. A local method: not converged means
-/// "not found from here", which for the legs of a quadruped near its standing posture is "out of reach".
+/// Levenberg-Marquardt with an active set of limits, from the joints of q_start: it finds a nearby posture (the knee
+/// keeps its side) and does not move joints without effect on a target. The method is local: not converged means
+/// "not found from here"; for legs of a quadruped near standing, "out of reach".
 InverseKinematics inverse_kinematics(const RobotModel& robot, const Eigen::VectorXd& q_start,
                                      const std::vector<ContactTarget>& targets);
 

@@ -8,10 +8,10 @@ namespace prowl {
 
 namespace {
 
-/// s as a part of the robot's mass. Away from c = 0 the forces that are recovered are those of springs of stiffness s
-/// kp: at s = mass and a step of 10 ms 1 mm off a contact's place is the weight of the robot, and cones and forces that
-/// have to vanish are bent by it (HyQ trot, 125 intervals: 66 + 54 iterations, with this 18 + 31; 0.1 and 0.001 do as
-/// well). It also says how well e vanishes where rows hold to a tolerance: at 1e-6 of the weight to about 1e-3 m/s^2.
+/// s as a part of the robot's mass. Away from c = 0 the recovered forces contain springs of stiffness s kp. At s = mass
+/// and a step of 10 ms, 1 mm off an anchor gives the weight of the robot, which distorts friction cones (HyQ trot, 125
+/// intervals: 66 + 54 iterations; with this value 18 + 31; 0.1 and 0.001 do as well). s also sets how well e vanishes:
+/// rows that hold to 1e-6 of the weight leave about 1e-3 m/s².
 constexpr double kContactWeight = 0.01;
 
 }  // namespace
@@ -163,7 +163,7 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
 
   // (c, f) solve  c + J' f = r,  J c = s e.  With the adjoint (l1, l2) of that system,
   //   d2(mu.c + nu.f) = l1.d2r + s l2.d2e - f.d2J l1 - l2.d2J c - 2 df.dJ l1 - 2 l2.dJ dc.
-  // A chosen row has no part in either sum but its force, w in r: l2 is zero there.
+  // A chosen row enters only by its force w in r: l2 is zero there.
   work_f_ = -nu;
   work_f_.noalias() += J * mu;
   l2_.noalias() = gram_inverse_ * work_f_;
@@ -182,7 +182,7 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   kinematics_.add_acceleration_hessian_qq(work_f_, h.qq);
 
   // df.dJ l1 + l2.dJ dc with dc = A - J' df and N = d(J' l2)/dq:  G' df + N' A,  G = d(J l1)/dq - J N. The first three
-  // columns of G and N, the places of the base, are zero.
+  // columns of G and N, for the base position, are zero.
   kinematics_.acceleration_dq(work_m_);  // d(J l1)/dq
   work_n_.setZero(terms_.nv(), terms_.nv());
   kinematics_.add_force_derivative(l2_, work_n_);

@@ -9,29 +9,29 @@
 
 namespace prowl {
 
-/// Gains that pull a contact back to its place: e = J a + J̇ v + kd J v + kp (p - anchor).
+/// Gains that pull a contact back to its anchor: e = J a + J̇ v + kd J v + kp (p - anchor).
 struct ContactStabilisation {
   double kd = 0.0;  ///< [1/s]
   double kp = 0.0;  ///< [1/s^2]
 };
 
-/// Where the inverse form is evaluated; a = dv/dt, tau the joint torques, one anchor (3 rows, world) a contact.
+/// Point of evaluation: a = dv/dt, tau joint torques, anchors 3 rows per contact, world frame [m].
 struct DynamicsPoint {
   Eigen::VectorXd q, v, a, tau;
   Eigen::VectorXd anchors;
   ContactStabilisation stabilisation;
-  Eigen::VectorXd chosen_forces;  ///< w, one a row of `chosen_rows` [N]
+  Eigen::VectorXd chosen_forces;  ///< w, one per row of `chosen_rows` [N]
 };
 
 /// First derivatives of a vector y(q, v, a, tau, w, e); q in the tangent of configuration.hpp. e is the stabilised
-/// contact acceleration, all rows of the set, as if it could be shifted by itself: the derivative in the anchors is -kp
-/// times that. gains: kd and kp.
+/// contact acceleration (all rows of the set) as an independent input: the derivative in the anchors is -kp times that
+/// in e. gains: kd and kp.
 struct PointDerivatives {
   Eigen::MatrixXd q, v, a, tau, w, e, gains;
 };
 
-/// Second derivatives of a scalar s(q, v, a, tau, w, e, kd, kp) that is linear in all but q and v: the blocks that are
-/// not zero, but that of kp and the anchors, which is -de (below).
+/// Second derivatives of a scalar s(q, v, a, tau, w, e, kd, kp) that is linear in all but q and v: the non-zero blocks.
+/// The block of kp and the anchors is -de and not stored.
 struct PointHessian : SecondDerivatives {
   using SecondDerivatives::SecondDerivatives;
   Eigen::MatrixXd qtau, qw, qe;
@@ -46,16 +46,15 @@ struct PointHessian : SecondDerivatives {
 ///   f = (J J')⁺ (J r - s e)                     contact forces, minimum norm, world frame           [N]
 ///   c = r - J' f  =  P r + s J⁺ e               n + 6 rows
 ///
-/// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold; s, a
-/// hundredth of the robot's mass [kg], only weighs the one against the other (the projection mixes forces and moments
-/// as SI units have them). Away from c = 0 the forces f do depend on s: the less, the smaller it is. Any set of
-/// contacts: none, or redundant ones, where J loses rank and f is the choice of least norm (first derivatives hold at
-/// constant rank).
+/// c = 0 if and only if the projected equations of motion P r = 0 and the contact condition J J⁺ e = 0 hold. s, a
+/// hundredth of the robot's mass [kg], only weighs one against the other (the projection mixes forces and moments in SI
+/// units). Away from c = 0, f depends on s, less for smaller s. The set of contacts may be empty or redundant; then J
+/// loses rank and f has least norm (first derivatives hold at constant rank).
 ///
-/// Redundant contacts may also be given `chosen_rows`: rows of J that depend on the others. Their forces w are then
-/// inputs, their rows of e are left out, and the forces of the other rows follow: (f_S, w) are all forces that do the
-/// same, f = Z w and a particular force. c = 0 has the same solutions, as far as the rows of e that are left out agree
-/// with the others. One object holds the work space of one thread; results stay until the next evaluation.
+/// `chosen_rows` of redundant contacts are rows of J that depend on the others. Their forces w become inputs, their
+/// rows of e are left out, and the other forces follow: f = Z w plus a particular force covers all forces with the same
+/// effect. c = 0 keeps its solutions if the omitted rows of e agree with the others. One object holds the work space of
+/// one thread; results stay until the next evaluation.
 class ProjectedResidual {
  public:
   ProjectedResidual(const RobotModel& robot, std::vector<int> contacts, std::vector<int> chosen_rows = {});
@@ -68,18 +67,18 @@ class ProjectedResidual {
 
   /// c and f. Throws NumericalError if they are not finite.
   void evaluate(const DynamicsPoint& point);
-  /// The same, and their exact first derivatives (also away from c = 0).
+  /// The same, with exact first derivatives, also away from c = 0.
   void evaluate_with_derivatives(const DynamicsPoint& point);
 
   const Eigen::VectorXd& residual() const { return c_; }                ///< nv
   const Eigen::VectorXd& forces() const { return f_; }                  ///< 3 per contact of the set, world frame
   const PointDerivatives& residual_derivatives() const { return dc_; }  ///< nv rows
-  const PointDerivatives& force_derivatives() const { return df_; }     ///< 3 rows a contact
+  const PointDerivatives& force_derivatives() const { return df_; }     ///< 3 rows per contact
   int rank() const { return projector_.rank(); }                        ///< of the rows of J that are not chosen
   bool has_full_rank() const { return projector_.full_rank(); }
 
-  /// Hessian of mu . c + nu . f at fixed mu (nv) and nu (3 a contact), at the point of the last
-  /// evaluate_with_derivatives. Needs full rank of the rows of J that are not chosen.
+  /// Hessian of mu . c + nu . f at fixed mu (nv) and nu (3 per contact), at the point of the last
+  /// evaluate_with_derivatives(). Throws NumericalError unless has_full_rank().
   const PointHessian& hessian(const DynamicsPoint& point, const Eigen::VectorXd& mu, const Eigen::VectorXd& nu);
 
   /// Positions of the contacts of the set at the last evaluation, and their derivatives.

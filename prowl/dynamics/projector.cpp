@@ -23,8 +23,8 @@ void Projector::compute(const Eigen::MatrixXd& J, double rank_threshold) {
   }
 }
 
-// J' Π = V R, that is J = Π R' V': U = Π, T = R', (J J')⁻¹ = Π R⁻¹ R'⁻¹ Π'. By hand: for matrices this small the work
-// is in the calls of the general solvers and products.
+// J' Π = V R, that is J = Π R' V': U = Π, T = R', (J J')⁻¹ = Π R⁻¹ R'⁻¹ Π'. Hand-written: for matrices this small, the
+// calls of general solvers and products would dominate.
 void Projector::factor_full() {
   const Eigen::Index rows = transposed_.cols();
   inverse_factor_.resize(rows, rows);
@@ -48,10 +48,10 @@ void Projector::factor_full() {
   }
 }
 
-// Why 1e-8. Entries of J are lengths in metres and direction cosines, right to about 1e-15: rows that depend on each
-// other leave pivots of 1e-14 or less, and two points d metres apart on one link leave a pivot of about d. So the
-// threshold parts redundant contacts from all that a robot can have. And it is the square root of the rounding:
-// (J J')⁺, and with it the forces, would have no correct digit below it.
+// Why 1e-8: entries of J are lengths in metres and direction cosines, correct to about 1e-15. Dependent rows leave
+// pivots of at most 1e-14; two points d metres apart on one link leave a pivot of about d. The threshold thus separates
+// redundant contacts from all others. It is also the square root of the rounding: below it (J J')⁺, and with it the
+// forces, have no correct digit.
 void Projector::find_rank(double threshold) {
   rank_ = 0;
   pivot_ratio_ = 1.0;

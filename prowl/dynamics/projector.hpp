@@ -12,22 +12,22 @@ namespace prowl {
 ///
 ///   P = I − V V',   J⁺ = V T⁻¹ U',   (J J')⁺ = (T⁻¹ U')' (T⁻¹ U')
 ///
-/// Rows may depend on each other (flat feet, contacts listed twice) and may be missing (m = 0: P = I). docs/theory.md.
-/// compute() finds the rank and (J J')⁺, all that the inverse form needs, and does not allocate unless the shape of J
-/// changes or J is rank deficient; V, J⁺ and P are formed when asked for.
+/// Rows may be dependent (flat feet, contacts listed twice) or absent (m = 0: P = I). See docs/theory.md. compute()
+/// finds the rank and (J J')⁺, enough for the inverse form; it allocates only if the shape of J changes or J is rank
+/// deficient. V, J⁺ and P are formed on request.
 class Projector {
  public:
-  /// Pivots below this part of the largest count as zero. See projector.cpp for why.
+  /// Pivots below this part of the largest count as zero; projector.cpp explains it.
   static constexpr double kRankThreshold = 1e-8;
 
-  /// Throws NumericalError if J is not finite. A larger threshold is for configurations that are a little off their
-  /// contacts, where rows that depend on each other do so but for that distance [m].
+  /// Throws NumericalError if J is not finite. A larger threshold [m] suits configurations up to that far off their
+  /// contacts.
   void compute(const Eigen::MatrixXd& J, double rank_threshold = kRankThreshold);
 
   int rank() const { return rank_; }
   bool full_rank() const { return rank_ == gram_inverse_.cols(); }
-  /// Smallest pivot that counts over the largest, in (0, 1]; 1 where there is none. It follows the ratio of the
-  /// singular values of J within a small factor, for a fraction of the time.
+  /// Smallest counted pivot over the largest, in (0, 1]; 1 if there is none. It estimates the ratio of the singular
+  /// values of J within a small factor, in a fraction of the time.
   double pivot_ratio() const { return pivot_ratio_; }
 
   const Eigen::MatrixXd& gram_inverse() const { return gram_inverse_; }  ///< (J J')⁺, m × m

@@ -53,7 +53,7 @@ struct RigidBodyTerms::Workspace {
   pinocchio::Model model;
   std::vector<pinocchio::FrameIndex> contact_frames;
   pinocchio::Data data;
-  SpatialColumns joint_axes;  ///< columns of data.J in the frame behind their joint, where they do not move
+  SpatialColumns joint_axes;  ///< columns of data.J in the frame behind their joint, where they are constant
   TreeMotion tree;
   InverseDynamicsHessian hessian;
 };
@@ -91,7 +91,7 @@ void RigidBodyTerms::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, 
   fetch_kinematics();
 }
 
-// As computeJointJacobians, from the placements that rnea leaves, without their sines and cosines once more.
+// Like computeJointJacobians, from the placements of rnea, without computing sines and cosines again.
 void RigidBodyTerms::Workspace::place_bodies() {
   for (pinocchio::JointIndex joint = 1; joint < model.joints.size(); ++joint) {
     const pinocchio::JointIndex parent = model.parents[joint];
@@ -114,7 +114,7 @@ void RigidBodyTerms::update_with_derivatives(const Eigen::VectorXd& q, const Eig
   mass_matrix_.setZero();
   pinocchio::computeRNEADerivatives(model, data, q, v, a, dq_, dv_, mass_matrix_);
   mass_matrix_.triangularView<Eigen::StrictlyLower>() = mass_matrix_.transpose();
-  // Inverse dynamics does not depend on where the base is. (Pinocchio leaves rounding there.)
+  // Inverse dynamics do not depend on the base position. (Pinocchio leaves rounding there.)
   dq_.leftCols<3>().setZero();
   inverse_dynamics_ = data.tau;
   fetch_kinematics();
@@ -133,8 +133,8 @@ Eigen::Vector3d RigidBodyTerms::contact_position(int contact) const {
   return workspace_->data.oMf[workspace_->contact_frames[static_cast<size_t>(contact)]].translation();
 }
 
-// What computeRNEADerivatives leaves: oinertias of the bodies; oYcrb, doYcrb of the composites; one column a degree of
-// freedom, dAdq without gravity, which it takes out at its end.
+// By-products of computeRNEADerivatives: oinertias of the bodies; oYcrb, doYcrb of the composites; one column per
+// degree of freedom; dAdq without gravity, which it removes at its end.
 void RigidBodyTerms::Workspace::fetch_tree() {
   for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
     TreeMotion::Body& body = tree.bodies[i];

@@ -9,7 +9,7 @@
 
 namespace prowl {
 
-/// The terms of the free (contact-less) rigid-body dynamics, by Pinocchio.
+/// Terms of the rigid-body dynamics without contacts, by Pinocchio.
 ///
 ///   r0(q, v, a) = RNEA = M(q) a + h(q, v)      [N, N m], n + 6 rows: force and moment on the base (base frame), joints
 ///
@@ -44,8 +44,8 @@ class RigidBodyTerms {
   /// Degrees of freedom that move a contact: 0 ... 5 (the base), then joints from the base to the tip.
   const std::vector<int>& contact_chain(int contact) const { return chains_[static_cast<size_t>(contact)]; }
 
-  /// Adds the second derivatives of lambda . r0 at fixed lambda (nv) [any unit]. After update_with_derivatives(), with
-  /// whose by-products the work begins.
+  /// Adds the second derivatives of lambda . r0 at fixed lambda (nv) [any unit]. Requires update_with_derivatives(),
+  /// whose by-products it uses.
   void add_second_derivatives(const Eigen::VectorXd& lambda, SecondDerivatives& result);
 
  private:

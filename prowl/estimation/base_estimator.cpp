@@ -8,11 +8,11 @@
 namespace prowl {
 namespace {
 
-// Where the parts of the error are in the state.
+// Rows of the parts of the error state.
 constexpr Eigen::Index kPosition = 0, kVelocity = 3, kRotation = 6, kAccelerometer = 9, kGyro = 12, kFeet = 15;
 constexpr double kGate = 21.1;        // chi square of 3 degrees of freedom, 99.99 %
-constexpr int kMostRejected = 20;     // measurements in a row: then the foot has moved
-constexpr double kKinematics = 1e-4;  // [m] of foot position besides the encoders' noise
+constexpr int kMostRejected = 20;     // measurements in a row; after these the foot has moved
+constexpr double kKinematics = 1e-4;  // [m]; error of foot positions besides the encoders' noise
 
 Eigen::Index foot_row(std::size_t foot) { return kFeet + 3 * static_cast<Eigen::Index>(foot); }
 
@@ -55,7 +55,8 @@ void BaseEstimator::update(double dt, const Eigen::Vector3d& gyro, const Eigen::
 void BaseEstimator::predict(double dt, const Eigen::Vector3d& gyro, const Eigen::Vector3d& accelerometer,
                             const Eigen::VectorXd& joint_rates, const std::vector<Eigen::Vector3d>& normals) {
   const Eigen::Vector3d w = gyro - gyro_bias_, f = accelerometer - accelerometer_bias_;
-  const Eigen::Matrix3d middle = rotation_ * so3::exp(0.5 * dt * w);  // f is a mean: turn it as in the middle
+  const Eigen::Matrix3d middle =
+      rotation_ * so3::exp(0.5 * dt * w);  // f is a mean: use the orientation at mid-interval
   const Eigen::Vector3d a = middle * f - Eigen::Vector3d(0.0, 0.0, RobotModel::kGravity);
 
   Eigen::MatrixXd F = Eigen::MatrixXd::Identity(kFeet, kFeet);
@@ -107,7 +108,7 @@ void BaseEstimator::lift(int contact) {
   covariance_.middleCols<3>(foot_row(contact)).setZero();
 }
 
-/// One foot after the other: their noise is independent, so that this is the same as all at once.
+/// One foot after the other: their noise is independent, so the result is that of all at once.
 void BaseEstimator::correct() {
   for (std::size_t c = 0; c < feet_.size(); ++c) {
     Foot& foot = feet_[c];

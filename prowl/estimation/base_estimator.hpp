@@ -9,39 +9,39 @@
 
 namespace prowl {
 
-/// What the filter takes the sensors to be. Standard deviations of one sample.
+/// The filter's assumptions on the sensors: standard deviations of one sample.
 struct EstimatorNoise {
   double encoder = 1e-3;             ///< [rad]
   double gyro = 2e-3;                ///< [rad/s]
   double accelerometer = 0.05;       ///< [m/s^2]
-  double gyro_bias = 2e-3;           ///< at the start; constant in truth [rad/s]
+  double gyro_bias = 2e-3;           ///< of the constant bias at the start [rad/s]
   double accelerometer_bias = 0.05;  ///< the same [m/s^2]
-  /// How much a foot on the ground may wander, white noise on its velocity [m/sqrt(s)].
+  /// Wander of a foot on the ground: white noise on its velocity [m/sqrt(s)].
   double foot = 2e-3;
-  /// The same in the first `landing` seconds after the schedule puts it down: it may be late.
+  /// The same in the first `landing` seconds after its scheduled landing: it may be late.
   double landing_foot = 0.1;
   double landing = 0.03;  ///< [s]
 };
 
-/// Position, velocity and orientation of the base from an IMU at its origin and the legs that stand: an error-state
+/// Position, velocity and orientation of the base from an IMU at its origin and the standing legs: an error-state
 /// Kalman filter after Bloesch et al., "State estimation for legged robots: consistent fusion of leg kinematics and
-/// IMU", RSS 2012, with the biases of the IMU and the places c_i of the standing feet in the state.
+/// IMU", RSS 2012, with the biases of the IMU and the positions c_i of the standing feet in the state.
 ///
-///   p' = v,  v' = R (f - b_f) + g,  R' = R [ω - b_ω]×,  c_i' = rolling + w_i;   measured  s_i(joints) = R' (c_i - p) +
-///   n_i
+///   p' = v,  v' = R (f - b_f) + g,  R' = R [ω - b_ω]×,  c_i' = rolling + w_i
+///   measured:  s_i(joints) = R' (c_i - p) + n_i
 ///
 /// f and ω are means over the time between samples. The error of R is a rotation vector in the base frame: R = R̂
-/// exp(δθ). c_i is the centre of the foot's ball, which moves on as the ball rolls. Where the world's origin is and
-/// which way it faces, no sensor tells: errors of these only grow, from step to step. A foot whose measurement is
-/// further off than noise explains is left out; if it stays so, it stands at a new place.
+/// exp(δθ). c_i is the centre of the foot's ball, which moves as the ball rolls. No sensor observes the position and
+/// yaw of the base in the world: their errors grow with each step. A foot whose measurement is off by more than its
+/// noise is left out; if it stays off, it gets a new position.
 class BaseEstimator {
  public:
-  /// Starts at the known state q, at rest, with `in_contact` (one a contact of the robot) on the ground.
+  /// Starts at the known state q, at rest, with `in_contact` (one per contact of the robot) on the ground.
   BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const std::vector<bool>& in_contact,
                 const EstimatorNoise& noise);
 
-  /// dt seconds on with the IMU's means over that time; then the joints as the encoders say. `joint_rates` [rad/s] tell
-  /// how feet roll, on ground with the normals given (one a contact, unit vectors, world frame).
+  /// Advances by dt [s] with the IMU's means over that time, then corrects with the encoders. `joint_rates` [rad/s]
+  /// determine how feet roll on ground with these normals (one per contact, unit vectors, world frame).
   void update(double dt, const Eigen::Vector3d& gyro, const Eigen::Vector3d& accelerometer,
               const Eigen::VectorXd& encoders, const Eigen::VectorXd& joint_rates, const std::vector<bool>& in_contact,
               const std::vector<Eigen::Vector3d>& normals);
@@ -49,10 +49,10 @@ class BaseEstimator {
   const Eigen::Vector3d& position() const { return position_; }                  ///< world frame [m]
   const Eigen::Vector3d& velocity() const { return velocity_; }                  ///< world frame [m/s]
   const Eigen::Matrix3d& rotation() const { return rotation_; }                  ///< base to world
-  const Eigen::Vector3d& angular_velocity() const { return angular_velocity_; }  ///< base frame [rad/s], bias taken off
+  const Eigen::Vector3d& angular_velocity() const { return angular_velocity_; }  ///< base frame [rad/s], without bias
   const Eigen::Vector3d& gyro_bias() const { return gyro_bias_; }
   const Eigen::Vector3d& accelerometer_bias() const { return accelerometer_bias_; }
-  /// Of the errors of (p, v, δθ, b_f, b_ω, c_0, c_1, ...); feet that do not stand have an empty block.
+  /// For the errors of (p, v, δθ, b_f, b_ω, c_0, c_1, ...); blocks of feet in the air are zero.
   const Eigen::MatrixXd& covariance() const { return covariance_; }
 
  private:

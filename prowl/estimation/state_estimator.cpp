@@ -49,8 +49,8 @@ Eigen::VectorXd StateEstimator::acceleration(const Eigen::VectorXd& q, const Eig
     }
     dynamics = std::make_unique<ForwardDynamics>(robot_, contacts, kContactRankThreshold);
   }
-  // A robot that has fallen apart in its own eyes still has to go on. Where rates are absurd their squares in the
-  // dynamics would drive them further, sample by sample, whatever the encoders say.
+  // The estimator must survive absurd rates: their squares in the dynamics would make them grow with every sample,
+  // whatever the encoders measure.
   if (!has_plausible_rates(v)) return Eigen::VectorXd::Zero(robot_.nv());
   try {
     dynamics->evaluate(q, v, tau);

@@ -15,32 +15,31 @@ struct SensorReading {
   Eigen::Vector3d accelerometer;  ///< specific force, base frame, mean since the last reading [m/s^2]: +9.81 up at rest
 };
 
-/// Which contacts of the robot hold, and on what.
+/// Standing contacts of the robot, and the ground under them.
 struct Stand {
-  std::vector<bool> in_contact;          ///< one a contact of the robot
-  std::vector<Eigen::Vector3d> normals;  ///< of the surface under each, unit vectors, world frame
+  std::vector<bool> in_contact;          ///< one per contact of the robot
+  std::vector<Eigen::Vector3d> normals;  ///< of the surface under each contact, unit vectors, world frame
 };
 
-/// State of the whole robot as a robot can know it: base by BaseEstimator, joints by JointFilter with the accelerations
-/// that its own model expects of the torques it has commanded. Without the model the filter would lag behind what the
-/// feedback does, and with the delay of the torques swing legs would shake.
+/// State of the whole robot from its sensors: base by BaseEstimator, joints by JointFilter with the model's
+/// accelerations from the commanded torques. Without the model the filter would lag behind the feedback, and with the
+/// delay of the torques swing legs would shake.
 class StateEstimator {
  public:
-  /// Starts at the known state q, at rest. `joint_density` [rad^2/s^3]: of the accelerations that the model does not
-  /// know.
+  /// Starts at the known state q, at rest. `joint_density` [rad²/s³]: noise density S of JointFilter.
   StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Stand& stand, const EstimatorNoise& noise,
                  double joint_density);
 
-  /// dt seconds on. `tau` (nu): the torques at the joints meanwhile, as commanded.
+  /// Advances by dt [s]. `tau` (nu): commanded joint torques over that time.
   void update(double dt, const SensorReading& reading, const Eigen::VectorXd& tau, const Stand& stand);
-  /// In place of all that: the state as it is.
+  /// Sets the state directly, in place of an estimate.
   void set(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
 
   const Eigen::VectorXd& q() const { return q_; }  ///< nq
   const Eigen::VectorXd& v() const { return v_; }  ///< nv
   const BaseEstimator& base() const { return base_; }
 
-  /// Moves (q, v) on by dt under the torques tau, by the model.
+  /// Advances (q, v) by dt [s] under the torques tau, by the model.
   void predict(double dt, const Eigen::VectorXd& tau, const Stand& stand, Eigen::VectorXd& q, Eigen::VectorXd& v);
 
  private:
@@ -51,7 +50,7 @@ class StateEstimator {
   const RobotModel& robot_;
   JointFilter joints_;
   BaseEstimator base_;
-  std::map<std::vector<bool>, std::unique_ptr<ForwardDynamics>> dynamics_;  ///< of each set of contacts seen so far
+  std::map<std::vector<bool>, std::unique_ptr<ForwardDynamics>> dynamics_;  ///< one per set of contacts so far
   Eigen::VectorXd q_, v_;
 };
 

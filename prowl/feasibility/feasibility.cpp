@@ -22,9 +22,9 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double kAtItsPlace = 1e-3;  // [m]
-constexpr double kFull = 0.999;       // of the weight, or of a torque limit: less is less
+constexpr double kFull = 0.999;       // of the weight or of a torque limit; more counts as all of it
 
-/// Contacts that a posture does not have where they have to be; several share one line, with the numbers of the worst.
+/// Contacts that a posture does not put on their footholds; several share one line, with the numbers of the worst.
 std::vector<std::string> missed_places(const MotionProblem& problem, const ContactSchedule& schedule, int p,
                                        const VectorXd& q, const std::string& when) {
   const auto places = prescribed_places(problem, schedule);
@@ -48,14 +48,13 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
     largest = std::max(largest, gap);
   }
   if (missed.empty()) return {};
-  return {
-      missed.size() == 1
-          ? fmt::format("{}: no posture found that has contact {} at its foothold: {:.3g} m off", when, worst, largest)
-          : fmt::format("{}: no posture found that has the {} contacts {} at their footholds: {} is {:.3g} m off", when,
-                        missed.size(), fmt::join(missed, ", "), worst, largest)};
+  return {missed.size() == 1
+              ? fmt::format("{}: no posture found with contact {} on its foothold: {:.3g} m off", when, worst, largest)
+              : fmt::format("{}: no posture found with the {} contacts {} on their footholds: {} is {:.3g} m off", when,
+                            missed.size(), fmt::join(missed, ", "), worst, largest)};
 }
 
-/// "goal 1, end of phase 'stand'"; "" for nodes at which there is nothing to look at.
+/// "goal 1, end of phase 'stand'"; "" for nodes that are not checked.
 std::string name_of_node(const DiscreteProblem& discrete, int k) {
   const Phase& phase = discrete.phase_of(k);
   const MeshNode& node = discrete.nodes[k];
@@ -68,16 +67,16 @@ std::string name_of_node(const DiscreteProblem& discrete, int k) {
   return goals.empty() ? "" : fmt::format("{}phase '{}'", goals, phase.name);
 }
 
-constexpr std::size_t kStands = 3;  // contacts; on fewer a robot moves, and a phase of a trot is no reason for doubt
+constexpr std::size_t kStands = 3;  // contacts; with fewer, as in a trot, a robot need not stand still
 
-/// "" if the robot can stand still in this posture, need not, or if the solver does not know.
+/// "" if the robot can stand still in this posture, need not, or the solver fails.
 std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase, const VectorXd& q,
                                 const NlpSolver& solver) {
   if (phase.contacts.size() < kStands) return "";
   const StandingLoad load = standing_load(problem, q, phase.contacts, solver);
   if (!load.solved || load.share >= kFull) return "";
   if (load.share < 1.0 - kFull) {
-    return "cannot stand still in the guessed posture: its contacts cannot balance the weight (place of the feet, "
+    return "cannot stand still in the guessed posture: its contacts cannot balance the weight (foot positions, "
            "friction)";
   }
   const RobotModel& robot = problem.robot;
@@ -86,7 +85,7 @@ std::string why_it_cannot_stand(const MotionProblem& problem, const Phase& phase
     const double needed = load.torque_needed(j);
     const double limit = needed < 0.0 ? robot.torque_lower(j, q(7 + j), 0.0) : robot.torque_upper(j, q(7 + j), 0.0);
     if (std::abs(load.share * needed) < kFull * std::abs(limit)) continue;
-    joints.push_back(fmt::format("{} needs {:.3g} {} of {:.3g}", robot.joint_names()[j], std::abs(needed),
+    joints.push_back(fmt::format("{} needs {:.3g} {} (limit {:.3g})", robot.joint_names()[j], std::abs(needed),
                                  robot.joint_is_prismatic()[j] ? "N" : "N m", std::abs(limit)));
   }
   return fmt::format("cannot stand still in the guessed posture: {}", fmt::join(joints, ", "));
@@ -109,7 +108,7 @@ std::vector<std::string> doubts(const DiscreteProblem& discrete, const Trajector
     const std::vector<std::string> missed =
         missed_places(problem, discrete.schedule, discrete.nodes[k].phase, guess.nodes[k].q, when);
     lines.insert(lines.end(), missed.begin(), missed.end());
-    if (!missed.empty()) continue;  // it stands nowhere
+    if (!missed.empty()) continue;  // standing still needs all footholds
     const std::string reason = why_it_cannot_stand(problem, discrete.phase_of(k), guess.nodes[k].q, solver);
     if (!reason.empty()) lines.push_back(when + ": " + reason);
   }

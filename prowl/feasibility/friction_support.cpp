@@ -22,7 +22,7 @@ Vector3d nearest_in_cone(const Surface& surface, const Vector3d& f) {
   return (normal + mu * size) / (1.0 + mu * mu) * (surface.normal + mu / size * tangential);
 }
 
-/// up less the force of K nearest to it: by turns, each cone takes what the others leave over.
+/// up minus the nearest force of K: in turns, each cone takes the nearest force to what the others leave.
 Vector3d what_is_left_of_up(const std::vector<Surface>& surfaces) {
   constexpr int kMostSweeps = 20000;
   constexpr double kAtRest = 1e-14;
@@ -51,8 +51,8 @@ std::optional<Slide> slide_on(const std::vector<Surface>& surfaces) {
   if (left.norm() < kSmallestShortfall) return std::nullopt;
   Vector3d direction = left.normalized();
 
-  // Iterated, so that d . f may be a little above zero: what is left over is taken out along the mean normal e, whose
-  // least e . f over the unit forces of K must be positive for that.
+  // After the iteration d . f may be slightly above zero: the excess is removed along the mean normal e, which needs
+  // e . f > 0 for all unit forces f of K.
   if (!surfaces.empty()) {
     Vector3d mean = Vector3d::Zero();
     for (const Surface& surface : surfaces) mean += surface.normal;

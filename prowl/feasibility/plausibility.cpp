@@ -10,10 +10,10 @@ namespace prowl {
 
 namespace {
 
-constexpr double kStickiestSole = 2.0;  // [-] rubber on dry concrete has about 1, that of climbing shoes less than 2
-constexpr double kTimeToFall = 1.0;  // [s] a body of 1 m falls over in 0.5 s, and a mesh sees nothing between its nodes
+constexpr double kStickiestSole = 2.0;  // [-]; rubber on dry concrete has about 1, climbing shoes less than 2
+constexpr double kTimeToFall = 1.0;     // [s]; a body of 1 m falls over in 0.5 s
 
-/// At the shortest duration that the phase may have [s].
+/// At the shortest duration of the phase [s].
 double longest_interval(const Phase& phase, const PhaseMesh& mesh) {
   double longest = 0.0;
   for (int i = 0; i < mesh.intervals(); ++i) longest = std::max(longest, mesh.step(i, phase.duration.min));

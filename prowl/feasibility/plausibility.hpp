@@ -8,9 +8,9 @@
 
 namespace prowl {
 
-/// What a problem says that is possible, yet seldom meant, each a line in the words of the task: a robot in other units
-/// than metres and kilograms, friction that no sole has, mesh intervals in which a robot could fall over. A problem
-/// with such numbers is solved like any other.
+/// Possible but unlikely numbers of a problem, one line each in the words of the task: a robot in other units than
+/// metres and kilograms, friction beyond any sole, mesh intervals in which a robot could fall over. They do not stop a
+/// solve.
 std::vector<std::string> implausibilities(const MotionProblem& problem, const Mesh& mesh);
 
 }  // namespace prowl

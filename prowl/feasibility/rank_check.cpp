@@ -17,11 +17,10 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Of the joints, to postures beside [rad, m]: far above what a rank threshold of 1e-8 is about, and few joints cannot
-/// go so far.
+/// Joint displacement to nearby postures [rad, m]: far above the rank threshold of 1e-8, within most joint ranges.
 constexpr double kBeside = 0.05;
 constexpr int kPostures = 3;
-constexpr double kPushes = 0.1;  // of the largest force of such a push
+constexpr double kPushes = 0.1;  // relative to the largest force of a push
 
 Eigen::MatrixXd jacobian(const RobotModel& robot, const VectorXd& q, const std::vector<int>& contacts) {
   RigidBodyTerms terms(robot);
@@ -37,7 +36,7 @@ int rank_of(const Eigen::MatrixXd& J) {
   return projector.rank();
 }
 
-/// Each joint away from where it is, by up to kBeside and no two alike, towards the middle of its range.
+/// Moves each joint by up to kBeside, no two alike, towards the middle of its range.
 VectorXd posture_beside(const RobotModel& robot, const VectorXd& q, int which) {
   VectorXd beside = q;
   for (int j = 0; j < robot.nu(); ++j) {
@@ -59,7 +58,7 @@ std::optional<LostRank> lost_rank(const RobotModel& robot, const VectorXd& q, co
     lost.beside = std::max(lost.beside, rank_of(jacobian(robot, posture_beside(robot, q, i), contacts)));
   }
   if (lost.beside <= lost.rank) return std::nullopt;
-  // Forces without torques and without a wrench on the base: J'f = 0. With flat feet, theirs are among them.
+  // Forces without torques and without a wrench on the base: J'f = 0. Flat feet add theirs.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(J * J.transpose());
   const VectorXd force = eigen.eigenvectors().leftCols(J.rows() - lost.rank).rowwise().norm();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -81,9 +80,8 @@ std::vector<std::string> postures_that_lose_rank(const MotionProblem& problem, c
     std::vector<std::string> names;
     for (const int c : lost->contacts) names.push_back(problem.robot.contacts()[c].name);
     lines.push_back(fmt::format(
-        "start of phase '{}': singular posture: {} of the {} directions that contacts hold elsewhere (rank of the "
-        "contact Jacobian); {} can push against each other without any torque, as with stretched legs: start "
-        "with joints bent by a few degrees",
+        "start of phase '{}': singular posture: the contact Jacobian has rank {} instead of {}; {} can "
+        "push against each other without any torque, as with stretched legs: start with joints bent by a few degrees",
         phase.name, lost->rank, lost->beside, fmt::join(names, ", ")));
   }
   return lines;

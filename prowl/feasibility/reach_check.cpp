@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kReachMargin = 5e-3;  // [m]; above what goals and contacts are allowed to be off by
+constexpr double kReachMargin = 5e-3;  // [m]; above the tolerances of goals and contacts
 
 /// A contact that a phase holds.
 struct Held {
@@ -40,14 +40,14 @@ std::vector<Held> held_in(const MotionProblem& problem, const ContactSchedule& s
   return held;
 }
 
-/// A contact that is farther from the root of its leg than the leg is long.
+/// A contact farther from the root of its leg than the length of the leg.
 struct TooFar {
   const Held* held;
   double distance;  ///< at least [m]
   double excess() const { return distance - held->leg.length; }
 };
 
-/// Least distance from the root of its leg to where the contact has to be [m].
+/// Least distance from the root of the leg to the contact's foothold [m].
 double least_distance(const Held& held, const BoundaryCondition& condition) {
   const PointBounds root = point_bounds(condition, held.leg.root);
   if (held.place) return root.distance(*held.place);
@@ -57,19 +57,20 @@ double least_distance(const Held& held, const BoundaryCondition& condition) {
   return root.distance(nearest);
 }
 
-/// The same fact about several contacts is one line, with the numbers of the one that is farthest off.
+/// One line for all of these contacts, with the numbers of the farthest.
 std::string too_far_in_words(const std::vector<TooFar>& all, std::size_t held) {
   const auto worst =
       std::ranges::max_element(all, [](const TooFar& a, const TooFar& b) { return a.excess() < b.excess(); });
   const Held& contact = *worst->held;
-  const std::string numbers = fmt::format("{:.3g} m or more from {}, where its leg begins, which is {:.3g} m long",
+  const std::string numbers = fmt::format("{:.3g} m or more from {}, the root of its leg of length {:.3g} m",
                                           worst->distance, contact.first_joint, contact.leg.length);
   if (all.size() == 1) return fmt::format("contact {} is out of reach: {}", contact.contact.name, numbers);
   std::string names;
   for (const TooFar& one : all) names += (names.empty() ? "" : ", ") + one.held->contact.name;
-  return fmt::format("{} contacts are out of reach, by {:.2g} m or more: {} is {}",
-                     all.size() == held ? fmt::format("all {}", held) : fmt::format("{} ({})", all.size(), names),
-                     worst->excess(), contact.contact.name, numbers);
+  return fmt::format(
+      "{} are out of reach, by {:.2g} m or more: {} is {}",
+      all.size() == held ? fmt::format("all {} contacts", held) : fmt::format("{} contacts ({})", all.size(), names),
+      worst->excess(), contact.contact.name, numbers);
 }
 
 /// Contacts that a base of any orientation has to reach together.
@@ -85,8 +86,8 @@ struct Group {
   }
 };
 
-/// Least distance from the mean root of the legs to the mean of where the contacts have to be [m]: of those whose place
-/// is not known, along the normal of the one surface that they share.
+/// Least distance from the mean root of the legs to the mean of the footholds [m]; if these are not all known, along
+/// the normal of their common surface.
 double least_distance(const Group& group, const BoundaryCondition& condition) {
   const PointBounds root = point_bounds(condition, group.root);
   const auto count = static_cast<double>(group.held.size());
@@ -102,11 +103,11 @@ double least_distance(const Group& group, const BoundaryCondition& condition) {
   return std::max({0.0, root.least_along(surface.normal) - height, root.least_along(-surface.normal) + height});
 }
 
-/// The mean of the distances from root to contact is no less than that of the means, however the base is turned:
+/// The mean distance from root to contact is at least the distance of the means, for any base orientation:
 ///
 ///   mean length >= mean |p_i - (p_base + R root_i)| >= |mean p_i - (p_base + R mean root_i)|
 ///
-/// Of roots on all sides of the base the mean is near its origin, so that the rotation hardly matters.
+/// The mean of roots on all sides of the base is near its origin, so the rotation hardly matters.
 std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const BoundaryCondition& condition) {
   std::vector<std::vector<const Held*>> groups(1);
   for (const Held& one : held) groups.front().push_back(&one);
@@ -121,8 +122,8 @@ std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const B
     std::string names;
     for (const Held* one : group.held) names += (names.empty() ? "" : ", ") + one->contact.name;
     return fmt::format(
-        "contacts {} are out of reach however the base is turned: {:.3g} m or more from where their legs begin, on "
-        "average, and these are {:.3g} m long",
+        "contacts {} are out of reach for any base orientation: on average {:.3g} m or more from the roots of their "
+        "legs of length {:.3g} m",
         names, distance, group.length);
   }
   return "";
@@ -153,7 +154,7 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, con
         const double distance = (*held[i].place - *held[j].place).norm();
         const double span = held[i].leg.length + held[j].leg.length + (held[i].leg.root - held[j].leg.root).norm();
         if (!(distance > span + kReachMargin)) continue;
-        reasons.push_back(fmt::format("phase '{}': contacts {} and {} are {:.3g} m apart, and their legs span {:.3g} m",
+        reasons.push_back(fmt::format("phase '{}': contacts {} and {} are {:.3g} m apart, but their legs span {:.3g} m",
                                       phase, held[j].contact.name, held[i].contact.name, distance, span));
       }
     }

@@ -7,13 +7,13 @@
 
 namespace prowl {
 
-/// Contacts that no posture brings to their footholds, in the words of the task; empty if none is certain. By lengths
-/// alone (ContactReach), so that what they forbid is out of reach whatever the joints and their limits:
-/// - where a goal bounds the base: the distance from there to the foothold of each contact that is held at that time,
-///   known or, if the optimiser chooses it, the nearest of its surface; if no contact alone is too far, the same of the
-///   means of all contacts and of two, which bounds a base whose orientation is free;
+/// Contacts that no posture brings to their footholds, in the words of the task; empty if none is certain. Uses lengths
+/// alone (ContactReach), so joint limits do not matter:
+/// - if a goal bounds the base: its distance to the foothold of each contact held at that time, known or, if the
+///   optimiser chooses it, the nearest of its surface. If no contact alone is too far, the means of all contacts and of
+///   each pair are tested, which works for any base orientation;
 /// - in every phase: two known footholds farther apart than the two legs span.
-/// One line for each goal and phase: several contacts share it.
+/// One line per goal and phase; several contacts share it.
 std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, const ContactSchedule& schedule);
 
 }  // namespace prowl

@@ -16,9 +16,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSlideMargin = 0.01;  // [m]; far above what goals and contacts are allowed to be off by
+constexpr double kSlideMargin = 0.01;  // [m]; far above the tolerances of goals and contacts
 
-/// When a moment is reached [s].
+/// Earliest and latest time of a moment [s].
 struct TimeRange {
   double first = 0.0, last = 0.0;
 };
@@ -44,10 +44,10 @@ std::string friction_in_words(const std::vector<Surface>& surfaces) {
                         surface.friction);
     if (std::isfinite(factor)) text += fmt::format(" and needs {:.3g}", factor * surface.friction);
   }
-  return std::isfinite(factor) ? text : text + "; no friction would do";
+  return std::isfinite(factor) ? text : text + "; no friction suffices";
 }
 
-/// What keeps the centre of mass from sliding on, and how far it lets it: d . c >= least_along_d.
+/// A goal or contact that stops the slide of the centre of mass: d . c >= least_along_d.
 struct Hold {
   std::string name;
   TimeRange time;
@@ -88,19 +88,19 @@ std::optional<std::string> why_it_slides(const MotionProblem& problem, const Con
     std::vector<Surface> surfaces;
     for (const int surface : touched) surfaces.push_back(problem.surfaces[surface]);
     const auto slide = slide_on(surfaces);
-    if (!slide) return std::nullopt;  // nor with the surfaces of later phases
+    if (!slide) return std::nullopt;  // later phases only add surfaces
 
     const double speed = slide->direction.dot(start.velocity);
     const double acceleration = RobotModel::kGravity * slide->shortfall;
     for (const Hold& hold : holds_of_phase(problem, schedule, p, slide->direction)) {
-      // Of all times at which it may be reached the one that is kindest to the robot.
+      // The most favourable time in its range.
       const double time = std::clamp(speed / acceleration, hold.time.first, hold.time.last);
       const double slid = 0.5 * acceleration * time * time - speed * time;
       const double allowed = slide->direction.dot(start.position) - hold.least_along_d;
       if (!(slid > allowed + kSlideMargin)) continue;
       return fmt::format(
-          "phase '{}': {}. Within {:.3g} s the robot would {} {:.2f} m or more, and {} allows {:.2f} m at "
-          "most",
+          "phase '{}': {}. Within {:.3g} s the robot would {} {:.2f} m or more, but {} allows at most "
+          "{:.2f} m",
           phase.name, friction_in_words(surfaces), time, surfaces.empty() ? "fall" : "slide", slid, hold.name,
           std::max(0.0, allowed));
     }

@@ -16,7 +16,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int kEdges = 16;
-constexpr double kMostOfAnEdge = 10.0;  // weights; feet that press against each other have no largest force
+constexpr double kMostOfAnEdge = 10.0;  // [weights]; bounds feet that press against each other
 
 /// minimise cost . z  subject to bounds on z and rows z.
 class LinearProgram : public StoredNlp {
@@ -75,8 +75,8 @@ StandingLoad standing_load(const MotionProblem& problem, const VectorXd& q, cons
   kinematics.set_configuration(terms);
   const VectorXd gravity = terms.inverse_dynamics() / robot.weight();
 
-  // Variables: the share of the weight, then the edges' forces, in weights. Rows: s g - J' f, that is what the base
-  // must not be left with and the joints' torques over the weight.
+  // Variables: the share of the weight, then the forces along the edges, in weights. Rows: s g - J' f, the unbalanced
+  // force on the base (zero) and the joint torques, over the weight.
   MatrixXd rows(robot.nv(), 1 + kEdges * static_cast<Index>(contacts.size()));
   rows.col(0) = gravity;
   for (std::size_t c = 0; c < contacts.size(); ++c) {

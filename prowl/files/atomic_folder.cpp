@@ -44,20 +44,19 @@ class Descriptor {
   void sync() const {
     if (::fsync(number_) != 0) fail(path_, "cannot write to disk", errno);
   }
-  /// Permissions and group of what is to be replaced, if there is something: who made it private, or a group's, meant
-  /// that.
+  /// Takes permissions and group of the old file or folder, if it exists, to keep it as private.
   void be_as_private_as(const fs::path& old) const {
     constexpr mode_t kPermissions = 07777;
     struct stat was = {}, is = {};
     if (::stat(old.c_str(), &was) != 0 || ::fstat(number_, &is) != 0) return;
     mode_t permissions = was.st_mode & kPermissions;
-    // Not a group of this user, so that members of another get what all may do.
+    // This user cannot set that group: its members get the permissions of everyone.
     if (is.st_gid != was.st_gid && ::fchown(number_, static_cast<uid_t>(-1), was.st_gid) != 0) {
       permissions = (permissions & ~static_cast<mode_t>(S_ISGID | S_IRWXG)) | ((permissions & S_IRWXO) << 3);
     }
     const bool is_same = ::fstat(number_, &is) == 0 && (is.st_mode & kPermissions) == permissions;
     if (!is_same && ::fchmod(number_, permissions) != 0)
-      fail(path_, "cannot get the permissions of the old one", errno);
+      fail(path_, "cannot copy the permissions of the old one", errno);
   }
 
  private:
@@ -65,7 +64,7 @@ class Descriptor {
   int number_;
 };
 
-/// Writes and syncs a file that is to take the place of `old`, which need not be there.
+/// Writes and syncs a file that will replace `old`, which need not exist.
 void write_new(const fs::path& file, const std::string& text, const fs::path& old) {
   const Descriptor descriptor(file, O_WRONLY | O_CREAT | O_EXCL);
   descriptor.be_as_private_as(old);
@@ -73,15 +72,15 @@ void write_new(const fs::path& file, const std::string& text, const fs::path& ol
   descriptor.sync();
 }
 
-constexpr std::chrono::hours kLeftoverAge{1};  // no write takes nearly as long, on any machine that sees the folder
+constexpr std::chrono::hours kLeftoverAge{1};  // far longer than any write, on any machine that sees the folder
 
-/// ".prowl-4711-0.new": a SiblingFolder, or what a killed process left of one.
+/// ".prowl-4711-0.new": a SiblingFolder, maybe of a killed process.
 bool is_sibling_name(const std::string& name) {
   static const std::regex pattern(R"(\.prowl-[0-9]+-[0-9]+\.new)");
   return std::regex_match(name, pattern);
 }
 
-/// Those that processes left which were killed.
+/// Removes sibling folders of killed processes.
 void remove_leftovers(const fs::path& folder) {
   std::error_code error, ignored;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -91,16 +90,16 @@ void remove_leftovers(const fs::path& folder) {
   }
 }
 
-/// Another process that tries whether it could write takes the empty folders above away again, at any moment.
+/// Another process that tests if it can write may remove the empty folders above at any moment.
 constexpr int kMostAttempts = 1000;
 
 enum class FolderAbove { has_to_exist, is_made };
 
-/// New folder beside `folder`, removed with all that it holds at the end: the new content, or after the exchange the
-/// old. This user's alone where there is a `folder`, or one for files: what they replace may be private.
+/// New folder beside `folder`, removed at the end with its content: the new one, or after the exchange the old one.
+/// Only this user may open it if `folder` exists or single files are replaced: the old content may be private.
 class SiblingFolder {
  public:
-  /// `shown`: what the user calls the folder, or the one that it is in where that has to exist; "" for `folder`.
+  /// `shown`: name for messages of the folder, or of its parent if that has to exist; "" for `folder`.
   explicit SiblingFolder(const fs::path& folder, FolderAbove above, const fs::path& shown = {}) {
     const fs::path parent = folder.parent_path();
     remove_leftovers(parent);
@@ -123,7 +122,7 @@ class SiblingFolder {
   SiblingFolder(const SiblingFolder&) = delete;
   SiblingFolder& operator=(const SiblingFolder&) = delete;
   const fs::path& path() const { return path_; }
-  /// Permissions and group of what it is to replace, on the disk.
+  /// Takes permissions and group of the old folder, and syncs.
   void finish(const fs::path& old) const {
     const Descriptor descriptor(path_, O_RDONLY | O_DIRECTORY);
     descriptor.be_as_private_as(old);
@@ -142,7 +141,7 @@ class SiblingFolder {
     throw FileError(fmt::format("{}: cannot be made: {}", name.string(), reason));
   }
 
-  /// But where one above it goes meanwhile: the next attempt makes that, too.
+  /// Does nothing if a folder above vanishes meanwhile: the next attempt makes it again.
   static void make_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -154,14 +153,14 @@ class SiblingFolder {
   fs::path path_;
 };
 
-/// `fresh` gets the name `folder`; what had it is then called `fresh`.
+/// Renames `fresh` to `folder`; an old folder of that name becomes `fresh`.
 void exchange(const fs::path& fresh, const fs::path& folder) {
   if (::rename(fresh.c_str(), folder.c_str()) == 0) return;  // there was none, or an empty one
   if (errno != ENOTEMPTY && errno != EEXIST) fail(folder, "cannot put the new folder in place", errno);
   if (::renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0) return;
   if (errno != EINVAL && errno != ENOSYS) fail(folder, "cannot exchange with the new folder", errno);
-  // Some network file systems cannot exchange: two renames, and the first is taken back if the second fails. A kill
-  // between them leaves the old content under a name that says whose it was.
+  // Some network file systems cannot exchange: rename twice, and undo the first if the second fails. A kill between
+  // them leaves the old content in `old`.
   const fs::path old = fmt::format("{}.prowl-{}.old", folder.string(), ::getpid());
   if (::rename(folder.c_str(), old.c_str()) != 0) fail(folder, "cannot move the old folder away", errno);
   if (::rename(fresh.c_str(), folder.c_str()) != 0) {
@@ -172,35 +171,32 @@ void exchange(const fs::path& fresh, const fs::path& folder) {
   if (::rename(old.c_str(), fresh.c_str()) != 0) fail(old, "cannot remove the old folder", errno);
 }
 
-/// Throws FileError where no other folder can take this one's name: what something is mounted on, or what is another
-/// user's in a folder where only owners may rename (as /tmp). One that another process takes away meanwhile is in
-/// nobody's way.
+/// Throws FileError if no other folder can take this one's name: a mount point, or another user's folder where only
+/// owners may rename (as in /tmp). A folder that vanishes meanwhile is fine.
 void check_exchangeable(const fs::path& path) {
   struct stat here = {}, above = {};
   if (::stat(path.c_str(), &here) != 0) {
     if (errno == ENOENT) return;
-    fail(path, "cannot look at this folder", errno);
+    fail(path, "cannot read this folder", errno);
   }
   if (::faccessat(AT_FDCWD, path.c_str(), W_OK | X_OK, AT_EACCESS) != 0 && errno != ENOENT)
     fail(path, "cannot be replaced", errno);
-  if (::stat(path.parent_path().c_str(), &above) != 0) fail(path.parent_path(), "cannot look at this folder", errno);
+  if (::stat(path.parent_path().c_str(), &above) != 0) fail(path.parent_path(), "cannot read this folder", errno);
   struct statx more = {};
   const bool is_known = ::statx(AT_FDCWD, path.c_str(), 0, STATX_BASIC_STATS, &more) == 0 &&
                         (more.stx_attributes_mask & STATX_ATTR_MOUNT_ROOT) != 0;
   const bool is_mounted = is_known ? (more.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0 : here.st_dev != above.st_dev;
   if (is_mounted) {
-    throw FileError(fmt::format(
-        "{}: something is mounted there, and what is written takes a folder's place as a whole; need a folder in it",
-        path.string()));
+    throw FileError(fmt::format("{}: this is a mount point, and prowl replaces the whole folder; need a folder in it",
+                                path.string()));
   }
   const uid_t user = ::geteuid();
   const bool is_others = user != 0 && here.st_uid != user && above.st_uid != user;
-  if ((above.st_mode & S_ISVTX) != 0 && is_others) fail(path, "cannot be replaced, for it is another user's", EPERM);
+  if ((above.st_mode & S_ISVTX) != 0 && is_others) fail(path, "cannot be replaced: it belongs to another user", EPERM);
 }
 
-/// Makes the folder or, where there is one, another beside it, as well as the missing ones above, and removes them
-/// again: permissions tell nothing of /proc, of names too long, or of a disk that is full. A kill may leave an empty
-/// folder.
+/// Makes the folder or, if it exists, another beside it, with the missing ones above, and removes them again:
+/// permissions do not reveal /proc, names too long, or a full disk. A kill may leave an empty folder.
 void try_to_make(const fs::path& path, const fs::path& shown) {
   std::error_code error;
   std::vector<fs::path> missing;  // from the inside out
@@ -227,8 +223,7 @@ void try_to_make(const fs::path& path, const fs::path& shown) {
   remove_missing();
 }
 
-/// A file of one of these names, a folder that one of them goes through, what a killed process left, or what is gone
-/// meanwhile.
+/// A file with one of these names, a folder on its path, a folder of a killed process, or something that vanished.
 bool is_own(const std::string& name, const fs::directory_entry& entry, const std::set<std::string>& own_names) {
   for (const fs::path& part : fs::path(name)) {
     if (is_sibling_name(part.string())) return true;
@@ -237,12 +232,12 @@ bool is_own(const std::string& name, const fs::directory_entry& entry, const std
   if (entry.is_regular_file(ignored)) return own_names.contains(name);
   const fs::file_type type = entry.symlink_status(ignored).type();
   if (type == fs::file_type::not_found) return true;
-  if (type != fs::file_type::directory) return false;  // what a link leads to is not looked through
+  if (type != fs::file_type::directory) return false;  // links are not followed
   const auto inside = own_names.lower_bound(name + "/");
   return inside != own_names.end() && inside->starts_with(name + "/");
 }
 
-/// Name of something in the folder that is not one's own; "" if all is.
+/// First name found in the folder that is not own; "" if there is none.
 std::string not_own(const fs::path& folder, const std::set<std::string>& own_names) {
   for (int attempt = 0;; ++attempt) {
     std::error_code error;
@@ -252,22 +247,22 @@ std::string not_own(const fs::path& folder, const std::set<std::string>& own_nam
     }
     if (!error) return "";
     if (error != std::errc::no_such_file_or_directory ||
-        attempt == kMostAttempts) {  // else a folder in it went meanwhile
-      throw FileError(fmt::format("{}: cannot look at this folder: {}", folder.string(), error.message()));
+        attempt == kMostAttempts) {  // otherwise a folder in it vanished meanwhile
+      throw FileError(fmt::format("{}: cannot read this folder: {}", folder.string(), error.message()));
     }
     if (!fs::exists(folder, error)) return "";
   }
 }
 
-/// Throws FileError unless `path` is missing, or a folder of these names that another may take the place of. `shown`:
-/// what the user calls it.
+/// Throws FileError unless `path` is missing, or a replaceable folder with only these names. `shown`: its name for
+/// messages.
 void check_old(const fs::path& path, const fs::path& shown, const std::set<std::string>& own_names) {
   std::error_code error;
   if (!fs::exists(path, error)) return;
   if (!fs::is_directory(path, error)) throw FileError(fmt::format("{}: not a folder", shown.string()));
   if (const std::string name = not_own(path, own_names); !name.empty()) {
     throw FileError(
-        fmt::format("{}: would be replaced, but holds {}, which prowl does not write there; need another folder",
+        fmt::format("{}: cannot be replaced: it contains {}, which prowl does not write there; need another folder",
                     shown.string(), name));
   }
   check_exchangeable(path);
@@ -301,14 +296,14 @@ void write_folder_atomically(const fs::path& folder, const std::map<std::string,
     check_old(path, folder, own_names);
     fresh.finish(path);
     exchange(fresh.path(), path);
-  } catch (const FileError& failure) {  // all is written, after hours of work perhaps
+  } catch (const FileError& failure) {  // all is written, maybe after hours of work
     const fs::path kept = fmt::format("{}.prowl-{}.new", path.string(), ::getpid());
     try {
-      exchange(fresh.path(), kept);  // with what was kept before, if there is such
+      exchange(fresh.path(), kept);  // replaces what an earlier run kept
     } catch (const FileError&) {
       throw failure;
     }
-    throw FileError(fmt::format("{}; what was to be there is in {}", failure.what(), kept.string()));
+    throw FileError(fmt::format("{}; the new files are in {}", failure.what(), kept.string()));
   }
   Descriptor(path.parent_path(), O_RDONLY | O_DIRECTORY).sync();
 }
@@ -320,7 +315,7 @@ void check_writable(const fs::path& folder) {
 void write_files_atomically(const fs::path& folder, const std::map<std::string, std::string>& files) {
   const fs::path place = real_path(folder);
   std::error_code error;
-  for (const auto& [name, text] : files) {  // a rename would put a file in place of /dev/null, for who may do that
+  for (const auto& [name, text] : files) {  // with enough rights, a rename would replace /dev/null
     const fs::file_status old = fs::status(place / name, error);
     if (fs::exists(old) && !fs::is_regular_file(old))
       throw FileError(fmt::format("{}: not a file", (place / name).string()));

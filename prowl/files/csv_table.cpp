@@ -50,7 +50,7 @@ CsvTable read_csv_table(const SourceText& source) {
   table.file = source.path.string();
   std::string_view text = source.text;
   if (!text.ends_with('\n'))
-    throw InputError(fmt::format("{}: the last line has no end; the file is cut short", table.file));
+    throw InputError(fmt::format("{}: the last line has no line end; the file is cut short", table.file));
   const auto next_line = [&text] {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(line.size() + 1);
@@ -59,7 +59,7 @@ CsvTable read_csv_table(const SourceText& source) {
   const auto rows = std::count(text.begin(), text.end(), '\n') - 1;
   const std::string_view names = next_line();
   const auto columns = std::count(names.begin(), names.end(), ',') + 1;
-  // Nothing is allocated for cells that cannot be there: each has a character and a separator.
+  // Checked before the allocation: each cell has a character and a separator.
   constexpr std::ptrdiff_t kMostColumns = 100000, kFewCells = 1000000;
   if (columns > kMostColumns)
     throw InputError(fmt::format("{}:1: {} columns; need at most {}", table.file, columns, kMostColumns));

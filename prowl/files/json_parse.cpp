@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Throws at the first thing too many.
+/// Throws as soon as a limit is exceeded.
 class Limits {
  public:
   explicit Limits(const SourceText& source) : file_(source.path.string()) {}
@@ -29,8 +29,8 @@ class Limits {
 
  private:
   [[noreturn]] void fail(const char* what, int most, const char* where) const {
-    throw InputError(
-        fmt::format("{}: {} more than {} {} are not allowed: no file that prowl wrote", file_, what, most, where));
+    throw InputError(fmt::format("{}: {} more than {} {} are not allowed; prowl does not write such files", file_, what,
+                                 most, where));
   }
 
   std::string file_;
@@ -44,11 +44,11 @@ Json parse_json(const SourceText& source) {
   try {
     return Json::parse(source.text, Limits(source));
   } catch (const Json::parse_error& error) {
-    const std::size_t at = std::max<std::size_t>(error.byte, 1) - 1;  // it counts from 1; 0 where it does not know
+    const std::size_t at = std::max<std::size_t>(error.byte, 1) - 1;  // it counts from 1; 0 if unknown
     throw InputError(
         fmt::format("{}: not JSON from here on: the file is cut short or was edited", place_in(source, at)));
   } catch (const Json::out_of_range&) {
-    throw InputError(fmt::format("{}: a number in it is beyond 1.8e308", source.path.string()));
+    throw InputError(fmt::format("{}: a number exceeds 1.8e308", source.path.string()));
   }
 }
 

@@ -6,8 +6,7 @@
 
 namespace prowl {
 
-/// Indented, with a line end. What is not UTF-8 (file names may be anything) becomes U+FFFD: dump() alone would throw,
-/// after the solve.
+/// Indented, with a line end. Bytes that are not UTF-8 (from file names) become U+FFFD; dump() alone would throw.
 inline std::string json_text(const nlohmann::ordered_json& json) {
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

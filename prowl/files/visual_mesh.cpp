@@ -27,11 +27,11 @@ void check_file(const std::filesystem::path& file) {
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (std::find(kKinds.begin(), kKinds.end(), kind) == kKinds.end()) {
     throw InputError(
-        fmt::format("{}: this kind of mesh is not read; need .dae, .stl, .obj, .ply or .glb", file.string()));
+        fmt::format("{}: this kind of mesh is not supported; need .dae, .stl, .obj, .ply or .glb", file.string()));
   }
   std::error_code error;
   if (std::filesystem::file_size(file, error) > kLargestFile || error) {
-    throw InputError(fmt::format("{}: cannot be read, or more than {} bytes", file.string(), kLargestFile));
+    throw InputError(fmt::format("{}: cannot be read, or larger than {} bytes", file.string(), kLargestFile));
   }
 }
 
@@ -63,10 +63,10 @@ bool is_finite(const VisualMesh& mesh) {
 std::vector<VisualMesh> read_visual_mesh(const std::filesystem::path& file) {
   check_file(file);
   Assimp::Importer importer;
-  // Z up in the file or not: a URDF means the file's own axes.
+  // URDF uses the file's own axes, Z up or not.
   importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  // Normals are made again from the triangles that are left; vertices that differ in them alone become one.
+  // Vertices that differ only in these become one; the reader of the mesh computes normals again.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
                               aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                                   aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
@@ -79,22 +79,22 @@ std::vector<VisualMesh> read_visual_mesh(const std::filesystem::path& file) {
   std::vector<VisualMesh> meshes;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     VisualMesh mesh = to_mesh(*scene->mMeshes[i], *scene);
-    if (!is_finite(mesh)) throw InputError(fmt::format("{}: has vertices that are not finite", file.string()));
+    if (!is_finite(mesh)) throw InputError(fmt::format("{}: contains vertices that are not finite", file.string()));
     if (mesh.num_triangles() > 0) meshes.push_back(std::move(mesh));
   }
-  if (meshes.empty()) throw InputError(fmt::format("{}: has no triangles", file.string()));
+  if (meshes.empty()) throw InputError(fmt::format("{}: contains no triangles", file.string()));
   return meshes;
 }
 
 void simplify(VisualMesh& mesh, double share) {
   if (share >= 1.0 || mesh.triangles.empty()) return;
-  constexpr float kAnyError = 1.0f;  // of the size of the mesh: the number of triangles decides
+  constexpr float kAnyError = 1.0f;  // relative to the size of the mesh: only the number of triangles counts
   const std::size_t target =
       3 * std::max<std::size_t>(4, static_cast<std::size_t>(share * static_cast<double>(mesh.num_triangles())));
   std::vector<std::uint32_t> fewer(mesh.triangles.size());
   std::size_t count = meshopt_simplify(fewer.data(), mesh.triangles.data(), mesh.triangles.size(),
                                        mesh.positions.data(), mesh.num_vertices(), kVertexBytes, target, kAnyError);
-  if (count > 2 * target) {  // many small pieces, each of which would stay: give up their shape
+  if (count > 2 * target) {  // many small pieces: give up their shape
     count = meshopt_simplifySloppy(fewer.data(), mesh.triangles.data(), mesh.triangles.size(), mesh.positions.data(),
                                    mesh.num_vertices(), kVertexBytes, target, kAnyError);
   }

@@ -12,18 +12,17 @@ namespace prowl {
 struct VisualMesh {
   std::vector<float> positions;           ///< x y z of each vertex, in the axes and the unit of the URDF [m]
   std::vector<std::uint32_t> triangles;   ///< three vertices each, counterclockwise seen from outside
-  std::optional<Eigen::Vector3d> colour;  ///< red, green, blue, 0 ... 1; none where the file does not say
+  std::optional<Eigen::Vector3d> colour;  ///< red, green, blue, 0 ... 1; none if the file gives none
 
   std::size_t num_vertices() const { return positions.size() / 3; }
   std::size_t num_triangles() const { return triangles.size() / 3; }
 };
 
-/// The parts of a mesh file (.dae, .stl, .obj, .ply, .glb), one a material, by Assimp: with the transforms of its nodes
-/// and its unit applied, and its axes as they are, as other readers of URDF do. Textures are left out. Throws
-/// InputError.
+/// The parts of a mesh file (.dae, .stl, .obj, .ply, .glb), one per material, by Assimp. Applies the transforms of
+/// nodes and the unit; keeps the axes of the file, as other readers of URDF do; drops textures. Throws InputError.
 std::vector<VisualMesh> read_visual_mesh(const std::filesystem::path& file);
 
-/// Leaves about `share` (0 ... 1) of the triangles, by meshoptimizer; fewer where a mesh falls apart into many pieces.
+/// Keeps about `share` (0 ... 1) of the triangles, by meshoptimizer; fewer if the mesh has many separate pieces.
 void simplify(VisualMesh& mesh, double share);
 
 }  // namespace prowl

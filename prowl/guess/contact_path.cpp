@@ -60,7 +60,7 @@ std::vector<ContactTarget> ContactPath::targets(int k) const {
     const Vector3d& to = places_[swing.after];
     const int surface = discrete_.schedule.stances()[swing.after].surface;
     const Vector3d lift = discrete_.problem.swing_clearance * discrete_.problem.surfaces[surface].normal;
-    // At rest at both ends; an arc of four thirds of the clearance, so as not to start on the bound.
+    // At rest at both ends; an arc of four thirds of the clearance keeps the guess off the bound.
     const double along = s * s * (3.0 - 2.0 * s), arc = 16.0 * s * s * (1.0 - s) * (1.0 - s);
     targets.push_back({swing.contact, from + along * (to - from) + arc * 4.0 / 3.0 * lift});
   }

@@ -8,21 +8,19 @@
 
 namespace prowl {
 
-/// Where the contacts of an initial guess are: held ones at their places, those in the air between them.
+/// Positions of the contacts in an initial guess: on their footholds, and in the air between them.
 ///
-/// A contact that lands does so where the task puts it, else under the place on the robot where the start has it: the
-/// start's contact, carried along with the base to the middle of the stance, then dropped on its surface. In the air a
-/// contact goes from place to place in an arc over both. One that never lands again, or was never held, keeps the
-/// posture of its leg.
+/// A contact lands on its given foothold. Without one, its start position is carried along with the base to the middle
+/// of the stance and dropped on the surface. In the air a contact moves from foothold to foothold in an arc above both.
+/// One that never lands again, or never stood, keeps the posture of its leg.
 class ContactPath {
  public:
-  ContactPath(const DiscreteProblem& discrete, const PosturePath& posture);  ///< which must outlive it
+  ContactPath(const DiscreteProblem& discrete, const PosturePath& posture);  ///< `discrete` must outlive it
 
-  /// Places of the contacts that a phase holds, in its order.
+  /// Positions of the contacts that a phase holds, in its order, world frame [m].
   std::vector<Eigen::Vector3d> held_places(int phase) const;
 
-  /// Of node k of the mesh.
-  std::vector<ContactTarget> targets(int k) const;
+  std::vector<ContactTarget> targets(int k) const;  ///< at node k of the mesh
 
  private:
   struct Span {
@@ -31,7 +29,7 @@ class ContactPath {
   Span span(int first_phase, int last_phase) const;
 
   const DiscreteProblem& discrete_;
-  std::vector<Eigen::Vector3d> places_;  ///< one a stance, of the contact point: its radius above the surface
+  std::vector<Eigen::Vector3d> places_;  ///< of the contact point in each stance: its radius above the surface
 };
 
 }  // namespace prowl

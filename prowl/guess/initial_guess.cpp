@@ -23,8 +23,7 @@ VectorXd clamp(const VectorXd& x, const VectorXd& lower, const VectorXd& upper) 
   return x.cwiseMax(lower).cwiseMin(upper);
 }
 
-/// Configurations of all nodes: the base on the path, contacts on theirs, other joints as the path has them (relative
-/// to where the contacts left them).
+/// Configurations of all nodes: base and contacts on their paths; other joints change as on the posture path.
 void set_configurations(const DiscreteProblem& discrete, Trajectory& guess) {
   const MotionProblem& problem = discrete.problem;
   const PosturePath posture(discrete);
@@ -42,7 +41,7 @@ void set_configurations(const DiscreteProblem& discrete, Trajectory& guess) {
     q.tail(nu) = previous.tail(nu) + on_path.tail(nu) - previous_on_path.tail(nu);
     q = inverse_kinematics(problem.robot, q, contacts.targets(k)).q;
     for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-      const bool is_now = discrete.condition_time(c) == node.time;  // on both sides of a phase switch
+      const bool is_now = discrete.condition_time(c) == node.time;  // on both sides of a phase transition
       if (is_now) q = meet(problem.boundary_conditions[c], q);
     }
     q.tail(nu) = clamp(q.tail(nu), problem.robot.position_lower(), problem.robot.position_upper());
@@ -52,7 +51,7 @@ void set_configurations(const DiscreteProblem& discrete, Trajectory& guess) {
   }
 }
 
-/// Contacts of the phases on both sides of node k: at a switch none of either moves.
+/// Contacts of the phases on both sides of node k: at a phase transition all of these hold still.
 std::vector<int> contacts_around(const DiscreteProblem& discrete, int k) {
   const auto contacts_of = [&](int node) {
     const int phase = discrete.nodes[node].phase;
@@ -68,7 +67,7 @@ std::vector<int> contacts_around(const DiscreteProblem& discrete, int k) {
   return contacts;
 }
 
-/// Takes out of v (or, with v, of a) what moves the contacts: v - J⁺ J v, a - J⁺ (J a + J̇ v).
+/// Removes from v, or from a at this v, the part that moves the contacts: v - J⁺ J v, a - J⁺ (J a + J̇ v).
 class ContactConsistency {
  public:
   ContactConsistency(const RobotModel& robot, const VectorXd& q, std::vector<int> contacts)
@@ -91,9 +90,8 @@ class ContactConsistency {
   Projector projector_;
 };
 
-/// Rate at node k of something that is known at the nodes, from nodes `before` and `after` (k itself at an end): the
-/// slope there of the parabola through all three, or the one-sided difference. `change(i)` is its value at i minus that
-/// at k.
+/// Rate at node k of a quantity given at the nodes, from nodes `before` and `after` (k itself at an end): slope of the
+/// parabola through all three, or a one-sided difference. `change(i)` is the value at i minus that at k.
 template <typename Change>
 VectorXd rate(const DiscreteProblem& discrete, int before, int k, int after, const Change& change) {
   const auto time = [&](int i) { return discrete.nodes[i].time; };
@@ -111,7 +109,7 @@ void set_rates(const DiscreteProblem& discrete, Trajectory& guess) {
   const auto time = [&](int i) { return discrete.nodes[i].time; };
   const VectorXd& limit = problem.robot.velocity_limit();
   for (int k = 0; k < discrete.num_nodes(); ++k) {
-    // Neighbours in time, across phase switches: the velocity is continuous there.
+    // Neighbours in time, across phase transitions: the velocity is continuous there.
     int before = k, after = k;
     while (before > 0 && time(before) == time(k)) --before;
     while (after + 1 < discrete.num_nodes() && time(after) == time(k)) ++after;
@@ -133,7 +131,7 @@ void set_rates(const DiscreteProblem& discrete, Trajectory& guess) {
     }
   }
   for (int k = 0; k < discrete.num_nodes(); ++k) {
-    // Neighbours of the same phase only: the acceleration jumps at a switch.
+    // Neighbours of the same phase only: the acceleration jumps at a phase transition.
     const MeshNode& node = discrete.nodes[k];
     at(k).a = rate(discrete, node.h_in > 0.0 ? k - 1 : k, k, node.h_out > 0.0 ? k + 1 : k,
                    [&](int i) -> VectorXd { return at(i).v - at(k).v; });
@@ -142,7 +140,7 @@ void set_rates(const DiscreteProblem& discrete, Trajectory& guess) {
   }
 }
 
-/// Torques and forces that make the motion, within limits. A contact that opens has no force at its last node.
+/// Torques and forces of the motion, within limits. A contact that opens has no force at its last node.
 void set_torques(const DiscreteProblem& discrete, Trajectory& guess) {
   const MotionProblem& problem = discrete.problem;
   const VectorXd& limit = problem.robot.torque_limit();

@@ -9,7 +9,7 @@ namespace prowl {
 struct Waypoint {
   double time = 0.0;  ///< [s]
   double value = 0.0;
-  std::optional<double> slope;  ///< where not given, chosen by the curve
+  std::optional<double> slope;  ///< if not given, the curve chooses it
 };
 
 /// Piecewise cubic through waypoints that does not overshoot them: between two waypoints it stays between their values

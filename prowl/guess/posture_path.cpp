@@ -62,7 +62,7 @@ void PosturePath::add(const BoundaryCondition& condition, const VectorXd& q, dou
     const Eigen::Index place = i < 3 ? coordinate : coordinate + 4;
     const Eigen::Index tangent = i < 3 ? coordinate : coordinate + 3;
     if (!binds(condition, tangent)) continue;
-    // Two conditions at one time (both sides of a phase switch): the later has met the earlier.
+    // Two conditions at one time (a phase transition): the later one includes the earlier.
     auto& points = waypoints[i];
     if (!points.empty() && points.back().time >= time) points.pop_back();
     points.push_back({time, q(place), std::nullopt});
@@ -71,7 +71,7 @@ void PosturePath::add(const BoundaryCondition& condition, const VectorXd& q, dou
   if (binds(condition, 3) || binds(condition, 4) || binds(condition, 5)) {
     if (!turns_.empty() && turns_.back().time >= time) turns_.pop_back();
     Eigen::Quaterniond rotation = base_quaternion(q);
-    // Of the two quaternions of a rotation the one that goes on without a jump.
+    // The sign that continues without a jump.
     if (!turns_.empty() && turns_.back().rotation.dot(rotation) < 0.0) rotation.coeffs() *= -1.0;
     turns_.push_back({time, rotation});
   }

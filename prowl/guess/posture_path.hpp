@@ -12,9 +12,9 @@ namespace prowl {
 /// The configuration nearest to q that a boundary condition allows.
 Eigen::VectorXd meet(const BoundaryCondition& condition, const Eigen::VectorXd& q);
 
-/// What the boundary conditions alone say about the motion: base and joints, contacts not considered. Each coordinate
-/// of base position and joints has its own waypoints, so that one that is free at a condition goes on to the next; the
-/// base's rotation turns from one prescribed rotation to the next about a fixed axis, at rest at both.
+/// Motion of base and joints from the boundary conditions alone, without contacts. Each coordinate of base position and
+/// joints has its own waypoints; one that is free at a condition continues to the next. The base turns from one
+/// prescribed rotation to the next about a fixed axis, at rest at both.
 class PosturePath {
  public:
   explicit PosturePath(const DiscreteProblem& discrete);

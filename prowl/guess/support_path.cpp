@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// Of a support polygon, shrunk about its centre: the rest is for what the guess misses.
+/// Part of a support polygon, shrunk about its centre: the margin is for errors of the guess.
 constexpr double kInnerPart = 0.8;
 
 /// The point of the convex hull of `corners` that is nearest to p (Frank and Wolfe's method, exact enough for a guess).
@@ -47,7 +47,7 @@ std::vector<Vector2d> inner_corners(const std::vector<Vector3d>& places) {
   return corners;
 }
 
-/// The shift of one instant after the other, equally spaced.
+/// The shift at equally spaced instants.
 class ShiftProblem {
  public:
   /// `pendulum`: z / g [s^2].
@@ -66,7 +66,7 @@ class ShiftProblem {
     rows_.setFromTriplets(triplets_.begin(), triplets_.end());
     solver_.compute(Eigen::SparseMatrix<double>(rows_.transpose() * rows_));
   }
-  /// Of zero moment points that are to move by `wanted` (two columns x y, a row an instant).
+  /// Shifts for zero moment points that should move by `wanted` (columns x y, one row per instant) [m].
   Eigen::MatrixX2d solve(const Eigen::MatrixX2d& wanted) const {
     Eigen::MatrixX2d values = Eigen::MatrixX2d::Zero(rows_.rows(), 2);
     for (Eigen::Index row = 0; row < values.rows(); ++row) {
@@ -75,7 +75,7 @@ class ShiftProblem {
     }
     return solver_.solve(rows_.transpose() * values);
   }
-  /// How far shifts move the zero moment point.
+  /// Motion of the zero moment point by shifts.
   Eigen::MatrixX2d zero_moment_shift(const Eigen::MatrixX2d& shift) const {
     Eigen::MatrixX2d moved = shift;
     for (int i = 1; i + 1 < size_; ++i) {
@@ -85,8 +85,8 @@ class ShiftProblem {
   }
 
  private:
-  static constexpr double kEffort = 0.1;  // of the acceleration, as a distance of the zero moment point
-  static constexpr double kPin = 1e3;     // as good as a condition
+  static constexpr double kEffort = 0.1;  // weight of the acceleration, as a distance of the zero moment point
+  static constexpr double kPin = 1e3;     // large enough to act as a condition
 
   void add(int instant, double weight, std::initializer_list<std::pair<int, double>> row) {
     for (const auto& [column, value] : row)
@@ -96,7 +96,7 @@ class ShiftProblem {
 
   int size_;
   double curvature_;
-  std::vector<int> instants_;  ///< of each row, -1 where it aims for zero
+  std::vector<int> instants_;  ///< of each row, -1 if it aims for zero
   std::vector<Eigen::Triplet<double>> triplets_;
   Eigen::SparseMatrix<double> rows_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;

@@ -7,14 +7,14 @@
 
 namespace prowl {
 
-/// How far an initial guess moves the base sideways so that its contacts can carry the motion, where the boundary
-/// conditions leave it free to: a robot that lifts a foot leans away from it before.
+/// Sideways shift of the base in an initial guess, within the boundary conditions, with which its contacts can carry
+/// the motion: a robot leans away from a foot before lifting it.
 ///
-/// As a linear inverted pendulum of the nominal height z: the zero moment point  p = c - (z / g) c̈  of the centre of
-/// mass c has to be in the inner part of the support polygon of each phase. Least squares of its distance from there
-/// and, a little, of the acceleration, where each round aims for the points that are nearest to the last round's. At
-/// rest at both ends, no shift where a condition binds the base; phases in flight aim for nothing. Kajita et al., Biped
-/// walking pattern generation by using preview control of zero-moment point, ICRA 2003.
+/// Linear inverted pendulum of the nominal height z: the zero moment point  p = c - (z / g) c̈  of the centre of mass c
+/// must be in the inner part of the support polygon of each phase, but for flights. Least squares of its distance from
+/// there and, with a small weight, of the acceleration; each round aims for the points nearest to the last round's. At
+/// rest at both ends, no shift where a condition binds the base. Kajita et al., Biped walking pattern generation by
+/// using preview control of zero-moment point, ICRA 2003.
 class SupportPath {
  public:
   SupportPath(const DiscreteProblem& discrete, const PosturePath& posture, const ContactPath& contacts);

@@ -54,7 +54,7 @@ std::optional<int> PhaseMesh::node_at(double fraction) const {
 
 PhaseMesh PhaseMesh::with_intervals(int count) const {
   if (is_even()) return PhaseMesh(count);
-  const auto place = [&](int j) {  // of node j in the phase, of which it is a part
+  const auto place = [&](int j) {  // of node j, as a part of the phase
     const int before = static_cast<int>(static_cast<long>(j) * intervals_ / count);
     const double rest = static_cast<double>(j) * intervals_ / count - before;
     return node_time(before, 1.0) + (before < intervals_ ? rest * step(before, 1.0) : 0.0);

@@ -7,31 +7,29 @@
 
 namespace prowl {
 
-constexpr double kIntervalsPerSecond = 50.0;  ///< of a gait, unless said otherwise [1/s]
-constexpr int kMostIntervals = 10000;         ///< of a motion; a typing mistake above that, and gigabytes of memory
+constexpr double kIntervalsPerSecond = 50.0;  ///< default of gaits [1/s]
+constexpr int kMostIntervals = 10000;         ///< of a motion; more would be a typing mistake, and gigabytes of memory
 
-/// How a phase is cut into mesh intervals, whatever its duration. Node k = 0 ... intervals() is the end of interval k
-/// - 1.
+/// Division of a phase of any duration into mesh intervals. Node k = 0 ... intervals() is the end of interval k - 1.
 class PhaseMesh {
  public:
-  /// Equal intervals. Throws InputError unless there is one or more.
+  /// Equal intervals. Throws InputError unless there is at least one.
   explicit PhaseMesh(int intervals = 1);
   /// One interval for each of these lengths, > 0; only their proportions count. Throws InputError.
   explicit PhaseMesh(const std::vector<double>& lengths);
 
   int intervals() const { return intervals_; }
   bool is_even() const { return shares_.empty(); }
-  /// The part of the phase that each interval takes, 1 in all; empty where all are equal.
+  /// Part of the phase in each interval, 1 in all; empty if all are equal.
   const std::vector<double>& shares() const { return shares_; }
   /// Length of interval i, 0 ... intervals() - 1, of a phase of this duration [s].
   double step(int i, double duration) const;
-  /// From the start of a phase of this duration to its node k [s]. The last node is at the end exactly.
+  /// Time from the start of a phase of this duration to its node k [s]. The last node is exactly at the end.
   double node_time(int k, double duration) const;
-  /// The node at this part of the phase, up to rounding; nothing if there is none.
+  /// The node at this part of the phase, up to rounding; none if there is no node.
   std::optional<int> node_at(double fraction) const;
 
-  /// So many intervals, as fine as here in each part of the phase: of an uneven mesh node j of n falls where j / n of
-  /// the intervals are over.
+  /// The same distribution with `count` intervals: in an uneven mesh, node j follows a part j / count of the intervals.
   PhaseMesh with_intervals(int count) const;
 
   bool operator==(const PhaseMesh&) const = default;
@@ -41,14 +39,14 @@ class PhaseMesh {
   std::vector<double> shares_;
 };
 
-/// The mesh of a motion: each phase cut into intervals. Its nodes are those of all phases in order; the last node of a
-/// phase and the first of the next are two nodes at one time, the sides of a phase switch.
+/// The mesh of a motion: intervals of all phases. Its nodes are those of all phases in order; the last node of a phase
+/// and the first of the next are two nodes at one time, a phase transition.
 struct Mesh {
   std::vector<PhaseMesh> phases;
 
   int num_intervals() const;
   int num_nodes() const { return num_intervals() + static_cast<int>(phases.size()); }
-  /// Place among all nodes of node k of a phase.
+  /// Index among all nodes of node k of a phase.
   int node(int phase, int k) const;
   int first_node(int phase) const { return node(phase, 0); }
   int last_node(int phase) const { return node(phase, phases[phase].intervals()); }
@@ -57,8 +55,8 @@ struct Mesh {
   bool operator==(const Mesh&) const = default;
 };
 
-/// Equal intervals in each phase, so many a second of the phase at its longest, but two or more: a swing keeps its
-/// clearance at the nodes inside.
+/// Equal intervals in each phase, at this rate for its longest duration, at least two: a swing keeps its clearance at
+/// the nodes inside.
 Mesh mesh_with_rate(const std::vector<Phase>& phases, double intervals_per_second);
 
 }  // namespace prowl

@@ -9,10 +9,9 @@ namespace prowl {
 namespace {
 
 constexpr int kCoarser = 4;
-constexpr int kLeastIntervals = 4;  // what it takes for a swing to leave, pass and land
+constexpr int kLeastIntervals = 4;  // enough for a swing to lift off, pass and land
 
-/// A mesh this small is solved at once: a start from a coarser one saves fewer iterations than that one takes
-/// (docs/solvers.md).
+/// A mesh up to this size is solved directly: a coarser one takes more time than its start saves (docs/solvers.md).
 constexpr int kSmallMesh = 48;
 
 }  // namespace

@@ -8,18 +8,17 @@
 
 namespace prowl {
 
-/// For each phase what its number of intervals has to be a multiple of, so that every boundary condition keeps its
-/// node.
+/// For each phase: its number of intervals must be a multiple of this to keep a node for every boundary condition.
 std::vector<int> interval_divisors(const MotionProblem& problem, const Mesh& mesh);
 
-/// Each phase on wanted(its intervals) of them, or more if goals need that for their nodes or it were less than four,
-/// but not more than it has.
+/// Coarsens each phase to wanted(intervals) intervals: at least four, more if goals need them for their nodes, and
+/// never more than it has.
 Mesh coarsened(const MotionProblem& problem, const Mesh& mesh, const std::function<int(int)>& wanted);
 
-/// Meshes of growing fineness, the given one as the last: what is found on one is the guess of the next. Most
-/// iterations go to finding the motion and few to refining it, and on a quarter of the intervals they cost a quarter.
-/// Each level has a quarter of the intervals of the next, but no phase less than four
-/// (if it has them at all), and a node for every goal; a level that would save less than half is left out.
+/// Meshes of growing fineness up to the given one; the motion on each is the guess for the next. Most iterations find
+/// the motion and few refine it; on a quarter of the intervals they cost a quarter. Each level has a quarter of the
+/// next level's intervals, at least four per phase (if it has them), and a node for every goal. A level that would save
+/// less than half is left out.
 std::vector<Mesh> mesh_levels(const MotionProblem& problem, const Mesh& mesh);
 
 }  // namespace prowl

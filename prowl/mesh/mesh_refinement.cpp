@@ -9,13 +9,13 @@ namespace {
 
 using Lengths = std::vector<double>;
 
-constexpr double kMargin = 1.5;  // on an error: the next motion is another one, and its errors are elsewhere
-constexpr int kMost = 4;         // pieces of an interval, or intervals in one: far from its step an error says little
-/// Of what an error may be: what is merged shall not be split again in the next round.
+constexpr double kMargin = 1.5;  // on an error: the next motion differs, with errors elsewhere
+constexpr int kMost = 4;  // pieces of an interval, or intervals in one: an error predicts little far from its step
+/// Part of the tolerance: merged intervals should not be split again in the next round.
 constexpr double kMergeBelow = 0.25;
-constexpr double kLongest = 0.25;   // of a phase, for merged intervals: a swing has to leave, pass and land
+constexpr double kLongest = 0.25;   // of a phase, for merged intervals: a swing must lift off, pass and land
 constexpr double kLengthRounding = 1e-9;  // of a phase
-/// Of a step over the one before: what the gains of contacts are good for (node_functions.cpp).
+/// Ratio of a step to the one before: the gains of contacts allow no more (node_functions.cpp).
 constexpr double kMostGrowth = 4.0;
 
 /// Splits and merges the intervals of one phase.
@@ -47,7 +47,7 @@ class PhaseIntervals {
     return static_cast<int>(std::clamp<double>(std::ceil(std::cbrt(kMargin * parts_[i])), 1, kMost));
   }
 
-  /// One after the last interval that goes into one with the first.
+  /// One past the last interval that merges with `first`.
   int end_of_run(int first) const {
     int end = first + 1;
     while (end < phase_.intervals() && end - first < kMost && !goals_.contains(end) && may_be_one(first, end + 1))

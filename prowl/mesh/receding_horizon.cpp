@@ -18,19 +18,18 @@ void check_nodes(const DiscreteProblem& problem, const Trajectory& motion) {
   const bool fits = std::ranges::equal(motion.nodes, problem.nodes, {}, &TrajectoryPoint::phase, &MeshNode::phase);
   if (!fits) {
     throw InputError(
-        fmt::format("shift_horizon: the motion has {} nodes, the problem's mesh {}, or they are of other phases",
+        fmt::format("shift_horizon: the motion has {} nodes, the problem's mesh {}, or their phases differ",
                     motion.nodes.size(), problem.nodes.size()));
   }
 }
 
-/// Both bounds move with the duration; where the shortest one is used up, what the motion has left of the phase is
-/// allowed.
+/// Both bounds move with the duration; if the lower one is used up, the motion's remaining duration is allowed.
 Duration longer(const Duration& duration, double by, double planned) {
   if (duration.is_fixed()) return {planned + by, planned + by};
   return {duration.min + by > 0.0 ? duration.min + by : std::min(duration.min, planned + by), duration.max + by};
 }
 
-/// Of the intervals of a phase, as parts of it; of equal ones all 1.
+/// Relative lengths of the intervals of a phase; all 1 if equal.
 std::vector<double> lengths(const PhaseMesh& mesh) {
   std::vector<double> result;
   for (int i = 0; i < mesh.intervals(); ++i) {
@@ -39,8 +38,8 @@ std::vector<double> lengths(const PhaseMesh& mesh) {
   return result;
 }
 
-/// The first interval goes; what comes at the end is as long as the last one. A single phase keeps its length: what
-/// goes at its start comes back at its end.
+/// Removes the first interval and adds one at the end, as long as the last. A single phase keeps its length: its first
+/// interval moves to its end.
 Mesh shifted(Mesh mesh) {
   std::vector<double> first = lengths(mesh.phases.front());
   if (mesh.phases.size() == 1) {
@@ -55,7 +54,7 @@ Mesh shifted(Mesh mesh) {
   return mesh;
 }
 
-/// Goals of the first phase come one node earlier, those at the end of the last phase stay there.
+/// Goals of the first phase move one node earlier; those at the end of the last phase stay there.
 std::vector<BoundaryCondition> shifted_conditions(const DiscreteProblem& before, const TrajectoryPoint& start,
                                                   const Mesh& mesh) {
   const MotionProblem& problem = before.problem;
@@ -77,8 +76,8 @@ std::vector<BoundaryCondition> shifted_conditions(const DiscreteProblem& before,
   return conditions;
 }
 
-/// The first stage has no states: what belongs to their bounds is not in its multipliers. Of the rest the next stage
-/// knows better.
+/// The first stage has no states, so it has no multipliers for their bounds. Its other multipliers come from the second
+/// stage, which is now the start.
 StageMultipliers first_stage(const StageMultipliers& first, const StageMultipliers& second) {
   const auto later = [](const Eigen::VectorXd& of_first, const Eigen::VectorXd& of_second) {
     return of_first.size() == of_second.size() ? of_second : of_first;

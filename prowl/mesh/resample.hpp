@@ -5,13 +5,12 @@
 
 namespace prowl {
 
-/// A motion with the phases of the problem, at the nodes of its mesh, which may be another one than the motion has:
-/// each node gets the point at the same fraction of its phase. A phase of another duration than the problem allows is
-/// stretched or compressed to what it allows: rates with the inverse of the time, accelerations with its square,
-/// torques and forces as they are.
+/// Samples a motion at the nodes of the problem's mesh: each node gets the point at the same fraction of its phase. A
+/// phase whose duration the problem does not allow is stretched or compressed to the nearest allowed one: rates scale
+/// with 1 / time, accelerations with 1 / time², torques and forces stay.
 ///
-/// What the problem asks for otherwise (start, goals, limits) is not looked at: the result is a point to start a solver
-/// from. Throws InputError if the motion is of another robot (sizes) or has other phases than the problem (number).
+/// Ignores start, goals and limits: the result only starts a solver. Throws InputError if sizes (another robot) or the
+/// number of phases differ.
 Trajectory resample(const Trajectory& motion, const DiscreteProblem& discrete);
 
 }  // namespace prowl

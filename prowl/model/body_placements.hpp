@@ -9,14 +9,13 @@
 
 namespace prowl {
 
-/// Where the bodies of a robot are, by Pinocchio's forward kinematics. One object holds the work space of one thread.
+/// Placements of a robot's bodies, by Pinocchio's forward kinematics. One object holds the work space of one thread.
 class BodyPlacements {
  public:
   explicit BodyPlacements(const RobotModel& robot);
   ~BodyPlacements();
 
-  /// Placements in the world, of the base and then of the body behind each joint, in the order of BodyTree::bodies; q
-  /// as in RobotModel. Valid until the next call.
+  /// World placements of the bodies, in the order of BodyTree::bodies; q as in RobotModel. Valid until the next call.
   const std::vector<Eigen::Isometry3d>& at(const Eigen::VectorXd& q);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace prowl {
 
-/// A rigid body of the robot, what fixed joints hold together in one, and the joint that it hangs on. As plain data,
-/// for programs that build the robot again by other means.
+/// A rigid body of the robot (links joined by fixed joints are one) and the joint that moves it, as plain data for
+/// programs that rebuild the robot by other means.
 struct Body {
   std::string name;                                             ///< of its joint; "base" for the first
   int parent = -1;                                              ///< index into BodyTree::bodies; -1 for the base

@@ -8,7 +8,7 @@ Eigen::VectorXd integrate(const Eigen::VectorXd& q, const Eigen::VectorXd& tange
   Eigen::VectorXd result(q.size());
   result.head<3>() = q.head<3>() + tangent.head<3>();
   const Eigen::Vector3d theta = tangent.segment<3>(3);
-  // As quaternions, and not through a matrix: the sign of the quaternion then never jumps along a motion.
+  // Product of quaternions, not matrices: the sign of the quaternion never jumps along a motion.
   const Eigen::Quaterniond step(Eigen::AngleAxisd(theta.stableNorm(), theta.stableNormalized()));
   result.segment<4>(3) = (base_quaternion(q) * step).normalized().coeffs();
   result.tail(q.size() - 7) = q.tail(q.size() - 7) + tangent.tail(q.size() - 7);

@@ -5,7 +5,7 @@
 
 namespace prowl {
 
-/// Configurations live on R^3 x SO(3) x R^n; these two are the only way to add to them or to subtract them.
+/// Configurations live on R^3 x SO(3) x R^n: add and subtract them only with these two functions.
 /// The tangent is (displacement of the base in the WORLD frame, rotation vector in the base frame, joints):
 ///   q (+) d = (p + d_p, R exp(d_R), joints + d_j)
 /// Note that the base part of a velocity v is in the base frame: the displacement of a small step dt is R v_lin dt.
@@ -21,7 +21,7 @@ inline Eigen::Matrix3d base_rotation(const Eigen::VectorXd& q) { return base_qua
 void set_base_rotation(Eigen::VectorXd& q, const Eigen::Matrix3d& R);
 /// R = Rz(yaw) Ry(pitch) Rx(roll), angles (roll, pitch, yaw) [rad].
 Eigen::Matrix3d rotation_from_rpy(const Eigen::Vector3d& rpy);
-/// Its inverse: pitch in [-pi/2, pi/2]; where |pitch| = pi/2, some roll and yaw that give R.
+/// Its inverse: pitch in [-pi/2, pi/2]; if |pitch| = pi/2, any roll and yaw that give R.
 Eigen::Vector3d rpy_from_rotation(const Eigen::Matrix3d& R);
 
 }  // namespace prowl

@@ -8,7 +8,7 @@
 
 namespace prowl {
 
-/// Where the contacts of a robot are as its encoders see them: in the base frame, whatever the base does.
+/// Positions of the contacts in the base frame, from the encoders alone.
 class LegKinematics {
  public:
   explicit LegKinematics(const RobotModel& robot);
@@ -19,7 +19,7 @@ class LegKinematics {
   void update(const Eigen::VectorXd& joints);
 
   const Eigen::Vector3d& position(int contact) const { return positions_[contact]; }  ///< [m]
-  /// Of the point, and of the turning of the link that it is fixed to, in the joints; 3 x nu, base axes.
+  /// Jacobians in the joints: of the point, and of the rotation of its link; 3 x nu, base axes.
   const Eigen::Matrix3Xd& linear(int contact) const { return linear_[contact]; }
   const Eigen::Matrix3Xd& angular(int contact) const { return angular_[contact]; }
 

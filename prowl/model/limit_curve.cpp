@@ -16,7 +16,7 @@ void check(const LimitCurve::Table& table) {
     throw InputError(fmt::format("a limit curve of {} points is not allowed; need {} or more", table.size(),
                                  LimitCurve::kFewestPoints));
   }
-  constexpr std::size_t kMostPoints = 200;  // they take a dense matrix of that size
+  constexpr std::size_t kMostPoints = 200;  // the fit takes a dense matrix of that size
   if (table.size() > kMostPoints) {
     throw InputError(
         fmt::format("a limit curve of {} points is not allowed; need at most {}", table.size(), kMostPoints));
@@ -25,13 +25,13 @@ void check(const LimitCurve::Table& table) {
     const auto& [x, limit] = table[i];
     if (!std::isfinite(x) || !std::isfinite(limit) || !(limit > 0.0)) {
       throw InputError(
-          fmt::format("point {} of the limit curve, ({:g}, {:g}), is not allowed; need a finite place and a "
+          fmt::format("point {} of the limit curve, ({:g}, {:g}), is not allowed; need finite numbers and a "
                       "limit > 0",
                       i + 1, x, limit));
     }
     if (i > 0 && !(x > table[i - 1].first)) {
-      throw InputError(fmt::format("point {} of the limit curve is at {:g}, not after the one before it at {:g}", i + 1,
-                                   x, table[i - 1].first));
+      throw InputError(fmt::format("point {} of the limit curve is at {:g}; need more than {:g}, the point before",
+                                   i + 1, x, table[i - 1].first));
     }
   }
 }
@@ -51,19 +51,19 @@ Eigen::Spline<double, 1, 3> interpolate(const LimitCurve::Table& table) {
 LimitCurve::LimitCurve(const Table& table)
     : first_((check(table), table.front().first)), last_(table.back().first), spline_(interpolate(table)) {
   for (const auto& [x, limit] : table) largest_ = std::max(largest_, limit);
-  constexpr int kSamples = 1000;  // a cubic that dips below zero between so many points does so by nothing
+  constexpr int kSamples = 1000;  // between these a cubic is hardly below zero
   for (int i = 0; i <= kSamples; ++i) {
     const double x = first_ + (last_ - first_) * i / kSamples;
     if (value(x) > 0.0) continue;
     throw InputError(
-        fmt::format("the limit curve through these points is {:g} at {:g}; need > 0 everywhere: give more "
-                    "points there",
+        fmt::format("the limit curve through these points is {:g} at {:g}; need > 0 everywhere: add points "
+                    "there",
                     value(x), x));
   }
 }
 
-// De Boor's recursion; Eigen's Spline would do it on the heap. Of the three rows of its triangle the second differences
-// of the first are the second derivative, the differences of the second the first.
+// De Boor's recursion; Eigen's Spline would allocate. Second differences of the first row of its triangle give the
+// second derivative, differences of the second row the first.
 LimitCurve::Values LimitCurve::at(double x) const {
   const double inside = std::clamp(x, first_, last_), length = last_ - first_;
   const double u = (inside - first_) / length;

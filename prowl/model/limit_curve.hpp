@@ -15,7 +15,7 @@ class LimitCurve {
 
   static constexpr std::size_t kFewestPoints = 4;  ///< that a cubic needs
 
-  /// Throws InputError unless the table has 4 points or more, all finite, x increasing, and the curve stays positive in
+  /// Throws InputError unless the table has 4 to 200 points, all finite, x increasing, and the curve is positive in
   /// between.
   explicit LimitCurve(const Table& table);
 

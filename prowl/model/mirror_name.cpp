@@ -7,8 +7,8 @@ namespace prowl {
 
 namespace {
 
-/// Left and right exchanged in all words that begin with one of the two (words: at the start, or after an underscore).
-/// Unchanged if the first of them is the right one, or there is none.
+/// Exchanges left and right in all words that begin with one of the two (words: at the start, or after an underscore).
+/// Unchanged if the first of these is a right one, or there is none.
 std::string mirrored(std::string text, const std::string& left, const std::string& right) {
   bool is_first = true;
   for (std::size_t at = 0; at < text.size(); ++at) {

@@ -11,8 +11,8 @@
 
 namespace prowl {
 
-/// A place on the robot that may touch a surface: a point fixed to a frame of the URDF, at the centre of a ball of the
-/// given radius, so that it touches when the point is one radius away from the surface. Flat feet are several of them.
+/// A point of the robot that may touch a surface: the centre of a ball, fixed to a frame of the URDF. It touches at one
+/// radius from the surface. A flat foot has several of these points.
 struct ContactPoint {
   std::string name;                                  ///< unique in the robot
   std::string frame;                                 ///< a frame (link or fixed joint) of the URDF
@@ -26,17 +26,17 @@ struct JointLimits {
   std::optional<double> position_upper;  ///< [rad] or [m]
   std::optional<double> velocity;        ///< [rad/s] or [m/s], symmetric
   std::optional<double> torque;          ///< [N m] or [N], symmetric
-  /// Torque limit over the joint position, both ways: (position, limit), over all of the joint's range. Empty: none.
+  /// Torque limit in both directions over the joint position: (position, limit), for the whole range. Empty: none.
   LimitCurve::Table torque_over_position = {};
-  /// Limit of the torque in the direction of positive velocity: (velocity, limit). Mirrored for the other. Empty: none.
+  /// Limit of positive torques over the velocity: (velocity, limit). Mirrored for negative torques. Empty: none.
   LimitCurve::Table torque_over_velocity = {};
 };
 
-/// What a robot file says, as plain data. Names are not yet checked against the URDF: RobotModel does that.
+/// Content of a robot file, as plain data. RobotModel checks its names against the URDF.
 struct RobotDescription {
   std::string name;
   std::filesystem::path urdf;  ///< absolute
-  std::string urdf_text = {};  ///< what is in it; read from there if empty
+  std::string urdf_text = {};  ///< its content; read from `urdf` if empty
   std::vector<ContactPoint> contacts;
   std::map<std::string, double> nominal_joints;  ///< by joint name [rad] or [m]; joints not named are at 0
   Eigen::Vector3d nominal_base_rpy = Eigen::Vector3d::Zero();  ///< [rad]; x, y and height follow from the contacts

@@ -26,14 +26,14 @@ using Warnings = std::vector<RobotWarning>;
 constexpr double kLevel = 1e-3;     // [m]
 constexpr double kRelative = 1e-3;  // of masses and limits, left against right
 constexpr double kTinyMass = 1e-5;  // of the robot's mass
-// Of the largest singular value: what is below the threshold counts as zero; between the other two it might be either.
+// Relative to the largest singular value: zero at or below the threshold; ambiguous between the other two.
 constexpr double kRankThreshold = 1e-8, kSurelyZero = 1e-10, kSurelyNot = 1e-6;
 
 bool nearly_equal(double a, double b) {
   return std::abs(a - b) <= kRelative * std::max({std::abs(a), std::abs(b), 1e-3});
 }
 
-/// Such links are harmless here, where fixed joints merge them with heavier ones (else RobotModel refuses them), but
+/// Such links are harmless in Prowl, because fixed joints merge them with heavier ones (RobotModel refuses others), but
 /// not in every simulator.
 void check_inertias(const RobotModel& robot, Warnings& warnings) {
   std::vector<std::string> tiny;
@@ -47,7 +47,7 @@ void check_inertias(const RobotModel& robot, Warnings& warnings) {
   }
   if (tiny.empty()) return;
   warnings.push_back(
-      {Kind::inertia, fmt::format("links with an inertia but next to no mass: {}", fmt::join(tiny, ", "))});
+      {Kind::inertia, fmt::format("links with an inertia but almost no mass: {}", fmt::join(tiny, ", "))});
 }
 
 /// One warning for all joints with the same flaw.
@@ -94,8 +94,9 @@ void check_ground(const RobotModel& robot, const std::vector<Eigen::Vector3d>& p
     heights.push_back(fmt::format("{} {:.1f} mm", robot.contacts()[c].name, 1e3 * height));
   }
   if (highest <= kLevel) return;
-  warnings.push_back({Kind::ground, fmt::format("contacts are not level in the nominal posture; above the ground: {}",
-                                                fmt::join(heights, ", "))});
+  warnings.push_back(
+      {Kind::ground, fmt::format("contacts are not level in the nominal posture; heights above the ground: {}",
+                                 fmt::join(heights, ", "))});
 }
 
 void check_coincidence(const RobotModel& robot, const std::vector<Eigen::Vector3d>& points, Warnings& warnings) {
@@ -108,7 +109,7 @@ void check_coincidence(const RobotModel& robot, const std::vector<Eigen::Vector3
   }
 }
 
-/// Right has the limits of left, as they are or mirrored.
+/// True if right has the limits of left, equal or mirrored.
 bool same_range(const RobotModel& robot, Eigen::Index left, Eigen::Index right) {
   const double lower = robot.position_lower()(left), upper = robot.position_upper()(left);
   const double right_lower = robot.position_lower()(right), right_upper = robot.position_upper()(right);
@@ -185,7 +186,7 @@ std::vector<std::string> contact_frame_names(const RobotModel& robot) {
 }
 
 std::vector<std::string> implausible_sizes(const RobotModel& robot) {
-  constexpr double kLargestBall = 0.25;              // of the robot's size; feet have a tenth of that
+  constexpr double kLargestBall = 0.25;              // of the robot's size; ten times that of usual feet
   constexpr double kThinnest = 1.0, kDensest = 1e4;  // [kg/m^3], of a cube as large as the robot; ours have 50 to 500
   std::vector<std::string> lines;
   const double size = robot.size(), density = robot.mass() / (size * size * size);
@@ -230,7 +231,7 @@ RobotInspection inspect(const RobotModel& robot) {
     if (ratio <= kSurelyZero || ratio >= kSurelyNot) continue;
     result.warnings.push_back(
         {Kind::contacts, fmt::format("rank of the contact Jacobian is ambiguous: a singular value "
-                                     "is {:.1e} of the largest; move or drop a contact point",
+                                     "is {:.1e} times the largest; move or drop a contact point",
                                      ratio)});
   }
   return result;

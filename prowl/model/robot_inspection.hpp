@@ -8,40 +8,39 @@
 
 namespace prowl {
 
-/// What files write that know no limit, or more [N m, N, rad/s, m/s, m].
+/// Files without a real limit contain this, or more [N m, N, rad/s, m/s, m].
 constexpr double kNoRealLimit = 1000.0;
 
-/// Something about a robot that can be planned with, but is probably not meant.
+/// A property of a robot that planning allows, but that is probably a mistake.
 struct RobotWarning {
   enum class Kind {
-    inertia,   ///< a link whose mass or inertia no real body has, or next to no mass
+    inertia,   ///< a link with impossible mass or inertia, or almost no mass
     limit,     ///< a limit that limits nothing
     ground,    ///< contacts not level in the nominal posture
     symmetry,  ///< left and right differ
-    contacts,  ///< two at one point, or the rank of the contact Jacobian hangs on the threshold
+    contacts,  ///< two at one point, or an ambiguous rank of the contact Jacobian
     posture,   ///< nominal posture outside the joint limits
-    size       ///< millimetres or grams, as it seems
+    size       ///< probably in millimetres or grams
   };
   Kind kind;
   std::string text;  ///< one sentence, with names, values and units
 };
 
-/// What `prowl robot` tells beyond names and limits.
+/// Content of `prowl robot` beyond names and limits.
 struct RobotInspection {
   std::vector<RobotWarning> warnings;
-  /// Of the contact Jacobian J in the nominal posture (all contacts, 3 rows each, world axes), largest first;
-  /// min(rows, nv) of them.
+  /// For the nominal posture (all contacts, 3 rows each, world axes); min(rows, nv) values, largest first.
   Eigen::VectorXd contact_singular_values;
   int contact_rows = 0;
-  int contact_rank = 0;  ///< singular values above 1e-8 of the largest; less than the rows: redundant contacts
+  int contact_rank = 0;  ///< singular values above 1e-8 of the largest; below contact_rows: redundant contacts
 };
 
 RobotInspection inspect(const RobotModel& robot);
 
-/// Of those the ones of kind size, as text: a robot in other units than metres and kilograms.
+/// The warnings of kind size, as text: a robot in other units than metres and kilograms.
 std::vector<std::string> implausible_sizes(const RobotModel& robot);
 
-/// What a contact may be fixed to: the links and fixed joints of the URDF.
+/// Frames that a contact may be fixed to: links and fixed joints of the URDF.
 std::vector<std::string> contact_frame_names(const RobotModel& robot);
 
 }  // namespace prowl

@@ -31,7 +31,7 @@ constexpr std::uintmax_t kLargestUrdf = 4u << 20;  // [bytes]; the largest known
 
 std::string read_text(const std::filesystem::path& path) {
   std::error_code error;
-  const bool is_file = std::filesystem::is_regular_file(path, error);  // first: to open a pipe may take for ever
+  const bool is_file = std::filesystem::is_regular_file(path, error);  // first: opening a pipe may block for ever
   std::ifstream stream;
   if (is_file) stream.open(path, std::ios::binary);
   if (!is_file || !stream) {
@@ -51,12 +51,11 @@ void read_urdf(RobotDescription& description, PinocchioModel& pin) {
   try {
     pinocchio::urdf::buildModelFromXML(description.urdf_text, pinocchio::JointModelFreeFlyer(), pin.model);
   } catch (const std::exception& error) {
-    throw InputError(
-        fmt::format("{}: not a robot that Pinocchio can build: {}", description.urdf.string(), error.what()));
+    throw InputError(fmt::format("{}: Pinocchio cannot build this robot: {}", description.urdf.string(), error.what()));
   }
 }
 
-/// Links joined by fixed joints move as one body; it is that body whose inertia matters, not that of each link.
+/// Links joined by fixed joints move as one body; the inertia of that body matters, not that of each link.
 void check_bodies(const RobotDescription& description, const pinocchio::Model& model) {
   for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
     const pinocchio::Inertia& body = model.inertias[joint];
@@ -80,8 +79,7 @@ std::vector<std::string> link_names(const pinocchio::Model& model) {
   return names;
 }
 
-/// The link or, if there is none, the fixed joint of that name: it may be that of both. None that Pinocchio adds by
-/// itself.
+/// The link of that name or, if there is none, the fixed joint; no frame that Pinocchio adds itself.
 std::optional<pinocchio::FrameIndex> find_frame(const pinocchio::Model& model, const std::string& name) {
   for (const pinocchio::FrameType type : {pinocchio::BODY, pinocchio::FIXED_JOINT}) {
     if (name != kWorldFrame && model.existFrame(name, type)) return model.getFrameId(name, type);
@@ -103,7 +101,7 @@ std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& de
       refuse("the name of a contact must be unique and not empty");
     const std::optional<pinocchio::FrameIndex> found = find_frame(model, contact.frame);
     if (!found) {
-      refuse(fmt::format("frame '{}' is no link or fixed joint of {}{}", shown(contact.frame),
+      refuse(fmt::format("frame '{}' is not a link or fixed joint of {}{}", shown(contact.frame),
                          description.urdf.string(), did_you_mean(contact.frame, links)));
     }
     if (!(contact.radius >= 0.0) || !std::isfinite(contact.radius)) {
@@ -123,14 +121,14 @@ std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& de
   return frames;
 }
 
-/// Throws unless `name` is one of the joints; `field` is where it was written.
+/// Throws DescriptionError unless `name` is one of the joints; `field` is its table in the robot file.
 Eigen::Index joint_index(const RobotDescription& description, const std::vector<std::string>& joints,
                          const std::string& field, const std::string& name) {
   const auto joint = std::find(joints.begin(), joints.end(), name);
   if (joint == joints.end()) {
     throw DescriptionError(field + "." + name,
-                           fmt::format("robot '{}': {}: '{}' is no joint of {}{}", description.name, field, shown(name),
-                                       description.urdf.string(), did_you_mean(name, joints)));
+                           fmt::format("robot '{}': {}: '{}' is not a joint of {}{}", description.name, field,
+                                       shown(name), description.urdf.string(), did_you_mean(name, joints)));
   }
   return joint - joints.begin();
 }
@@ -247,7 +245,7 @@ void RobotModel::add_torque_curve(const std::string& name, int joint, const Limi
   }
 }
 
-/// A curve has to cover where the joint can be: beyond its table it is a guess.
+/// A curve must cover the joint's range: beyond its table it is a guess.
 void RobotModel::check_torque_curves() const {
   for (const TorqueCurve& limit : torque_curves_) {
     const double lower = limit.over_velocity ? -velocity_limit_(limit.joint) : position_lower_(limit.joint);
@@ -256,8 +254,8 @@ void RobotModel::check_torque_curves() const {
     const std::string& name = joint_names_[limit.joint];
     throw DescriptionError(
         "limits." + name,
-        fmt::format("limits.{}.torque_over_{}: a table from {:g} to {:g} is not allowed; it has to cover the "
-                    "joint's range, {:g} to {:g}",
+        fmt::format("limits.{}.torque_over_{}: a table from {:g} to {:g} is not allowed; need the joint's "
+                    "range, {:g} to {:g}",
                     name, limit.over_velocity ? "velocity" : "position", limit.curve.lower_end(),
                     limit.curve.upper_end(), lower, upper));
   }
@@ -314,7 +312,8 @@ int RobotModel::contact_index(const std::string& name) const {
   for (const ContactPoint& contact : contacts()) names.push_back(contact.name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    throw InputError(fmt::format("'{}' is no contact of robot '{}'{}", name, this->name(), did_you_mean(name, names)));
+    throw InputError(
+        fmt::format("'{}' is not a contact of robot '{}'{}", name, this->name(), did_you_mean(name, names)));
   }
   return static_cast<int>(found - names.begin());
 }

@@ -21,7 +21,7 @@ class RobotModel {
  public:
   /// Reads the URDF, checks it and the description against each other, and puts the nominal posture on the ground:
   /// the ball of the lowest contact touches z = 0, and the mean of all contact points is at x = y = 0.
-  /// Throws FileError (URDF unreadable) or InputError (anything wrong in it, or a name that it does not have).
+  /// Throws FileError (URDF unreadable) or InputError (anything wrong in it, or an unknown name).
   explicit RobotModel(RobotDescription description);
   RobotModel(const RobotModel& other);
   RobotModel(RobotModel&&) noexcept;
@@ -50,7 +50,7 @@ class RobotModel {
     LimitCurve curve;
   };
   const std::vector<TorqueCurve>& torque_curves() const { return torque_curves_; }
-  /// The torques that joint j can give at this position and velocity, all limits together [N m].
+  /// Largest and smallest torque of a joint at this position and velocity, from all limits [N m].
   double torque_upper(int joint, double position, double velocity) const;
   double torque_lower(int joint, double position, double velocity) const;
 

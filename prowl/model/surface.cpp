@@ -72,8 +72,8 @@ Eigen::Vector2d nearest_in_patch(const Surface& surface, const Eigen::Vector2d& 
 }
 
 double distance_from_patch(const Surface& surface, const Eigen::Vector2d& p) {
-  double beyond = -kInfinity;  // how far p is outside of the edge's line, at most
-  double nearest = kInfinity;  // point of an edge
+  double beyond = -kInfinity;  // largest distance of p outside the line of an edge
+  double nearest = kInfinity;  // distance of p to an edge
   for (std::size_t i = 0; i < surface.patch.size(); ++i) {
     const Edge edge(surface, i);
     const Eigen::Vector2d outward(edge.along.y(), -edge.along.x());

@@ -7,8 +7,7 @@
 
 namespace prowl {
 
-/// A plane in the world that contacts may touch: { p : normal . (p - point) = 0 }; or, with corners, a convex polygon
-/// of it.
+/// A plane in the world that contacts may touch, { p : normal . (p - point) = 0 }, or a convex polygon in it (patch).
 struct Surface {
   std::string name = "floor";
   Eigen::Vector3d point = Eigen::Vector3d::Zero();    ///< any point of the plane, world frame [m]
@@ -17,10 +16,10 @@ struct Surface {
   /// Corners of a patch in surface coordinates [m], counterclockwise seen from outside; empty for the whole plane.
   std::vector<Eigen::Vector2d> patch = {};
 
-  /// What is wrong with the corners of a patch, "" if nothing: fewer than three, not finite, not convex, clockwise.
+  /// Fault of the corners of a patch, "" if none: fewer than three, not finite, not convex, clockwise.
   static std::string patch_fault(const std::vector<Eigen::Vector2d>& corners);
 
-  /// Axes of the surface coordinates, unit vectors in the world: the first is x turned into the plane (y, where x is
+  /// Axes of the surface coordinates, unit vectors in the world: the first is x turned into the plane (y if x is
   /// along the normal), the second completes (first, second, normal) to a right-handed frame. World x y on level
   /// ground.
   Eigen::Matrix<double, 3, 2> axes() const {
@@ -35,7 +34,7 @@ struct Surface {
   Eigen::Vector3d at(const Eigen::Vector2d& coordinates, double height = 0.0) const {
     return point + axes() * coordinates + height * normal;
   }
-  /// Whether surface coordinates are inside the patch, or on its edge; always on a plane without one.
+  /// True if surface coordinates are inside the patch or on its edge; always true on a plane without an edge.
   bool contains(const Eigen::Vector2d& p) const;
   /// Surface coordinates of a world point [m].
   Eigen::Vector2d coordinates(const Eigen::Vector3d& p) const { return axes().transpose() * (p - point); }

@@ -7,8 +7,8 @@
 
 namespace prowl {
 
-/// Torque of a joint as a share of what it can give in that direction at this position [rad, m] and velocity [rad/s,
-/// m/s]; infinity if that is nothing.
+/// Torque of a joint over its limit in that direction at this position [rad, m] and velocity [rad/s, m/s]; infinite if
+/// that limit is not positive.
 inline double torque_share(const RobotModel& robot, int joint, double position, double velocity, double torque) {
   const double most =
       torque > 0.0 ? robot.torque_upper(joint, position, velocity) : -robot.torque_lower(joint, position, velocity);

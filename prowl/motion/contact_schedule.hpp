@@ -7,25 +7,25 @@
 
 namespace prowl {
 
-/// A contact held without a break, over consecutive phases, at one place of one surface.
+/// A contact on one foothold over consecutive phases.
 struct Stance {
   int contact = 0;
   int surface = 0;
   int first_phase = 0, last_phase = 0;
-  std::optional<Eigen::Vector3d> place;  ///< where the task puts it, world frame [m]; else the optimiser chooses
+  std::optional<Eigen::Vector3d> place;  ///< given foothold, world frame [m]; otherwise the optimiser chooses
 
-  /// It begins during the motion: the contact lands. Else it is there from the start, at the place that the start has.
+  /// True if the contact lands during the motion; otherwise it stands from the start, at its position there.
   bool lands() const { return first_phase > 0; }
 };
 
-/// A contact in the air without a break, over consecutive phases.
+/// A contact in the air over consecutive phases.
 struct Swing {
   int contact = 0;
   int first_phase = 0, last_phase = 0;
   int before = -1, after = -1;  ///< stances on either side; -1 at the start and at the end of the motion
 };
 
-/// Who holds what and when, read off the phases: the only place that knows when contacts open and close.
+/// Stances and swings of all contacts, from the phases: the only code that decides when contacts land and open.
 class ContactSchedule {
  public:
   explicit ContactSchedule(const MotionProblem& problem);

@@ -13,11 +13,11 @@ enum class FrictionModel {
   pyramid,  ///< four planes inside it: linear in the force, and up to 29 % less friction
 };
 
-/// What friction asks of the force f of one point contact (world frame [N]), as rows that have to be >= 0 [N].
+/// Friction limit on the force f of one point contact (world frame [N]), as rows that must be >= 0 [N].
 ///
 /// The pyramid has its corners on the cone, along the axes (t1, t2) of the surface turned by 45 degrees:
 ///   mu / sqrt(2) fn - t1 . f,   mu / sqrt(2) fn + t1 . f,   the same for t2.
-/// Two that face each other add up to fn >= 0.
+/// Two opposite ones add up to fn >= 0.
 class FrictionLimit {
  public:
   static constexpr int kMostRows = 4;

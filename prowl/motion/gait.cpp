@@ -14,12 +14,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Adds up the phases; knows the robot's contacts by name.
+/// Builds the list of phases.
 class PhaseList {
  public:
   PhaseList(const Gait& gait, const RobotModel& robot, const Feet& feet) : gait_(gait), robot_(robot), feet_(feet) {}
 
-  /// A phase in which all contacts hold but those of these feet.
+  /// Adds a phase in which all contacts stand except those of these feet.
   void add(std::string name, const std::vector<Foot>& swinging, const Duration& duration) {
     Phase phase;
     phase.name = std::move(name);
@@ -31,7 +31,6 @@ class PhaseList {
     phases_.push_back(std::move(phase));
   }
 
-  /// A part of the stride.
   Duration share(double part) const { return {part * gait_.stride.min, part * gait_.stride.max}; }
 
   /// "lf_foot and rh_foot swing", "lh_foot swings"
@@ -59,7 +58,7 @@ std::optional<Feet> find_feet(const RobotModel& robot) {
   if (robot.contacts().size() != 4) return std::nullopt;
   RigidBodyTerms terms(robot);
   terms.update_kinematics(robot.nominal_configuration());
-  // Both axes of the base, not of the world: a robot may be posed with any yaw.
+  // Axes of the base, not of the world: the nominal posture may have any yaw.
   const Eigen::Matrix3d to_base = base_rotation(robot.nominal_configuration()).transpose();
   std::array<Vector3d, 4> places;
   Vector3d middle = Vector3d::Zero();
@@ -81,8 +80,8 @@ std::optional<Feet> find_feet(const RobotModel& robot) {
 
 const std::vector<GaitPattern>& gait_patterns() {
   using enum Foot;
-  // A duty factor above the least leaves time in which all feet stand. Without it the feet on the ground lose their
-  // force at the very moment at which the next ones touch it.
+  // A duty factor above the least leaves time in which all feet stand. Without it, standing feet would lose their force
+  // at the moment at which the next ones land.
   static const std::vector<GaitPattern> patterns = {
       {"walk", {{lh}, {lf}, {rh}, {rf}}, 0.8},
       {"trot", {{lf, rh}, {rf, lh}}, 0.6},

@@ -91,7 +91,7 @@ void check_phase(const MotionProblem& problem, const std::string& field, const P
     check_index(contact + ".contact", phase.contacts[i].contact, problem.robot.contacts().size());
     check_index(contact + ".surface", phase.contacts[i].surface, problem.surfaces.size());
     if (!used.insert(phase.contacts[i].contact).second) {
-      refuse("{}: '{}' is there twice; need each contact once", contact,
+      refuse("{}: '{}' is listed twice; need each contact once", contact,
              problem.robot.contacts()[phase.contacts[i].contact].name);
     }
     if (phase.contacts[i].place) check_place(problem, contact + ".place", phase.contacts[i]);
@@ -105,8 +105,8 @@ void check_surfaces_of_contacts(const MotionProblem& problem) {
       for (const PhaseContact& before : problem.phases[p - 1].contacts) {
         if (held.contact != before.contact || held.surface == before.surface) continue;
         refuse(
-            "phases[{}]: contact '{}' goes from surface '{}' to '{}' without opening; need a phase between in which it "
-            "is open",
+            "phases[{}]: contact '{}' goes from surface '{}' to '{}' without opening; need a phase in between in which "
+            "it is open",
             p, problem.robot.contacts()[held.contact].name, problem.surfaces[before.surface].name,
             problem.surfaces[held.surface].name);
       }
@@ -125,12 +125,12 @@ void check_bounds(const std::string& field, const VectorXd& lower, const VectorX
   }
 }
 
-/// Bounds on the joints must leave something of what the robot can do.
+/// Bounds on the joints must overlap the robot's limits.
 void check_within_robot(const std::string& field, const RobotModel& robot, const VectorXd& lower, const VectorXd& upper,
                         const VectorXd& robot_lower, const VectorXd& robot_upper) {
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
     if (lower(j) <= robot_upper(j) + kRounding && upper(j) >= robot_lower(j) - kRounding) continue;
-    refuse("{}: {} to {} for joint '{}' is out of its limits; need something in {} to {}", field, lower(j), upper(j),
+    refuse("{}: {} to {} for joint '{}' is outside its limits; need some part of {} to {}", field, lower(j), upper(j),
            robot.joint_names()[j], robot_lower(j), robot_upper(j));
   }
 }
@@ -156,7 +156,7 @@ void check_condition(const MotionProblem& problem, const std::string& field, con
                      robot.torque_limit());
 }
 
-/// A place is for a contact that lands: one that holds already is where it is.
+/// Only a contact that lands may have a foothold.
 void check_places(const MotionProblem& problem) {
   const auto holds = [&](std::size_t p, int contact) {
     const auto& contacts = problem.phases[p].contacts;
@@ -168,10 +168,10 @@ void check_places(const MotionProblem& problem) {
       const bool lands = p > 0 && !holds(p - 1, contacts[i].contact);
       if (!contacts[i].place || lands) continue;
       refuse(
-          "phases[{}].contacts[{}].place: contact '{}' does not land in this phase, it {}; need no place, or the phase "
+          "phases[{}].contacts[{}].place: contact '{}' does not land in this phase: it {}; need no place, or the phase "
           "in which it lands",
           p, i, problem.robot.contacts()[contacts[i].contact].name,
-          p == 0 ? "starts where the start posture has it" : "holds from the phase before");
+          p == 0 ? "starts at its position in the start posture" : "already stands in the phase before");
     }
   }
 }
@@ -184,16 +184,14 @@ void check_start_outside(const MotionProblem& problem, const RigidBodyTerms& ter
       const double gap = surface.distance(terms.contact_position(c)) - contact.radius;
       if (!surface.patch.empty() || gap >= -kOnSurface) continue;
       refuse(
-          "boundary_conditions[0].q_ref: contact '{}' starts {:.1f} mm inside surface '{}'; need it outside: another "
-          "start, or "
-          "a normal that points to the robot's side",
+          "boundary_conditions[0].q_ref: contact '{}' starts {:.1f} mm inside surface '{}'; need another start, or "
+          "a normal that points towards the robot",
           contact.name, -1e3 * gap, surface.name);
     }
   }
 }
 
-/// The contacts of the first phase must be on their surfaces, inside their patches and, at the start velocity, stay
-/// there.
+/// The contacts of the first phase must be on their surfaces, inside their patches, and at rest.
 void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& terms) {
   const Phase& phase = problem.phases.front();
   ContactKinematics kinematics(contact_indices(phase.contacts));
@@ -229,10 +227,10 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
   }
 }
 
-/// Each rotation is bound about its own q_ref: at one time there can be one.
+/// Each rotation is bound about its own q_ref, so only one condition per time may bind it.
 void check_rotations(const MotionProblem& problem) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::map<double, std::size_t> binding;  // by phases before: both sides of a phase switch are one time
+  std::map<double, std::size_t> binding;  // by elapsed phases: both sides of a phase transition are one time
   for (std::size_t i = 0; i < problem.boundary_conditions.size(); ++i) {
     const BoundaryCondition& condition = problem.boundary_conditions[i];
     if (condition.configuration_lower.segment<3>(3).maxCoeff() == -kInfinity &&
@@ -242,8 +240,8 @@ void check_rotations(const MotionProblem& problem) {
     const auto [other, is_first] = binding.insert({condition.at.phase + condition.at.fraction, i});
     if (is_first) continue;
     refuse(
-        "boundary_conditions[{}].configuration: it binds the base's rotation at the time at which "
-        "boundary_conditions[{}] does; need one condition there",
+        "boundary_conditions[{}].configuration: it binds the base's rotation at the same time as "
+        "boundary_conditions[{}]; need one condition there",
         i, other->second);
   }
 }

@@ -27,7 +27,7 @@ struct BoundaryCondition {
   Eigen::VectorXd velocity_lower, velocity_upper;
   Eigen::VectorXd torque_lower, torque_upper;
 
-  /// One that binds nothing, about q_ref.
+  /// A condition without bounds, about q_ref.
   static BoundaryCondition unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
                                      const Eigen::VectorXd& q_ref);
 };
@@ -39,12 +39,12 @@ struct GoalTolerance {
   double velocity = 5e-3;
 };
 
-/// Default of the swing clearance, of the standing height: what a legged robot lifts its feet by on flat ground.
+/// Default swing clearance, as a part of the standing height.
 constexpr double kSwingClearanceShare = 0.05;
 
-/// What we ask for: everything that defines a motion, before any discretisation.
-/// All limits are those of the robot (joint position, velocity, torque) and of the surfaces (friction cone,
-/// unilateral force), and all are hard.
+/// Everything that defines a motion, before any discretisation.
+/// All limits of the robot (joint position, velocity, torque) and of the surfaces (friction, unilateral force) are
+/// hard.
 struct MotionProblem {
   std::string name;
   RobotModel robot;
@@ -54,16 +54,15 @@ struct MotionProblem {
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
   FrictionModel friction_model = FrictionModel::cone;
-  double swing_clearance =
-      0.0;  ///< of contacts in the air above the surfaces they pass, in the middle of the swing [m]
+  double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
   GoalTolerance goal_tolerance;
 
   const BoundaryCondition& start() const { return boundary_conditions.front(); }
   const Eigen::VectorXd& start_configuration() const { return start().q_ref; }
 };
 
-/// Throws InputError, naming the field, unless sizes, indices, ranges and finiteness are right, the start is fixed,
-/// inside the joint limits, and has the contacts of the first phase on their surfaces (within 1 mm) and at rest (1
+/// Throws InputError that names the field unless sizes, indices, ranges and finiteness are right and the start is
+/// fixed, inside the joint limits, with the contacts of the first phase on their surfaces (within 1 mm) and at rest (1
 /// mm/s).
 void validate(const MotionProblem& problem);
 

@@ -11,18 +11,18 @@ namespace prowl {
 struct PhaseContact {
   int contact = 0;  ///< index into RobotModel::contacts()
   int surface = 0;  ///< index into MotionProblem::surfaces
-  /// Where a contact that lands in this phase has to touch, world frame [m]; on the surface. Free where not given.
+  /// Foothold of a contact that lands in this phase: on the surface, world frame [m]. Free if not given.
   std::optional<Eigen::Vector3d> place = {};
 };
 
-/// Of each contact its index into RobotModel::contacts().
+/// Indices into RobotModel::contacts().
 inline std::vector<int> contact_indices(const std::vector<PhaseContact>& held) {
   std::vector<int> indices;
   for (const PhaseContact& one : held) indices.push_back(one.contact);
   return indices;
 }
 
-/// How long a phase lasts [s]: fixed where min == max, else chosen by the optimiser between the two.
+/// Duration of a phase [s]: fixed if min == max; otherwise the optimiser chooses between the two.
 struct Duration {
   double min = 0.0;
   double max = 0.0;
@@ -36,8 +36,8 @@ struct Phase {
   Duration duration;
 };
 
-/// A moment of a motion: the part of a phase that is over, from 0 (its start) to 1 (its end). The end of a phase and
-/// the start of the next are one time.
+/// A moment of a motion: the elapsed part of a phase, from 0 (its start) to 1 (its end). The end of a phase and the
+/// start of the next are one time.
 struct PhaseFraction {
   int phase = 0;
   double fraction = 0.0;

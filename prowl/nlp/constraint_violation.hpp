@@ -6,11 +6,11 @@
 
 namespace prowl {
 
-/// How far z and g = g(z) are outside their bounds:
+/// Violation of the bounds by z and g = g(z):
 ///
 ///   max_i max(0, lower_i - value_i, value_i - upper_i)   over variables and constraints, each in its own unit.
 ///
-/// NaN counts as infinitely far.
+/// NaN counts as infinity.
 double constraint_violation(const Nlp& nlp, const Eigen::VectorXd& z, const Eigen::VectorXd& g);
 
 }  // namespace prowl

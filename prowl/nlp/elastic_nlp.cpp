@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What a slack starts above what it needs, in sizes: an interior point method wants room, and this much is soon gone.
+/// Margin of a slack at the start, in sizes: an interior-point method needs room.
 constexpr double kRoom = 1e-2;
 
 }  // namespace
@@ -122,14 +122,14 @@ void ElasticNlp::hessian(const VectorXd& z, double cost_factor, const VectorXd& 
 std::string ElasticNlp::describe_constraint(int row) const {
   const int own = inner_.num_constraints();
   return row < own ? inner_.describe_constraint(row)
-                   : inner_.describe_variable(variables_[row - own]) + ", bounds that give way";
+                   : inner_.describe_variable(variables_[row - own]) + ", soft bounds";
 }
 
 std::string ElasticNlp::describe_variable(int index) const {
   const int own = inner_.num_variables();
   if (index < own) return inner_.describe_variable(index);
   const Slack& slack = slacks_[index - own];
-  return describe_constraint(slack.row) + (slack.sign > 0.0 ? ", given way below" : ", given way above");
+  return describe_constraint(slack.row) + (slack.sign > 0.0 ? ", violated below" : ", violated above");
 }
 
 }  // namespace prowl

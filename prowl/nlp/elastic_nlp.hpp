@@ -16,27 +16,26 @@ struct SoftBound {
   double price = 1.0;  ///< > 0
 };
 
-/// Another program in which some bounds give way, so that it has a solution whatever these ask for (the elastic mode of
-/// SNOPT: Gill, Murray, Saunders 2005, sec. 4.3; Nocedal and Wright 2006, sec. 17.2). With slacks s >= 0, for each soft
-/// bound one below where there is a lower bound and one above where there is an upper:
+/// A program whose soft bounds may give way, so that they never make it infeasible (elastic mode of SNOPT: Gill,
+/// Murray, Saunders 2005, sec. 4.3; Nocedal and Wright 2006, sec. 17.2). With slacks s >= 0, one for each finite side
+/// of a soft bound:
 ///
 ///   minimise   cost_factor f(z) + sum of price s   subject to   lower <= c(z) + size (s_below - s_above) <= upper
 ///
-/// c is a soft row, or a soft variable, whose own bounds are then none. The price is on the sum, not on squares: few
-/// bounds give way, by as much as has to be, and none that need not. All else holds as in the other program.
+/// c is a soft row, or a soft variable, which loses its own bounds. The price is on the sum, not on squares: few bounds
+/// give way, and none that need not. All else is as in the inner program.
 ///
-/// Variables: (z, s). Rows: those of the other program, then one for each soft variable. Derivatives are exact if those
-/// of the other are.
+/// Variables: (z, s). Rows: those of the inner program, then one per soft variable. Derivatives are exact if those of
+/// the inner program are.
 class ElasticNlp : public StoredNlp {
  public:
-  /// A view of `inner`, which must outlive it. Bounds that are soft twice are a mistake of the caller.
+  /// `inner` must outlive it. No bound may be soft twice.
   ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_factor);
 
-  /// From variables of the other program: slacks as large as they have to be, and a little larger.
+  /// Start from variables of the inner program, with slacks slightly larger than needed.
   Eigen::VectorXd start(const Eigen::VectorXd& z);
   Eigen::VectorXd inner(const Eigen::VectorXd& z) const { return z.head(inner_.num_variables()); }
-  /// For each soft bound by how much it gives way, in the unit of the row or variable: > 0 below its lower bound (too
-  /// little), < 0 above its upper.
+  /// Violation of each soft bound, in the unit of the row or variable: > 0 below its lower bound, < 0 above its upper.
   Eigen::VectorXd violations(const Eigen::VectorXd& z) const;
 
   double cost(const Eigen::VectorXd& z) override;
@@ -52,7 +51,7 @@ class ElasticNlp : public StoredNlp {
 
  private:
   struct Slack {
-    int soft;     ///< place in soft_
+    int soft;     ///< index in soft_
     int row;      ///< of this program
     double sign;  ///< +1 below, -1 above
   };

@@ -6,15 +6,15 @@
 
 namespace prowl {
 
-/// What is known of an iterate, whatever its variables are.
+/// Quality of an iterate, without its variables.
 struct IterateFigures {
   double cost = std::numeric_limits<double>::infinity();
   double violation = std::numeric_limits<double>::infinity();
   double dual_violation = std::numeric_limits<double>::infinity();
 };
 
-/// Whether a solver that is stopped should rather give back `a`: less violation, and among those within tolerance less
-/// cost. NaN is as bad as infinity.
+/// True if a stopped solver should return `a` rather than `b`: less violation or, within the tolerance, less cost. NaN
+/// counts as infinity.
 inline bool is_better(const IterateFigures& a, const IterateFigures& b, double tolerance) {
   const auto size = [](double figure) { return std::isnan(figure) ? std::numeric_limits<double>::infinity() : figure; };
   const double violation_a = std::max(size(a.violation), tolerance),

@@ -8,7 +8,7 @@
 
 namespace prowl {
 
-/// Places of the non-zeros of a sparse matrix; values come in the same order. No place twice.
+/// Positions of the non-zeros of a sparse matrix, each once; values have the same order.
 struct SparsityPattern {
   std::vector<int> rows;
   std::vector<int> cols;
@@ -44,8 +44,8 @@ class Nlp {
   virtual std::string describe_constraint(int row) const = 0;
   virtual std::string describe_variable(int index) const = 0;
 
-  /// Lets an evaluation use so many threads, and as many of a ThreadTeam evaluate different stages at once. Returns how
-  /// many it stands, 1 to `count`. Does not change what comes out.
+  /// Allows `count` threads in an evaluation, and as many of a ThreadTeam to evaluate different stages at once. Returns
+  /// the number that it supports, 1 to `count`. Results do not depend on it.
   virtual int use_threads(int /*count*/) { return 1; }
 
   /// The same program as a chain of stages, if it is one; valid as long as the Nlp is.

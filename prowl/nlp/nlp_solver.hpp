@@ -11,7 +11,7 @@
 
 namespace prowl {
 
-/// Why the solver stopped. Whether the result is any good is another question: the certificate's.
+/// Why the solver stopped. The certificate decides if the result is good.
 enum class SolveStatus {
   converged,
   infeasible,  ///< converged to a point of locally least violation
@@ -36,26 +36,25 @@ struct SolverOptions {
   int max_iterations = 300;
   double max_seconds = 300.0;
   int threads = 1;             ///< for evaluations; results do not depend on it
-  bool start_is_near = false;  ///< a solution of a neighbouring problem: stay near it
-  /// Those of that solution (SolveResult::stage_multipliers), if its stages have the same sizes; empty: none. For
-  /// solvers that go by stages. Riccati then takes its first steps whole, without asking a filter, and takes them back
-  /// if they lead away.
+  bool start_is_near = false;  ///< it solves a neighbouring problem: stay near it
+  /// Multipliers of that solution (SolveResult::stage_multipliers) with equal sizes of stages, for solvers that use
+  /// stages; may be empty. Riccati then takes full first steps without its filter, and undoes them if they lead away.
   std::vector<StageMultipliers> start_multipliers = {};
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
-  /// The variables of the iterate that on_iteration told of just before; may be empty, which saves gathering them.
+  /// Variables of the iterate of the last on_iteration; may be empty, which saves gathering them.
   std::function<void(const Eigen::VectorXd& z)> on_iterate;
-  const std::atomic<bool>* interrupt = nullptr;  ///< looked at once an iteration; true stops
+  const std::atomic<bool>* interrupt = nullptr;  ///< checked once per iteration; true stops
 };
 
-/// Throws InputError that names the option which makes no sense.
+/// Throws InputError that names the invalid option.
 void validate(const SolverOptions& options);
 
-/// Where the time of a solve went [s]. What is left of `cpu` is the solver's own: line search, output, memory.
+/// Times of a solve [s]. The rest of `cpu` is the solver's own: line search, output, memory.
 struct SolveTimes {
   double cpu = 0.0;             ///< of all threads
   double values = 0.0;          ///< wall time in the problem's cost and constraints
   double derivatives = 0.0;     ///< wall time in their derivatives, first and second
-  double linear_algebra = 0.0;  ///< wall time in Newton's equations; 0 if the solver does not tell
+  double linear_algebra = 0.0;  ///< wall time in Newton's equations; 0 if unknown
 
   double evaluation() const { return values + derivatives; }
   SolveTimes& operator+=(const SolveTimes& other);
@@ -63,7 +62,7 @@ struct SolveTimes {
 
 struct SolveResult {
   SolveStatus status = SolveStatus::solver_failed;
-  std::string message;                              ///< the solver's own words, and what failed where
+  std::string message;                              ///< from the solver, with the place of a failure
   Eigen::VectorXd z;                                ///< the solution, or the iterate of least violation
   Eigen::VectorXd multipliers;                      ///< of g at z; empty if unknown
   std::vector<StageMultipliers> stage_multipliers;  ///< of the stages at z; empty if unknown
@@ -80,9 +79,9 @@ class NlpSolver {
   virtual ~NlpSolver() = default;
   virtual std::string name() const = 0;
   virtual std::string version() const = 0;
-  /// The reason, for the user to read, why this solver cannot take the problem.
+  /// Reason, for the user, why this solver cannot solve the problem; none if it can.
   virtual std::optional<std::string> why_unsupported(Nlp& nlp) const = 0;
-  /// Never throws because a problem is hard: that is a status.
+  /// A hard problem gives a status and never throws.
   virtual SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const = 0;
 };
 

@@ -16,7 +16,7 @@ struct StageValues {
   Eigen::VectorXd next, equalities, inequalities;
 };
 
-/// Derivatives in (u, x). `next`, `equalities` and `inequalities` have one row a function.
+/// Derivatives in (u, x). `next`, `equalities` and `inequalities` have one row per function.
 struct StageDerivatives {
   Eigen::VectorXd cost_gradient;
   Eigen::MatrixXd next, equalities, inequalities;
@@ -26,15 +26,14 @@ struct StageMultipliers {
   Eigen::VectorXd next, equalities, inequalities;
 };
 
-/// The same program as an Nlp, as a chain of stages k = 0 ... num_stages() - 1 with inputs u and states x, for solvers
-/// that go through it by dynamic programming:
+/// An Nlp as a chain of stages k = 0 ... num_stages() - 1 with inputs u and states x, for dynamic programming:
 ///
 ///   minimise   sum of cost_k(u_k, x_k)   subject to   x_{k+1} = next_k(u_k, x_k)   (not after the last stage),
 ///   equalities_k(u_k, x_k) = 0,   lower_k <= inequalities_k(u_k, x_k) <= upper_k
 ///
-/// The variables of a stage are one vector (u_k, x_k). Bounds on variables are rows here, variables that are fixed may
-/// be left out; the first stage has the states that nothing fixes. Evaluations may throw NumericalError. What they
-/// return is valid until the next evaluation of that stage.
+/// The variables of a stage are one vector (u_k, x_k). Bounds on variables are rows here. Fixed variables may be left
+/// out; the first stage has only free states. Evaluations may throw NumericalError. Their results are valid until the
+/// next evaluation of that stage.
 class StagewiseNlp {
  public:
   virtual ~StagewiseNlp() = default;
@@ -50,11 +49,10 @@ class StagewiseNlp {
   virtual const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd& ux, double cost_factor,
                                          const StageMultipliers& multipliers) = 0;
 
-  /// Values and all derivatives of a stage at once, for the functions below. Those know how a stage is made, and so
-  /// need less than the dense matrices above; what they return holds until the stage is linearised again or its
-  /// derivatives() or hessian() are asked for, whatever values() are.
+  /// Evaluates values and all derivatives of a stage for the functions below, which use its structure instead of the
+  /// dense matrices above. Their results are valid until the next linearise(), derivatives() or hessian() of the stage.
   virtual void linearise(int k, const Eigen::VectorXd& ux, double cost_factor, const StageMultipliers& multipliers) = 0;
-  /// The same without second derivatives: what lagrangian_hessian() returns has no meaning then.
+  /// The same without second derivatives: lagrangian_hessian() is then undefined.
   virtual void linearise_to_first_order(int k, const Eigen::VectorXd& ux) = 0;
   virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
   virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;
@@ -69,7 +67,7 @@ class StagewiseNlp {
   virtual void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
                              Eigen::VectorXd& gradient) = 0;
 
-  /// From the variables of the Nlp to those of each stage, and back.
+  /// Converts the variables of the Nlp to those of each stage, and back.
   virtual std::vector<Eigen::VectorXd> stages(const Eigen::VectorXd& z) const = 0;
   virtual Eigen::VectorXd flat(const std::vector<Eigen::VectorXd>& stages) const = 0;
 

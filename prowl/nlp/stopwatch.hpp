@@ -9,10 +9,10 @@ inline double wall_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Of all threads of the process.
+/// CPU time of all threads of the process [s].
 inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Adds the time that it lives to a sum [s].
+/// Adds its lifetime to a sum [s].
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum), start_(wall_seconds()) {}

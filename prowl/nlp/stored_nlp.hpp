@@ -6,7 +6,7 @@
 
 namespace prowl {
 
-/// An Nlp with its bounds and patterns as data, for its constructor to fill in; sizes are those of the bounds.
+/// An Nlp that stores bounds and patterns; derived constructors fill them in. Sizes are those of the bounds.
 class StoredNlp : public Nlp {
  public:
   int num_variables() const override { return static_cast<int>(variable_lower_.size()); }

@@ -5,13 +5,11 @@
 
 namespace prowl {
 
-/// Threads that share out a range of indices between them. Each has a number of its own, its slot, for work space that
-/// must not be shared. What is computed for an index must not depend on the slot: then the results do not depend on the
-/// number of threads.
+/// Threads that divide a range of indices. Each has a number, its slot, for work space of its own. Results for an index
+/// must not depend on the slot; then they do not depend on the number of threads.
 class ThreadTeam {
  public:
-  /// count >= 1, the calling thread among them: 1 starts none. Throws std::system_error if there are not so many to be
-  /// had.
+  /// count >= 1, including the calling thread: 1 starts none. Throws std::system_error if threads cannot be started.
   explicit ThreadTeam(int count);
   ~ThreadTeam();
   ThreadTeam(ThreadTeam&&) noexcept;
@@ -21,8 +19,8 @@ class ThreadTeam {
   /// Slot of the calling thread in the innermost for_each() that it is in, 0 <= slot < count; 0 outside of any.
   static int slot() { return this_slot_; }
 
-  /// function(i) for i = 0 ... size - 1, a range without gaps for each thread, and waits for all. If calls throw, what
-  /// that of the smallest i threw goes on; what comes after it in the same range is not called.
+  /// Calls function(i) for i = 0 ... size - 1, a contiguous range per thread, and waits for all. A range ends at its
+  /// first exception; the one of the smallest i is rethrown.
   template <class Function>
   void for_each(int size, const Function& function) {
     if (count_ > 1) return share_out(size, [&function](int i) { function(i); });
@@ -31,7 +29,7 @@ class ThreadTeam {
   }
 
  private:
-  /// The calling thread has this slot for as long as it exists.
+  /// Gives the calling thread this slot during its lifetime.
   class InSlot {
    public:
     explicit InSlot(int slot) : outer_(this_slot_) { this_slot_ = slot; }

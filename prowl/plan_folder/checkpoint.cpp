@@ -57,18 +57,20 @@ void Checkpoint::take(Plan iterate) {
 }
 
 void Checkpoint::write() {
-  next_ = wall_seconds() + every_;  // also after a failure: a disk that is full stays so for a while
+  next_ = wall_seconds() + every_;  // also after a failure: a full disk stays full for a while
   write_plan(folder_, best_);
   next_ = wall_seconds() + every_;
   is_written_ = true;
 }
 
 void check_resumable(const PlanRecord& record, const Task& task, const std::vector<Mesh>& meshes) {
-  const auto refuse = [](const std::string& reason) { throw InputError(reason + "; --warm-start starts from it"); };
-  if (is_good(record.plan)) refuse("the plan is finished, there is nothing to go on with");
+  const auto refuse = [](const std::string& reason) {
+    throw InputError(reason + "; use --warm-start to start from it");
+  };
+  if (is_good(record.plan)) refuse("the plan is finished, nothing is left to resume");
   if (!record.plan.reasons.empty()) throw InputError("the task has no solution: " + record.plan.reasons.front());
   const auto compare = [&](const char* what, const std::string& then, const std::string& now) {
-    if (then != as_utf8(now)) refuse(fmt::format("the {} is not that of the checkpoint", what));
+    if (then != as_utf8(now)) refuse(fmt::format("the {} is not the same as in the checkpoint", what));
   };
   compare("task file", record.task.task_file.text, task.task_file.text);
   compare("robot file", record.task.robot_file.text, task.robot_file.text);
@@ -78,7 +80,7 @@ void check_resumable(const PlanRecord& record, const Task& task, const std::vect
   if (meshes.empty() || std::ranges::any_of(meshes, is_its_mesh)) return;
   std::vector<int> intervals;
   for (const Mesh& mesh : meshes) intervals.push_back(mesh.num_intervals());
-  refuse(fmt::format("the checkpoint is on another mesh, of {} intervals; here they are of {}",
+  refuse(fmt::format("the checkpoint is on a mesh of {} intervals; this solve uses meshes of {}",
                      record.plan.mesh.num_intervals(), fmt::join(intervals, ", ")));
 }
 

@@ -5,7 +5,7 @@
 
 namespace prowl {
 
-/// Folder of the figures within the folder of a plan, unless asked for another.
+/// Default folder of the figures within the folder of a plan.
 inline constexpr const char* kFiguresFolder = "figures";
 
 /// Names of all files that `prowl figures` may write: for each figure .csv, .svg and .png.

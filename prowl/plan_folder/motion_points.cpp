@@ -10,10 +10,10 @@
 namespace prowl {
 namespace {
 
-constexpr double kStep = 0.01;  ///< [s]: a picture each at 60 Hz and a fifth of the speed
+constexpr double kStep = 0.01;  ///< [s]: one per picture at 60 Hz and a fifth of the speed
 constexpr double kMostPoints = 3000;
 
-/// First column of a block of the file, whose columns lie together in the order of the robot's names.
+/// First columns of the blocks of the file; the columns of a block are contiguous, in the order of the robot's names.
 struct Blocks {
   Eigen::Index time, base, joints, twist, rates, torques;
   std::vector<Eigen::Index> forces;
@@ -28,7 +28,7 @@ Blocks find_blocks(const RobotModel& robot, const CsvTable& table) {
                 table.index(fmt::format("true_v_{}_radps", joint)),
                 table.index(fmt::format("tau_{}_Nm", joint)),
                 {}};
-  for (const std::string& name : robot.joint_names()) {  // the file is of this robot: all its joints, in this order
+  for (const std::string& name : robot.joint_names()) {  // checks that the file is of this robot
     const Eigen::Index j = &name - robot.joint_names().data();
     if (table.index(fmt::format("true_q_{}_rad", name)) != blocks.joints + j ||
         table.index(fmt::format("true_v_{}_radps", name)) != blocks.rates + j ||

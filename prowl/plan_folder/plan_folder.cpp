@@ -22,7 +22,7 @@ const char* const kPlan = "plan.json";
 const char* const kNodes = "trajectory.csv";
 const char* const kUniform = "trajectory_uniform.csv";
 const char* const kTracker = "tracker.bin";
-/// Whatever may be in the folder of a plan; a new plan removes what was made of the old one.
+/// All files that may be in the folder of a plan; a new plan replaces them.
 const std::set<std::string>& own_names() {
   static const std::set<std::string> names = [] {
     std::set<std::string> all = {kPlan,           kNodes,         kUniform,     kTracker,
@@ -34,7 +34,7 @@ const std::set<std::string>& own_names() {
   return names;
 }
 
-constexpr std::size_t kLongestPlan = 32u << 20;  // [bytes]; of which the URDF may be 4 MB
+constexpr std::size_t kLongestPlan = 32u << 20;  // [bytes]; 4 MB of these may be the URDF
 
 }  // namespace
 
@@ -64,7 +64,7 @@ bool holds_good_plan(const std::filesystem::path& directory) {
 PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch& search) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(directory, ignored)) {
-    throw InputError(fmt::format("{}: a file; need the folder that prowl plan wrote", directory.string()));
+    throw InputError(fmt::format("{}: this is a file; need the folder that prowl plan wrote", directory.string()));
   }
   PlanRecord record = plan_from_json(read_text_file(directory / kPlan, kLongestPlan), search);
   const SourceText nodes =

@@ -21,9 +21,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Of schema/plan.schema.json; whoever changes the keys counts it up, and keeps what read_version promises.
+/// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
 constexpr int kSchemaVersion = 3;
-constexpr int kOldestVersion = 1;  ///< solver may lack the keys that came since; before 3 phases have equal steps
+constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
 double phase_duration(const PlanRecord& record, std::size_t phase) {
@@ -55,7 +55,7 @@ Json problem_to_json(const PlanRecord& record) {
           {"constraints", record.plan.num_constraints}};
 }
 
-/// Column by column: half as long as an object for each iteration.
+/// Column by column: half as long as one object per iteration.
 Json convergence_to_json(const std::vector<MeshIteration>& iterations) {
   const char* const names[] = {"level", "iteration", "cost", "constraint_violation", "dual_violation", "seconds"};
   Json json = Json::object();
@@ -117,7 +117,7 @@ std::string absolute_path(const std::filesystem::path& path) {
   return std::filesystem::absolute(path).lexically_normal().string();
 }
 
-/// One object of plan.json; every access names the key that is missing or of the wrong type.
+/// One object of plan.json; errors name the key that is missing or has the wrong type.
 class Reader {
  public:
   Reader(std::string where, const Json& json) : where_(std::move(where)), json_(&json) {
@@ -129,7 +129,7 @@ class Reader {
   std::string text(const char* key) const { return get<std::string>(key, need(key).is_string(), "a string"); }
   int integer(const char* key) const {
     constexpr auto kLargest = std::numeric_limits<int>::max();
-    const Json& value = need(key);  // unsigned where it is not negative, else signed, both of 64 bits
+    const Json& value = need(key);  // unsigned if not negative, otherwise signed; 64 bits
     const bool fits = value.is_number_unsigned() ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(kLargest)
                                                  : value.is_number_integer() && value.get<std::int64_t>() >= -kLargest;
     return get<int>(key, fits, fmt::format("an integer from {} to {}", -kLargest, kLargest));
@@ -185,7 +185,7 @@ class Reader {
   const Json* json_;
 };
 
-/// Throws unless it is one that this program reads.
+/// Throws InputError unless this program reads that version.
 int read_version(const Reader& plan) {
   const int version = plan.integer("schema_version");
   if (version > kSchemaVersion) {
@@ -196,8 +196,8 @@ int read_version(const Reader& plan) {
   }
   if (version < kOldestVersion) {
     throw InputError(fmt::format(
-        "{}.schema_version: {} is no longer read; need {} to {}: plan again with prowl plan, task_file in it "
-        "has the task",
+        "{}.schema_version: {} is no longer supported; need {} to {}: plan again with prowl plan; its task_file "
+        "contains the task",
         plan.where(), version, kOldestVersion, kSchemaVersion));
   }
   return version;
@@ -369,7 +369,7 @@ Json decay_to_json(const PhaseDecay& decay) {
           {"mean", decay.mean},   {"bandwidth_radps", decay.bandwidth}};
 }
 
-/// null where there are no gains.
+/// null without gains.
 Json tracking_to_json(const PlanRecord& record) {
   if (!record.feedback) return nullptr;
   const FeedbackDesign& feedback = *record.feedback;
@@ -456,8 +456,8 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   const RobotDescription& robot = record.task.problem.robot.description();
   if (as_utf8(robot.urdf_text) != urdf.text) {
     throw InputError(
-        fmt::format("{}: {} has changed since the plan was made; need the URDF as it was, or none there: then "
-                    "the copy in plan.json is used",
+        fmt::format("{}: {} has changed since the plan was made; need the old URDF, or no file there: "
+                    "Prowl then uses the copy in plan.json",
                     source.path.string(), robot.urdf.string()));
   }
   record.plan.mesh = version >= 3 ? read_mesh(plan, record.task.problem) : record.task.mesh;

@@ -27,7 +27,7 @@ double control_rate(const RolloutOptions& options) {
 std::string offset_text(const RolloutRecord& record) {
   const Eigen::Vector3d &p = record.base_offset, rpy = record.base_offset_rpy / kDegree;
   if (p.isZero(0.0) && rpy.isZero(0.0)) return "start as planned";
-  return fmt::format("base at the start off by ({:g}, {:g}, {:g}) cm, roll {:.3g}, pitch {:.3g}, yaw {:.3g} deg",
+  return fmt::format("base displaced at the start by ({:g}, {:g}, {:g}) cm, roll {:.3g}, pitch {:.3g}, yaw {:.3g} deg",
                      100 * p.x(), 100 * p.y(), 100 * p.z(), rpy.x(), rpy.y(), rpy.z());
 }
 
@@ -39,7 +39,7 @@ Json load_json(const ContactLoad& load) {
           {"beyond_friction_cone_time_s", load.beyond_cone_time}};
 }
 
-/// As the other engine would have recorded it.
+/// The sample in the form of the other engine.
 SimulationSample as_simulation_sample(const RobotModel& robot, const Tracker& tracker, const RolloutRecord& record,
                                       const RolloutSample& from) {
   SimulationSample sample;
@@ -87,7 +87,7 @@ std::string rollout_summary(const PlanRecord& plan, const RolloutRecord& record)
   text += error_line("worst joint", measures.joints, kDegree, "deg");
   text += torque_line(torque_use(measures));
   text +=
-      "  contacts hold here whatever the force: on the ground a foot that pulls (< 0)\n"
+      "  contacts hold under any force here: on real ground a foot that pulls (< 0)\n"
       "  would lift, and one beyond its friction cone (> 0) would slip\n";
   text += fmt::format("  {:<28}{:>24}{:>24}\n", "contact", "least normal force", "beyond friction cone");
   for (std::size_t c = 0; c < measures.contacts.size(); ++c) {
@@ -108,7 +108,7 @@ std::string rollout_json(const PlanRecord& plan, const Tracker& tracker, const R
                {"base_angle_rad", error_json(measures.base_angle)},
                {"joints_rad", error_json(measures.joints)},
                {"torque", torque_json(torque_use(measures))},
-               {"contact_model", "contacts hold whatever the force: they pull, too, and do not slip"},
+               {"contact_model", "contacts hold under any force: they can pull and do not slip"},
                {"contacts", Json::object()}});
   for (std::size_t c = 0; c < measures.contacts.size(); ++c) {
     json["contacts"][plan.task.problem.robot.contacts()[c].name] = load_json(measures.contacts[c]);

@@ -11,25 +11,25 @@
 
 namespace prowl {
 
-/// What `prowl simulate --engine rollout` was asked for, and what came out.
+/// Options and result of `prowl simulate --engine rollout`.
 struct RolloutRecord {
   RolloutOptions options;
   Eigen::Vector3d base_offset = Eigen::Vector3d::Zero();  ///< at the start, world frame [m]
   Eigen::Vector3d base_offset_rpy =
       Eigen::Vector3d::Zero();          ///< at the start: roll, pitch, yaw in the base frame [rad]
-  std::optional<double> friction = {};  ///< that contact forces are held against, in place of the surfaces'
+  std::optional<double> friction = {};  ///< to check contact forces with, in place of the surfaces'
   double record_rate = 0.0;             ///< of simulate.csv [Hz]; 0: no rows
   Rollout rollout;
   RolloutMeasures measures;
-  std::vector<std::string> failures;  ///< of the criteria that apply, in words; empty: success
+  std::vector<std::string> failures;  ///< unmet criteria in words; empty: success
 };
 
-/// Which of the task's criteria a rollout does not meet: it must not fall, and its base has to rest where the plan
-/// ends. Slip there is none.
+/// The task's criteria that a rollout does not meet: it must not fall, and its base must be at rest where the plan
+/// ends. A rollout has no slip.
 std::vector<std::string> rollout_failures(const Tracker& tracker, const Rollout& rollout,
                                           const RolloutMeasures& measures, const SuccessCriteria& criteria);
 
-/// What fits a screen.
+/// Summary for the screen.
 std::string rollout_summary(const PlanRecord& plan, const RolloutRecord& record);
 /// simulate.json (docs/simulation.md).
 std::string rollout_json(const PlanRecord& plan, const Tracker& tracker, const RolloutRecord& record);

@@ -88,7 +88,7 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
                   options.control_rate, 1e3 * options.delay, options.perfect_state ? 0.0 : options.noise_scale,
                   options.physics.mass_scale != 1.0 ? fmt::format(", masses x {:g}", options.physics.mass_scale) : "",
                   options.physics.friction ? fmt::format(", friction {:g}", *options.physics.friction) : "");
-  if (options.bandwidth > 0.0) text += fmt::format("  actuators of {:g} Hz\n", options.bandwidth);
+  if (options.bandwidth > 0.0) text += fmt::format("  actuator bandwidth {:g} Hz\n", options.bandwidth);
   for (const Push& push : options.pushes) {
     text += fmt::format("  push of {:.3g} N s along [{:.3g}, {:.3g}, {:.3g}] from {:.3g} s for {:.3g} s\n",
                         push.impulse.norm(), push.impulse.x(), push.impulse.y(), push.impulse.z(), push.time,
@@ -119,8 +119,8 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
       late = std::max(late, std::abs(change.measured - change.planned));
   }
   if (!result.switches.empty()) {
-    text += fmt::format("  contacts    {} switches, at most {:.0f} ms off the plan{}\n", result.switches.size(),
-                        1e3 * late, missing > 0 ? fmt::format(", {} missing", missing) : "");
+    text += fmt::format("  contacts    {} landings and openings, at most {:.0f} ms from the plan{}\n",
+                        result.switches.size(), 1e3 * late, missing > 0 ? fmt::format(", {} missing", missing) : "");
   }
   return text;
 }

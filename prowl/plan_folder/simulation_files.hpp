@@ -8,17 +8,17 @@
 
 namespace prowl {
 
-/// What `prowl simulate` was asked for with MuJoCo, and what came out.
+/// Options and result of `prowl simulate` with MuJoCo.
 struct SimulationRecord {
   SimulationOptions options;
   SimulationResult result;
 };
 
-/// What fits a screen.
+/// Summary for the screen.
 std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& record);
 /// simulate.json (docs/simulation.md).
 std::string simulation_json(const PlanRecord& plan, const SimulationRecord& record);
-/// simulate.csv: one row for each sample.
+/// simulate.csv: one row per sample.
 std::string simulation_csv(const RobotModel& robot, const std::vector<SimulationSample>& samples);
 
 /// Writes simulate.json and simulate.csv into the plan's folder, each whole or not at all. Throws FileError.

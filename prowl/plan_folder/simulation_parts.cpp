@@ -39,21 +39,20 @@ Json torque_json(const TorqueUse& use) {
 }
 
 std::string torque_line(const TorqueUse& use) {
-  const std::string largest =
-      std::isfinite(use.largest_share)
-          ? fmt::format("{:.0f} % of the limit at most ({})", 100 * use.largest_share, use.joint)
-          : fmt::format("{} was where it can give none", use.joint);
+  const std::string largest = std::isfinite(use.largest_share) ? fmt::format("{:.0f} % of the limit at most ({})",
+                                                                             100 * use.largest_share, use.joint)
+                                                               : fmt::format("{} exceeded a limit of zero", use.joint);
   return fmt::format("  torque      {}, at a limit {:.1f} % of the time, {:.0f} J of work\n", largest,
                      100 * use.saturated, use.positive_work);
 }
 
 std::string error_heading() {
-  return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "in rest");
+  return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "at rest");
 }
 
 std::string error_line(const std::string& name, const ErrorMeasure& error, double unit, const std::string& unit_name) {
   const auto value = [&](double size) -> std::string {
-    return std::isnan(size) ? "-" : fmt::format("{:.2f} {}", size / unit, unit_name);  // it ended before its rest
+    return std::isnan(size) ? "-" : fmt::format("{:.2f} {}", size / unit, unit_name);  // it ended before it was at rest
   };
   return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", name, value(error.largest), value(error.rms), value(error.rest));
 }

@@ -7,7 +7,7 @@
 #include "prowl/files/json_text.hpp"
 #include "prowl/plan_folder/simulation_files.hpp"
 
-// What the results of both engines of `prowl simulate` have in common.
+// Common parts of the results of both engines of `prowl simulate`.
 namespace prowl {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;
@@ -24,7 +24,7 @@ nlohmann::ordered_json verdict_json(const PlanRecord& plan, const SimulationVerd
 nlohmann::ordered_json error_json(const ErrorMeasure& error);
 nlohmann::ordered_json vector_json(const Eigen::VectorXd& values);
 
-/// How hard the joints worked: largest share of a torque limit and whose, share of the time at a limit, work [J].
+/// Load of the joints: largest share of a torque limit and its joint, share of the time at a limit, work [J].
 struct TorqueUse {
   double largest_share = 0.0;
   std::string joint;

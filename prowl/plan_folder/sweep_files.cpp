@@ -38,7 +38,7 @@ SuccessRate overall(const SweepRecord& record) {
   return success_rate(static_cast<int>(successes), static_cast<int>(record.cases.size()));
 }
 
-/// Failures first, those that ended first before others; then by how far the base ended from where the plan does.
+/// Failures first, the earliest end first; then by the distance of the base at rest from the plan's end.
 std::vector<std::size_t> worst_first(const SweepRecord& record) {
   std::vector<std::size_t> order(record.cases.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -71,7 +71,7 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
   if (record.interrupted) {
     text += rate.cases < record.asked
                 ? fmt::format("  interrupted: {} of {} simulations were finished\n", rate.cases, record.asked)
-                : "  interrupted while looking at one perturbation alone\n";
+                : "  interrupted during the simulations of one perturbation alone\n";
   }
   text += "  pushed in phase                             success\n";
   for (const Count& count : by_phase(tracker, record)) {
@@ -89,7 +89,7 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
                             ? fmt::format("success, base {:.1f} cm off", 100 * one.result.base_position.rest)
                             : one.result.failures.front());
   }
-  if (!record.breakdowns.empty()) text += "  one perturbation alone: success falls under one half between\n";
+  if (!record.breakdowns.empty()) text += "  one perturbation alone: success falls below one half between\n";
   for (const Breakdown& found : record.breakdowns) {
     text +=
         fmt::format("    {:<20} {}\n", found.kind,

@@ -5,10 +5,10 @@
 
 namespace prowl {
 
-/// What `prowl sweep` was asked for, and what came out.
+/// Options and result of `prowl sweep`.
 struct SweepRecord {
   std::uint64_t first_seed = 1;
-  int asked = 0;  ///< cases; more than there are below if it was interrupted
+  int asked = 0;  ///< number of cases; after an interrupt more than in `cases`
   PerturbationRanges ranges;
   std::vector<SweepCase> cases = {};  ///< of seeds first_seed, first_seed + 1, ...
   std::vector<Breakdown> breakdowns = {};

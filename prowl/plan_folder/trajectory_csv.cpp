@@ -78,7 +78,7 @@ Row parse_row(const std::string& where, std::string_view line, const std::vector
   return row;
 }
 
-/// Throws unless the row is one of the given phase, with its contacts and a unit quaternion.
+/// Throws InputError unless the row is of the given phase, with its contacts and a unit quaternion.
 void check_row(const std::string& where, const MotionProblem& problem, std::size_t phase, const Row& row) {
   const auto refuse = [&](const std::string& column, double value, const std::string& needed) {
     throw InputError(fmt::format("{}: {}: {} is not allowed; need {}", where, column, value, needed));
@@ -94,8 +94,7 @@ void check_row(const std::string& where, const MotionProblem& problem, std::size
   }
 }
 
-/// Throws unless the nodes from `first` on are those of the phase: from `begin` on, in its steps, as long as it may
-/// last. Returns its end [s].
+/// Throws InputError unless the nodes from `first` on fit the phase that starts at `begin`. Returns its end [s].
 double check_times(const std::string& file, const Phase& phase, const PhaseMesh& mesh, double begin,
                    const TrajectoryPoint* first, std::size_t line) {
   constexpr double kRounding = 1e-9;  // of the time
@@ -165,7 +164,7 @@ Trajectory trajectory_from_csv(const MotionProblem& problem, const Mesh& mesh, c
   if (lines.size() != rows + 1) {
     throw InputError(fmt::format("{}: {} rows; the task's mesh has {} nodes", file, lines.size() - 1, rows));
   }
-  if (!ends_with_line) throw InputError(fmt::format("{}: the last line has no end; the file is cut short", file));
+  if (!ends_with_line) throw InputError(fmt::format("{}: the last line has no line end; the file is cut short", file));
   Trajectory trajectory;
   double begin = 0.0;
   for (std::size_t p = 0; p < problem.phases.size(); ++p) {

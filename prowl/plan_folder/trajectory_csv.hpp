@@ -13,20 +13,20 @@ namespace prowl {
 /// Names of the columns, with units (docs/plan-directory.md).
 std::vector<std::string> trajectory_columns(const RobotModel& robot);
 
-/// One line a point, numbers with all digits: reading them gives the same doubles.
+/// One line per point, numbers with all digits: reading them gives the same doubles.
 std::string trajectory_to_csv(const MotionProblem& problem, const Trajectory& trajectory);
 
-/// Most bytes of a file that trajectory_from_csv takes: longer is no trajectory on the mesh.
+/// Largest file for trajectory_from_csv [bytes]: no trajectory on the mesh is longer.
 std::size_t longest_trajectory(const MotionProblem& problem, const Mesh& mesh);
 
 /// Throws InputError "file:line: column: ..." unless the columns are those of the robot, the rows those of the mesh
-/// with the contacts of the problem, all numbers finite, and the last line whole.
+/// with the contacts of the problem, all numbers finite, and the last line complete.
 Trajectory trajectory_from_csv(const MotionProblem& problem, const Mesh& mesh, const SourceText& source);
 
-/// Most samples of a motion that is written with a uniform step: some gigabytes of text.
+/// Most samples of a motion with a uniform step: some gigabytes of text.
 constexpr double kMostUniformSamples = 1e7;
 
-/// Points at 0, step, 2 step, ... and the end; at a phase switch the point of the later phase.
+/// Points at 0, step, 2 step, ... and the end; at a phase transition the point of the later phase.
 Trajectory sample_uniformly(const Trajectory& trajectory, double step);
 
 }  // namespace prowl

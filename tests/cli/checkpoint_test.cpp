@@ -138,13 +138,15 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
     EXPECT_THAT(result.error, Not(HasSubstr("iteration "))) << "a solve for nothing";
     return result.error;
   };
-  EXPECT_THAT(refusal("hold.toml"),
-              HasSubstr("--resume so_far: the task file is not that of the checkpoint; --warm-start starts from it"));
+  EXPECT_THAT(
+      refusal("hold.toml"),
+      HasSubstr(
+          "--resume so_far: the task file is not the same as in the checkpoint; use --warm-start to start from it"));
   EXPECT_THAT(refusal("bow.toml --intervals 7"),
-              HasSubstr("the checkpoint is on another mesh, of 5 intervals; here they are of 7"));
+              HasSubstr("the checkpoint is on a mesh of 5 intervals; this solve uses meshes of 7"));
   EXPECT_THAT(refusal("bow.toml --warm-start so_far"), HasSubstr("excludes"));
   folder_.write("hyq.toml", test::kHyqFile + "# another text\n");
-  EXPECT_THAT(refusal("bow.toml"), HasSubstr("the robot file is not that of the checkpoint"));
+  EXPECT_THAT(refusal("bow.toml"), HasSubstr("the robot file is not the same as in the checkpoint"));
   folder_.write("hyq.toml", test::kHyqFile);
 
   const std::string json = test::read_file(folder_.path() / "so_far/plan.json"),
@@ -158,7 +160,7 @@ TEST_F(Checkpoints, OfSomethingElseAreRefused) {
   EXPECT_THAT(refusal("bow.toml"), HasSubstr("trajectory.csv: no such file"));
   ASSERT_EQ(run("$prowl plan hold.toml $dirs --out good").status, 0);
   EXPECT_THAT(run("$prowl plan hold.toml $dirs --resume good").error,
-              HasSubstr("the plan is finished, there is nothing to go on with"));
+              HasSubstr("the plan is finished, nothing is left to resume"));
 
   EXPECT_THAT(run("$prowl plan bow.toml $dirs --out good --checkpoint ./good/").error,
               HasSubstr("need another folder"));

@@ -301,7 +301,8 @@ TEST_F(Command, WritesNothingOnBadInput) {
   EXPECT_THAT(run("$prowl plan bad.toml $dirs").error,
               StartsWith("prowl: bad.toml:4:1: phase[0].duration: unknown key; did you mean 'duration_s'?"));
   EXPECT_EQ(run("$prowl check missing").status, 2);
-  EXPECT_EQ(run("$prowl check hold.toml").error, "prowl: hold.toml: a file; need the folder that prowl plan wrote\n");
+  EXPECT_EQ(run("$prowl check hold.toml").error,
+            "prowl: hold.toml: this is a file; need the folder that prowl plan wrote\n");
 }
 
 TEST_F(Command, LooksAtTheFolderBeforeItSolves) {

@@ -102,7 +102,7 @@ TEST_F(Faults, WhatCannotBePutInPlaceIsKept) {
     if (result.status == 0) break;
     ASSERT_EQ(result.status, 4) << n << ": " << result.error;
     EXPECT_EQ(leftovers(), 0) << n;
-    if (result.error.find("what was to be there is in ") == std::string::npos) continue;
+    if (result.error.find("the new files are in ") == std::string::npos) continue;
     ++kept;
     EXPECT_EQ(held(), "old") << n;
     ASSERT_EQ(run("rm -rf out; mv out.prowl-*.new out").status, 0) << n;
@@ -265,7 +265,7 @@ TEST_F(Faults, ARealDiskThatIsFullOrReadOnly) {
   const std::string plan = "$prowl plan hold.toml $dirs --intervals 6 --out disk/out";
   const Outcome mount = mounted("$prowl plan hold.toml $dirs --out disk; echo status \\$?");
   EXPECT_THAT(mount.out, HasSubstr("status 4\n"));
-  EXPECT_THAT(mount.error, AllOf(HasSubstr("something is mounted there"), Not(HasSubstr("iteration"))));
+  EXPECT_THAT(mount.error, AllOf(HasSubstr("this is a mount point"), Not(HasSubstr("iteration"))));
   const std::string compare =
       "cmp old/trajectory.csv disk/out/trajectory.csv && cmp old/tracker.bin disk/out/tracker.bin && cmp old/plan.json "
       "disk/out/plan.json";

@@ -71,7 +71,7 @@ TEST_F(Sweep, LeavesOutBreakdownsThatAreNotFoundOnInterrupt) {
   EXPECT_EQ(result().at("interrupted"), true);
   EXPECT_EQ(result().at("cases"), 2);
   EXPECT_LT(result().at("breakdowns").size(), 6u);
-  EXPECT_THAT(stopped.out, HasSubstr("interrupted while looking at one perturbation alone"));
+  EXPECT_THAT(stopped.out, HasSubstr("interrupted during the simulations of one perturbation alone"));
 }
 
 TEST_F(Sweep, TellsEveryTenthInAPipe) {

@@ -89,7 +89,7 @@ TEST(Change, OfAGoalTellsWhereItIs) {
   EXPECT_EQ(of_joint.besides(half), "");
   EXPECT_NEAR(of_joint.problem(half).boundary_conditions.back().q_ref(7 + 2), start + 0.5, 1e-12);
   goal.q_ref(7 + 1) += 0.1;
-  EXPECT_EQ(knob(knobs_of(stand), "goal", 0).besides(half), "all that it asks for 0.5 times as far from the start");
+  EXPECT_EQ(knob(knobs_of(stand), "goal", 0).besides(half), "the whole goal 0.5 times as far from the start");
 }
 
 /// A range that is cut where its torque is not known is told as it is.
@@ -120,8 +120,8 @@ TEST(Change, OfJointsTellsWhatTheirTablesNeed) {
   EXPECT_NEAR(width(wider, hip), 2.0 * width(step.robot, hip), 1e-12);
   ASSERT_LT(width(wider, knee), 1.9 * width(step.robot, knee));
   EXPECT_EQ(ranges.besides(twice),
-            fmt::format("but as far as torque_over_position goes {} [{:.6g}, {:.6g}] rad",
-                        step.robot.joint_names()[knee], wider.position_lower()(knee), wider.position_upper()(knee)));
+            fmt::format("but within torque_over_position {} [{:.6g}, {:.6g}] rad", step.robot.joint_names()[knee],
+                        wider.position_lower()(knee), wider.position_upper()(knee)));
   EXPECT_EQ(joint_knob(step, LimitKind::joint_position, {hip, hip + 1}).besides(twice), "");
 }
 
@@ -158,9 +158,10 @@ TEST(Change, TurnsTheNumberThatItTellsOf) {
 TEST(Change, OfAPlaceTellsItsCoordinates) {
   const MotionProblem step = shipped("hyq/step");
   const Knob place = knob(knobs_of(step), "place", 2);
-  EXPECT_EQ(place.words(0.0), "[0.5708, 0.3241, 0] m (0.2 m from where it stood)");
-  EXPECT_THAT(place.words(std::log(2.0)),
-              testing::AllOf(testing::StartsWith("[0.4707"), testing::EndsWith(", 0] m (0.1 m from where it stood)")));
+  EXPECT_EQ(place.words(0.0), "[0.5708, 0.3241, 0] m (0.2 m from its previous position)");
+  EXPECT_THAT(
+      place.words(std::log(2.0)),
+      testing::AllOf(testing::StartsWith("[0.4707"), testing::EndsWith(", 0] m (0.1 m from its previous position)")));
 }
 
 /// The limit itself where there is but one.

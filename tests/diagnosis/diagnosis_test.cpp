@@ -52,7 +52,7 @@ TEST_F(DiagnosisTest, OfATaskWithAPlanIsThatItHasOne) {
   std::vector<std::string> steps;
   const auto keep = [&](const std::string& what) { steps.push_back(what); };
   const Diagnosis found = diagnose(prepared(kCrouch), RiccatiSolver(), IpoptSolver(), {.on_step = keep});
-  EXPECT_THAT(steps, testing::ElementsAre("solving as it is, 8 intervals", "planning as it is"))
+  EXPECT_THAT(steps, testing::ElementsAre("solving the task on 8 intervals", "planning the task"))
       << "a small mesh is solved once";
   EXPECT_TRUE(found.solvable);
   EXPECT_TRUE(found.kind.empty());
@@ -173,7 +173,7 @@ TEST_F(DiagnosisTest, OfWhatIsSolvedOnEachMeshNamesNoCause) {
     EXPECT_THAT(diagnosis_headline(found, crouch.problem),
                 AllOf(testing::StartsWith("the task has a plan (its mesh was solved from the initial guess), but "
                                           "prowl plan does not find it: "),
-                      HasSubstr(status == SolveStatus::time_limit ? "the time was up after " : "optimal"),
+                      HasSubstr(status == SolveStatus::time_limit ? "time ran out after " : "optimal"),
                       HasSubstr("local integration error")))
         << "eight intervals are few";
     EXPECT_THAT(diagnosis_json(found, crouch.problem), HasSubstr("\"solvable\": true"));
@@ -205,7 +205,7 @@ TEST_F(DiagnosisTest, OfATaskThatWasCutOffIsThatItIsNotKnown) {
   const Diagnosis found = diagnose(stiff, test::FailingSolver(0, SolveStatus::time_limit), IpoptSolver(), {});
   EXPECT_TRUE(found.is_undecided());
   EXPECT_THAT(diagnosis_headline(found, stiff.problem),
-              AllOf(testing::StartsWith("not known whether the task has a plan, the time was up after "),
+              AllOf(testing::StartsWith("not known whether the task has a plan, time ran out after "),
                     HasSubstr("on 8 mesh intervals phase 1 'crouch', "), HasSubstr("beyond its bound")));
   EXPECT_THAT(diagnosis_json(found, stiff.problem), HasSubstr("\"solvable\": null"));
 }
@@ -215,7 +215,7 @@ TEST_F(DiagnosisTest, GoesOnWithATaskThatWasCutOff) {
   const auto keep = [&](const std::string& what) { steps.push_back(what); };
   const test::FailingSolver solver(0, SolveStatus::time_limit, 2);
   const Diagnosis found = diagnose(prepared(kCrouch), solver, IpoptSolver(), {.on_step = keep});
-  EXPECT_EQ(steps.back(), "planning as it is, from where it was stopped");
+  EXPECT_EQ(steps.back(), "planning the task, from where it stopped");
   const auto off = [&](const Eigen::VectorXd& start) { return (start - solver.ends[1]).lpNorm<Eigen::Infinity>(); };
   EXPECT_LT(off(solver.starts.back()), 1e-3 * off(solver.starts[1])) << "it began anew";
   EXPECT_TRUE(found.solvable);
@@ -259,14 +259,13 @@ TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
       prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
   DiagnosisOptions options;
   options.solver.max_iterations = 2;
-  EXPECT_THAT(
-      diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff.problem),
-      testing::StartsWith("not known whether the task has a plan, stopped after its solver.max_iterations (2); "));
+  EXPECT_THAT(diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff.problem),
+              testing::StartsWith("not known whether the task has a plan, stopped at solver.max_iterations (2); "));
   const Diagnosis found = diagnose(prepared(kCrouch), RiccatiSolver(), IpoptSolver(), options);
   EXPECT_TRUE(found.solvable) << "the search has iterations of its own";
   EXPECT_FALSE(found.needs_one_mesh) << "it has the same limit";
   EXPECT_THAT(diagnosis_headline(found, problem(kCrouch)),
-              HasSubstr("but prowl plan does not find it: stopped after its solver.max_iterations (2), but it fails "
+              HasSubstr("but prowl plan does not find it: stopped at solver.max_iterations (2), but it fails "
                         "its certificate: "));
 }
 

@@ -79,7 +79,7 @@ TEST(LostRank, IsToldOfThePhaseThatStartsThere) {
   EXPECT_THAT(postures_that_lose_rank(problem, guess), IsEmpty());
   for (TrajectoryPoint& point : guess.nodes) point.q = stretched(problem.robot);
   EXPECT_THAT(postures_that_lose_rank(problem, guess),
-              ElementsAre(AllOf(HasSubstr("start of phase 'four'"), HasSubstr("11 of the 12"))));
+              ElementsAre(AllOf(HasSubstr("start of phase 'four'"), HasSubstr("rank 11 instead of 12"))));
 }
 
 }  // namespace

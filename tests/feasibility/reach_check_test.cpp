@@ -42,7 +42,8 @@ TEST(ReachCheck, LetsPassWhatTheLegsReach) {
 TEST(ReachCheck, NamesGoalPhaseContactAndLeg) {
   const auto reasons = contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5}));
   ASSERT_THAT(reasons, SizeIs(1)) << "the same of four feet is one fact";
-  EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("all 4 contacts"), HasSubstr("is 0.7")));
+  EXPECT_THAT(reasons[0],
+              AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("all 4 contacts"), HasSubstr("of length 0.7")));
   EXPECT_THAT(reasons[0], testing::ContainsRegex("by 0.3[0-9]* m or more: .._foot is 1.* from .._haa_joint"));
 }
 
@@ -54,7 +55,7 @@ TEST(ReachCheck, NamesTheContactsThatAreOutOfReachAndTheFarthest) {
   std::vector<std::string> reasons = contacts_out_of_reach(problem);
   std::erase_if(reasons, [](const std::string& reason) { return reason.find("apart") != std::string::npos; });
   ASSERT_THAT(reasons, SizeIs(1));
-  EXPECT_THAT(reasons[0], AllOf(HasSubstr("2 (lf_foot, lh_foot) contacts"), HasSubstr("lh_foot is 2.")));
+  EXPECT_THAT(reasons[0], AllOf(HasSubstr("2 contacts (lf_foot, lh_foot)"), HasSubstr("lh_foot is 2.")));
 }
 
 TEST(ReachCheck, ConcludesNothingFromWhatAGoalLeavesFree) {
@@ -88,7 +89,7 @@ TEST(ReachCheck, ProvesAHeightOutOfReachHoweverTheBaseIsTurned) {
   const auto reasons = contacts_out_of_reach(raised(0.5));
   ASSERT_THAT(reasons, SizeIs(1));
   EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'stand'"), HasSubstr("lf_foot, lh_foot, rf_foot, rh_foot"),
-                                HasSubstr("however the base is turned"), HasSubstr("1.08 m")));
+                                HasSubstr("for any base orientation"), HasSubstr("1.08 m")));
   MotionProblem aside = raised(0.5);
   const double infinity = std::numeric_limits<double>::infinity();
   aside.boundary_conditions[1].configuration_lower.head<2>().setConstant(-infinity);
@@ -106,7 +107,7 @@ TEST(ReachCheck, ProvesAHeightOutOfReachForFootholdsThatTheOptimiserChooses) {
   problem.phases[2].name = "landed";
   problem.boundary_conditions[1].at = PhaseFraction::end_of(2);
   EXPECT_THAT(contacts_out_of_reach(problem),
-              testing::ElementsAre(AllOf(HasSubstr("phase 'landed'"), HasSubstr("however the base is turned"))));
+              testing::ElementsAre(AllOf(HasSubstr("phase 'landed'"), HasSubstr("for any base orientation"))));
   problem.boundary_conditions[1].at = PhaseFraction{1, 0.5};
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "in the air it may be anywhere";
   problem.boundary_conditions[1].at = PhaseFraction::end_of(2);

@@ -112,7 +112,7 @@ TEST_F(VisualMeshFile, LeavesAMeshAloneThatIsSmallEnough) {
 }
 
 TEST_F(VisualMeshFile, RefusesWhatIsNoMesh) {
-  EXPECT_THAT(refusal("part.txt", "v 0 0 0"), HasSubstr("part.txt: this kind of mesh is not read"));
+  EXPECT_THAT(refusal("part.txt", "v 0 0 0"), HasSubstr("part.txt: this kind of mesh is not supported"));
   EXPECT_THAT(refusal("part.dae", "<COLLADA"), HasSubstr("part.dae: Assimp cannot read it"));
   EXPECT_THAT(refusal("part.obj", "v 0 0 0\n"), HasSubstr("part.obj: "));
   EXPECT_THAT(refusal("part.stl",

@@ -62,7 +62,7 @@ TEST(RobotInspection, SingularValuesAreThoseOfAllContactsTogether) {
 
 TEST(RobotInspection, NamesWhatIsKnownToBeOddInTheTestRobots) {
   EXPECT_THAT(texts(inspect(test::hyq()), Kind::inertia),
-              testing::UnorderedElementsAre(HasSubstr("next to no mass: base_link 1e-06 kg, lf_foot"),
+              testing::UnorderedElementsAre(HasSubstr("almost no mass: base_link 1e-06 kg, lf_foot"),
                                             HasSubstr("link 'trunk_imu': the principal moments")));
 
   RobotDescription anymal = test::anymal_c_description();
@@ -105,7 +105,7 @@ TEST(RobotInspection, WarnsOfOneWrongNumberInTheUrdf) {
                                     "<link name=\"left_foot\"><inertial><mass value=\"1e-6\"/><inertia ixx=\"1e-9\" "
                                     "ixy=\"0\" ixz=\"0\" iyy=\"1e-9\" iyz=\"0\" izz=\"1e-9\"/></inertial></link>"),
                     Kind::inertia),
-              ElementsAre(HasSubstr("next to no mass: left_foot 1e-06 kg")));
+              ElementsAre(HasSubstr("almost no mass: left_foot 1e-06 kg")));
 }
 
 TEST(RobotInspection, WarnsOfALongerLegTwice) {

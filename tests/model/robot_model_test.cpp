@@ -150,7 +150,7 @@ TEST(RobotModel, ContactsAreOnFramesOfTheRobot) {
   for (const char* frame : {"universe", "root_joint", "lf_hfe_joint"}) {
     RobotDescription description = test::hyq_description();
     description.contacts[0].frame = frame;
-    EXPECT_THAT(message_for(description), HasSubstr(std::string("frame '") + frame + "' is no link or fixed joint"));
+    EXPECT_THAT(message_for(description), HasSubstr(std::string("frame '") + frame + "' is not a link or fixed joint"));
   }
 }
 
@@ -177,24 +177,24 @@ TEST(RobotModel, CopiesAreEqualAndIndependent) {
 TEST(RobotModel, WrongNamesAreAnsweredWithTheNearestRightOne) {
   RobotDescription robot = test::hyq_description();
   robot.contacts[0].frame = "lf_fot";
-  EXPECT_THAT(message_for(robot), HasSubstr("contact 'lf_foot': frame 'lf_fot' is no link"));
+  EXPECT_THAT(message_for(robot), HasSubstr("contact 'lf_foot': frame 'lf_fot' is not a link"));
   EXPECT_THAT(message_for(robot), HasSubstr("did you mean 'lf_foot'?"));
 
   robot = test::hyq_description();
   robot.nominal_joints["lf_hfe"] = 0.1;
-  EXPECT_THAT(message_for(robot), HasSubstr("nominal.joints: 'lf_hfe' is no joint"));
+  EXPECT_THAT(message_for(robot), HasSubstr("nominal.joints: 'lf_hfe' is not a joint"));
   EXPECT_THAT(message_for(robot), HasSubstr("did you mean 'lf_hfe_joint'?"));
 
   robot = test::hyq_description();
   robot.limits["rh_kfe_jiont"].torque = 100.0;
-  EXPECT_THAT(message_for(robot), HasSubstr("limits: 'rh_kfe_jiont' is no joint"));
+  EXPECT_THAT(message_for(robot), HasSubstr("limits: 'rh_kfe_jiont' is not a joint"));
   EXPECT_THAT(message_for(robot), HasSubstr("did you mean 'rh_kfe_joint'?"));
 
   try {
     test::hyq().contact_index("lf_hand");
     FAIL() << "accepted";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("'lf_hand' is no contact of robot 'HyQ'; did you mean 'lf_foot'?"));
+    EXPECT_THAT(error.what(), HasSubstr("'lf_hand' is not a contact of robot 'HyQ'; did you mean 'lf_foot'?"));
   }
   EXPECT_EQ(test::hyq().contact_index("rf_foot"), 2);
 }

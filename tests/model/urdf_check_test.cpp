@@ -64,7 +64,7 @@ TEST(UrdfCheck, RefusesEntities) {
 TEST(UrdfCheck, RefusesPinocchiosNameOfTheWorld) {
   std::string urdf = small_urdf();
   for (int i = 0; i < 3; ++i) urdf = replaced(urdf, "\"base\"", "\"universe\"");
-  EXPECT_THAT(message_for(urdf), testing::HasSubstr("robot.urdf:3: link 'universe': this name is Pinocchio's"));
+  EXPECT_THAT(message_for(urdf), testing::HasSubstr("robot.urdf:3: link 'universe': Pinocchio uses this name"));
 }
 
 TEST(UrdfCheck, CutsWhatItQuotes) {
@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"same_link",
                "link name=\"right_foot\"",
                "link name=\"left_foot\"",
-               {"link 'left_foot'", "already in line", "unique"}},
+               {"link 'left_foot'", "already used in line", "unique"}},
         Damage{"same_joint", "joint name=\"right_hip\"", "joint name=\"left_hip\"", {"joint 'left_hip'", "unique"}},
         Damage{"not_closed", "</robot>", "", {"not an XML file"}},
         Damage{"sdf", "<robot name=\"small\">", "<sdf version=\"1.6\"/><robot name=\"small\">", {"not a URDF"}},
@@ -182,8 +182,8 @@ TEST(UrdfCheck, RefusesWhatIsNoXml) {
 }
 
 TEST(UrdfCheck, RefusesXmlWithoutAnElement) {
-  EXPECT_THAT(message_for("<!-- to do -->\n"), testing::HasSubstr("robot.urdf:1: no element in it"));
-  EXPECT_THAT(message_for("<?xml version=\"1.0\"?>\n"), testing::HasSubstr("no element in it"));
+  EXPECT_THAT(message_for("<!-- to do -->\n"), testing::HasSubstr("robot.urdf:1: no XML element"));
+  EXPECT_THAT(message_for("<?xml version=\"1.0\"?>\n"), testing::HasSubstr("no XML element"));
 }
 
 TEST(UrdfCheck, RefusesNamesThatBreakFilesAndMessages) {

@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "phases[0].contacts[1].contact: 4 is not allowed; need 0 to 3"},
         Mistake{"surface", [](P& p) { p.phases[0].contacts[1].surface = -1; },
                 "phases[0].contacts[1].surface: -1 is not allowed; need 0 to 0"},
-        Mistake{"twice", [](P& p) { p.phases[0].contacts[1].contact = 0; }, "'lf_foot' is there twice"}),
+        Mistake{"twice", [](P& p) { p.phases[0].contacts[1].contact = 0; }, "'lf_foot' is listed twice"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -121,13 +121,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"quaternion", [](P& p) { p.boundary_conditions[1].q_ref.segment<4>(3) *= 1.1; },
                 "boundary_conditions[1].q_ref: base quaternion of length 1.1"},
         Mistake{"goal_joint", [](P& p) { p.boundary_conditions[1].configuration_lower(8) = 2.0; },
-                "boundary_conditions[1].configuration: 0.5 to inf for joint 'lf_kfe_joint' is out of its limits"},
+                "boundary_conditions[1].configuration: 0.5 to inf for joint 'lf_kfe_joint' is outside its limits"},
         Mistake{"goal_velocity", [](P& p) { p.boundary_conditions[1].velocity_upper(6) = -20.0; },
                 "boundary_conditions[1].velocity: -inf to -20 for joint 'lf_haa_joint'"},
-        Mistake{
-            "goal_torque", [](P& p) { p.boundary_conditions[1].torque_lower(0) = 151.0; },
-            "boundary_conditions[1].torque: 151 to inf for joint 'lf_haa_joint' is out of its limits; need something "
-            "in -150 to 150"}),
+        Mistake{"goal_torque", [](P& p) { p.boundary_conditions[1].torque_lower(0) = 151.0; },
+                "boundary_conditions[1].torque: 151 to inf for joint 'lf_haa_joint' is outside its limits; need some "
+                "part of -150 to 150"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -140,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"free_velocity", [](P& p) { p.boundary_conditions[0].velocity_upper(0) = 0.1; },
                 "boundary_conditions[0].velocity: the start must be fixed"},
         Mistake{"joint_limit", [](P& p) { p.boundary_conditions[0].q_ref(9) = 0.0; },
-                "boundary_conditions[0].configuration: 0 to 0 for joint 'lf_kfe_joint' is out of its limits"},
+                "boundary_conditions[0].configuration: 0 to 0 for joint 'lf_kfe_joint' is outside its limits"},
         Mistake{"above", [](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0015; },
                 "contact 'lf_foot' of the first phase is 1.5 mm above surface 'floor'; need at most 1 mm"},
         Mistake{"inside", [](P& p) { p.boundary_conditions[0].q_ref(2) -= 0.0015; }, "1.5 mm inside surface 'floor'"},
@@ -167,16 +166,17 @@ INSTANTIATE_TEST_SUITE_P(
                 "surfaces[0].patch: a patch of 2 corners is not allowed; need 3 or more"},
         Mistake{"place", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.02); },
                 "phases[0].contacts[1].place: 20.0 mm above surface 'floor' is not allowed"},
-        Mistake{"place_at_the_start", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.0); },
-                "phases[0].contacts[1].place: contact 'lh_foot' does not land in this phase, it starts where the start "
-                "posture has it"},
+        Mistake{
+            "place_at_the_start", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.0); },
+            "phases[0].contacts[1].place: contact 'lh_foot' does not land in this phase: it starts at its position in "
+            "the start posture"},
         Mistake{"place_held",
                 [](P& p) {
                   p.phases.push_back(p.phases[0]);
                   p.phases[1].contacts[2].place = Eigen::Vector3d(0.3, 0.3, 0.0);
                 },
-                "phases[1].contacts[2].place: contact 'rf_foot' does not land in this phase, it holds from the phase "
-                "before"},
+                "phases[1].contacts[2].place: contact 'rf_foot' does not land in this phase: it already stands in "
+                "the phase before"},
         Mistake{"slides",
                 [](P& p) {
                   p.surfaces.push_back(Surface{.name = "step", .point = {0.0, 0.0, 0.1}});
@@ -192,7 +192,7 @@ INSTANTIATE_TEST_SUITE_P(
                   p.boundary_conditions[2].at =
                       PhaseFraction::start_of(1);  // the other side of the switch: the same time
                 },
-                "boundary_conditions[2].configuration: it binds the base's rotation at the time at which"},
+                "boundary_conditions[2].configuration: it binds the base's rotation at the same time as"},
         Mistake{"terminal", [](P& p) { p.terminal_cost.force_weight.setOnes(); },
                 "terminal_cost.force_weight: has no meaning in a terminal cost"},
         Mistake{"size", [](P& p) { p.terminal_cost.torque_weight.setZero(11); },

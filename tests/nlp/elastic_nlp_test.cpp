@@ -77,10 +77,10 @@ TEST(ElasticNlp, TellsWhatGivesWayWithItsSign) {
 TEST(ElasticNlp, NamesRowsAndSlacks) {
   const Soft soft;
   EXPECT_EQ(soft.elastic->describe_constraint(1), "constraint 1");
-  EXPECT_EQ(soft.elastic->describe_constraint(2), "variable 2, bounds that give way");
-  EXPECT_EQ(soft.elastic->describe_variable(4), "constraint 1, given way below");
-  EXPECT_EQ(soft.elastic->describe_variable(5), "constraint 1, given way above");
-  EXPECT_EQ(soft.elastic->describe_variable(6), "variable 2, bounds that give way, given way above");
+  EXPECT_EQ(soft.elastic->describe_constraint(2), "variable 2, soft bounds");
+  EXPECT_EQ(soft.elastic->describe_variable(4), "constraint 1, violated below");
+  EXPECT_EQ(soft.elastic->describe_variable(5), "constraint 1, violated above");
+  EXPECT_EQ(soft.elastic->describe_variable(6), "variable 2, soft bounds, violated above");
 }
 
 }  // namespace

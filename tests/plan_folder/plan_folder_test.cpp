@@ -203,7 +203,7 @@ TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   folder_.write("out/plan.json", "{\n  torn");
   EXPECT_EQ(message(), "out/plan.json:2:4: not JSON from here on: the file is cut short or was edited");
   EXPECT_EQ(test::message_of(folder_.path(), [&] { read_plan(out_ / "plan.json", test::test_search()); }),
-            "out/plan.json: a file; need the folder that prowl plan wrote");
+            "out/plan.json: this is a file; need the folder that prowl plan wrote");
 }
 
 TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
@@ -242,8 +242,8 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   write_version(0, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 0 is no longer read; need 1 to 3: plan again with prowl plan, task_file in "
-      "it has the task");
+      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 3: plan again with prowl plan; its "
+      "task_file contains the task");
   write_version(3, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
 }
@@ -335,8 +335,8 @@ TEST_F(PlanDirectory, KeepsTheUrdf) {
   EXPECT_EQ(read_plan(out_, {}).task.problem.robot.name(), "HyQ");
   folder_.write("hyq.urdf", test::read_file(urdf) + " ");
   EXPECT_EQ(message(),
-            "out/plan.json: hyq.urdf has changed since the plan was made; need the URDF as it was, or none "
-            "there: then the copy in plan.json is used");
+            "out/plan.json: hyq.urdf has changed since the plan was made; need the old URDF, or no file "
+            "there: Prowl then uses the copy in plan.json");
   std::filesystem::remove(urdf);
   EXPECT_EQ(read_plan(out_, {}).task.problem.robot.mass(), record_.task.problem.robot.mass());
 }
@@ -366,7 +366,7 @@ TEST_F(PlanDirectory, RefusesATrajectoryThatDoesNotFit) {
   EXPECT_THAT(message_with(test::replaced(csv, "\n0.4,0,", "\n0.4,1e300,")),
               HasSubstr("trajectory.csv:3: phase: 1e+300 is"));
   EXPECT_EQ(message_with(csv.substr(0, csv.size() - 1)),
-            "out/trajectory.csv: the last line has no end; the file is cut short");
+            "out/trajectory.csv: the last line has no line end; the file is cut short");
   EXPECT_EQ(message_with(with_cell(csv, 9, 73, "1")),
             "out/trajectory.csv:9: contact_rf_foot: 1 is not allowed; need 0, as in the task");
   EXPECT_EQ(message_with(with_cell(csv, 9, 69, "0.5")),

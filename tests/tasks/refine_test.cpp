@@ -124,7 +124,7 @@ TEST(Refine, TellsWhatItDidNotReach) {
   EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
   EXPECT_EQ(refined.plan.mesh.num_intervals(), refined.plan.levels.back().intervals);
   ASSERT_EQ(refined.plan.hints.size(), 1u);
-  EXPECT_THAT(refined.plan.hints[0], HasSubstr("mesh refinement stopped, 2 meshes: "));
+  EXPECT_THAT(refined.plan.hints[0], HasSubstr("mesh refinement stopped, after 2 meshes: "));
 }
 
 /// What there is stays, and an interrupt is known as one.

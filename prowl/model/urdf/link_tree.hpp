@@ -9,10 +9,10 @@
 
 namespace prowl {
 
-/// A link of the URDF: those that fixed joints hold together are one body of BodyTree, but each is a frame of its own.
+/// A link of the URDF. Links joined by fixed joints are one body of BodyTree, but each has its own frame.
 struct RobotLink {
   std::string name;
-  int parent = -1;                                              ///< index of the link that it hangs on; -1 for the root
+  int parent = -1;                                              ///< index of its parent link; -1 for the root
   bool fixed = false;                                           ///< to its parent; the root is not
   int body = 0;                                                 ///< index into BodyTree::bodies
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< in the body

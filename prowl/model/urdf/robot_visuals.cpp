@@ -60,7 +60,7 @@ std::optional<Eigen::Vector3d> colour_of(const urdf::Visual& visual) {
   if (!visual.material) return std::nullopt;
   const urdf::Color& colour = visual.material->color;
   const Eigen::Vector3d rgb(colour.r, colour.g, colour.b);
-  // urdfdom leaves a material that has a texture and no colour at zero, also its opacity.
+  // urdfdom sets colour and opacity of a material with a texture only to zero.
   if (!rgb.allFinite() || (rgb.isZero() && !(colour.a > 0.0f))) return std::nullopt;
   return rgb.cwiseMax(0.0).cwiseMin(1.0);
 }

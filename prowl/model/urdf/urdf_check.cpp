@@ -116,12 +116,12 @@ void check_tree(const Place& place, const XMLElement& root, const std::vector<st
     if (!parents.contains(link)) roots.push_back(link);
     const std::string* ancestor = &link;
     for (std::size_t steps = 0; parents.contains(*ancestor); ++steps) {
-      if (steps > links.size()) place.refuse(root, fmt::format("the joints make a loop at link '{}'", *ancestor));
+      if (steps > links.size()) place.refuse(root, fmt::format("the joints form a loop at link '{}'", *ancestor));
       ancestor = &parents.at(*ancestor);
     }
   }
   if (roots.size() != 1) {
-    place.refuse(root, fmt::format("{} links are no child of a joint ({}); expected exactly one, the base",
+    place.refuse(root, fmt::format("{} links are not the child of a joint ({}); expected exactly one, the base",
                                    roots.size(), shown(fmt::format("{}", fmt::join(roots, ", ")))));
   }
 }
@@ -133,21 +133,21 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
                                  tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())));
   }
   if (document.RootElement() == nullptr) {
-    throw InputError(fmt::format("{}:1: no element in it; expected a URDF, <robot name=\"...\">", file));
+    throw InputError(fmt::format("{}:1: no XML element; expected a URDF, <robot name=\"...\">", file));
   }
   const XMLElement& root = *document.RootElement();
   const Place place{file, fmt::format("<{}>", shown(root.Name()))};
   if (std::string(root.Name()) != "robot") place.refuse(root, "not a URDF; expected <robot name=\"...\">");
   urdf_text(place, root, "name");
   for (const tinyxml2::XMLNode* n = document.FirstChild(); n != nullptr; n = n->NextSibling()) {
-    // Nobody here expands entities, so that a text with one would not be what its author means.
+    // Prowl does not expand entities: a text with one would be wrong.
     if (n->ToUnknown() == nullptr || std::string_view(n->Value()).find("<!ENTITY") == std::string_view::npos) continue;
-    throw InputError(fmt::format("{}:{}: entities (<!ENTITY ...>) are not allowed; write out what they stand for", file,
-                                 n->GetLineNum()));
+    throw InputError(
+        fmt::format("{}:{}: entities (<!ENTITY ...>) are not allowed; write out their text", file, n->GetLineNum()));
   }
   for (const XMLElement* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
     if (std::string(e->Name()).starts_with("xacro:")) {
-      place.refuse(*e, "a xacro file; expected the URDF that it expands to: xacro FILE > robot.urdf");
+      place.refuse(*e, "this is a xacro file; expected its URDF: xacro FILE > robot.urdf");
     }
   }
   return root;
@@ -156,7 +156,7 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
 }  // namespace
 
 std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml) {
-  console_bridge::noOutputHandler();  // urdfdom's, on stderr: of what is wrong this check tells
+  console_bridge::noOutputHandler();  // silences urdfdom on stderr: this check reports mistakes
   tinyxml2::XMLDocument document;
   const XMLElement& root = root_of(file, xml, document);
   const Place robot{file, fmt::format("robot '{}'", shown(root.Attribute("name")))};
@@ -171,14 +171,14 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
       if (!is_name(name)) robot.refuse(*e, fmt::format("this name of a {} is not allowed; need {}", kind, kNameRule));
       const Place place{file, fmt::format("{} '{}'", kind, name)};
       if (const auto [first, is_new] = line_of.emplace(name, e->GetLineNum()); !is_new) {
-        place.refuse(*e, fmt::format("the name is used already in line {}; expected unique names", first->second));
+        place.refuse(*e, fmt::format("the name is already used in line {}; expected unique names", first->second));
       }
       check(place, *e, name);
     }
   };
   visit("link", [&](const Place& place, const XMLElement& link, const std::string& name) {
     if (links.size() == kMaxLinks) place.refuse(link, fmt::format("more than {} links are not allowed", kMaxLinks));
-    if (name == "universe") place.refuse(link, "this name is Pinocchio's for the world; expected another");
+    if (name == "universe") place.refuse(link, "Pinocchio uses this name for the world; expected another");
     check_link(place, link, name, result);
     links.push_back(name);
   });
@@ -189,8 +189,8 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
     check_joint(place, joint, links, parents);
     if (urdf_text(place, joint, "type") == "fixed") return;
     if (++moving > kMaxMovingJoints) {
-      place.refuse(joint, fmt::format("more than {} moving joints are not allowed; make those fixed that the motion "
-                                      "does not need",
+      place.refuse(joint, fmt::format("more than {} moving joints are not allowed; fix those that the motion does "
+                                      "not need",
                                       kMaxMovingJoints));
     }
   });

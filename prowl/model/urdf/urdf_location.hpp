@@ -1,6 +1,6 @@
 #pragma once
 
-// Internal to model: numbers of a URDF, read strictly. Includes tinyxml2: keep to .cpp files.
+// Internal to model: strict reading of numbers in a URDF. Shows tinyxml2: include it only in .cpp files.
 #include <tinyxml2.h>
 
 #include <limits>
@@ -17,7 +17,7 @@ struct UrdfPlace {
   [[noreturn]] void refuse(const tinyxml2::XMLElement& at, const std::string& problem) const;
 };
 
-constexpr double kLargestInUrdf = 1e9;  ///< of any length, mass, inertia [SI]: their products then stay finite
+constexpr double kLargestInUrdf = 1e9;  ///< of any length, mass, inertia [SI]; their products stay finite
 
 /// The required attribute `name` of `at` as text, not empty.
 std::string urdf_text(const UrdfPlace& place, const tinyxml2::XMLElement& at, const char* name);
@@ -26,11 +26,11 @@ std::string urdf_text(const UrdfPlace& place, const tinyxml2::XMLElement& at, co
 double urdf_number(const UrdfPlace& place, const tinyxml2::XMLElement& at, const char* name,
                    double largest = kLargestInUrdf);
 
-/// Refuses an attribute `name` of the element that is not `size` finite numbers, 3 or 4; it may be missing, as may the
-/// element (nullptr). Returns their largest absolute value.
+/// Refuses an attribute `name` of the element that is not `size` (3 or 4) finite numbers. Attribute and element
+/// (nullptr) may be missing. Returns the largest absolute value.
 double check_urdf_vector(const UrdfPlace& place, const tinyxml2::XMLElement* at, const char* name, int size = 3);
 
-/// The <origin> of `parent`, which may be missing.
+/// Checks the <origin> of `parent`, which may be missing.
 void check_urdf_origin(const UrdfPlace& place, const tinyxml2::XMLElement& parent);
 
 }  // namespace prowl

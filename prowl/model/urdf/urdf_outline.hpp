@@ -5,9 +5,9 @@
 
 namespace prowl {
 
-/// What a URDF says of its moving joints, before a RobotModel judges it.
+/// Moving joints of a URDF, before RobotModel checks them.
 struct UrdfOutline {
-  /// As written; 0 for what is left out.
+  /// As written; missing numbers are 0.
   struct Limits {
     std::string joint;
     bool prismatic = false;
@@ -21,8 +21,7 @@ struct UrdfOutline {
   std::vector<Limits> joints;
 };
 
-/// Throws InputError as check_urdf (prowl/model/urdf/urdf_check.hpp) does; `file` is for its messages, `xml` what is in
-/// it.
+/// Throws InputError as check_urdf (prowl/model/urdf/urdf_check.hpp) does; `xml` is the content of `file`.
 UrdfOutline urdf_outline(const std::string& file, const std::string& xml);
 
 }  // namespace prowl

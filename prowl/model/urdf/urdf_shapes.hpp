@@ -5,9 +5,8 @@
 
 namespace prowl {
 
-/// Refuses shapes (<visual>, <collision>) of a link whose numbers are not finite, or sizes negative: urdfdom would take
-/// some of them and leave others out. A shape of a kind that it does not know, or of none, is left out; meshes are not
-/// looked for.
+/// Refuses shapes (<visual>, <collision>) of a link with numbers that are not finite or negative sizes: urdfdom would
+/// accept some of them and drop others. Ignores shapes of an unknown kind or none; does not look for mesh files.
 void check_shapes(const UrdfPlace& place, const tinyxml2::XMLElement& link);
 
 }  // namespace prowl
