@@ -132,7 +132,7 @@ std::vector<Finding> check_build() {
     if (const auto reason = name == "MuJoCo" ? why_no_mujoco() : std::nullopt) {
       findings.back().state = State::missing;
       findings.back().text += ": " + *reason;
-      findings.back().remedy = "prowl simulate --engine rollout does without";
+      findings.back().remedy = "prowl simulate --engine rollout does not need it";
     }
   }
   const std::string kernels = FatropSolver::linear_algebra();
