@@ -47,7 +47,7 @@ class Meshes {
     parts_[uri] = read_visual_mesh(resolve_uri(uri, urdf_, {}, search_));
   }
 
-  /// All meshes as JSON; parts() then returns their indices.
+  /// All meshes as JSON; sets the mesh indices of each URI.
   Json take() {
     double triangles = 0.0;
     for (const auto& [uri, parts] : parts_) {
