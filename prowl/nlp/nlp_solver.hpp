@@ -14,7 +14,7 @@ namespace prowl {
 /// Why the solver stopped. Whether the result is any good is another question: the certificate's.
 enum class SolveStatus {
   converged,
-  infeasible,  ///< converged to a point of locally least violation
+  infeasible,  ///< converged to a local minimum of the constraint violation
   iteration_limit,
   time_limit,
   interrupted,

@@ -10,7 +10,7 @@ namespace prowl {
 
 const std::vector<std::string>& solver_names();  ///< the first is the default
 
-/// Throws InputError that lists the names for any other.
+/// Throws InputError with the list of names for any other name.
 std::unique_ptr<NlpSolver> make_solver(const std::string& name);
 
 }  // namespace prowl
