@@ -16,7 +16,7 @@ constexpr std::size_t kSoleJoints = 5;  // a leg with fewer cannot keep a sole l
 constexpr double kSnap = 0.35;          // [rad]: largest tilt of an axis taken for down
 constexpr double kSameHeight = 5e-3;    // [m]: spheres that touch the ground together
 constexpr double kLargestBall = 0.25;   // of the leg's length; wheels are the largest
-constexpr double kToe = 0.02;           // [m]: the toe is the end that is longer by this, else the front one
+constexpr double kToe = 0.02;           // [m]: the toe is the end longer by this, else the front
 constexpr double kRounding = 1e-5;      // [m]
 
 double rounded(double x) { return kRounding * std::round(x / kRounding) + 0.0; }

@@ -13,8 +13,8 @@ namespace prowl {
 namespace {
 
 constexpr double kSweep = 0.01;           // [rad]
-constexpr double kHipApart = 0.1;         // of the leg: hip joints closer than this meet in a point
-constexpr double kToe = 0.02;             // [m]: the toe is the end that is longer by this
+constexpr double kHipApart = 0.1;         // of the leg: joints closer to the knee are at the knee
+constexpr double kToe = 0.02;             // [m]: by how much the toe is the longer end of a foot
 constexpr double kFitted = 1e-4;          // [m]
 constexpr double kRounding = 1e-4;        // [rad]
 constexpr std::size_t kSoleContacts = 3;  // feet with this many contacts keep a level orientation
@@ -120,7 +120,7 @@ class PostureSearch {
     return hip;
   }
 
-  /// Point above the foot in the neutral pose: x of the hip, y of the foot.
+  /// Hip in the neutral pose, moved along the knee axis to the side of the foot.
   Eigen::Vector3d hip_of(std::size_t leg) const {
     const Eigen::Vector3d hip = pose_.joint(hip_joint(leg, knees_[leg].joint));
     const Eigen::Vector3d axis = knee_axis(leg);
