@@ -26,9 +26,9 @@ class TrackerError : public std::runtime_error {
 ///   nv...  v* - v              base twist, each in its own base frame [m/s, rad/s]; joint rates
 ///
 /// Reference and gains are interpolated linearly on the grid of the plan (2 ms by default),
-/// orientations along the shortest rotation. At a contact switch the later phase counts. Before the
-/// start the first sample holds, after the end (or at NaN) the last: the robot keeps standing with
-/// the last gains.
+/// orientations along the shortest rotation. At a phase transition the later phase counts. Before
+/// the start the first sample holds, after the end (or at NaN) the last: the robot keeps standing
+/// with the last gains.
 ///
 /// Immutable, so thread-safe. Only the constructor and read() allocate or throw.
 class Tracker {

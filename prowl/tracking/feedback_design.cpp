@@ -181,8 +181,8 @@ class BackwardPass {
     return MatrixXd::Identity(n, n);
   }
 
-  /// S before the contact switch to the later phase, whose first sample is current; returns the
-  /// effect of the switch on deviations.
+  /// S before the transition to the later phase, whose first sample is current; returns the effect
+  /// of the transition on deviations.
   MatrixXd land(Reduced before) {
     const MatrixXd landed = landing_ * before.Z;
     const MatrixXd jump = now_.Z.transpose() * weight_.asDiagonal() * landed;
