@@ -57,7 +57,7 @@ int run_sweep(const SweepArguments& arguments) {
   }
   print_progress(fmt::format("{} simulation{} of {:.1f} s of motion{}\n", arguments.cases,
                              arguments.cases == 1 ? "" : "s", tracker.end() + plan.task.success.rest,
-                             arguments.breakdown_cases > 0 ? ", then those with a single perturbation" : ""));
+                             arguments.breakdown_cases > 0 ? ", then those of one perturbation alone" : ""));
   record.cases = with_bar("simulations", interrupted, [&](const SweepProgress& on_done) {
     return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
   });
@@ -65,7 +65,7 @@ int run_sweep(const SweepArguments& arguments) {
     SimulationOptions alone = arguments.options;
     alone.physics.friction = plan.task.simulated_friction;
     record.breakdowns =
-        with_bar("simulations with a single perturbation", interrupted, [&](const SweepProgress& on_done) {
+        with_bar("simulations of one perturbation alone", interrupted, [&](const SweepProgress& on_done) {
           return find_breakdowns(problem, tracker, plan.task.success, alone, arguments.seed, arguments.breakdown_cases,
                                  on_done, &interrupted);
         });
