@@ -265,11 +265,11 @@ void add_fish_lines(const Verb& verb, std::string& text) {
 
 std::string fish(const Verb& command) {
   std::string text = R"(# Completion of prowl for fish: prowl completion fish | source
-function __prowl_at  # whether these words are all that stands behind the command
+function __prowl_at  # true if the words after the command are exactly these
   set -l words (commandline -opc)
   test "$words[2..-1]" = "$argv"
 end
-function __prowl_in  # whether what stands behind the command begins with these words
+function __prowl_in  # true if the words after the command begin with these
   set -l words (commandline -opc)
   string match -q -- "$argv *" "$words[2..-1] "
 end
