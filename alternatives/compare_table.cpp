@@ -12,17 +12,17 @@
 namespace prowl {
 namespace {
 
-/// Nothing, a name, a count or a quantity.
+/// Empty, a name, a count or a quantity.
 using Cell = std::variant<std::monostate, std::string, int, double>;
 using Value = std::function<Cell(const CompareRecord&, const ComparedRun&)>;
 
 struct Column {
   enum class Kind { choice, figure };
   std::string key;      ///< in CSV and JSON, with its SI unit
-  std::string heading;  ///< in Markdown, with its unit; "" if it is not there
+  std::string heading;  ///< in Markdown, with its unit; "": not in Markdown
   Value value;
   std::string format = "{:.3g}";  ///< of a quantity in Markdown
-  double scale = 1.0;             ///< units of the heading in one of the key
+  double scale = 1.0;             ///< converts the unit of the key to that of the heading
   Kind kind = Kind::figure;
 };
 
@@ -87,22 +87,22 @@ std::vector<Column> choices() {
   return columns;
 }
 
-/// Sizes of the program and what its solver needed.
+/// Sizes of the program and effort of the solver.
 std::vector<Column> effort() {
   using Run = FormulationRun;
   return {
       {"variables", "variables", of_run([](const Run& run) -> Cell { return run.num_variables; })},
-      {"variables_per_node", "a node", of_run([](const Run& run) -> Cell { return run.variables_per_node(); }),
+      {"variables_per_node", "per node", of_run([](const Run& run) -> Cell { return run.variables_per_node(); }),
        "{:.1f}"},
       {"constraints", "constraints", of_run([](const Run& run) -> Cell { return run.num_constraints; })},
-      {"constraints_per_node", "a node", of_run([](const Run& run) -> Cell { return run.constraints_per_node(); }),
+      {"constraints_per_node", "per node", of_run([](const Run& run) -> Cell { return run.constraints_per_node(); }),
        "{:.1f}"},
       {"jacobian_nonzeros", "Jacobian non-zeros", of_run([](const Run& run) -> Cell { return run.jacobian_nonzeros; })},
       {"hessian_nonzeros", "Hessian non-zeros", of_run([](const Run& run) -> Cell { return run.hessian_nonzeros; })},
       {"status", "status", status},
       {"iterations", "iterations", of_run(iterations)},
       {"seconds", "time [s]", of_run([](const Run& run) -> Cell { return run.result.seconds; })},
-      {"seconds_per_iteration", "an iteration [ms]", of_run(seconds_per_iteration), "{:.3g}", 1e3},
+      {"seconds_per_iteration", "per iteration [ms]", of_run(seconds_per_iteration), "{:.3g}", 1e3},
       {"cpu_seconds", "CPU [s]", of_run([](const Run& run) -> Cell { return run.result.times.cpu; })},
       {"evaluation_seconds", "evaluation [s]",
        of_run([](const Run& run) -> Cell { return run.result.times.evaluation(); })},
@@ -110,7 +110,7 @@ std::vector<Column> effort() {
   };
 }
 
-/// What the motion is worth.
+/// Quality of the motion.
 std::vector<Column> outcome() {
   using Run = FormulationRun;
   using Check = CertificateCheck;
@@ -132,10 +132,11 @@ std::vector<Column> outcome() {
        "{:.2g}", 1e3},
       {"node_contact_acceleration_m_s2", "d(J v)/dt [mm/s²]",
        of_run([](const Run& run) -> Cell { return run.contacts.acceleration; }), "{:.2g}", 1e3},
-      {"task_cost", "task's cost", of_run([](const Run& run) -> Cell { return run.inverse_dynamics.cost; }), "{:.7g}"},
+      {"task_cost", "cost of the task", of_run([](const Run& run) -> Cell { return run.inverse_dynamics.cost; }),
+       "{:.7g}"},
       {"inverse_dynamics_torque_share", "torque [of limit]",
        of_run([](const Run& run) -> Cell { return run.inverse_dynamics.worst_torque; })},
-      {"base_force_share_of_weight", "left on the base [weight]",
+      {"base_force_share_of_weight", "residual on the base [weight]",
        of_run([](const Run& run) -> Cell { return run.inverse_dynamics.worst_base_force; }), "{:.2g}"},
       {"note", "note", note},
   };
@@ -151,7 +152,7 @@ const std::vector<Column>& columns() {
   return all;
 }
 
-/// In quotes where it has to be (RFC 4180).
+/// Quoted if necessary (RFC 4180).
 std::string csv_text(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted;
@@ -159,7 +160,7 @@ std::string csv_text(const std::string& text) {
   return '"' + quoted + '"';
 }
 
-/// One line, in which nothing means anything to Markdown or HTML.
+/// One line, with Markdown and HTML escaped.
 std::string markdown_text(const std::string& text) {
   std::string escaped;
   for (const char c : text) {
@@ -211,7 +212,7 @@ bool is_the_same_in_all(const CompareRecord& record, const Column& column) {
   });
 }
 
-/// Characters of UTF-8, not bytes.
+/// Number of UTF-8 characters.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(text, [](unsigned char c) { return (c & 0xC0) != 0x80; }));
 }
@@ -221,13 +222,13 @@ std::string padded(const std::string& text, std::size_t columns, bool to_the_lef
   return to_the_left ? text + space : space + text;
 }
 
-/// Whether the column is in the Markdown: what is the same in all lines stands above.
+/// True if the column is in the Markdown table; choices common to all lines are listed above it.
 bool is_shown(const CompareRecord& record, const Column& column) {
   if (column.heading.empty() || is_empty(record, column)) return false;
   return column.kind != Column::Kind::choice || !is_the_same_in_all(record, column);
 }
 
-/// One column of the table with its heading and the line below it, all of one width but for notes, which may be long.
+/// One column with heading and rule, padded to equal width, except for notes, which may be long.
 std::vector<std::string> markdown_column(const CompareRecord& record, const Column& column) {
   std::vector<std::string> cells = {column.heading};
   for (const ComparedRun& line : record.runs)

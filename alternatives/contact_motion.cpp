@@ -8,7 +8,7 @@ namespace prowl {
 
 ContactMotion contact_motion(const MotionProblem& problem, const Trajectory& motion) {
   RigidBodyTerms terms(problem.robot);
-  std::vector<ContactKinematics> held;  // of each phase
+  std::vector<ContactKinematics> held;  // per phase
   for (const Phase& phase : problem.phases) held.emplace_back(contact_indices(phase.contacts));
   ContactMotion worst;
   for (const TrajectoryPoint& node : motion.nodes) {

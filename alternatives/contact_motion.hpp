@@ -5,15 +5,15 @@
 
 namespace prowl {
 
-/// How far a motion is from keeping its contacts still, by its own q, v and a: worst contact that is held, worst node.
-/// What the contact rows of a program ask for, whether it has them or not. The certificate looks at v between the nodes
-/// too, and at the accelerations that the torques cause in place of the planned ones.
+/// Largest motion of contacts in stance over all nodes, from the planned q, v and a: the quantities
+/// of contact rows, even if a program lacks them. In contrast, the certificate also checks v
+/// between the nodes, and uses accelerations caused by the torques.
 struct ContactMotion {
   double velocity = 0.0;      ///< |J v| [m/s]
   double acceleration = 0.0;  ///< |J a + J̇ v| [m/s²]
 };
 
-/// The nodes of the motion have to fit the phases of the problem.
+/// The nodes of the motion must match the phases of the problem.
 ContactMotion contact_motion(const MotionProblem& problem, const Trajectory& motion);
 
 }  // namespace prowl

@@ -25,7 +25,7 @@ using MakeChart = std::unique_ptr<BaseChart> (*)(const Eigen::Matrix3d& start);
 
 MakeProgram collocation_with(std::unique_ptr<DynamicsForm> (*make_dynamics)());
 
-// All there is, the default first. Contact forms are rows of data: contact_forms().
+// All choices, the default first. Contact forms: contact_forms().
 const Table<MakeProgram> kDynamics = {
     {"inverse", collocation_with(inverse_dynamics)},
     {"forward", collocation_with(forward_dynamics)},
@@ -111,7 +111,7 @@ std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, cons
   check("contact", formulation.contact, contact_names());
   check("orientation", formulation.orientation, orientation_names());
   if (!discrete.mesh.is_even()) {
-    throw InputError("phases.shares: only the default formulation takes steps of different length within a phase");
+    throw InputError("phases.shares: only the default formulation allows steps of different length within a phase");
   }
   return choice(kDynamics, formulation.dynamics)(formulation, discrete, guess);
 }

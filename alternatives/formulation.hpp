@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// One way to write a motion problem as a nonlinear program: a choice in each of four questions (docs/formulations.md).
-/// The default is what make_plan() solves.
+/// One way to write a motion problem as a nonlinear program: four choices (docs/formulations.md).
+/// The default is the program of make_plan().
 struct Formulation {
   std::string dynamics = "inverse";
   std::string transcription = "trapezoid";
@@ -19,19 +19,19 @@ struct Formulation {
   bool operator==(const Formulation&) const = default;
 };
 
-/// What may be chosen; the default first.
+/// Valid choices, the default first.
 const std::vector<std::string>& dynamics_names();
 const std::vector<std::string>& transcription_names();
 const std::vector<std::string>& contact_names();
 const std::vector<std::string>& orientation_names();
 
-/// Of the problem, which must outlive the program, about a guess with one point a node. Throws InputError if there is
-/// no such choice, if two of the four do not go together, or if the problem asks for something that the formulation has
-/// not.
+/// Builds the program about a guess with one point per node. `discrete` must outlive it. Throws
+/// InputError for unknown or incompatible choices, or a problem that the formulation does not
+/// support.
 std::unique_ptr<MotionNlp> make_formulation(const Formulation& formulation, const DiscreteProblem& discrete,
                                             const Trajectory& guess);
 
-/// The same, but as a collocation in coordinates also where the choice is the default: to check the one by the other.
+/// The same, but a Collocation even for the default choices, to check Transcription against it.
 std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, const DiscreteProblem& discrete,
                                             const Trajectory& guess);
 

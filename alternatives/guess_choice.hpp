@@ -8,10 +8,10 @@
 
 namespace prowl {
 
-/// What a solver may start from, the default first: "smooth" (initial_guess) and "straight" (straight_guess).
+/// Initial guesses, the default first: "smooth" (initial_guess) and "straight" (straight_guess).
 const std::vector<std::string>& guess_names();
 
-/// Throws InputError that lists the names for any other.
+/// Throws InputError with the list of names for any other name.
 Trajectory make_guess(const std::string& name, const DiscreteProblem& discrete);
 
 }  // namespace prowl

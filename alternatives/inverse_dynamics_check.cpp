@@ -20,7 +20,7 @@ std::vector<int> all_contacts(int count) {
   return contacts;
 }
 
-/// Forces of the contacts that the phase holds, in its order.
+/// Forces of the contacts of the phase, in its order.
 VectorXd held_forces(const Phase& phase, const VectorXd& forces) {
   VectorXd held(3 * static_cast<Index>(phase.contacts.size()));
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
@@ -29,7 +29,7 @@ VectorXd held_forces(const Phase& phase, const VectorXd& forces) {
   return held;
 }
 
-/// Share of the time that the trapezoid gives to node k [s]. A node and its twin at a phase switch have their own.
+/// Trapezoidal quadrature weight of node k [s]. Both nodes of a phase transition have their own.
 double time_of_node(const Trajectory& motion, std::size_t k) {
   const TrajectoryPoint& here = motion.nodes[k];
   const auto step = [&](std::size_t other) {

@@ -9,13 +9,13 @@
 
 namespace prowl {
 
-/// What one formulation came to: a line of the table of `prowl compare`.
+/// Result of one formulation: a line of the table of `prowl compare`.
 struct FormulationRun {
   Formulation formulation;
   std::string solver;  ///< name and version: there are several SNOPTs
   int nodes = 0;       ///< of the mesh
   int num_variables = 0, num_constraints = 0;
-  int jacobian_nonzeros = 0, hessian_nonzeros = 0;  ///< places of the patterns; of the Hessian the lower triangle
+  int jacobian_nonzeros = 0, hessian_nonzeros = 0;  ///< entries of the patterns; Hessian: lower triangle
   SolveResult result;
   Trajectory motion;
   Certificate certificate;
@@ -25,19 +25,21 @@ struct FormulationRun {
   double variables_per_node() const { return static_cast<double>(num_variables) / nodes; }
   double constraints_per_node() const { return static_cast<double>(num_constraints) / nodes; }
   double seconds_per_iteration() const { return result.iterations > 0 ? result.seconds / result.iterations : 0.0; }
-  /// The check that is furthest beyond its limit, or nearest to it; null without any.
+  /// The check with the largest share_of_limit(); null without checks.
   const CertificateCheck* worst_check() const;
 };
 
-/// worst / limit of a check: above 1 it fails. Infinite for NaN, 0 for what is 0 and has to be.
+/// worst / limit of a check; it fails above 1. Infinite for NaN; 0 if worst is 0, as for zero
+/// limits.
 double share_of_limit(const CertificateCheck& check);
 
-/// Solves the problem on its own mesh, from a guess that its task alone gives, and judges the motion. Throws InputError
-/// as make_formulation() and make_guess() do, and if the solver cannot take such a program.
+/// Solves the problem on its mesh from an initial guess, and certifies the motion. Throws
+/// InputError like make_formulation() and make_guess(), or if the solver does not support the
+/// program.
 FormulationRun run_formulation(const DiscreteProblem& discrete, const Formulation& formulation, const NlpSolver& solver,
                                const SolverOptions& options, HessianKind hessian = HessianKind::exact,
                                const std::string& guess = guess_names().front());
-/// The same for a program that somebody else has solved.
+/// The same for a program solved elsewhere.
 FormulationRun judge_formulation(const DiscreteProblem& discrete, const Formulation& formulation, MotionNlp& nlp,
                                  SolveResult result, std::string solver);
 

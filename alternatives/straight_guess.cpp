@@ -21,7 +21,7 @@ struct Posture {
   VectorXd q;
 };
 
-/// Of the start and of each goal, in the order of time.
+/// Postures of start and goals, in order of time.
 std::vector<Posture> postures(const DiscreteProblem& discrete) {
   const MotionProblem& problem = discrete.problem;
   const PosturePath path(discrete);
@@ -37,7 +37,7 @@ std::vector<Posture> postures(const DiscreteProblem& discrete) {
     q = inverse_kinematics(problem.robot, meet(condition, q), contacts.targets(discrete.condition_nodes[c])).q;
     q = meet(condition, q);
     const double time = discrete.condition_time(c);
-    if (!found.empty() && found.back().time == time) found.pop_back();  // both sides of a phase switch
+    if (!found.empty() && found.back().time == time) found.pop_back();  // phase transition
     found.push_back({time, q});
   }
   return found;

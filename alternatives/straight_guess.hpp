@@ -5,12 +5,11 @@
 
 namespace prowl {
 
-/// The guess of somebody who knows no more than where the robot starts and where it is to go, to compare solvers from:
-/// - q on straight lines between the postures of the start and of each goal (contacts there at their places, by inverse
-///   kinematics; between the goals they slide);
+/// A naive initial guess to compare solvers from; initial_guess() is much closer to a solution.
+/// - q: straight lines between the postures of start and goals (contacts on their footholds there, by
+///   inverse kinematics; sliding in between);
 /// - v = 0 and a = 0;
-/// - tau and forces of standing still in the start posture, on the contacts of the phase.
-/// initial_guess() is much nearer to a solution.
+/// - tau and forces: static, in the start posture on the contacts of the phase.
 Trajectory straight_guess(const DiscreteProblem& discrete);
 
 }  // namespace prowl

@@ -37,7 +37,7 @@ std::string first_verb(const CLI::App& app, int argc, const char* const* argv) {
   return "";
 }
 
-/// "; did you mean '--json'?" for the first verb or option that there is not, else "".
+/// "; did you mean '--json'?" for the first unknown verb or option, else "".
 std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
@@ -48,7 +48,7 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   if (!is_verb && !first.starts_with('-')) return prowl::did_you_mean(first, verbs);
   std::vector<std::string> options;
   const CLI::App* verb = is_verb ? app.get_subcommand(first) : &app;
-  if (is_verb && argc > 2) {  // a verb may have verbs
+  if (is_verb && argc > 2) {  // a verb may have subverbs
     for (const CLI::App* below : verb->get_subcommands([&](const CLI::App* any) { return any->get_name() == argv[2]; }))
       verb = below;
   }
@@ -64,8 +64,7 @@ std::string suggestion(const CLI::App& app, int argc, const char* const* argv) {
   return "";
 }
 
-/// What CLI11 lists from the last argument to the first, with the values of options: the first of them alone. "" if
-/// there is none.
+/// The first unexpected argument (CLI11 lists all, last first, with option values); "" without one.
 std::string unexpected(const CLI::App& app, bool lacks_a_verb) {
   const std::vector<std::string> remaining = app.remaining(true);
   if (remaining.empty()) return "";
@@ -74,7 +73,7 @@ std::string unexpected(const CLI::App& app, bool lacks_a_verb) {
   return (lacks_a_verb ? "unknown command '" : "unexpected argument '") + first + "'";
 }
 
-/// Of a command, or a verb that has verbs, without one.
+/// Message for a missing verb or subverb.
 std::string missing_verb(const CLI::App& app, int argc, const char* const* argv) {
   const CLI::App* verb = &app;
   for (int i = 1; i < argc; ++i) {
@@ -100,9 +99,9 @@ std::string parse_message(const CLI::App& app, const CLI::ParseError& error, int
 /// The verb of a command line, or "" if it names none.
 std::string verb_of(int argc, const char* const* argv) { return argc > 1 && argv[1][0] != '-' ? argv[1] : ""; }
 
-/// The message, without its middle where that is longer than anybody reads: names come first, the remedy last.
+/// Shortens very long messages in the middle: names come first, the remedy last.
 std::string readable(const std::string& message) {
-  constexpr std::size_t kFirst = 2000, kLast = 1000;  // bytes; a screen of 80 columns has 2000
+  constexpr std::size_t kFirst = 2000, kLast = 1000;  // bytes; a screen of 80 columns shows 2000
   if (message.size() <= kFirst + kLast) return message;
   return fmt::format("{} ... {}", message.substr(0, kFirst), message.substr(message.size() - kLast));
 }
@@ -122,14 +121,14 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", version_text);
   app.require_subcommand(1);
   app.footer(
-      "Examples:\n  prowl robot robots/hyq.toml            what Prowl reads of a robot\n"
+      "Examples:\n  prowl robot robots/hyq.toml            show a robot as Prowl reads it\n"
       "  prowl plan tasks/hyq/crouch.toml       plan a motion into out/hyq_crouch\n"
       "  prowl report out/hyq_crouch            replay it in a browser\n"
       "  prowl simulate out/hyq_crouch          run it in MuJoCo\n"
-      "  prowl diagnose tasks/hyq/crouch.toml   why there is no plan, and how to get one\n"
+      "  prowl diagnose tasks/hyq/crouch.toml   find out why there is no plan\n"
       "  prowl new robot URDF                   start with your own robot\n"
-      "  prowl doctor                           what works on this machine\n\n"
-      "More with prowl VERB --help.");
+      "  prowl doctor                           check this machine\n\n"
+      "For help: prowl VERB --help");
   add_plan_command(app, status);
   add_check_command(app, status);
   add_diagnose_command(app, status);
@@ -158,7 +157,7 @@ int run(int argc, char** argv) {
       return kPassed;
     }
     return report_error(argc, argv, parse_message(app, error, argc, argv), kBadInput,
-                        "\nMore with prowl " + first_verb(app, argc, argv) + "--help.");
+                        "\nFor help: prowl " + first_verb(app, argc, argv) + "--help");
   }
   return status;
 }

@@ -1,5 +1,5 @@
-// Bundles src/ into one page without data: build.mjs OUT. Scripts and styles are inside, and a policy that lets the page run
-// exactly these and reach nothing else.
+// Bundles src/ into one page without data: build.mjs OUT. The page contains scripts and styles, and
+// a policy that allows exactly these and no connections.
 import { createHash } from "node:crypto";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
@@ -10,7 +10,7 @@ const folder = path.dirname(fileURLToPath(import.meta.url));
 const out = process.argv[2];
 if (!out) throw new Error("usage: build.mjs OUT");
 
-/// The licences of what goes into the page, as its first comment.
+/// Licences of the bundled packages, as first comment of the page.
 async function licences(packages) {
   const texts = await Promise.all(
     packages.map(
@@ -27,7 +27,7 @@ const result = await build({
   format: "iife",
   target: "es2022",
   charset: "utf8",
-  legalComments: "none", // all of it is in the banner
+  legalComments: "none", // in the banner
   banner: { js: await licences(["three", "uplot"]) },
   outdir: "out",
   write: false,
@@ -35,12 +35,13 @@ const result = await build({
 const bundle = (ending) => result.outputFiles.find((file) => file.path.endsWith(ending)).text;
 const script = bundle(".js");
 const style = bundle(".css");
-// An end tag inside the script's own text would end the element.
-if (/<\/script/i.test(script) || /<\/style/i.test(style)) throw new Error("the bundle holds an end tag");
+// An end tag inside the script would end its element.
+if (/<\/script/i.test(script) || /<\/style/i.test(style)) throw new Error("the bundle contains an end tag");
 
 const hash = (text) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
 const policy = `default-src 'none'; script-src ${hash(script)}; style-src ${hash(style)}; img-src data: blob:`;
-// The policy holds hashes of the exact texts: page.html leaves these elements empty, for a formatter would change them.
+// The policy contains hashes of the exact texts, so these elements of page.html stay empty: a
+// formatter would change them.
 const template = await readFile(path.join(folder, "src/page.html"), "utf8");
 const page = [
   ["POLICY", policy],

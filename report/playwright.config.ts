@@ -2,7 +2,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { defineConfig } from "@playwright/test";
 
-// The browser is the system's: PROWL_CHROMIUM, or where distributions put it.
+// Uses the system's browser: PROWL_CHROMIUM, or the usual paths.
 const places = [process.env.PROWL_CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 const browser = places.find((path) => path && existsSync(path));
 if (!browser) throw new Error("no Chromium here: apt-get install chromium, or set PROWL_CHROMIUM to one");
@@ -12,7 +12,7 @@ export default defineConfig({
   globalSetup: "./tests/make_reports.ts",
   outputDir: join(process.env.PROWL_REPORT_WORK ?? "artefacts", "results"),
   reporter: [["list"]],
-  workers: 1, // the view is drawn by the processor
+  workers: 1, // rendering uses the processor
   timeout: 120_000,
   expect: { timeout: 15_000 },
   use: {

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-/// Along the surface, along the surface, normal.
+/// Two tangents and the normal, as columns.
 Eigen::Matrix3d axes_of(const Surface& surface) {
   Eigen::Matrix3d axes;
   axes << surface.axes(), surface.normal;
@@ -62,8 +62,8 @@ CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phas
     for (const int axis : landing[i].place) {
       if (axis != kNormal && !contact.place) continue;
       const double place = axis == kNormal ? on_surface : axes.col(axis).dot(*contact.place);
-      result.landing.push_back(
-          {i, axes.col(axis), place, fmt::format("{}, landing, axis {} of {}", point.name, axis + 1, surface.name)});
+      result.landing.push_back({i, axes.col(axis), place,
+                                fmt::format("{}, landing along axis {} of {}", point.name, axis + 1, surface.name)});
     }
   }
   return result;

@@ -8,26 +8,25 @@
 
 namespace prowl {
 
-/// A direction in which the position c of a contact of the phase (its place in the phase's list) is held.
+/// A direction in which the position c of a contact is fixed.
 struct HeldDirection {
-  int contact = 0;
+  int contact = 0;       ///< index in the phase
   Eigen::Vector3d axis;  ///< unit vector, world frame
-  double offset = 0.0;   ///< axis . c = offset where the contact is on its surface [m]
+  double offset = 0.0;   ///< axis . c = offset on the surface [m]
   std::string what;
 };
 
-/// How the contacts of a phase are on their surfaces, as Dai, Valenzuela, Tedrake 2014 have it: at a distance of zero
-/// at the nodes, and not sliding from node to node. Of contacts that depend on each other (flat feet) as many
-/// directions as are independent.
+/// Contact constraints of a phase as in Dai, Valenzuela, Tedrake 2014: zero distance at the nodes,
+/// no sliding between nodes. Dependent contacts (flat feet) keep only independent directions.
 struct CentroidalContacts {
-  std::vector<HeldDirection>
-      landing;  ///< at the first node: normals of contacts that land, and where the task puts them
-  std::vector<HeldDirection>
-      distance;  ///< at every other node: normals. From where the start has it, if it never landed
-  std::vector<HeldDirection> sliding;  ///< over every interval: axis . (c_k - c_k-1) = 0; offset has no meaning
+  /// At the first node: normals of landing contacts, and all directions of prescribed footholds.
+  std::vector<HeldDirection> landing;
+  /// At every other node: normals; offset from the start for contacts that never landed.
+  std::vector<HeldDirection> distance;
+  std::vector<HeldDirection> sliding;  ///< over every interval: axis . (c_k - c_k-1) = 0; offset unused
 };
 
-/// `q` a configuration of the phase, in which it shows which contacts depend on each other.
+/// `q`: configuration of the phase at which the dependence of contacts is determined.
 CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phase, const Eigen::VectorXd& q,
                                        const std::vector<LandingAxes>& landing);
 

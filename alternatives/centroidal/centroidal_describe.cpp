@@ -7,7 +7,7 @@ namespace prowl {
 
 namespace {
 
-/// Group of entry i, and i within it.
+/// Group of entry i, and its index within the group.
 std::pair<RowGroup, int> group_of(const std::vector<RowGroup>& groups, int i) {
   std::size_t g = 0;
   for (; i >= groups[g].count; ++g) i -= groups[g].count;
@@ -30,9 +30,9 @@ std::vector<RowGroup> CentroidalNlp::constraint_groups(int k) const {
   const int nv = problem().robot.nv();
   const std::vector<RowGroup> link =
       is_interval(k - 1) ? CentroidalInterval::row_groups(nv, static_cast<int>(node(k).contacts().sliding.size()))
-                         : std::vector<RowGroup>{{"q across the phase switch", nv},
-                                                 {"v across the phase switch", nv},
-                                                 {"r' across the phase switch", 3}};
+                         : std::vector<RowGroup>{{"q across the phase transition", nv},
+                                                 {"v across the phase transition", nv},
+                                                 {"r' across the phase transition", 3}};
   groups.insert(groups.end(), link.begin(), link.end());
   return groups;
 }

@@ -127,7 +127,7 @@ CentroidalInterval::Between CentroidalInterval::add_hessian(double cost_factor, 
   start.diagonal().segment(at0.v, nv_) += weight;
   end.diagonal().segment(at1.v, nv_) += weight;
 
-  // With the step, of which the duration is the last variable of both ends.
+  // Derivatives in the step: the duration is the last variable of both ends.
   VectorXd step0 = VectorXd::Zero(at0.size), step1 = VectorXd::Zero(at1.size);
   const VectorXd slope = weight.cwiseProduct(change_) / step_;
   step0.segment<3>(3) = kTwice * bent.step[0].segment<3>(3);

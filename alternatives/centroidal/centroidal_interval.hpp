@@ -9,13 +9,13 @@
 
 namespace prowl {
 
-/// From one node to the next over a step dt, as Dai, Valenzuela, Tedrake 2014, eq. (7d) to (7g), have it: q, h and r'
+/// Rows of one interval of length dt, Dai, Valenzuela, Tedrake 2014, eq. (7d) to (7g): q, h and r'
 /// by backward Euler, r by the trapezoid. On SE(3) backward Euler is
 ///
 ///   p1 - p0 - dt R1 v1 = 0,   log( R0' R1 exp(-dt w1) ) = 0,   joints1 - joints0 - dt rates1 = 0
 ///
-/// which is the trapezoid over 2 dt from a start at rest, by whose derivatives it goes. Also here: contacts do not
-/// slide, and the cost of the accelerations that the steps of v mean, for all but the base's linear one.
+/// This equals the trapezoid over 2 dt from rest, whose derivatives it uses. Also: contacts do not
+/// slide, and the cost of accelerations (differences of v) except the base's linear one.
 class CentroidalInterval {
  public:
   struct End {
@@ -23,7 +23,8 @@ class CentroidalInterval {
     Eigen::Matrix3d chart;
     Eigen::VectorXd x;
   };
-  /// `weight` of accelerations, nv; the first three do not count. What is given must live as long as this.
+  /// `weight`: of accelerations (nv), the first three unused. All referenced arguments must outlive
+  /// this.
   CentroidalInterval(const CentroidalScale& scale, const std::vector<HeldDirection>& sliding,
                      const Eigen::VectorXd& weight, End start, End end, double step);
 
@@ -31,19 +32,19 @@ class CentroidalInterval {
   static std::vector<RowGroup> row_groups(int nv, int sliding);
 
   Eigen::VectorXd rows() const;
-  /// Derivatives in x of the start (columns from `start`) and of the end; and in the step, per unit of a variable
-  /// `duration` of which the step is a share, or none if that is negative.
+  /// Adds derivatives in x of the start (columns from `start`) and of the end, and in the variable
+  /// `duration` (none if negative), of which the step is the part `share`.
   void add_jacobian(int row, int start, int end, int duration, double share, SparseEntries& jacobian) const;
 
   double cost() const;
   /// Adds the gradient in x of both ends and in the step.
   void add_cost_gradient(Eigen::Ref<Eigen::VectorXd> start, Eigen::Ref<Eigen::VectorXd> end, double& step) const;
 
-  /// Adds the Hessian of cost_factor * cost + multipliers . rows to that of both ends (with the duration as their last
-  /// variable) and gives what is between them.
+  /// Adds the Hessian of cost_factor * cost + multipliers . rows to the blocks of both ends
+  /// (duration last) and returns the blocks between them.
   struct Between {
     Eigen::Matrix<double, 6, 3> turn;  ///< (theta, angular velocity) of the end, theta of the start
-    Eigen::VectorXd v;                 ///< v of the end with the same entry of v of the start; from entry 3 on
+    Eigen::VectorXd v;                 ///< v of the end with the same entry of v of the start, from entry 3
   };
   Between add_hessian(double cost_factor, const Eigen::VectorXd& multipliers, double share, Eigen::MatrixXd& start,
                       Eigen::MatrixXd& end) const;
@@ -57,7 +58,7 @@ class CentroidalInterval {
   End start_, end_;
   double step_;
   int nv_;
-  Eigen::VectorXd change_;  ///< v1 - v0, what does not count set to zero
+  Eigen::VectorXd change_;  ///< v1 - v0, unused entries zero
   IntervalDefects euler_;
 };
 

@@ -22,7 +22,7 @@ void add(WorldInertia& sum, const WorldInertia& inertia) {
   sum.rotational += inertia.rotational;
 }
 
-/// The momentum about the origin becomes that about the point at `arm`.
+/// Moves momenta from the origin to the point at `arm`.
 template <class Columns>
 void move_to(const Vector3d& arm, Columns& momentum) {
   for (Index i = 0; i < momentum.cols(); ++i) {
@@ -59,7 +59,7 @@ void CentroidalKinematics::update(const Eigen::VectorXd& q, const Eigen::VectorX
   move_to(arm_, momentum_dq_);
 }
 
-// Outwards: how joints and bodies move.
+// Outward pass: motion of joints and bodies.
 void CentroidalKinematics::set_motion(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
   const std::vector<Eigen::Isometry3d>& placements = placements_.at(q);
   for (std::size_t b = 0; b < links_.size(); ++b) {
@@ -83,7 +83,7 @@ void CentroidalKinematics::set_motion(const Eigen::VectorXd& q, const Eigen::Vec
   }
 }
 
-// Inwards: sums over what is behind a joint.
+// Inward pass: sums over the subtree behind each joint.
 void CentroidalKinematics::add_up() {
   for (std::size_t b = links_.size() - 1; b > 0; --b) {
     Link& before = links_[tree_.bodies[b].parent];
@@ -97,8 +97,8 @@ void CentroidalKinematics::add_up() {
   }
 }
 
-// With r moving too, on_momentum = (y_linear, lambda):  lambda . (k0 - r x P)  has  -lambda x r  on P,  lambda x P  on
-// r, and -lambda . (dr x dP) between them.
+// Since r moves too, on_momentum = (y_linear, lambda):  lambda . (k0 - r x P)  has  -lambda x r  on
+// P,  lambda x P  on r, and -lambda . (dr x dP) between them.
 void CentroidalKinematics::add_hessian(const Vector3& on_com, const SpatialVector& on_momentum,
                                        Eigen::Ref<Eigen::MatrixXd> qq, Eigen::Ref<Eigen::MatrixXd> qv) const {
   const Vector3d lambda = on_momentum.tail<3>();
@@ -114,7 +114,7 @@ void CentroidalKinematics::add_hessian(const Vector3& on_com, const SpatialVecto
     const auto pair = [&](Index l) {
       return cross(y, S_.col(l)).dot(F) + E_.col(l).dot(N) + S_.col(l).tail<3>().dot(moved);
     };
-    if (i < kBaseDofs) {  // rotations of the base do not commute: the Hessian along q (+) d has the mean of both orders
+    if (i < kBaseDofs) {  // base rotations do not commute: the Hessian along q ⊕ d is the mean of both orders
       for (Index l = kFirstRotation; l < kBaseDofs; ++l) {
         const double half = 0.5 * pair(l);
         qq(l, i) += half;

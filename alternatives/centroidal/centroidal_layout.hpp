@@ -6,9 +6,9 @@
 
 namespace prowl {
 
-/// Places among the variables of one node: q first (base position, theta, joints), then v, and so on as listed. What
-/// makes the motion from one node to the next is a variable where an interval ends; the first node of a phase has none
-/// of it (-1).
+/// Indices into the variables of one node: q (base position, theta, joints), v, then as listed.
+/// Accelerations, momentum rates and forces exist only where an interval ends, not at the first
+/// node of a phase (-1).
 struct CentroidalColumns {
   CentroidalColumns(int nv, int contacts, bool ends_interval);
 
@@ -18,14 +18,14 @@ struct CentroidalColumns {
   bool ends_interval() const { return forces >= 0; }
 };
 
-/// Where everything is in the decision variables z and in the constraints g of the centroidal program.
+/// Indices in the decision variables z and the constraints g of the centroidal program.
 ///
-/// z: for each node of the mesh its variables, then for each phase of free duration its duration. g: for each node its
-/// rows (CentroidalNode); for each interval (q, nv | h | r | r' | no sliding), for each phase switch
-///    (continuity of q, nv | of v, nv | of r'): h and r follow from q and v.
+/// z: variables of each node, then the duration of each phase of free duration.
+/// g: rows of each node (CentroidalNode); per interval (q, nv | h | r | r' | no sliding); per phase
+///    transition (continuity of q, nv | of v, nv | of r'): h and r follow from q and v.
 class CentroidalLayout {
  public:
-  /// `rows` of each node, `sliding_rows` of an interval of each phase.
+  /// `rows`: per node; `sliding_rows`: per interval of each phase.
   CentroidalLayout(const DiscreteProblem& discrete, const std::vector<int>& rows, const std::vector<int>& sliding_rows);
 
   int num_variables() const { return num_variables_; }
@@ -39,7 +39,7 @@ class CentroidalLayout {
   int duration(int phase) const { return durations_[phase]; }  ///< -1 if it is fixed
 
   int node_row(int k) const { return node_rows_[k]; }  ///< first row of node k
-  int link_row(int k) const { return link_rows_[k]; }  ///< of nodes k and k + 1; or the end
+  int link_row(int k) const { return link_rows_[k]; }  ///< first row that links nodes k and k + 1; or the end
 
  private:
   int num_variables_ = 0, first_shared_ = 0;

@@ -1,4 +1,4 @@
-// How a centroidal program is made, and a motion of its variables and back.
+// Construction of a centroidal program, and conversion between motions and variables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -32,8 +32,8 @@ void refuse_torques(const MotionProblem& problem) {
                        (condition.torque_upper.array() < problem.robot.torque_limit().array()).any();
     if (!binds) continue;
     throw InputError(
-        fmt::format("{}, torque: bounds are not allowed with dynamics \"centroidal\", to which torques are "
-                    "unknown; need a goal without torques or other dynamics",
+        fmt::format("{}, torque: bounds are not allowed with dynamics \"centroidal\", which contain no "
+                    "torques; need a goal without torques or other dynamics",
                     condition.name));
   }
 }
@@ -86,11 +86,11 @@ CentroidalNlp::CentroidalNlp(const DiscreteProblem& discrete, const Trajectory& 
   set_patterns(guess);
 }
 
-// Start, goals, joint and velocity limits and durations are those of the trapezoid's program, where q and v have the
-// same form.
+// Bounds of start, goals, joints, velocities and durations are those of Transcription, where q and
+// v have the same form.
 void CentroidalNlp::set_bounds() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::vector<int> none(discrete_.nodes.size(), 0);  // more than there are phases
+  const std::vector<int> none(discrete_.nodes.size(), 0);  // long enough for phases, too
   const DecisionLayout other(discrete_, none, none);
   const VariableBounds bounds = variable_bounds(discrete_, other);
   variable_lower_.setConstant(layout_.num_variables(), -kInfinity);
@@ -155,15 +155,15 @@ VectorXd CentroidalNlp::pack(const Trajectory& trajectory) const {
 }
 
 Trajectory CentroidalNlp::unpack(const VectorXd& z) {
-  if (!z.allFinite()) throw NumericalError("variables of a motion that are not finite");
+  if (!z.allFinite()) throw NumericalError("the variables of the motion are not finite");
   const int nv = problem().robot.nv();
   InverseDynamics needed(problem().robot);
   Trajectory motion;
   double time = 0.0;
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     if (k > 0 && is_interval(k - 1)) time += step(z, k);
-    // Forces and accelerations are those of the interval that ends in a node; a first node has those of the interval
-    // after it.
+    // Forces and accelerations belong to the interval that ends at a node; a first node takes those
+    // of the interval after it.
     const int end = layout_.columns(k).ends_interval() ? k : k + 1;
     const CentroidalColumns& at = layout_.columns(end);
     const auto velocity = [&](int i) { return z.segment(layout_.node(i) + layout_.columns(i).v, nv); };
@@ -189,7 +189,7 @@ std::unique_ptr<MotionNlp> make_centroidal(const Formulation& formulation, const
   const auto check = [](const char* what, const std::string& name, const std::string& needed) {
     if (name == needed) return;
     throw InputError(
-        fmt::format("{}: \"{}\" does not go with dynamics \"centroidal\", which have a rule of their own; "
+        fmt::format("{}: \"{}\" is not available with dynamics \"centroidal\", which have their own rule; "
                     "need \"{}\"",
                     what, name, needed));
   };

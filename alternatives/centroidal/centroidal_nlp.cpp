@@ -84,7 +84,7 @@ void CentroidalNlp::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
     if (is_interval(k)) {
       rows = interval(z, k).rows();
       continue;
-    }  // both nodes of a phase switch have one chart: the difference is the condition
+    }  // both nodes of a phase transition have one chart
     const int here = layout_.node(k), next = layout_.node(k + 1);
     rows.head(2 * nv) = z.segment(next, 2 * nv) - z.segment(here, 2 * nv);
     rows.tail<3>() = (z.segment<3>(next + layout_.columns(k + 1).com_velocity) -

@@ -14,7 +14,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// v at a node is how q got there: a contact that is at rest as it lands was there one node before.
+/// v at a node is the velocity of the interval before it: a contact at rest at landing was down one
+/// node earlier.
 constexpr int kIntervalsAtRest = 1;
 
 std::vector<LandingAxes> without_places(std::vector<LandingAxes> landing) {
@@ -30,7 +31,7 @@ CentroidalScale::CentroidalScale(const RobotModel& robot)
       force(robot.weight()),
       momentum(robot.mass() * speed * length) {}
 
-// c takes the part of the place that a contact lands at, so that PlacementRows does not have to tie it to anything.
+// The variable c replaces the foothold, so PlacementRows need not fix it.
 CentroidalNode::CentroidalNode(const DiscreteProblem& discrete, int phase, std::vector<LandingAxes> landing,
                                CentroidalContacts contacts, std::vector<bool> ties)
     : nv_(discrete.problem.robot.nv()),
@@ -147,7 +148,8 @@ VectorXd CentroidalNode::configuration(const CentroidalPoint& point) const {
   return q;
 }
 
-// The acceleration of the base that costs is r''; joint accelerations cost over the intervals, and torques are unknown.
+// The costed base acceleration is r''; joint accelerations have their cost in the intervals; there
+// are no torques.
 void CentroidalNode::set_cost_point(const CentroidalPoint& point) {
   const CentroidalColumns& at = columns(point.node);
   cost_point_.node = point.node;

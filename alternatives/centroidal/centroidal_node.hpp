@@ -16,13 +16,13 @@
 
 namespace prowl {
 
-/// So many rows or variables of one kind.
+/// A number of rows or variables of one kind.
 struct RowGroup {
   std::string name;
   int count = 0;
 };
 
-/// What rows are divided by, so that one tolerance means the same for every robot.
+/// Scales of the rows, so that one tolerance fits every robot.
 struct CentroidalScale {
   explicit CentroidalScale(const RobotModel& robot);
   double length;    ///< size l of the robot [m]
@@ -31,7 +31,7 @@ struct CentroidalScale {
   double momentum;  ///< angular, mass speed l [kg m^2/s]
 };
 
-/// The variables of one node, in the order of CentroidalColumns, and what else it needs to be evaluated.
+/// Variables x of one node, in the order of CentroidalColumns, and other inputs of its functions.
 struct CentroidalPoint {
   int node = 0;  ///< within its phase
   Eigen::VectorXd x;
@@ -48,18 +48,19 @@ struct CentroidalValues {
   SparseEntries jacobian;         ///< of the rows in x
 };
 
-/// Everything that holds at the nodes of one phase, with exact first and second derivatives. Rows, in this order:
+/// Cost and constraints at the nodes of one phase, with exact first and second derivatives. Rows,
+/// in this order:
 ///
 ///   m r'' = sum f + m g,  h' = sum (c - r) x f                      where an interval ends
 ///   h = A_G(q) v (angular),  r = com(q),  c = p(q)                  everywhere
-///   distance of contacts to their surfaces                          but for contacts that hold on at a first node
+///   distance of contacts to their surfaces                          except staying contacts at a first node
 ///   friction cones, or f = 0 at the last node of a contact that opens
-///   r' = the velocity of com(q) at v                                where the task asks for a velocity
-///   rest, place and clearance of contacts (PlacementRows)
+///   r' = velocity of com(q) at v                                    where the task prescribes a velocity
+///   landing and clearance of contacts (PlacementRows)
 class CentroidalNode {
  public:
-  /// `landing` as PlacementRows has it; `ties` for each node of the phase whether r' is tied to v there. The problem
-  /// must live as long as this.
+  /// `landing`: see PlacementRows; `ties`: per node of the phase, true if r' is tied to v there.
+  /// `discrete` must outlive this.
   CentroidalNode(const DiscreteProblem& discrete, int phase, std::vector<LandingAxes> landing,
                  CentroidalContacts contacts, std::vector<bool> ties);
 
@@ -79,7 +80,7 @@ class CentroidalNode {
   /// After both: Hessian of cost_factor * cost + multipliers . rows in x and the duration, symmetric.
   void hessian(const CentroidalPoint& point, double cost_factor, const Eigen::VectorXd& multipliers,
                Eigen::MatrixXd& result);
-  /// Where it may have something, but for the duration: set to true.
+  /// Sets entries that may be non-zero to true, without the duration.
   void mark_hessian(int k, Eigen::Matrix<bool, Eigen::Dynamic, Eigen::Dynamic>& marks) const;
 
  private:
@@ -95,7 +96,7 @@ class CentroidalNode {
   void add_dynamics(const CentroidalPoint& point, SparseEntries& jacobian) const;
   void add_kinematics(const CentroidalPoint& point, const Eigen::Matrix3d& Jr, SparseEntries& jacobian);
   void add_limits(const CentroidalPoint& point, const Eigen::Matrix3d& Jr, SparseEntries& jacobian);
-  /// Derivatives in the tangent of q, 3 rows; they leave in theta.
+  /// Adds 3 rows of derivatives in the tangent of q, converted to theta.
   void add_q(int row, const Eigen::Ref<const Eigen::MatrixXd>& dq, const Eigen::Matrix3d& Jr, double scale,
              SparseEntries& jacobian);
 
@@ -115,7 +116,7 @@ class CentroidalNode {
   ContactKinematics points_;
   std::vector<std::array<int, kinds + 1>> first_rows_;
   Eigen::VectorXd tau_ref_;
-  bool places_cost_;  ///< places of contacts cost something
+  bool places_cost_;  ///< positions of contacts have a cost
   // Of the last evaluate() and add_derivatives().
   NodePoint cost_point_;
   Eigen::VectorXd forces_;

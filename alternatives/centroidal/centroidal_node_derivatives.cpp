@@ -26,7 +26,7 @@ void CentroidalNode::add_derivatives(const CentroidalPoint& point, CentroidalVal
   if (at.ends_interval()) {
     gradient.segment<3>(at.com_acceleration) = cost_slope_.gradient.segment<3>(2 * nv_);
     gradient.segment(at.forces, forces_.size()) = cost_slope_.force_gradient;
-    gradient(at.size) = cost_.running() / point.duration;  // the running cost is in proportion to the duration
+    gradient(at.size) = cost_.running() / point.duration;  // the running cost is proportional to the duration
   }
   rotation_gradient_ = gradient.segment<3>(3);
   gradient.segment<3>(3) = Jr.transpose() * rotation_gradient_;
@@ -76,7 +76,7 @@ void CentroidalNode::add_kinematics(const CentroidalPoint& point, const Matrix3d
   jacobian.diagonal(momentum_row, at.momentum, 3, 1.0 / scale_.momentum);
   add_q(momentum_row, kinematics_.momentum_dq().bottomRows<3>(), Jr, per_momentum, jacobian);
   jacobian.block(momentum_row, 6, per_momentum * kinematics_.momentum_dq().bottomRightCorner(3, joints));
-  // It does not depend on the base's linear velocity.
+  // Independent of the base's linear velocity.
   jacobian.block(momentum_row, at.v + 3, per_momentum * kinematics_.momentum_dv().bottomRightCorner(3, nv_ - 3));
 
   jacobian.diagonal(com_row, at.com, 3, 1.0 / scale_.length);
@@ -168,7 +168,7 @@ void CentroidalNode::hessian(const CentroidalPoint& point, double cost_factor, c
       result.block<3, 3>(column, column) += limit.curvature(forces_.segment<3>(3 * i), on_rows);
       cone += limit.count();
     }
-    const double factor = cost_factor / point.duration;  // the running cost is in proportion to the duration
+    const double factor = cost_factor / point.duration;  // the running cost is proportional to the duration
     result.col(at.size).head(nv_) = factor * cost_slope_.running_gradient.head(nv_);
     result.col(at.size).segment<3>(3) = (Jr.transpose() * result.col(at.size).segment<3>(3)).eval();
     result.col(at.size).segment(at.v, nv_) = factor * cost_slope_.running_gradient.segment(nv_, nv_);

@@ -5,7 +5,8 @@
 
 namespace prowl {
 
-/// Non-zeros of a matrix in a fixed order, no place twice: first to find a pattern, then for its values.
+/// Non-zeros of a matrix in a fixed order without duplicates: first for the pattern, then for
+/// values.
 struct SparseEntries {
   struct Entry {
     int row, col;

@@ -54,7 +54,7 @@ double ChartedNode::duration(const VectorXd& columns) const {
   return functions_.has_free_duration() ? columns(functions_.num_variables()) : phase().duration.min;
 }
 
-// In a chart of its own, the tangent at R(e).
+// In its own chart, the tangent at R(e).
 NodePoint ChartedNode::point(const Instant& at, const VectorXd& columns) const {
   const int nv = robot().nv(), nu = robot().nu();
   NodePoint point;
@@ -152,7 +152,7 @@ void ChartedNode::hessian(const Instant& at, const VectorXd& columns, double cos
   const NodePoint where = point(at, columns);
   const Index own = functions_.num_rows(at.node), extra = contact_rows_.count();
   functions_.linearise(where, cost_factor, multipliers.head(own), inner_, result);
-  // The gradient of it all in the tangent of the rotation.
+  // Total gradient in the tangent of the rotation.
   Vector3d pull = cost_factor * inner_.cost_gradient.segment<3>(3) +
                   inner_.rows_jacobian.middleCols<3>(3).transpose() * multipliers.head(own);
   if (extra > 0) {

@@ -6,20 +6,19 @@
 
 namespace prowl {
 
-/// At which instant of its phase something is evaluated.
+/// Instant of evaluation within a phase.
 struct Instant {
-  int node = 0;                  ///< of the phase, as NodeFunctions counts
-  double cost_share = 0.0;       ///< of the step h, in the integral of the running cost
+  int node = 0;                  ///< index in the phase, as in NodeFunctions
+  double cost_share = 0.0;       ///< quadrature weight of the running cost over the step h
   double terminal_weight = 0.0;  ///< 1 at the last node of the motion
 };
 
 /// NodeFunctions and ContactRows of one phase in coordinates x = (base position, e, joints) of a chart:
 ///
-///   columns   x | v | a | tau | w | shared (duration, if free | two surface coordinates of each contact that landed)
+///   columns   x | v | a | tau | w | shared (duration, if free | two coordinates per free foothold)
 ///   rows      those of NodeFunctions | those of ContactRows
 ///
-/// v is the velocity of the robot with the base's twist, a its rate. The work space is shared: one thread, one
-/// evaluation at a time.
+/// v contains the base twist; a is its rate. Not thread-safe: shared work space.
 class ChartedNode {
  public:
   ChartedNode(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
@@ -46,12 +45,12 @@ class ChartedNode {
   };
   void evaluate(const Instant& at, const Eigen::VectorXd& columns, Values& values);
   void evaluate_with_derivatives(const Instant& at, const Eigen::VectorXd& columns, Values& values);
-  /// Of cost_factor cost + multipliers . rows, in all columns, symmetric.
+  /// Hessian of cost_factor cost + multipliers . rows, in all columns, symmetric.
   void hessian(const Instant& at, const Eigen::VectorXd& columns, double cost_factor,
                const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
   void use_hessian(HessianKind kind) { functions_.use_hessian(kind); }
 
-  /// Configuration of columns.
+  /// Configuration (nq) of these columns.
   Eigen::VectorXd configuration(const Eigen::VectorXd& columns) const;
   double duration(const Eigen::VectorXd& columns) const;  ///< [s]
 

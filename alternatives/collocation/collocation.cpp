@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// All forces variables: no row of J is left for the projection.
+/// All forces are variables: no row of J remains for the projection.
 std::vector<int> all_rows(const Phase& phase) {
   std::vector<int> rows(3 * phase.contacts.size());
   std::iota(rows.begin(), rows.end(), 0);
@@ -47,10 +47,10 @@ Collocation::Collocation(const DiscreteProblem& discrete, const Trajectory& gues
   for (std::size_t p = 0; p < problem().phases.size(); ++p) {
     const int phase = static_cast<int>(p);
     if (!contacts[p].chosen_rows.empty() && !form_.contact.stabilised) {
-      throw InputError("contact: \"" + form_.contact.name + "\" needs contacts that do not depend on each other");
+      throw InputError("contact: \"" + form_.contact.name + "\" needs contacts that are not redundant");
     }
     if (!contacts[p].chosen_rows.empty() && form_.dynamics->has_forces()) {
-      throw InputError("dynamics: \"" + form_.dynamics_name + "\" needs contacts that do not depend on each other");
+      throw InputError("dynamics: \"" + form_.dynamics_name + "\" needs contacts that are not redundant");
     }
     if (form_.dynamics->has_forces()) contacts[p].chosen_rows = all_rows(problem().phases[p]);
     const ContactRows rows(problem(), phase,
@@ -122,7 +122,7 @@ StepSize Collocation::step(int k, int first_shared) const {
   return {.variable = first_shared, .share = 1.0 / intervals};
 }
 
-/// From local `first` on.
+/// From local variable `first` on.
 IntervalProgram::Point Collocation::variables(ProgramGraph& graph, int k, int first, bool state) const {
   const int nv = problem().robot.nv(), nu = problem().robot.nu();
   IntervalProgram::Point point;
@@ -153,8 +153,8 @@ void Collocation::make_node(int k) {
   ChartedNode& charted = this->charted(k);
   std::vector<int> rows;
   for (int row = has_acceleration() ? 0 : nv; row < charted.num_rows(at.node); ++row) {
-    // Distances and velocities of contacts are settled at the first node of a phase: by the start, by the node at the
-    // end of the phase before, or where the contact lands.
+    // At the first node of a phase, distances and velocities of contacts are determined by the
+    // start, the end of the phase before, or the landing.
     const int contact_row = row - charted.functions().num_rows(at.node);
     if (at.node == 0 && contact_row >= 0 && contact_row < charted.contact_rows().first_acceleration()) continue;
     rows.push_back(row);
@@ -191,7 +191,7 @@ void Collocation::make_interval(int k) {
   const int nv = problem().robot.nv(), own = point_size(k, true);
   const CollocationRule::Middle middle = form_.rule->middle();
   const int middle_size = middle.inputs ? point_size(k, middle.state) : 0;
-  // Node, middle and node follow each other among the decision variables.
+  // Node, middle and node are adjacent among the decision variables.
   std::vector<int> columns = this->columns(node_first_[k], 2 * own + middle_size);
   const std::vector<int> shared = shared_columns(k);
   const int first_shared = static_cast<int>(columns.size());
@@ -309,7 +309,7 @@ void Collocation::jacobian(const VectorXd& z, Eigen::Ref<VectorXd> values) {
   for_each_piece([&](const ProgramPiece& piece) {
     piece.visit_jacobian(false, [&](int, int, double value) { values(next++) = value; });
   });
-  while (next < values.size()) {  // the phase switches
+  while (next < values.size()) {  // phase transitions
     values(next++) = -1.0;
     values(next++) = 1.0;
   }

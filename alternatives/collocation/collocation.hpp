@@ -11,7 +11,7 @@
 
 namespace prowl {
 
-/// The choices of a collocation program.
+/// Choices of a collocation program.
 struct CollocationForm {
   std::string dynamics_name;  ///< for messages
   std::unique_ptr<DynamicsForm> dynamics;
@@ -20,20 +20,19 @@ struct CollocationForm {
   std::unique_ptr<BaseChart> chart;
 };
 
-/// A motion problem by collocation in coordinates of one chart, from parts that can be exchanged: dynamics, rule,
-/// contacts and chart. Written for comparison, not for speed: Transcription is the same for one choice of them, and
-/// several times faster.
+/// A motion problem by collocation in coordinates of one chart, with exchangeable dynamics, rule,
+/// contacts and chart. Written for comparison: Transcription equals one choice of these, and is several
+/// times faster.
 ///
-/// z: for each node (x | v | a, where it is a variable | tau | forces, where they are variables), after each but the
-/// last of a phase
-///    the variables in the middle of its interval, if the rule has any (x | v | a | tau | forces); at the end durations
-///    and places as in DecisionLayout.
-/// g: for each node its rows, for each interval those of the rule, for each phase switch continuity of x and v.
+/// z: per node (x | v | a, if a variable | tau | forces, if variables), followed by the variables in
+///    the middle of its interval, if the rule has any (x | v | a | tau | forces); at the end durations
+///    and footholds as in DecisionLayout.
+/// g: rows of each node, rows of the rule per interval, continuity of x and v per phase transition.
 class Collocation : public MotionNlp {
  public:
-  /// Throws InputError if the choices do not go together, if steps are too long for the rule's gains, if the problem
-  /// binds the base's rotation in part (a chart for all nodes has no bounds for that), or if contacts depend on each
-  /// other and forces are variables or contacts are not stabilised.
+  /// Throws InputError for incompatible choices, steps too long for the rule's gains, goals on a
+  /// part of the base rotation (not expressible in a common chart), or redundant contacts if forces
+  /// are variables or contacts are not stabilised.
   Collocation(const DiscreteProblem& discrete, const Trajectory& guess, CollocationForm form);
   ~Collocation() override;
 
@@ -54,14 +53,14 @@ class Collocation : public MotionNlp {
  private:
   struct NodePiece;
   struct IntervalPiece;
-  /// An entry of a piece's Hessian, and where it goes among the values of the whole.
+  /// An entry of a piece's Hessian and its index among the values of the whole Hessian.
   struct HessianPlace {
     int row, col, place;
   };
 
   ChartedNode& charted(int k) const { return *charted_[phase_of(k)]; }
   bool has_acceleration() const { return !form_.dynamics->eliminates_acceleration(); }
-  /// Variables of a node (or of a middle, with or without its state).
+  /// Number of variables of a node, or of a middle with or without state.
   int point_size(int k, bool state) const;
   std::vector<int> columns(int first, int size) const;
   std::vector<int> shared_columns(int k) const;
@@ -81,11 +80,11 @@ class Collocation : public MotionNlp {
   void for_each_piece(Visit visit) const;
 
   CollocationForm form_;
-  std::vector<std::unique_ptr<ChartedNode>> charted_;  ///< one a phase
-  std::vector<int> node_first_, middle_first_;         ///< variables; of the interval after a node, -1 without
-  std::vector<int> durations_, places_;                ///< of phases and stances; -1 where there is none
+  std::vector<std::unique_ptr<ChartedNode>> charted_;  ///< per phase
+  std::vector<int> node_first_, middle_first_;         ///< first variable of a node; of the middle after it, -1 without
+  std::vector<int> durations_, places_;                ///< per phase, per stance; -1 without
   std::vector<std::unique_ptr<NodePiece>> nodes_;
-  std::vector<std::unique_ptr<IntervalPiece>> intervals_;  ///< null at a phase switch
+  std::vector<std::unique_ptr<IntervalPiece>> intervals_;  ///< null at a phase transition
   int first_switch_row_ = 0;
   HessianKind hessian_kind_ = HessianKind::exact;
 };

@@ -5,7 +5,7 @@
 
 namespace prowl {
 
-/// What holds at one node.
+/// Functions of one node.
 struct Collocation::NodePiece {
   ProgramPiece piece;
   PointFunction* dynamics = nullptr;
@@ -14,13 +14,13 @@ struct Collocation::NodePiece {
   std::vector<HessianPlace> places = {};
 };
 
-/// What holds over one interval. Accelerations at its ends, where they are functions, are those of the node pieces.
+/// Functions of one interval. Accelerations at its ends, if functions, come from the node pieces.
 struct Collocation::IntervalPiece {
   ProgramPiece piece;
   struct Link {
     ProgramGraph::Vector here, there;
     int node = 0;
-    std::vector<int> columns;  ///< local of this piece for each local of the node's
+    std::vector<int> columns;  ///< local variable of this piece for each local of the node's
   };
   std::vector<Link> links = {};
   Eigen::MatrixXd hessian = {};

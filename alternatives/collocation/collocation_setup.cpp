@@ -9,7 +9,7 @@
 #include "prowl/model/so3.hpp"
 #include "prowl/transcription/transcription_bounds.hpp"
 
-// Bounds, patterns and words of a Collocation, and motions in and out of it.
+// Bounds, patterns and descriptions of a Collocation; conversion of motions.
 
 namespace prowl {
 
@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-// Those of Transcription's layout, with the rotation in another chart.
+// Bounds of Transcription, with the rotation in another chart.
 void Collocation::set_bounds(const Trajectory& guess) {
   const int nv = problem().robot.nv(), nu = problem().robot.nu();
   const std::vector<int> no_forces(problem().phases.size(), 0), no_rows(discrete_.nodes.size(), 0);
@@ -41,7 +41,7 @@ void Collocation::set_bounds(const Trajectory& guess) {
     } else if (lower.maxCoeff() > -std::numeric_limits<double>::infinity() ||
                upper.minCoeff() < std::numeric_limits<double>::infinity()) {
       throw InputError(discrete_.describe_moment(k) +
-                       ": binds a part of the base's rotation, for which this formulation has no bounds");
+                       ": constrains a part of the base rotation, which this formulation cannot express");
     }
     if (middle_first_[k] < 0) continue;
     const RobotModel& robot = problem().robot;
@@ -57,7 +57,7 @@ void Collocation::set_bounds(const Trajectory& guess) {
     variable_lower_.segment(middle, nu) = -robot.torque_limit();
     variable_upper_.segment(middle, nu) = robot.torque_limit();
   }
-  const int shared = layout.num_variables() - layout.first_shared();  // the same order in both
+  const int shared = layout.num_variables() - layout.first_shared();  // same order in both
   variable_lower_.tail(shared) = bounds.lower.tail(shared);
   variable_upper_.tail(shared) = bounds.upper.tail(shared);
 }
@@ -107,7 +107,7 @@ void Collocation::set_patterns() {
   for (const auto& node : nodes_) add(node->piece, node->places);
   for (const auto& interval : intervals_) {
     if (!interval) continue;
-    // Accelerations at the ends bend in the node's pieces: all that a node's own variables do is there.
+    // Second derivatives of accelerations at the ends are in the node's pieces.
     add(interval->piece, interval->places);
   }
   int row = first_switch_row_;
@@ -209,7 +209,7 @@ std::string Collocation::describe_constraint(int row) const {
   const int nv = problem().robot.nv(), i = (row - first_switch_row_) % (2 * nv);
   int to_go = (row - first_switch_row_) / (2 * nv), k = 0;
   while (is_interval(k) || to_go-- > 0) ++k;
-  return fmt::format("{}, {}, {} across the phase switch", discrete_.describe_moment(k),
+  return fmt::format("{}, {}, {} across the phase transition", discrete_.describe_moment(k),
                      charted(k).describe_coordinate(i % nv), i < nv ? "position" : "velocity");
 }
 
@@ -221,7 +221,8 @@ std::string Collocation::describe_variable(int index) const {
   for (std::size_t s = 0; s < places_.size(); ++s) {
     if (places_[s] < 0 || (index != places_[s] && index != places_[s] + 1)) continue;
     const int contact = discrete_.schedule.stances()[s].contact;
-    return fmt::format("place {} of {}", index - places_[s] + 1, problem().robot.contacts()[contact].name);
+    return fmt::format("foothold coordinate {} of {}", index - places_[s] + 1,
+                       problem().robot.contacts()[contact].name);
   }
   int k = num_nodes() - 1;
   while (node_first_[k] > index) --k;

@@ -3,8 +3,8 @@
 namespace prowl {
 
 const std::vector<ContactForm>& contact_forms() {
-  // 5 mm: where exact equality at every node over-determines the problem and SNOPT calls it infeasible
-  // (docs/formulations.md).
+  // 5 mm: exact equality at every node over-determines the problem, which SNOPT reports as
+  // infeasible (docs/formulations.md).
   constexpr double kLoose = 5e-3;
   static const std::vector<ContactForm> forms = {
       {.name = "stabilised", .stabilised = true},

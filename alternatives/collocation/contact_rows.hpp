@@ -10,12 +10,11 @@
 
 namespace prowl {
 
-/// Rows about the contacts that a phase holds, beside those of NodeFunctions, in this order, each where it is asked
-/// for:
+/// Optional rows for the contacts of a phase, in addition to those of NodeFunctions, in this order:
 ///
-///   distance       n · (p − point) − radius       1 a contact, over the size of the robot
-///   velocity       J v                            3 a contact, over √(g size)
-///   acceleration   J a + J̇ v + kd J v + kp (p − anchor)   3 a contact, over g
+///   distance       n · (p − point) − radius               1 per contact, over the size of the robot
+///   velocity       J v                                    3 per contact, over √(g size)
+///   acceleration   J a + J̇ v + kd J v + kp (p − anchor)   3 per contact, over g
 class ContactRows {
  public:
   struct Kinds {
@@ -26,15 +25,15 @@ class ContactRows {
 
   int count() const { return distances() + velocities() + accelerations(); }
   int distances() const { return kinds_.distance ? num_contacts() : 0; }
-  int first_acceleration() const { return distances() + velocities(); }  ///< row; the others are about single nodes
-  /// Of a row, either way.
+  int first_acceleration() const { return distances() + velocities(); }  ///< row; those before hold at nodes only
+  /// Tolerance of a row, both ways.
   double tolerance(int row) const { return row < distances() ? kinds_.tolerance / length_ : 0.0; }
   std::string describe(int row) const;
 
-  /// Where it is evaluated: `terms` at the point's q; v, a and anchors of the point, its gains.
+  /// `terms`: at the configuration of `at`; uses v, a, anchors and gains of `at`.
   void evaluate(const RigidBodyTerms& terms, const DynamicsPoint& at, Eigen::Ref<Eigen::VectorXd> values);
-  /// After evaluate() there: derivatives in the tangent of q, in v, in a, in the anchors and in the gains (kd, kp). Set
-  /// whole.
+  /// After evaluate() at the same point: derivatives in the tangent of q, v, a, anchors and gains
+  /// (kd, kp); overwrites all entries.
   struct Derivatives {
     Eigen::MatrixXd q, v, a, anchors, gains;
   };
@@ -43,9 +42,9 @@ class ContactRows {
   struct Hessian : SecondDerivatives {
     using SecondDerivatives::SecondDerivatives;
     Eigen::MatrixXd qgains, vgains;  ///< two columns, kd and kp
-    Eigen::VectorXd de;              ///< multipliers of the accelerations; that of kp and the anchors is -de
+    Eigen::VectorXd de;              ///< multipliers of the accelerations; the kp-anchor block is -de
   };
-  /// After hessian(): first derivatives of multipliers . rows in kd and kp.
+  /// After hessian(): first derivatives of multipliers . rows in (kd, kp).
   Eigen::Vector2d on_gains(const DynamicsPoint& at) const {
     return {hessian_.vgains.col(0).dot(at.v), hessian_.de.dot(kinematics_.positions() - at.anchors)};
   }

@@ -20,7 +20,7 @@ void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments) {
                                          "Keep the best iterate of a long solve in this folder, for --resume");
   folder->group(kOutputOptions);
   verb.add_option("--checkpoint-every", arguments.every,
-                  fmt::format("Least seconds between two checkpoints; default {:g}; 0 keeps each better iterate",
+                  fmt::format("Minimum seconds between checkpoints; default {:g}; 0 keeps each better iterate",
                               arguments.every))
       ->check(number_in(NumberRange::nonnegative()))
       ->type_name("S")

@@ -13,22 +13,22 @@ namespace prowl::cli {
 
 struct CheckpointArguments {
   std::string folder;   ///< "": none
-  double every = 10.0;  ///< [s]; so much work may be lost, against the time that it takes to write and sync a plan
-  std::string resume;   ///< folder; "": from the task alone
+  double every = 10.0;  ///< [s]; the most work lost, against the time to write and sync a plan
+  std::string resume;   ///< folder; "" without
 };
 
 /// --checkpoint, --checkpoint-every and --resume.
 void add_checkpoint(CLI::App& verb, CheckpointArguments& arguments);
 
-/// The plan in the folder of --resume. If the mesh is refined, task.mesh becomes that of the plan. Throws InputError
-/// that names the folder if it is of another task or mesh.
+/// Reads the plan to resume. With --refine its mesh replaces task.mesh. Throws InputError with the
+/// folder if the plan has another task or mesh.
 PlanRecord read_resumable(const std::string& folder, const PackageSearch& search, const PlanRequest& request,
                           Task& task);
 
-/// Has checkpoints written while the request is planned, as long as the result lives; null without --checkpoint. What
-/// is in their folder already stays until there is better, if that is the one that is resumed. Throws InputError if
-/// they were to be written into the plan's own folder `out`, one in it or one that holds it, or in place of a plan that
-/// passed, FileError if they cannot be written.
+/// Writes checkpoints during the solve, as long as the result lives; null without --checkpoint. A
+/// resumed checkpoint in that folder is kept until a better one exists. Throws InputError if their
+/// folder is `out`, inside it or around it, or contains a plan that passed; FileError if they
+/// cannot be written.
 std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& arguments, const std::filesystem::path& out,
                                               const Task& task, PlanRequest& request);
 

@@ -9,7 +9,7 @@
 namespace prowl::cli {
 namespace {
 
-/// Nothing if the text is none.
+/// Nullopt for invalid text.
 std::optional<MeshTolerance> tolerance_of(const std::string& text) {
   for (const Grade grade : {Grade::draft, Grade::certified}) {
     if (text == to_string(grade)) return mesh_tolerance(grade);

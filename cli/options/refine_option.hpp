@@ -8,10 +8,11 @@
 
 namespace prowl::cli {
 
-/// --refine: draft (if alone), certified, or a re-integration error. Nothing where it is not given.
+/// --refine: draft (without value), certified, or a re-integration error. Nullopt if absent.
 void add_refine(CLI::App& verb, std::optional<MeshTolerance>& tolerance);
 
-/// A line for each mesh: "66 intervals, 15 iterations: re-integration 7.1e-04 of 5.0e-04, local error ...".
+/// One line per mesh: "66 intervals, 15 iterations: re-integration 7.1e-04 of 5.0e-04, local error
+/// ...".
 std::string in_words(const RefineRound& round, const MeshTolerance& tolerance);
 
 }  // namespace prowl::cli

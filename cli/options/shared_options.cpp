@@ -13,7 +13,7 @@
 
 namespace prowl::cli {
 void add_plan_directory(CLI::App& verb, std::string& directory) {
-  verb.add_option("directory", directory, "Folder that prowl plan wrote")->required()->type_name("DIR");
+  verb.add_option("directory", directory, "Plan folder, written by prowl plan")->required()->type_name("DIR");
 }
 
 CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning) {
@@ -25,8 +25,8 @@ CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& fo
 
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
   CLI::Validator is_folder = CLI::ExistingDirectory;
-  is_folder.description("");  // the help says DIR already
-  verb.add_option("--package-dir", folders, "Folder that contains packages of package:// URIs; may be given again")
+  is_folder.description("");  // DIR is in the help already
+  verb.add_option("--package-dir", folders, "Folder with packages for package:// URIs; repeatable")
       ->check(is_folder)
       ->type_name("DIR")
       ->expected(1)
@@ -34,7 +34,7 @@ void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {
 }
 
 void add_json(CLI::App& verb, bool& json) {
-  verb.add_flag("--json", json, "Print one JSON object on stdout, for errors too")->group(kOutputOptions);
+  verb.add_flag("--json", json, "Print one JSON object on stdout, also for errors")->group(kOutputOptions);
   verb.add_flag_callback("--quiet", be_quiet, "No progress on stderr; warnings and errors stay")->group(kOutputOptions);
 }
 
@@ -42,7 +42,7 @@ void add_solver_limits(CLI::App& verb, TaskOverrides& overrides) {
   const auto add = [&](const char* option, auto& value, const char* name, const char* type) {
     const FileKey& key = file_key(task_file_keys(), "solver", name);
     const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
-    std::string meaning = fmt::format("{}{}; instead of solver.{}", key.meaning, unit, name);
+    std::string meaning = fmt::format("{}{}; replaces solver.{}", key.meaning, unit, name);
     meaning.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning.front())));
     verb.add_option(option, value, meaning)->check(number_in(key.range))->type_name(type)->group(kSolverOptions);
   };
@@ -71,7 +71,7 @@ void add_hessian(CLI::App& verb, HessianKind& hessian) {
           [&hessian, exact](const std::string& name) {
             hessian = name == exact ? HessianKind::exact : HessianKind::gauss_newton;
           },
-          "Second derivatives: exact (default), or gauss-newton, which takes those of the cost alone")
+          "Second derivatives: exact (default), or gauss-newton: of the cost only")
       ->check(CLI::IsMember({exact, gauss_newton}))
       ->type_name("NAME")
       ->group(kSolverOptions);
@@ -98,7 +98,7 @@ CLI::Validator whole_number() {
                       : fmt::format("{} is not allowed; need a whole number from 0 to {}", text,
                                     std::numeric_limits<std::uint64_t>::max());
           },
-          ""};  // the help says N already
+          ""};  // N is in the help already
 }
 
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status) {

@@ -10,29 +10,30 @@
 
 namespace prowl::cli {
 
-// Groups of --help; what is in none is basic and comes first.
+// Groups of --help; basic options have no group and come first.
 inline constexpr const char* kMeshOptions = "Mesh";
 inline constexpr const char* kSolverOptions = "Solver";
 inline constexpr const char* kOutputOptions = "Output";
 
-// Options that several verbs have, in the same words.
-/// An option that names a folder, which "" is none.
+// Options common to several verbs.
+/// An option with a folder as value; rejects "".
 CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning);
-void add_plan_directory(CLI::App& verb, std::string& directory);  ///< the folder that prowl plan wrote; required
+void add_plan_directory(CLI::App& verb, std::string& directory);           ///< the required folder of a plan
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()
 void add_json(CLI::App& verb, bool& json);                                 ///< --json, for print_json(), and --quiet
 void add_solver_limits(CLI::App& verb, TaskOverrides& overrides);  ///< --max-time, --max-iterations, --tolerance
 void add_hessian(CLI::App& verb, HessianKind& hessian);            ///< --hessian
 
-/// --intervals; its range is that of the key in a task file.
+/// --intervals; range as of the key in a task file.
 CLI::Option* add_intervals(CLI::App& verb, TaskOverrides& overrides);
 CLI::Validator interval_count();
 
 /// A finite number in that range; CLI11's own checks let NaN through.
 CLI::Validator number_in(const NumberRange& range);
-CLI::Validator whole_number();  ///< of 64 bits; CLI11 takes -1, and what is larger, for the largest
+CLI::Validator whole_number();  ///< of 64 bits; CLI11 would turn -1 and overflows into the largest
 
-/// What ends --help: "Examples:", one a line as typed, and what the exit status says. Each example is run by the tests.
+/// Ends --help with "Examples:", one per line, and the meaning of the exit status. Tests run every
+/// example.
 void set_footer(CLI::App& verb, const std::vector<std::string>& examples, const std::string& exit_status);
 
 }  // namespace prowl::cli

@@ -4,17 +4,17 @@
 
 namespace prowl::cli {
 
-/// What the command ends with; scripts rely on these.
+/// Exit status of the command; scripts rely on these values.
 enum ExitStatus : int {
   kPassed = 0,      ///< the plan passes its certificate, draft or certified
-  kUnexpected = 1,  ///< a mistake in Prowl itself
+  kUnexpected = 1,  ///< a bug in Prowl
   kBadInput = 2,
   kNotSolved = 3,  ///< infeasible, or the solver failed
   kFiles = 4,      ///< disk, permissions
   kNumericalFailure = 5,
   kLimit = 6,              ///< of time or iterations
-  kCertificateFailed = 7,  ///< converged, but the motion does not hold
-  kSimulationFailed = 8,   ///< not a success by the task's criteria
+  kCertificateFailed = 7,  ///< converged, but the certificate fails
+  kSimulationFailed = 8,   ///< the criteria of the task are not met
   kInterrupted = 130,
 };
 

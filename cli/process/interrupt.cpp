@@ -16,11 +16,11 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touc
 extern "C" void on_interrupt(int signal) {
   if (signal == SIGHUP) hung_up = true;
   if (interrupted.exchange(true)) {
-    if (signal == SIGHUP) return;  // a shell and the kernel may both send one
+    if (signal == SIGHUP) return;  // shell and kernel may both send it
     ::_exit(kInterrupted);
   }
-  const int before = errno;  // of what is interrupted
-  constexpr char kNotice[] = "\nstopping as soon as what is running allows; once more to end at once\n";
+  const int before = errno;  // of the interrupted code
+  constexpr char kNotice[] = "\nstopping as soon as possible; press Ctrl-C again to quit at once\n";
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kNotice, sizeof(kNotice) - 1);
   errno = before;
 }
@@ -37,10 +37,10 @@ const std::atomic<bool>& catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    // nohup: go on without the terminal. A script's `prowl ... &`: Ctrl-C is for what runs before it.
+    // Respects nohup, and `prowl ... &` in scripts: Ctrl-C is for the foreground.
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
-  std::signal(SIGPIPE, SIG_IGN);  // who no longer reads the progress has not asked to stop
+  std::signal(SIGPIPE, SIG_IGN);  // a closed progress pipe must not stop the solve
   return interrupted;
 }
 

@@ -19,7 +19,7 @@ namespace prowl::cli {
 int run_program(const std::vector<std::string>& arguments, const std::function<void(const std::string&)>& on_line) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments)
-    argv.push_back(const_cast<char*>(argument.c_str()));  // as POSIX wants it
+    argv.push_back(const_cast<char*>(argument.c_str()));  // as POSIX requires
   argv.push_back(nullptr);
 
   int ends[2];

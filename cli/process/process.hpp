@@ -6,9 +6,9 @@
 
 namespace prowl::cli {
 
-/// Runs a program with these arguments, without a shell, and waits for it; the first argument is the program, looked
-/// for in PATH if it has no path. `on_line` gets every line that it prints; what it says on stderr goes where our
-/// messages go. Returns its exit status, 128 + N if signal N ended it. Throws InputError if it cannot be started.
+/// Runs a program without a shell and waits for it; the first argument is the program, searched in
+/// PATH unless it is a path. `on_line` receives every line of its stdout; its stderr is ours.
+/// Returns its exit status, or 128 + N after signal N. Throws InputError if it cannot start.
 int run_program(const std::vector<std::string>& arguments, const std::function<void(const std::string& line)>& on_line);
 
 }  // namespace prowl::cli

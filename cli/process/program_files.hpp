@@ -8,13 +8,13 @@
 
 namespace prowl::cli {
 
-/// The file of this program.
+/// Path of this program.
 std::filesystem::path program_path();
 
-/// PREFIX/share/prowl for PREFIX/bin/prowl, installed as well as in a build.
+/// PREFIX/share/prowl for PREFIX/bin/prowl, both installed and in a build.
 std::filesystem::path share_folder();
 
-/// Where this program looks for package://, the folders of --package-dir first (session/environment.hpp).
+/// Folders to search for package://, --package-dir first (session/environment.hpp).
 PackageSearch package_search(const std::vector<std::string>& package_dirs);
 
 }  // namespace prowl::cli

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kColumn = 30;  // where descriptions begin
 
-/// In lines of `width`. A line does not begin with an option, which would look like the next one of the list.
+/// Breaks text into lines of `width`. No line begins with an option, which would look like a new
+/// entry.
 std::vector<std::string> lines_of(const std::string& text, std::size_t width) {
   std::istringstream words(text);
   std::vector<std::string> lines(1);
@@ -59,7 +60,7 @@ std::string HelpFormatter::make_option(const CLI::Option* option, bool is_positi
 std::string HelpFormatter::make_option_opts(const CLI::Option* option) const {
   if (option->get_type_size() == 0) return "";
   std::string type = option->get_type_name();
-  // Behind a colon CLI11 has what the checks say of themselves: choices are for the reader, ranges for a mistake.
+  // After a colon CLI11 appends descriptions of the checks: keep choices, drop ranges.
   if (const std::size_t colon = type.find(':'); colon != std::string::npos && type.find('{') == std::string::npos)
     type.erase(colon);
   const std::string& preset = option->get_default_str();

@@ -5,8 +5,8 @@
 
 namespace prowl::cli {
 
-/// --help for a screen of columns(): names and choices of an option without what it excludes, needs or checks, which a
-/// mistake is told of, and descriptions that go on below themselves.
+/// --help for columns(): names and choices of an option without exclusions, needs and checks
+/// (errors mention them), and descriptions with a hanging indent.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override;

@@ -26,7 +26,7 @@ const char* kind_of(int exit_status) {
 
 Json error_to_json(int exit_status, const std::string& message) {
   Json error = {{"kind", kind_of(exit_status)}, {"message", message}};
-  // "robots/hyq.toml:12:3: ...", as InputError has it.
+  // "robots/hyq.toml:12:3: ...", as in InputError.
   const std::string place = message.substr(0, std::min(message.find(": "), message.find('\n')));
   const std::size_t before_column = place.rfind(':'),
                     before_line = place.rfind(':', before_column == 0 ? 0 : before_column - 1);
@@ -64,7 +64,7 @@ void print_json_error(const std::string& verb, int exit_status, const std::strin
   try {
     print_bytes(
         json_text({{"verb", verb}, {"exit_status", exit_status}, {"error", error_to_json(exit_status, message)}}));
-  } catch (const std::exception&) {  // nobody listens
+  } catch (const std::exception&) {  // stdout is closed
   }
 }
 

@@ -23,8 +23,8 @@ bool quiet = false;
 void open_standard_streams() {
   for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(number, F_GETFD) != -1) continue;
-    // A result on a closed stdout has to fail, hence read-only; a message on a closed stderr has not. open() takes the
-    // lowest free number, which is this one.
+    // Results on a closed stdout must fail, hence read-only; messages on a closed stderr must not.
+    // open() returns the lowest free number: this one.
     [[maybe_unused]] const int same = ::open("/dev/null", number == STDERR_FILENO ? O_WRONLY : O_RDONLY);
   }
 }

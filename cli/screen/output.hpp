@@ -4,23 +4,23 @@
 
 namespace prowl::cli {
 
-/// Gives a closed stdin, stdout or stderr something to stand for it. Else the next file to be opened gets its number,
-/// and messages are written into a plan. Call first.
+/// Replaces a closed stdin, stdout or stderr; otherwise the next opened file gets its number, and
+/// messages end up in a plan. Call it first.
 void open_standard_streams();
 
-/// Writes a result to stdout, control characters of names and texts in it written out (printable()), with colours if it
-/// is a terminal (paint()). Throws FileError if it does not get through (a full disk behind a redirection).
+/// Writes a result to stdout, with control characters escaped (printable()) and colours on a
+/// terminal (paint()). Throws FileError if writing fails (a full disk behind a redirection).
 void print_result(const std::string& text);
-/// The same for a program to read, as it is.
+/// The same for programs, unchanged.
 void print_bytes(const std::string& text);
 
-/// Writes a message to stderr as far as that goes: nobody has to listen, and no plan fails for it. Control characters
-/// and colours as above; draw() leaves all as it is, for a bar.
+/// Writes a message to stderr, with control characters and colours as above; ignores failures.
+/// draw() writes unchanged text, for a bar.
 void print_message(const std::string& text);
-void print_note(const std::string& text);  ///< print_message() of a line that begins with "note: "
+void print_note(const std::string& text);  ///< print_message() of a line "note: ..."
 void draw(const std::string& text) noexcept;
 
-/// print_message() of what says only how far the work is; nothing after be_quiet().
+/// print_message() for progress; silent after be_quiet().
 void print_progress(const std::string& text);
 void be_quiet();  ///< --quiet
 bool is_quiet();

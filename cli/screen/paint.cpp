@@ -33,7 +33,7 @@ const std::array kGrades{Word{"certified", kGood}, Word{"draft", kCareful}, Word
 
 std::string painted(std::string_view word, const Style& style) { return fmt::format(style, "{}", word); }
 
-/// Paints the first of the words that stands behind `label`.
+/// Paints the first of `words` found directly behind `label`.
 template <class Words>
 void paint_behind(std::string& line, std::string_view label, const Words& words) {
   const std::size_t at = line.find(label);
@@ -45,7 +45,7 @@ void paint_behind(std::string& line, std::string_view label, const Words& words)
   }
 }
 
-/// "Mesh:", a line of its own.
+/// "Mesh:" on its own line.
 bool is_heading(std::string_view line) {
   return line.size() > 1 && line.ends_with(':') && line.find_first_of(" .") == std::string_view::npos;
 }

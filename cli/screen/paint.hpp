@@ -4,9 +4,9 @@
 
 namespace prowl::cli {
 
-/// The text with colours for a terminal: verdicts at the end of a row of a table and behind "certificate:" green,
-/// yellow or red, "note:" and "warning:" yellow, "prowl:" of an error red, headings of help bold. Nothing but escape
-/// codes is added, so that without them the text is the same.
+/// The text with colours for a terminal: verdicts at the end of table rows and after "certificate:"
+/// green, yellow or red; "note:" and "warning:" yellow; "prowl:" of errors red; headings of help
+/// bold. Adds only escape codes.
 std::string paint(const std::string& text);
 
 }  // namespace prowl::cli

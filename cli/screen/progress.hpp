@@ -4,13 +4,13 @@
 
 namespace prowl::cli {
 
-/// Writes one line an iteration to stderr, under a heading that comes again with each mesh, and every 20 lines in a
-/// terminal. Plain text, so that it reads the same when piped.
+/// Writes one line per iteration to stderr, as plain text. The heading is repeated for each mesh,
+/// and every 20 lines in a terminal.
 class ProgressPrinter {
  public:
   ProgressPrinter();
 
-  /// Sets on_mesh and on_iteration; this has to outlive the solve.
+  /// Sets on_mesh and on_iteration; this must outlive the solve.
   void watch(PlanRequest& request);
 
  private:

@@ -17,13 +17,14 @@
 namespace prowl::cli {
 namespace {
 
-constexpr int kNarrowest = 76;  // columns that bar and times take
+constexpr int kNarrowest = 76;  // columns for bar and times
 
-/// A terminal that is wide enough: the times are overwritten by going back, which does not work over the end of a line.
+/// True for a terminal that is wide enough: times are overwritten by backspaces, which stop at the
+/// start of a line.
 bool has_room() {
   if (::isatty(STDERR_FILENO) != 1) return false;
   const char* const terminal = std::getenv("TERM");
-  if (terminal && std::string_view(terminal) == "dumb") return false;  // it may not go back
+  if (terminal && std::string_view(terminal) == "dumb") return false;  // it may lack backspace
   winsize size{};
   return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_col >= kNarrowest;
 }
@@ -50,7 +51,7 @@ ProgressBar::~ProgressBar() {
   if (bar_ && bar_->count() < bar_->expected_count()) print_message("\n");
 }
 
-/// By the pace so far, once that says something.
+/// Extrapolates from the pace, after kFirstLook.
 bool ProgressBar::is_long(int done) const {
   constexpr double kLong = 2.0, kFirstLook = 0.3;  // [s]
   const double passed = seconds();
@@ -70,13 +71,13 @@ void ProgressBar::show(int done) {
 
 void ProgressBar::show_bar(int done) {
   const unsigned long more = static_cast<unsigned long>(done) - bar_->count();
-  if (more == 0) return;  // it would draw a tic all the same
+  if (more == 0) return;  // it would draw a tick anyway
   write_behind("");
   *bar_ += more;
   if (done < total_) {
     write_behind("  " + times(done));
   } else {
-    print_message(fmt::format("{} {}: {}\n", done, what_, times(done)));  // it has ended its line
+    print_message(fmt::format("{} {}: {}\n", done, what_, times(done)));  // the bar has ended its line
   }
 }
 
@@ -95,7 +96,7 @@ std::string ProgressBar::times(int done) const {
   return fmt::format("{}, {} left", clock(passed), clock(passed * (total_ - done) / done));
 }
 
-/// Puts text behind the bar in place of what stood there, and goes back to where the bar goes on.
+/// Replaces the text behind the bar, and moves the cursor back to the bar.
 void ProgressBar::write_behind(const std::string& text) {
   const std::size_t width = std::max(text.size(), behind_);
   draw(fmt::format("{:<{}}{:\b<{}}", text, width, "", width));

@@ -6,20 +6,20 @@
 
 namespace prowl::cli {
 
-/// How many of `total` equal pieces of work are done, on stderr. In a terminal the bar of Boost.Timer with the time
-/// that has passed and what is left at this pace; elsewhere, and where it is too narrow, a line for every tenth. No
-/// colours. Nothing with --quiet.
+/// Shows on stderr how many of `total` equal pieces of work are done. In a terminal: the bar of
+/// Boost.Timer, with elapsed and remaining time; elsewhere, or if too narrow: a line for every
+/// tenth. Silent with --quiet.
 class ProgressBar {
  public:
-  enum class Start { at_once, if_long };  ///< if_long: once it looks as if all will take two seconds or more
+  enum class Start { at_once, if_long };  ///< if_long: when the estimated total is two seconds or more
 
-  /// `what` there are `total` > 0 of: "simulations".
+  /// `what`: plural name of the pieces, "simulations"; `total` > 0.
   ProgressBar(std::string what, int total, Start start = Start::at_once);
-  ~ProgressBar();  ///< ends a bar that is not full
+  ~ProgressBar();  ///< closes an unfinished bar
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// `done` does not fall; 0 shows that it has begun.
+  /// `done` must not decrease; 0 shows the start.
   void show(int done);
 
  private:
@@ -27,7 +27,7 @@ class ProgressBar {
   void open();
   void show_bar(int done);
   void show_line(int done);
-  double seconds() const;  ///< since it was made
+  double seconds() const;  ///< since construction
   std::string times(int done) const;
   void write_behind(const std::string& text);
 
@@ -36,12 +36,11 @@ class ProgressBar {
   double start_;  ///< in wall_seconds()
   std::optional<boost::timer::progress_display> bar_;
   std::size_t behind_ = 0;  ///< characters behind the bar
-  int tenths_ = 0;          ///< that have their line
+  int tenths_ = 0;          ///< number of tenths printed
   bool is_open_ = false;
 };
 
-/// Progress of a simulation or a rollout, as simulate() and rollout() call it: a ProgressBar over the motion if it
-/// takes long.
+/// Callback for simulate() and rollout(): a ProgressBar over the motion if it takes long.
 class MotionProgress {
  public:
   void operator()(double t, double end);  ///< [s], from 0

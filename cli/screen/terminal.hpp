@@ -4,11 +4,11 @@
 
 namespace prowl::cli {
 
-/// Columns of the terminal that stdout is, at least 40; 80 if it is none.
+/// Columns of the terminal on stdout, at least 40; 80 without a terminal.
 std::size_t columns();
 
-/// Whether colours may be written to this stream (STDOUT_FILENO, STDERR_FILENO): it is a terminal that is not dumb, and
-/// NO_COLOR is not set (https://no-color.org).
+/// True if this stream (STDOUT_FILENO, STDERR_FILENO) is a terminal that is not dumb, and NO_COLOR
+/// is not set (https://no-color.org).
 bool has_colour(int stream);
 
 }  // namespace prowl::cli

@@ -6,7 +6,7 @@
 namespace prowl::cli {
 namespace {
 
-/// Where the lines that follow begin.
+/// Indent of continuation lines.
 std::size_t hanging_indent(const std::string& line) {
   constexpr std::size_t kLongestLabel = 16;
   const std::size_t first = line.find_first_not_of(' ');
@@ -25,7 +25,7 @@ std::string wrap(const std::string& text, std::size_t columns) {
     while (line.size() > columns) {
       std::size_t end = line.rfind(' ', columns);
       const std::size_t next = end == std::string::npos ? end : line.find(' ', end + 1);
-      const bool fits = std::min(next, line.size()) - end - 1 <= columns - indent;  // the word on a line of its own
+      const bool fits = std::min(next, line.size()) - end - 1 <= columns - indent;  // the next word alone on a line
       if (end == std::string::npos || end <= indent || !fits) end = line.find(' ', columns);
       if (end == std::string::npos) break;
       wrapped += line.substr(0, end) + "\n";

@@ -7,8 +7,8 @@
 
 namespace prowl::cli {
 
-/// Text for a screen of so many columns: longer lines are broken at spaces, and go on below what they began with,
-/// behind a label if there is one ("  solver       Riccati: ..."). A word that is longer stays whole: paths are copied.
+/// Breaks long lines at spaces, with a hanging indent, behind a label if there is one ("  solver
+/// Riccati: ..."). Longer words stay whole: users copy paths.
 std::string wrap(const std::string& text, std::size_t columns = cli::columns());
 
 }  // namespace prowl::cli

@@ -26,8 +26,8 @@ int run_check(const CheckArguments& arguments) {
   record.plan.certificate = certify({record.task.problem, record.plan.mesh}, record.plan.trajectory);
   const Certificate& certificate = record.plan.certificate;
   if (certificate.grade != recorded) {
-    print_note(
-        fmt::format("plan.json says grade {}, this check says {}", to_string(recorded), to_string(certificate.grade)));
+    print_note(fmt::format("plan.json records grade {}, this check found {}", to_string(recorded),
+                           to_string(certificate.grade)));
   }
   const int status = exit_status(record.plan.result.status, certificate);
   if (arguments.json) {

@@ -7,7 +7,8 @@
 
 namespace prowl::cli {
 
-// Each adds its verb to the command line. `status` gets the exit status when the verb has run; errors are thrown.
+// Each adds a verb to the command line. Running the verb sets `status` to the exit status; errors
+// are thrown.
 void add_plan_command(CLI::App& app, int& status);
 void add_check_command(CLI::App& app, int& status);
 void add_diagnose_command(CLI::App& app, int& status);
@@ -29,7 +30,8 @@ struct WrittenReport {
   std::vector<std::string> warnings;
 };
 
-/// Writes `out`, the report of a plan and of what else is in its folder (see prowl report), and says so on stderr.
+/// Writes the report of a plan and its folder to `out` (see prowl report), with a message on
+/// stderr.
 WrittenReport write_report(const PlanRecord& plan, const std::filesystem::path& directory,
                            const std::filesystem::path& out, const PackageSearch& search);
 

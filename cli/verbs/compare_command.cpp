@@ -30,7 +30,7 @@ using Names = std::vector<std::string>;
 struct CompareArguments {
   std::string task, out;
   std::vector<std::string> package_dirs;
-  Names dynamics, transcriptions, contacts, orientations, solvers;  ///< empty: the first of those that there are
+  Names dynamics, transcriptions, contacts, orientations, solvers;  ///< empty: the first of all
   std::optional<std::string> snopt_library;
   std::string guess = guess_names().front();
   std::vector<int> intervals;  ///< empty: as in the task file
@@ -42,15 +42,15 @@ struct CompareArguments {
 constexpr const char* kAll = "all";
 constexpr const char* kSnopt = "snopt";
 
-/// Those of prowl plan, and SNOPT, which does not come with Prowl.
+/// Solvers of prowl plan, and SNOPT, which Prowl does not contain.
 Names all_solver_names() {
   Names names = solver_names();
   names.push_back(kSnopt);
   return names;
 }
 
-/// SNOPT from the user's own library: the named one, or libsnopt7.so. Throws InputError with the remedy if it cannot be
-/// used.
+/// SNOPT from the user's library, by default libsnopt7.so. Throws InputError with the remedy if it
+/// is unusable.
 std::unique_ptr<NlpSolver> make_snopt(const std::optional<std::string>& library) {
   auto snopt = library ? std::make_unique<SnoptSolver>(*library) : std::make_unique<SnoptSolver>();
   const std::optional<std::string>& reason = snopt->why_unavailable();
@@ -63,13 +63,13 @@ std::unique_ptr<NlpSolver> solver_of(const CompareArguments& arguments, const st
   return name == kSnopt ? make_snopt(arguments.snopt_library) : make_solver(name);
 }
 
-/// What was asked for of what there is.
+/// Requested names; by default the first, with "all" all.
 Names chosen(const Names& asked, const Names& there_is) {
   if (asked.empty()) return {there_is.front()};
   return std::ranges::find(asked, kAll) == asked.end() ? asked : there_is;
 }
 
-/// All combinations on the mesh.
+/// All combinations on one mesh.
 std::vector<ComparedRun> combinations(const CompareArguments& arguments, const Mesh& mesh) {
   std::vector<ComparedRun> lines;
   const int intervals = mesh.num_intervals(), nodes = mesh.num_nodes();
@@ -82,7 +82,7 @@ std::vector<ComparedRun> combinations(const CompareArguments& arguments, const M
   return lines;
 }
 
-/// The task on each of the meshes.
+/// The task on each mesh.
 std::vector<Task> read_tasks(const CompareArguments& arguments) {
   const PackageSearch search = package_search(arguments.package_dirs);
   if (arguments.intervals.empty()) return {read_task_file(arguments.task, search, arguments.overrides)};
@@ -95,7 +95,7 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
   return tasks;
 }
 
-/// A combination that cannot be run is a line of the table, too, and takes nothing from the others.
+/// A combination that cannot run becomes a table row with the reason.
 void run_comparison(const CompareArguments& arguments, const DiscreteProblem& discrete, const SolverOptions& options,
          ComparedRun& line) {
   try {
@@ -110,7 +110,7 @@ bool was_interrupted(const ComparedRun& line) {
   return line.run && line.run->result.status == SolveStatus::interrupted;
 }
 
-/// Runs them all, or those before Ctrl-C.
+/// Runs all combinations, until Ctrl-C.
 CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>& interrupted) {
   const std::vector<Task> tasks = read_tasks(arguments);
   const Task& task = tasks.front();
@@ -145,7 +145,7 @@ CompareRecord compare(const CompareArguments& arguments, const std::atomic<bool>
   return record;
 }
 
-/// Throws InputError if no combination can be run: a table of nothing but reasons is a mistake of who asked.
+/// Throws InputError if no combination can run.
 void check_any_ran(const CompareRecord& record) {
   if (std::ranges::any_of(record.runs, [](const ComparedRun& line) { return line.run.has_value(); })) return;
   const std::string& reason = record.runs.front().reason;
@@ -184,7 +184,7 @@ int run_compare(const CompareArguments& arguments) {
 void add_names(CLI::App& verb, const char* option, Names& asked, const Names& there_is, const std::string& meaning) {
   Names allowed = there_is;
   allowed.push_back(kAll);
-  verb.add_option(option, asked, fmt::format("{}, with commas between; default {}", meaning, there_is.front()))
+  verb.add_option(option, asked, fmt::format("{}, comma-separated; default {}", meaning, there_is.front()))
       ->check(CLI::IsMember(allowed))
       ->type_name("LIST")
       ->delimiter(',')
@@ -196,17 +196,17 @@ void add_names(CLI::App& verb, const char* option, Names& asked, const Names& th
 
 void add_compare_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<CompareArguments>();
-  CLI::App* const verb = app.add_subcommand("compare", "Solve a task in several ways and put them in one table");
+  CLI::App* const verb = app.add_subcommand("compare", "Solve a task in several ways and tabulate the results");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   add_names(*verb, "--formulation", arguments->dynamics, dynamics_names(),
             "Forms of the dynamics (docs/formulations.md)");
-  add_names(*verb, "--transcription", arguments->transcriptions, transcription_names(), "Rules of integration");
+  add_names(*verb, "--transcription", arguments->transcriptions, transcription_names(), "Integration rules");
   add_names(*verb, "--contact", arguments->contacts, contact_names(), "Forms of the contact constraint");
   add_names(*verb, "--orientation", arguments->orientations, orientation_names(),
-            "Coordinates of the base's orientation");
+            "Coordinates of the base orientation");
   add_names(*verb, "--solver", arguments->solvers, all_solver_names(), "Solvers");
   verb->add_option("--intervals", arguments->intervals,
-                   "Numbers of mesh intervals, divided among the phases as in the task file; with commas between")
+                   "Numbers of mesh intervals, divided among the phases as in the task file; comma-separated")
       ->check(interval_count())
       ->type_name("LIST")
       ->delimiter(',')
@@ -232,8 +232,8 @@ void add_compare_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",
               "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},
-             "0 if all ran; the table tells the results; 2 bad input, also if no\n"
-             "combination can be run; 4 files; 130 interrupted (Ctrl-C keeps the runs that have finished).");
+             "0 all combinations ran, with any result; 2 bad input, or no combination can run;\n"
+             "4 files; 130 interrupted (Ctrl-C keeps the finished runs).");
   verb->callback([arguments, &status] { status = run_compare(*arguments); });
 }
 

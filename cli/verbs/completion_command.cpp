@@ -1,6 +1,6 @@
-// prowl completion: what a shell needs to complete the command line, from the tree of verbs and options that CLI11 has.
-// A new verb or option needs nothing here: what its values are is told by its type name (*.toml, DIR, FILE, PATH) and
-// its choices.
+// prowl completion: scripts that complete the command line, from the verbs and options in CLI11.
+// New verbs and options need no code here: type name (*.toml, DIR, FILE, PATH) and choices define
+// their values.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -16,7 +16,7 @@
 namespace prowl::cli {
 namespace {
 
-/// What stands for a positional or for the value of an option.
+/// Completion of a positional or of the value of an option.
 struct Value {
   bool is_toml = false, is_folder = false, is_file = false;
   std::vector<std::string> choices;
@@ -25,12 +25,12 @@ struct Value {
 struct Option {
   std::vector<std::string> names;  ///< "--out", "-h"
   std::string meaning, type;
-  int values = 0;  ///< that follow it
+  int values = 0;  ///< number of values
   bool repeats = false;
   Value value;
 };
 
-/// The command itself, one of its verbs, or a verb of a verb.
+/// The command, a verb, or a subverb.
 struct Verb {
   std::string path;  ///< "" for the command, "plan", "new robot"
   std::string name, meaning;
@@ -87,7 +87,7 @@ std::string names_of(const std::vector<Verb>& verbs) {
   return fmt::format("{}", fmt::join(names, " "));
 }
 
-/// In single quotes, for all three shells: none of our texts ends in a backslash.
+/// In single quotes, for all three shells; no text ends with a backslash.
 std::string in_quotes(const std::string& text) {
   std::string safe;
   for (const char c : text) safe += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -108,9 +108,9 @@ std::string bash_value(const Value& value) {
 }
 
 struct BashCases {
-  std::map<std::string, std::vector<std::string>> values;  ///< what completes the value: patterns "plan --solver"
+  std::map<std::string, std::vector<std::string>> values;  ///< completion -> patterns "plan --solver"
   std::string verbs;
-  std::vector<std::string> paths;  ///< of verbs of verbs
+  std::vector<std::string> paths;  ///< of subverbs
 };
 
 void add_bash_cases(const Verb& verb, BashCases& cases) {
@@ -172,7 +172,7 @@ complete -F _prowl prowl
                      second, values, cases.verbs);
 }
 
-/// Within [ ] and between colons of _arguments; for _describe only colons mean something.
+/// Escapes for [ ] and colons of _arguments; _describe needs only colons.
 std::string zsh_text(const std::string& text, const std::string& special = "[]:") {
   std::string safe;
   for (const char c : text) safe += (special.find(c) == std::string::npos ? "" : "\\") + std::string(1, c);
@@ -181,7 +181,7 @@ std::string zsh_text(const std::string& text, const std::string& special = "[]:"
 
 std::string zsh_action(const Value& value) {
   if (!value.choices.empty()) return fmt::format("({})", fmt::join(value.choices, " "));
-  if (value.is_toml) return "_files -g \"*.toml\"";  // and folders, to go into
+  if (value.is_toml) return "_files -g \"*.toml\"";  // and folders
   if (value.is_folder) return "_files -/";
   return value.is_file ? "_files" : " ";
 }
@@ -253,7 +253,7 @@ std::string fish_option(const Option& option) {
 
 void add_fish_lines(const Verb& verb, std::string& text) {
   const char* const where =
-      verb.verbs.empty() ? "__prowl_in" : "__prowl_at";  // a verb may come only where its own begin
+      verb.verbs.empty() ? "__prowl_in" : "__prowl_at";  // subverbs only directly after their verb
   const std::string here = fmt::format("complete -c prowl -n '{} {}'", where, verb.path);
   for (const Option& option : verb.options) text += here + fish_option(option) + "\n";
   for (const Option& positional : verb.positionals) text += here + fish_value(positional.value) + "\n";
@@ -265,11 +265,11 @@ void add_fish_lines(const Verb& verb, std::string& text) {
 
 std::string fish(const Verb& command) {
   std::string text = R"(# Completion of prowl for fish: prowl completion fish | source
-function __prowl_at  # whether these words are all that stands behind the command
+function __prowl_at  # true if the words after the command are exactly these
   set -l words (commandline -opc)
   test "$words[2..-1]" = "$argv"
 end
-function __prowl_in  # whether what stands behind the command begins with these words
+function __prowl_in  # true if the words after the command begin with these
   set -l words (commandline -opc)
   string match -q -- "$argv *" "$words[2..-1] "
 end
@@ -283,8 +283,8 @@ complete -c prowl -f
 
 void add_completion_command(CLI::App& app, int& status) {
   const auto shell = std::make_shared<std::string>();
-  CLI::App* const verb = app.add_subcommand("completion", "Print what a shell needs to complete this command");
-  verb->add_option("shell", *shell, "Whose script to print")
+  CLI::App* const verb = app.add_subcommand("completion", "Print a script that completes this command in a shell");
+  verb->add_option("shell", *shell, "Shell of the script")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}))
       ->type_name("SHELL");
@@ -292,7 +292,7 @@ void add_completion_command(CLI::App& app, int& status) {
       *verb,
       {"prowl completion bash > ~/.local/share/bash-completion/completions/prowl",
        "prowl completion zsh > ~/.zfunc/_prowl", "prowl completion fish > ~/.config/fish/completions/prowl.fish"},
-      "0, 2 bad input. What else a shell needs: docs/command-line.md.");
+      "0, 2 bad input. Installation: docs/command-line.md.");
   verb->callback([shell, &app, &status] {
     const Verb command = describe_verb(app);
     print_bytes(*shell == "bash" ? bash(command) : *shell == "zsh" ? zsh(command) : fish(command));

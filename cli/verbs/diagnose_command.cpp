@@ -56,7 +56,7 @@ void add_diagnose_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("diagnose", "Find out why a task has no plan, and what would help");
   verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
   verb->add_option("--max-time", arguments->max_seconds,
-                   fmt::format("Most seconds in all; default {:g}", arguments->max_seconds))
+                   fmt::format("Time limit in seconds; default {:g}", arguments->max_seconds))
       ->check(number_in(NumberRange::positive()))
       ->type_name("S");
   add_json(*verb, arguments->json);

@@ -21,10 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 using State = Finding::State;
 
-constexpr double kLeastMemory = 2.2;  // [GB], what one compiler takes for a file that includes Pinocchio
-constexpr double kBusy = 1.5;         // processes that want to run, per core
+constexpr double kLeastMemory = 2.2;  // [GB], of a compiler for a file that includes Pinocchio
+constexpr double kBusy = 1.5;         // load per core
 
-/// The value of "name : value" in one of the kernel's tables; "" if it is not there.
+/// Value of "name : value" in a table of the kernel; "" if absent.
 std::string kernel_value(const char* file, const std::string& name) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
@@ -40,20 +40,20 @@ double memory(const std::string& name) {
   return 1e-6 * std::strtod(kernel_value("/proc/meminfo", name).c_str(), nullptr);
 }  // [GB]
 
-/// Those that this process may use: a container or taskset leaves fewer than there are.
+/// Cores that this process may use: a container or taskset may limit them.
 int usable_cores() {
   cpu_set_t set;
   if (::sched_getaffinity(0, sizeof set, &set) == 0) return CPU_COUNT(&set);
   return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-/// Processes that want to run, over the last minute.
+/// Mean number of runnable processes in the last minute.
 double load() {
   double loads[1] = {0.0};
   return ::getloadavg(loads, 1) == 1 ? loads[0] : 0.0;
 }
 
-/// A verb that the Python package does, and the modules that it needs besides.
+/// A verb of the Python package, and other modules that it needs.
 Finding check_python_verb(const char* verb, const std::string& modules) {
   const std::string python = default_python();
   Finding finding{.area = "files", .name = verb, .text = python, .remedy = ""};
@@ -66,13 +66,13 @@ Finding check_python_verb(const char* verb, const std::string& modules) {
                                       modules),
                           python_package().string()},
                          [&missing](const std::string& line) { missing = line; });
-  } catch (const InputError&) {  // it cannot be started
+  } catch (const InputError&) {  // cannot be started
   }
   if (status == 0 && missing.empty()) return finding;
   finding.state = State::missing;
-  finding.text = python + (status != 0 ? " cannot be used" : " lacks " + missing);
-  finding.remedy =
-      fmt::format("scripts/setup makes one in .venv and builds Prowl's own modules; or prowl {} --python PATH", verb);
+  finding.text = python + (status != 0 ? " is unusable" : " lacks " + missing);
+  finding.remedy = fmt::format(
+      "scripts/setup installs one in .venv and builds Prowl's modules; or use prowl {} --python PATH", verb);
   return finding;
 }
 
@@ -83,7 +83,7 @@ Finding check_page() {
   return {.area = "files",
           .name = "report",
           .state = State::missing,
-          .text = page.string() + " is not there",
+          .text = page.string() + " is missing",
           .remedy = "scripts/setup builds it; prowl report needs it"};
 }
 
@@ -95,8 +95,9 @@ Finding check_robots() {
     finding.text = urdf.parent_path().parent_path().parent_path().string();
   } catch (const InputError&) {
     finding.state = State::missing;
-    finding.text = "no package example-robot-data: the URDFs of robots/*.toml are not found from here";
-    finding.remedy = "scripts/setup installs it in .venv; or pip install example-robot-data, and --package-dir FOLDER";
+    finding.text = "package example-robot-data not found: it contains the URDFs of robots/*.toml";
+    finding.remedy =
+        "scripts/setup installs it in .venv; or pip install example-robot-data, and use --package-dir FOLDER";
     finding.status = kFiles;
   }
   return finding;
@@ -113,9 +114,8 @@ std::vector<Finding> check_build() {
        .name = "prowl",
        .state = optimised ? State::ok : State::slow,
        .text = fmt::format("{}, build type {}", PROWL_VERSION, *PROWL_BUILD_TYPE == '\0' ? "none" : PROWL_BUILD_TYPE),
-       .remedy = optimised
-                     ? ""
-                     : "takes 10 times as long or more: cmake --preset release && cmake --build --preset release"});
+       .remedy =
+           optimised ? "" : "at least 10 times slower; use cmake --preset release && cmake --build --preset release"});
   const bool could_be_faster =
       std::string(PROWL_SIMD) == "baseline" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   findings.push_back(
@@ -123,15 +123,15 @@ std::vector<Finding> check_build() {
        .name = "vector instructions",
        .state = State::ok,
        .text = std::string(PROWL_SIMD) +
-               (could_be_faster ? "; avx2 would run here, 10 to 25 % faster, with other last digits" : ""),
-       .remedy = could_be_faster ? "if wanted: cmake -DPROWL_SIMD=avx2" : ""});
+               (could_be_faster ? "; avx2 is available: 10 to 25 % faster, with different last digits" : ""),
+       .remedy = could_be_faster ? "optional: cmake -DPROWL_SIMD=avx2" : ""});
   for (const auto& [name, version] : all_versions()) {
     if (name == "prowl" || name == "vector instructions") continue;
     findings.push_back({.area = "build", .name = name, .text = version, .remedy = ""});
     if (const auto reason = name == "MuJoCo" ? why_no_mujoco() : std::nullopt) {
       findings.back().state = State::missing;
       findings.back().text += ": " + *reason;
-      findings.back().remedy = "prowl simulate --engine rollout does without";
+      findings.back().remedy = "prowl simulate --engine rollout does not need it";
     }
   }
   return findings;
@@ -155,8 +155,8 @@ std::vector<Finding> check_machine() {
   findings.push_back({.area = "machine",
                       .name = "cores",
                       .state = busy ? State::slow : State::ok,
-                      .text = fmt::format("{}; {:.1f} processes want to run", cores, load()),
-                      .remedy = busy ? "others use this machine: times are longer than Prowl's own" : ""});
+                      .text = fmt::format("{}; {:.1f} running processes", cores, load()),
+                      .remedy = busy ? "other programs are running: times are longer than Prowl's own" : ""});
 
   const double all = memory("MemTotal"), free = memory("MemAvailable");
   const bool little = free < kLeastMemory;
@@ -164,11 +164,8 @@ std::vector<Finding> check_machine() {
       {.area = "machine",
        .name = "memory",
        .state = little ? State::slow : State::ok,
-       .text = fmt::format("{:.1f} GB, {:.1f} GB of it free", all, free),
-       .remedy =
-           little
-               ? "enough to plan; a build takes 2.2 GB for a file, on disk if they are not there: close other programs"
-               : ""});
+       .text = fmt::format("{:.1f} GB, {:.1f} GB free", all, free),
+       .remedy = little ? "enough to plan; a build needs 2.2 GB for a file, or swaps: close other programs" : ""});
   return findings;
 }
 

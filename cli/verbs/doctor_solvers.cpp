@@ -12,7 +12,7 @@
 namespace prowl::cli {
 namespace {
 
-constexpr double kLongest = 5.0;  // [s], of a solve that takes 20 ms on an idle machine, 0.3 s in a Debug build
+constexpr double kLongest = 5.0;  // [s], for a solve of 20 ms on an idle machine, or 0.3 s in a Debug build
 
 constexpr const char* kLink = R"(<link name="{name}"><inertial><origin xyz="0 0 {center}"/><mass value="{mass}"/>
 <inertia ixx="{moment}" ixy="0" ixz="0" iyy="{moment}" iyz="0" izz="{moment}"/></inertial></link>
@@ -56,7 +56,7 @@ std::string joint(const std::string& name, const char* type, const std::string& 
                      fmt::arg("axis", axis));
 }
 
-/// A box on four legs of hip and knee.
+/// A box on four legs with hip and knee.
 Task tiny_task() {
   std::string urdf = "<robot name=\"tiny\">\n" + link("base", 10.0, 0.0, 0.2);
   std::string robot = "name = \"tiny\"\nurdf = \"tiny.urdf\"\n", nominal = "[nominal.joints]\n";
@@ -73,7 +73,7 @@ Task tiny_task() {
     robot += fmt::format(fmt::runtime(kContact), n);
     nominal += fmt::format("pitch{0} = 0.6\nknee{0} = -1.2\n", n);
   }
-  // No such folder: the texts are all there is.
+  // Not an existing folder: only the texts are used.
   const std::filesystem::path folder = "/nonexistent/prowl-doctor";
   return parse_task({folder / "task.toml", kTask}, {folder / "robot.toml", robot + nominal}, {}, {},
                     SourceText{folder / "tiny.urdf", urdf + "</robot>\n"});
@@ -106,7 +106,7 @@ Finding check_solver(const std::string& name, const Task& task) {
   }
   finding.state = Finding::State::missing;
   finding.text = fmt::format("{}: does not solve a small task: {}", solver->version(), outcome);
-  finding.remedy = "the libraries may not be those of the build: scripts/setup, and build again";
+  finding.remedy = "the loaded libraries may differ from those of the build: run scripts/setup, and build again";
   finding.status = kNotSolved;
   return finding;
 }

@@ -20,7 +20,8 @@ void add_export_command(CLI::App& app, int& status) {
   for (const ExportFormat& format : export_formats()) names.push_back(format.name);
   CLI::App* const verb = app.add_subcommand("export", "Write a plan or its simulation for other programs");
   add_plan_directory(*verb, arguments->directory);
-  verb->add_option("--format", arguments->formats, "One or more, with commas: " + CLI::detail::join(names, ", "))
+  verb->add_option("--format", arguments->formats,
+                   "One or more formats, comma-separated: " + CLI::detail::join(names, ", "))
       ->required()
       ->delimiter(',')
       ->check(CLI::IsMember(names))
@@ -37,7 +38,7 @@ void add_export_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl export out/hyq_crouch --format csv,npz --rate 500",
               "prowl export out/hyq_crouch --format mcap --simulation"},
-             "0 if the files are written, 2 bad input, 4 files. Their content: docs/exports.md.");
+             "0 if the files are written, 2 bad input, 4 files. Contents: docs/exports.md.");
   verb->callback([arguments, verb, &status] { status = run_python_verb(*verb, *arguments); });
 }
 

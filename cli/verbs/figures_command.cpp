@@ -16,7 +16,7 @@ void add_figures_command(CLI::App& app, int& status) {
   add_plan_directory(*verb, arguments->directory);
   add_folder(*verb, "--out", arguments->out, "Folder for the figures; default: DIR/figures");
   verb->add_option("--joint", arguments->joint,
-                   "Joint whose gains are drawn; default: the first knee, or the last joint of the first leg")
+                   "Joint for the plot of gains; default: the first knee, or the last joint of the first leg")
       ->type_name("NAME");
   add_python(*verb, arguments->python, "numpy, scipy and matplotlib");
   add_json(*verb, arguments->json);

@@ -48,9 +48,9 @@ std::string file_stem(const std::string& name) {
   return stem.empty() ? "robot" : stem;
 }
 
-/// Throws InputError that names the nearest packaged robot if there is no such file.
+/// Throws InputError with the nearest packaged robot if the file does not exist.
 fs::path urdf_path(const std::string& text, const PackageSearch& search) {
-  std::error_code unknown;  // which the reader then tells
+  std::error_code unknown;  // reported by the reader
   if (text.find("://") == std::string::npos) {
     if (!fs::exists(text, unknown) && !unknown)
       throw InputError(fmt::format("{}: no such file{}", text, nearest_packaged_robot(text, search)));
@@ -74,7 +74,7 @@ int run_new_robot(const NewRobotArguments& arguments) {
                                                   : fs::path(arguments.file.out);
   check_new_file(out, arguments.file.force);
   const std::string text = robot_template(robot, urdf_reference(robot.description, out, search), out);
-  // Read as `prowl robot` will read it: what cannot be read is not written.
+  // Read it like `prowl robot`: never write an unreadable file.
   const RobotModel model = load_robot({fs::absolute(out), text}, search);
   const RobotInspection inspection = inspect(model);
   write_new_file(out, text);
@@ -85,7 +85,7 @@ int run_new_robot(const NewRobotArguments& arguments) {
   std::string report =
       fmt::format("{}: {:.1f} kg, {} legs, {} contacts, {}\nwritten to {}\n", model.name(), model.mass(),
                   robot.search.legs.size(), model.contacts().size(),
-                  robot.posture.found ? fmt::format("standing with the base {:.3f} m up", robot.posture.height)
+                  robot.posture.found ? fmt::format("standing with the base at {:.3f} m", robot.posture.height)
                                       : "NO standing posture found",
                   out.string());
   for (const RobotWarning& warning : inspection.warnings) report += fmt::format("warning: {}\n", warning.text);
@@ -97,8 +97,8 @@ int run_new_robot(const NewRobotArguments& arguments) {
 
 void add_new_robot(CLI::App& verb, int& status) {
   const auto arguments = std::make_shared<NewRobotArguments>();
-  CLI::App* const robot = verb.add_subcommand(
-      "robot", "Write a robot file for a URDF, with its feet, a posture and limits as far as they can be guessed");
+  CLI::App* const robot =
+      verb.add_subcommand("robot", "Write a robot file for a URDF, with guesses of feet, posture and limits");
   robot->add_option("urdf", arguments->urdf, "URDF of a legged robot: a path, or package://NAME/PATH")
       ->required()
       ->type_name("URDF");
@@ -135,14 +135,14 @@ int run_new_task(const NewTaskArguments& arguments) {
   const fs::path from = fs::absolute(out).lexically_normal().parent_path();
   const fs::path reference = fs::absolute(robot_file).lexically_normal().lexically_relative(from);
   const std::string text = task_template(task, robot, reference.generic_string());
-  read_task_text({fs::absolute(out), text}, search);  // what cannot be read is not written
+  read_task_text({fs::absolute(out), text}, search);  // never write an unreadable file
   write_new_file(out, text);
   if (arguments.json) {
     const nlohmann::json result = {{"robot", robot.name()}, {"kind", arguments.kind}};
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});
     return kPassed;
   }
-  const bool is_quick = task.pattern == "pace" || task.pattern == "bound";  // whose errors are in a few intervals
+  const bool is_quick = task.pattern == "pace" || task.pattern == "bound";  // errors are in few intervals
   print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}{}\n", robot.name(), arguments.kind, out.string(),
                            out.string(), is_quick ? " --refine" : ""));
   return kPassed;
@@ -174,7 +174,7 @@ void add_new_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl new robot package://example-robot-data/robots/go2_description/urdf/go2.urdf --out go2.toml",
               "prowl new task robots/go2.toml --kind step --out step.toml"},
-             "0, 2 bad input and nothing is written, 4 files. More with prowl new robot --help.");
+             "0, 2 bad input and nothing is written, 4 files. For help: prowl new robot --help");
   add_new_robot(*verb, status);
   add_new_task(*verb, status);
 }

@@ -7,17 +7,17 @@
 namespace prowl::cli {
 
 struct NewFileOptions {
-  std::string out;  ///< "": where the verb puts it
+  std::string out;  ///< "": default of the verb
   bool force = false;
 };
 
-/// --out and --force; `fallback` is where it goes without --out, in words.
+/// --out and --force; `fallback`: default of --out in words.
 void add_new_file(CLI::App& verb, NewFileOptions& options, const std::string& fallback);
 
-/// Throws InputError if there is a file already and it is not to be replaced.
+/// Throws InputError if the file exists, unless `force`.
 void check_new_file(const std::filesystem::path& file, bool force);
 
-/// Makes the folder too. Throws FileError, and then an old file is as it was.
+/// Creates the folder, too. Throws FileError; an old file then stays unchanged.
 void write_new_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace prowl::cli

@@ -43,7 +43,7 @@ struct PlanArguments {
   bool report = false;
 };
 
-/// Those of its files that a new plan's folder has.
+/// Existing files of a plan in its folder.
 std::vector<std::filesystem::path> files_of_plan(const std::filesystem::path& directory) {
   std::vector<std::filesystem::path> files;
   for (const char* name : {"plan.json", "trajectory.csv", "trajectory_uniform.csv", "tracker.bin", kReportFile}) {
@@ -62,7 +62,7 @@ int print_phases(const Task& task, bool json) {
   return kPassed;
 }
 
-/// Throws InputError if the samples of --dt would fill the disk.
+/// Throws InputError if --dt gives too many samples.
 void check_step(const Task& task, std::optional<double> step) {
   double duration = 0.0;
   for (const Phase& phase : task.problem.phases) duration += phase.duration.max;
@@ -71,15 +71,15 @@ void check_step(const Task& task, std::optional<double> step) {
   }
 }
 
-/// More threads than cores wait for each other.
+/// Warns of more threads than cores.
 void note_threads(int threads) {
   const int cores = static_cast<int>(std::thread::hardware_concurrency());
   if (cores == 0 || threads <= cores) return;
-  print_note(fmt::format("--threads {}: this machine has {} core{}, and more threads than that are no faster", threads,
-                         cores, cores == 1 ? "" : "s"));
+  print_note(fmt::format("--threads {}: this machine has {} core{}; more threads are no faster", threads, cores,
+                         cores == 1 ? "" : "s"));
 }
 
-/// As check(), with the names of the options: those of the request, which are the same.
+/// Like check(), with "--" before the names, which are those of the options.
 void check_options(const PlanRequest& request) {
   try {
     check(request);
@@ -88,7 +88,7 @@ void check_options(const PlanRequest& request) {
   }
 }
 
-/// Reads the plan of --warm-start or --resume, if there is one, and says in the request to start from it.
+/// Reads the plan of --warm-start or --resume, if any, and makes it the start of the request.
 std::optional<PlanRecord> read_start(const PlanArguments& arguments, const PackageSearch& search, Task& task,
                                      PlanRequest& request) {
   std::optional<PlanRecord> start;
@@ -102,7 +102,7 @@ std::optional<PlanRecord> read_start(const PlanArguments& arguments, const Packa
   return start;
 }
 
-/// What is left to say of a plan that is written.
+/// Hints after a plan is written.
 void advise(const PlanArguments& arguments, const PlannedTask& planned, int status, const std::filesystem::path& out) {
   const bool may_go_on = !is_good(planned.record.plan) && (status == kLimit || status == kInterrupted);
   const int reached = planned.record.plan.mesh.num_intervals(), wanted = planned.record.task.mesh.num_intervals();
@@ -180,19 +180,19 @@ void add_plan_command(CLI::App& app, int& status) {
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays the plan in a browser");
   add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
-                                             "Print the phases, also those of a gait, and plan nothing");
+                                             "Print the phases, including those of a gait, without planning");
   add_intervals(*verb, arguments->overrides)->group(kMeshOptions);
   add_refine(*verb, arguments->request.refine);
   verb->add_flag_callback(
           "--one-mesh", [arguments] { arguments->request.coarse_first = false; },
-          "Solve on this mesh at once, without coarser ones first")
+          "Solve on this mesh only, without coarser meshes first")
       ->group(kMeshOptions);
   verb->add_option("--solver", arguments->request.solver, "Solver to use; default " + arguments->request.solver)
       ->check(CLI::IsMember(solver_names()))
       ->type_name("NAME")
       ->group(kSolverOptions);
   verb->add_option("--threads", arguments->request.threads,
-                   fmt::format("Threads that evaluate the problem, not with fatrop; default {}. The result is the same",
+                   fmt::format("Threads for evaluations, not with fatrop; default {}. The result does not depend on it",
                                arguments->request.threads))
       ->check(CLI::Range(1, kMostThreads))
       ->type_name("N")
@@ -200,7 +200,7 @@ void add_plan_command(CLI::App& app, int& status) {
   add_hessian(*verb, arguments->request.hessian);
   add_solver_limits(*verb, arguments->overrides);
   add_folder(*verb, "--warm-start", arguments->warm_start,
-             "Start from the plan in this folder, of the same robot and phases; goal, mesh and limits may differ")
+             "Start from the plan in this folder, with the same robot and phases; goal, mesh and limits may differ")
       ->group(kSolverOptions);
   add_checkpoint(*verb, arguments->checkpoint);
   verb->get_option("--resume")->excludes("--warm-start");

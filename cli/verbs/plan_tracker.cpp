@@ -8,7 +8,7 @@ namespace prowl::cli {
 Tracker read_tracker(const std::filesystem::path& directory, const MotionProblem& problem) {
   if (!std::filesystem::exists(directory / "tracker.bin")) {
     throw InputError((directory / "tracker.bin").string() +
-                     ": no such file; prowl plan writes it with a plan that is good, unless told --no-gains");
+                     ": no such file; prowl plan writes it for a good plan, except with --no-gains");
   }
   try {
     Tracker tracker = Tracker::read((directory / "tracker.bin").string());

@@ -7,7 +7,8 @@
 
 namespace prowl::cli {
 
-/// The tracker in the folder of a plan. Throws InputError if there is none, or if it is not of this problem.
+/// Reads the tracker of a plan folder. Throws InputError if it is missing or does not fit the
+/// problem.
 Tracker read_tracker(const std::filesystem::path& directory, const MotionProblem& problem);
 
 }  // namespace prowl::cli

@@ -19,12 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr int kSignalled = 128;  ///< plus the number of a signal: exit status of a process that it ended
+constexpr int kSignalled = 128;  ///< plus the signal number: exit status of a terminated process
 
-/// Options of the command itself, which the package does not have.
+/// Options of the command only, unknown to the package.
 bool is_own(const std::string& option) { return option == "json" || option == "quiet" || option == "python"; }
 
-/// The options that were given, as "--name=value"; the argument without a name comes last.
+/// Given options as "--name=value", positional arguments last.
 std::vector<std::string> given_options(const CLI::App& verb) {
   std::vector<std::string> options, arguments = {"--"};
   for (const CLI::Option* option : verb.get_options()) {
@@ -48,14 +48,14 @@ std::vector<std::string> given_options(const CLI::App& verb) {
   throw Error(message);
 }
 
-/// Reads what _verb.py prints, line by line.
+/// Handles the lines printed by _verb.py.
 class Listener {
  public:
   explicit Listener(std::string verb) : verb_(std::move(verb)) {}
 
   void operator()(const std::string& line) {
     Json said = Json::parse(line, nullptr, false);
-    if (!said.is_object()) {  // of a library
+    if (!said.is_object()) {  // printed by a library
       print_message(line + "\n");
     } else if (said.contains("message")) {
       print_message(said["message"].get<std::string>() + "\n");
@@ -66,7 +66,7 @@ class Listener {
       last_ = std::move(said);
     }
   }
-  /// The error or the result; null if none was said.
+  /// Error or result; null without one.
   const Json& last() const { return last_; }
 
  private:
@@ -107,7 +107,7 @@ int run_python_verb(const CLI::App& verb, const PythonVerb& arguments) {
   Listener listener(verb.get_name());
   const int status = run_program(command, [&listener](const std::string& line) { listener(line); });
   if (status > kSignalled) {
-    print_message(fmt::format("prowl: {} was ended by signal {}\n", arguments.python, status - kSignalled));
+    print_message(fmt::format("prowl: {} was terminated by signal {}\n", arguments.python, status - kSignalled));
     return status;
   }
   const Json& said = listener.last();

@@ -7,24 +7,25 @@
 
 namespace prowl::cli {
 
-/// That of the environment variable PROWL_PYTHON, which the command of the wheel sets, or else that of the build.
+/// Python of the environment variable PROWL_PYTHON, set by the command of the wheel, or of the
+/// build.
 std::string default_python();
 
-/// The Python package of this program: in a build, installed, or in a wheel. It need not be there.
+/// Folder of the Python package: in a build, installed, or in a wheel. It may be missing.
 std::filesystem::path python_package();
 
-/// What a verb has that the Python package does (python/prowl/_verb.py).
+/// Arguments of a verb in the Python package (python/prowl/_verb.py).
 struct PythonVerb {
   std::string directory, out, python = default_python();
   std::vector<std::string> package_dirs;
   bool json = false;
 };
 
-/// --python; `libraries`: that the verb needs.
+/// --python; `libraries`: requirements of the verb, in words.
 void add_python(CLI::App& verb, std::string& python, const std::string& libraries);
 
-/// Passes on all options that the verb was given, shows messages and progress, prints the result and returns the exit
-/// status. Throws InputError, FileError or NumericalError as the package raises them, and Error if it fails otherwise.
+/// Passes on all given options, shows messages and progress, prints the result and returns the exit
+/// status. Throws InputError, FileError or NumericalError if the package raises them, else Error.
 int run_python_verb(const CLI::App& verb, const PythonVerb& arguments);
 
 }  // namespace prowl::cli

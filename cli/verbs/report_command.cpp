@@ -47,7 +47,7 @@ WrittenReport write_report(const PlanRecord& plan, const fs::path& directory, co
                            const PackageSearch& search) {
   const ReportInputs inputs = report_inputs(plan, directory);
   const Report report = report_page(inputs, search);
-  return write_page(report, out, inputs.simulation ? "" : ", of the plan alone: there is no simulation",
+  return write_page(report, out, inputs.simulation ? "" : ", of the plan only: there is no simulation",
                     inputs.simulation.has_value());
 }
 

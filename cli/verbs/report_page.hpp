@@ -6,11 +6,11 @@
 
 namespace prowl::cli {
 
-/// Plan, page and whatever else of the plan's folder goes into its report: simulation, gains. "" for a plan without
-/// one.
+/// Inputs of the report: plan, page, and simulation and gains from `directory`; "": plan without a
+/// folder.
 ReportInputs report_inputs(const PlanRecord& plan, const std::filesystem::path& directory);
 
-/// The report, of two plans if there is an `other`; its warnings are told on stderr, too.
+/// Makes the report, with `other` of two plans; prints its warnings on stderr.
 Report report_page(const ReportInputs& inputs, const PackageSearch& search, const ReportInputs* other = nullptr);
 
 }  // namespace prowl::cli

@@ -36,13 +36,12 @@ int run_robot(const RobotArguments& arguments) {
 
 void add_robot_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<RobotArguments>();
-  CLI::App* const verb = app.add_subcommand("robot", "Show what Prowl reads of a robot, with warnings");
+  CLI::App* const verb = app.add_subcommand("robot", "Show a robot as Prowl reads it, with warnings");
   verb->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
-  verb->add_flag("--frames", arguments->frames, "Also list the frames to which contacts may be fixed");
+  verb->add_flag("--frames", arguments->frames, "Also list the frames that may carry contacts");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb,
-             {"prowl robot robots/hyq.toml", "prowl robot new.toml --frames     of a file that has no contacts yet"},
+  set_footer(*verb, {"prowl robot robots/hyq.toml", "prowl robot new.toml --frames     for a file without contacts"},
              "0, 2 bad input, 4 files.");
   verb->callback([arguments, &status] { status = run_robot(*arguments); });
 }

@@ -26,7 +26,7 @@
 namespace prowl::cli {
 namespace {
 
-// Options of one engine alone are grouped by it, in --help and for check_engine().
+// Groups of options for one engine, in --help and for check_engine().
 constexpr const char* kMujocoOptions = "With --engine mujoco";
 constexpr const char* kRolloutOptions = "With --engine rollout";
 
@@ -57,12 +57,12 @@ void check_engine(const CLI::App& verb, const std::string& engine) {
     if (option->count() == 0 || option->get_group() != (rollout ? kMujocoOptions : kRolloutOptions)) continue;
     throw InputError(
         fmt::format("{}: not with --engine {}, {}", option->get_name(), engine,
-                    rollout ? "which has no sensors, delay, friction, pushes or chance; it is for --engine mujoco"
-                            : "which starts as planned; it is for --engine rollout"));
+                    rollout ? "which has no sensors, delay, friction, pushes or random numbers; use --engine mujoco"
+                            : "which starts as planned; use --engine rollout"));
   }
 }
 
-/// What came of a simulation, for stdout.
+/// Result of a simulation, for stdout.
 struct Outcome {
   bool success;
   std::string text, json;
@@ -92,7 +92,7 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
   return {record.result.success(), simulation_summary(plan, record), simulation_json(plan, record)};
 }
 
-/// Of --control-rate; 0 for a controller that acts at every moment.
+/// Period of --control-rate [s]; 0: continuous.
 double control_step(std::optional<double> rate) {
   if (!rate || *rate == 0.0) return 0.0;
   if (!(*rate >= 10.0 && *rate <= 1e5)) {
@@ -102,7 +102,7 @@ double control_step(std::optional<double> rate) {
 }
 
 Outcome run_rollout(const SimulateArguments& arguments, const PlanRecord& plan, const Tracker& tracker) {
-  constexpr double kSampleStep = 1e-3;  // [s] that errors, torques and forces are looked at
+  constexpr double kSampleStep = 1e-3;  // [s], for errors, torques and forces
   const MotionProblem& problem = plan.task.problem;
   RolloutRecord record;
   record.options = {.closed_loop = !arguments.open_loop,
@@ -167,16 +167,14 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
           ->check(number_in({.lower = 0.0, .upper = 1000.0}))
           ->type_name("MS"),
       verb.add_option("--bandwidth", options.bandwidth,
-                      fmt::format("Bandwidth of the actuators, first order; 0: they follow at once; default {:g}",
-                                  options.bandwidth))
+                      fmt::format("Bandwidth of first-order actuators; 0: ideal; default {:g}", options.bandwidth))
           ->type_name("HZ"),
       verb.add_option("--mass", options.physics.mass_scale,
                       fmt::format("Factor on all masses and inertias; default {:g}", options.physics.mass_scale))
           ->type_name("X"),
       verb.add_option("--friction", arguments.friction, "Friction of all surfaces; default: as in the task")
           ->type_name("MU"),
-      verb.add_option("--push", arguments.push,
-                      "Push the base: time [s] and impulse [N s], world axes; may be given again")
+      verb.add_option("--push", arguments.push, "Push the base: time [s] and impulse [N s], world axes; repeatable")
           ->type_name("T IX IY IZ")
           ->expected(4)
           ->take_all(),
@@ -190,8 +188,7 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
       verb.add_option("--seed", options.seed, fmt::format("Seed of all random numbers; default {}", options.seed))
           ->check(whole_number())
           ->type_name("N"),
-      verb.add_option("--case", arguments.sweep_case,
-                      "Perturb as prowl sweep without options does in the case of that seed")
+      verb.add_option("--case", arguments.sweep_case, "Perturb like this case (seed) of prowl sweep without options")
           ->check(whole_number())
           ->type_name("SEED")};
   for (CLI::Option* const option : all) option->group(kMujocoOptions);

@@ -30,11 +30,11 @@ struct SweepArguments {
   bool json = false;
 };
 
-/// Calls `run` with something that shows its progress; silent once `interrupted`, when what runs is still being
-/// finished.
+/// Calls `run` with a progress callback, which is silent after `interrupted`, while running cases
+/// finish.
 template <typename Run>
 auto with_bar(const char* what, const std::atomic<bool>& interrupted, const Run& run) {
-  std::optional<ProgressBar> bar;  // its length comes with the first call
+  std::optional<ProgressBar> bar;  // its length is known at the first call
   return run([&](int done, int total) {
     if (interrupted) return;
     if (!bar) bar.emplace(what, total);
@@ -106,7 +106,7 @@ void add_sweep_command(CLI::App& app, int& status) {
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   verb->add_option("--seed", arguments->seed,
-                   fmt::format("Seed of the first case; the others count up from it; default {}", arguments->seed))
+                   fmt::format("Seed of the first case; the others count up; default {}", arguments->seed))
       ->check(whole_number())
       ->type_name("N");
   verb->add_option("--mass-spread", ranges.mass,
@@ -122,9 +122,8 @@ void add_sweep_command(CLI::App& app, int& status) {
           fmt::format("The same while two feet or fewer are on the ground; default {:g}", ranges.push_on_two_feet))
       ->type_name("NS")
       ->check(number_in(NumberRange::nonnegative()));
-  verb->add_option(
-          "--breakdown", arguments->breakdown_cases,
-          "Also look for the size at which each perturbation alone breaks the plan, with N simulations for each size")
+  verb->add_option("--breakdown", arguments->breakdown_cases,
+                   "Also find the size at which each perturbation alone breaks the plan, with N simulations per size")
       ->type_name("N")
       ->check(CLI::Range(0, 100000));
   verb->add_flag("--open-loop", arguments->options.open_loop, "Apply the planned torques only, without feedback");
@@ -133,7 +132,7 @@ void add_sweep_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2"},
              "0 if all simulations ran, with or without success;\n"
-             "130 interrupted (Ctrl-C keeps the simulations that have finished).");
+             "130 interrupted (Ctrl-C keeps the finished simulations).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });
 }
 

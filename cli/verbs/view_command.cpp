@@ -44,7 +44,7 @@ void say_where(const ViewServer& server, bool json) {
   } else {
     print_result(server.url() + "\n");
   }
-  print_message("open it in a browser on this machine; Ctrl-C ends it\n");
+  print_message("open it in a browser on this machine; Ctrl-C stops it\n");
 }
 
 void serve_until(const std::atomic<bool>& interrupted) {
@@ -61,7 +61,7 @@ int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupt
   return kPassed;
 }
 
-/// Solves with every iterate sent to the server.
+/// Solves the task and sends every iterate to the server.
 PlanRecord solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, Task task, ViewServer& server) {
   const MotionProblem problem = task.problem;
   PlanRequest request{.solver = arguments.solver, .coarse_first = !arguments.one_mesh, .gains = false};
@@ -115,16 +115,14 @@ int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupt
 void add_view_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* const verb = app.add_subcommand("view", "Show a plan in a browser, or a task while it is planned");
-  verb->add_option("target", arguments->target, "Task file, or folder that prowl plan wrote")
-      ->required()
-      ->type_name("TASK.toml|DIR");
+  verb->add_option("target", arguments->target, "Task file, or plan folder")->required()->type_name("TASK.toml|DIR");
   verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any free one")->type_name("N");
-  add_folder(*verb, "--out", arguments->out, "Folder to write the plan of a task into; default: none");
+  add_folder(*verb, "--out", arguments->out, "Folder for the plan of a task; default: none");
   verb->add_option("--solver", arguments->solver, "Solver to use; default " + arguments->solver)
       ->check(CLI::IsMember(solver_names()))
       ->type_name("NAME");
   add_intervals(*verb, arguments->overrides);
-  verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, without coarser ones first");
+  verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh only, without coarser meshes first");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb, {"prowl view tasks/hyq/walk.toml", "prowl view out/hyq_crouch --port 8080"},

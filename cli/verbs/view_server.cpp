@@ -28,7 +28,7 @@ namespace http = beast::http;
 using tcp = asio::ip::tcp;
 using Text = std::shared_ptr<const std::string>;
 
-/// All that happens on the server's thread; only what is posted to `context` touches it from outside.
+/// State of the server's thread; other threads only post to `context_`.
 class ViewServer::Connections {
  public:
   explicit Connections(std::uint16_t port)
@@ -40,7 +40,7 @@ class ViewServer::Connections {
     acceptor_.bind(loopback, error);
     if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
     if (error)
-      throw InputError(fmt::format("--port {}: {}; take another, or 0 for any that is free", port, error.message()));
+      throw InputError(fmt::format("--port {}: {}; use another, or 0 for any free port", port, error.message()));
     address_ = fmt::format("127.0.0.1:{}", acceptor_.local_endpoint().port());
     other_name_ = fmt::format("localhost:{}", acceptor_.local_endpoint().port());
     asio::co_spawn(context_, accept(), asio::detached);
@@ -57,14 +57,14 @@ class ViewServer::Connections {
   }
   void publish(std::string event) {
     asio::post(context_, [this, text = std::make_shared<const std::string>(std::move(event))] {
-      constexpr std::size_t kMostKept = 256u << 20;  // [bytes]: some thousand iterates of a quadruped
+      constexpr std::size_t kMostKept = 256u << 20;  // [bytes]: several thousand iterates of a quadruped
       kept_ += text->size();
       events_.push_back(text);
       for (; kept_ > kMostKept && events_.size() > 1; ++forgotten_) {
         kept_ -= events_.front()->size();
         events_.pop_front();
       }
-      news_.cancel();  // wakes all that wait for it
+      news_.cancel();  // wakes all waiting connections
     });
   }
 
@@ -73,13 +73,13 @@ class ViewServer::Connections {
     for (;;) {
       boost::system::error_code error;
       tcp::socket socket = co_await acceptor_.async_accept(asio::redirect_error(asio::use_awaitable, error));
-      if (error) {  // too many files are open, say: later there may be fewer
+      if (error) {  // e.g. too many open files: retry later
         asio::steady_timer pause(context_, std::chrono::milliseconds(100));
         co_await pause.async_wait(asio::use_awaitable);
         continue;
       }
       asio::co_spawn(context_, serve(beast::tcp_stream(std::move(socket))), [](const std::exception_ptr&) {
-        // The browser has gone, or what it sent was no HTTP: nothing to be done for it.
+        // Ignore closed connections and invalid HTTP.
       });
     }
   }
@@ -91,7 +91,7 @@ class ViewServer::Connections {
     stream.expires_after(kPatience);
     co_await http::async_read(stream, buffer, request, asio::use_awaitable);
     if (request[http::field::host] != address_ && request[http::field::host] != other_name_) {
-      co_await answer(stream, request, http::status::forbidden, "text/plain", "not by this name\n");
+      co_await answer(stream, request, http::status::forbidden, "text/plain", "wrong host name\n");
     } else if (request.method() != http::verb::get) {
       co_await answer(stream, request, http::status::method_not_allowed, "text/plain", "GET only\n");
     } else if (request.target() == "/events") {
@@ -100,7 +100,7 @@ class ViewServer::Connections {
       const Text page = page_;
       co_await answer(stream, request, http::status::ok, "text/html; charset=utf-8", *page);
     } else {
-      co_await answer(stream, request, http::status::not_found, "text/plain", "only / and /events are here\n");
+      co_await answer(stream, request, http::status::not_found, "text/plain", "only / and /events exist\n");
     }
     boost::system::error_code ignored;
     stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -139,7 +139,7 @@ class ViewServer::Connections {
 
   asio::io_context context_{1};
   tcp::acceptor acceptor_;
-  asio::steady_timer news_;  ///< never runs out
+  asio::steady_timer news_;  ///< never expires
   std::string address_, other_name_;
   Text page_ = std::make_shared<const std::string>();
   std::deque<Text> events_;

@@ -6,20 +6,20 @@
 
 namespace prowl::cli {
 
-/// An HTTP server for one page and a stream of events, which only programs of this machine reach: it listens on
-/// 127.0.0.1 and answers requests for that address alone, so that no other site's name can be made to lead to it. Runs
-/// in a thread of its own.
+/// An HTTP server for one page and a stream of events, reachable only from this machine: it listens
+/// on 127.0.0.1 and answers only requests with that host, which prevents DNS rebinding. Runs in its
+/// own thread.
 class ViewServer {
  public:
-  /// Port 0 takes any that is free. Throws InputError if the port cannot be had.
+  /// Port 0: any free port. Throws InputError if the port is unavailable.
   explicit ViewServer(std::uint16_t port);
-  ~ViewServer();  ///< ends all connections
+  ~ViewServer();  ///< closes all connections
 
   std::string url() const;
-  /// What GET / answers from now on.
+  /// Sets the page of GET /.
   void show(std::string html);
-  /// An event of GET /events (server-sent events) for all that listen, and for all that come later. `json` is one line.
-  /// Of very many, the oldest are forgotten.
+  /// Sends an event of GET /events (server-sent events) to all current and later listeners; `json`:
+  /// one line. The oldest of very many events are dropped.
   void publish(const std::string& name, const std::string& json);
 
  private:

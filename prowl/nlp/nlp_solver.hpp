@@ -14,7 +14,7 @@ namespace prowl {
 /// Why the solver stopped. The certificate decides if the result is good.
 enum class SolveStatus {
   converged,
-  infeasible,  ///< converged to a point of locally least violation
+  infeasible,  ///< converged to a local minimum of the constraint violation
   iteration_limit,
   time_limit,
   interrupted,

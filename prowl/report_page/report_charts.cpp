@@ -17,7 +17,7 @@ using Points = std::vector<TrajectoryPoint>;
 using Value = std::function<double(const TrajectoryPoint&)>;
 
 const char* const kAxes[] = {"x", "y", "z"};
-constexpr double kLeastLoad = 1e-3;  ///< of the weight: below it the ratio of two forces means nothing
+constexpr double kLeastLoad = 1e-3;  ///< share of the weight; below it a ratio of forces means nothing
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 Json series(const char* label, const char* style, const char* time, const Points& points, const Value& value) {
@@ -26,7 +26,7 @@ Json series(const char* label, const char* style, const char* time, const Points
   return {{"label", label}, {"style", style}, {"time", time}, {"values", base64(values)}};
 }
 
-/// Charts of the planned motion and, where there is one, of the simulated.
+/// Charts of the planned motion and, if present, of the simulated one.
 class Charts {
  public:
   Charts(const MotionProblem& problem, const Points& plan, const Points& simulation)
@@ -117,7 +117,7 @@ class Charts {
     return charts;
   }
 
-  /// How much of each kind of limit is used, at the worst joint or contact: 1 is all of it.
+  /// Used share of each kind of limit, at the worst joint or contact; 1 is at the limit.
   Json margins() const {
     Json charts = Json::array();
     const auto add = [&](const std::string& title, const Json& one) {
@@ -166,21 +166,21 @@ class Charts {
     return std::abs(p.v(6 + j)) / robot_.velocity_limit()(j);
   }
 
-  /// The surface that a contact is held on, null while it is open.
+  /// Surface under a contact; null while the contact is open.
   const Surface* surface_below(const TrajectoryPoint& p, int c) const {
     for (const PhaseContact& held : problem_.phases[p.phase].contacts) {
       if (held.contact == c) return &problem_.surfaces[held.surface];
     }
     return nullptr;
   }
-  /// What the component of a contact force along a world axis may be, at the normal force f_n that it has:
+  /// Limit of one world component of a contact force at its present normal force f_n:
   ///
   ///   f_n n_i ± μ f_n √(1 - n_i²)
   ///
-  /// is where the slice of the friction cone ends on that axis. Along the normal itself the force may not pull: there
-  /// the lower limit is 0 and there is no upper. Nothing while the contact is open.
+  /// This is the edge of the friction cone along that axis. Along the normal the lower limit is 0
+  /// (no pulling) and there is no upper limit. NaN while the contact is open.
   double force_limit(const TrajectoryPoint& p, int c, int axis, double side) const {
-    constexpr double kAlong = 0.999;  // of n_i: the axis is the normal's
+    constexpr double kAlong = 0.999;  // |n_i| above this: the axis is the normal
     const Surface* const surface = surface_below(p, c);
     if (surface == nullptr) return kNothing;
     const double along = surface->normal(axis);
@@ -189,7 +189,7 @@ class Charts {
     return normal * (along + side * surface->friction * std::sqrt(1.0 - along * along));
   }
 
-  /// Tangential force over what friction can hold; nothing while the contact is open or bears next to nothing.
+  /// Tangential force over the friction limit; NaN while the contact is open or nearly unloaded.
   double friction_share(const TrajectoryPoint& p, int c) const {
     const Surface* const surface = surface_below(p, c);
     if (surface == nullptr) return kNothing;
@@ -223,7 +223,7 @@ Json report_gains(const TrackingPlan& plan, double step) {
   for (const TrackingPlan::Segment& segment : plan.segments) {
     const double length = segment.end - segment.start;
     const int parts = std::clamp(static_cast<int>(std::ceil(length / step)), 1, segment.samples - 1);
-    for (int i = 0; i <= parts; ++i) {  // the ends of a segment among them
+    for (int i = 0; i <= parts; ++i) {  // including both ends of the segment
       const int sample = static_cast<int>(std::lround(static_cast<double>(i) * (segment.samples - 1) / parts));
       times.push_back(segment.start + length * sample / (segment.samples - 1));
       const Eigen::Map<const Eigen::MatrixXd> K(plan.gains.col(segment.first_sample + sample).data(), plan.nu(),

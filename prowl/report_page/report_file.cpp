@@ -19,7 +19,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlaceholder = "PROWL_REPORT_DATA";
-// A file reaches nothing; a page that is served, its server.
+// A report file may load nothing; a served page may connect to its server.
 constexpr const char* kPolicy = "default-src 'none';";
 constexpr const char* kServedPolicy = "default-src 'none'; connect-src 'self';";
 constexpr double kGainStep = 0.02;  ///< [s]
@@ -43,7 +43,7 @@ Json phases_json(const MotionProblem& problem, const Plan& plan) {
   return phases;
 }
 
-/// An argument of a shell, in quotes where it needs them.
+/// Quotes a shell argument if necessary.
 std::string shell_quoted(const std::string& text) {
   const auto is_plain = [](unsigned char c) {
     return std::isalnum(c) != 0 || std::string_view("/._-+:=,@%").find(static_cast<char>(c)) != std::string_view::npos;
@@ -54,7 +54,7 @@ std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
-/// The command that makes the plan again.
+/// Command that reproduces the plan.
 std::string plan_command(const PlanRecord& record) {
   const TaskOverrides& overrides = record.task.overrides;
   std::string command = "prowl plan " + shell_quoted(record.task.task_file.path.string());
@@ -80,13 +80,12 @@ Json parse_simulation(const ReportInputs& inputs) {
   return json;
 }
 
-/// In place of the placeholder. '<' is only ever inside a string of the JSON, where \u003c means the same; without it
-/// no text can end the element or begin another.
+/// `page` with `data` in place of the placeholder. In JSON '<' occurs only inside strings; written
+/// as \u003c it cannot close the script element or open another.
 std::string filled(const std::string& page, const std::string& data) {
   const std::size_t place = page.find(kPlaceholder);
   if (place == std::string::npos || page.find(kPlaceholder, place + 1) != std::string::npos) {
-    throw FileError(
-        fmt::format("the page of the report is not one that was built for it: need {} in it once", kPlaceholder));
+    throw FileError(fmt::format("the template of the report is invalid: need {} in it exactly once", kPlaceholder));
   }
   std::string safe;
   safe.reserve(data.size());
@@ -94,15 +93,15 @@ std::string filled(const std::string& page, const std::string& data) {
   return page.substr(0, place) + safe + page.substr(place + std::string_view(kPlaceholder).size());
 }
 
-/// The page with a policy that lets it talk to its server.
+/// The page with a content security policy that allows connections to its server.
 std::string served(std::string page) {
   const std::size_t place = page.find(kPolicy);
   if (place == std::string::npos)
-    throw FileError(fmt::format("the page of the report is not one that was built for it: need {} in it", kPolicy));
+    throw FileError(fmt::format("the template of the report is invalid: need {} in it", kPolicy));
   return page.replace(place, std::string_view(kPolicy).size(), kServedPolicy);
 }
 
-/// What the page shows of a plan and of its simulation.
+/// Data of one plan and its simulation.
 Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::vector<std::string>& warnings) {
   const PlanRecord& record = inputs.plan;
   const MotionProblem& problem = record.task.problem;
@@ -135,7 +134,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
   return data;
 }
 
-/// A plan to compare with that of `first`; without its scene if that is the same.
+/// Data of a second plan, to compare with `first`; its scene is null if both are equal.
 Json other_data(const ReportInputs& inputs, const Json& first, const PackageSearch& search,
                 std::vector<std::string>& warnings) {
   std::vector<std::string> own_warnings;

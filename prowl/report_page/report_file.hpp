@@ -10,10 +10,10 @@
 
 namespace prowl {
 
-/// Whether the page is a file, or served while its plan is made (prowl view): then it listens to the server's events.
+/// `file`: a standalone page. The other two are served by prowl view and listen to its events.
 enum class PageState { file, solving, solved };
 
-/// All that goes into a report.
+/// Inputs of a report.
 struct ReportInputs {
   const PlanRecord& plan;
   std::string directory;                           ///< of the plan, as the user named it
@@ -26,17 +26,17 @@ struct ReportInputs {
 
 struct Report {
   std::string html;                   ///< one file that needs no other
-  std::vector<std::string> warnings;  ///< what it shows in another way than asked for, one line each
+  std::vector<std::string> warnings;  ///< replaced content, e.g. an unreadable mesh; one line each
 };
 
-/// A page that replays the plan, and the simulation if there is one (docs/report.md). Meshes are looked for as
-/// package:// in robot files is. Nothing from the files becomes markup or script: it is in the page as JSON without any
-/// '<'. `other` is a second plan to compare with, or null. Throws InputError for files that are wrong, FileError for a
-/// template that is not one.
+/// A page that replays the plan and, if present, the simulation (docs/report.md). Meshes are
+/// searched for like package:// paths of robot files. The page contains the inputs as JSON without
+/// '<', so they cannot become markup or script. `other`: a second plan to compare, or null. Throws
+/// InputError for invalid inputs, FileError for an invalid template.
 Report make_report(const ReportInputs& inputs, const PackageSearch& search, const ReportInputs* other = nullptr);
 
-/// An iterate of the solver for a page that is served: its motion, charts and phases as in a report, and how far it is.
-/// One line.
+/// One solver iterate for a served page: motion, charts and phases as in a report, and progress.
+/// JSON on one line.
 std::string report_iterate(const MotionProblem& problem, const Plan& iterate, const MeshIteration& at);
 
 }  // namespace prowl

@@ -1,8 +1,8 @@
 #pragma once
 
-// The parts of a report as JSON (docs/report.md). Times are in seconds, placements in the world as x y z [m] and a unit
-// quaternion x y z w; arrays of numbers are base64 of little-endian 32-bit floats. Not installed: shows nlohmann's
-// library.
+// The parts of a report as JSON (docs/report.md). Times are in seconds, placements in the world as
+// x y z [m] and a unit quaternion x y z w; arrays of numbers are base64 of little-endian 32-bit
+// floats. Not installed: exposes nlohmann::json.
 #include <nlohmann/json.hpp>
 
 #include "prowl/plan_folder/plan_folder.hpp"
@@ -19,11 +19,11 @@ nlohmann::ordered_json report_scene(const MotionProblem& problem, const PackageS
 /// (of the whole robot, world frame [m]).
 nlohmann::ordered_json report_motion_json(const RobotModel& robot, const std::vector<TrajectoryPoint>& points);
 
-/// The charts: an array of tabs, each with its charts, each with its series over the time of "plan" or "simulation".
+/// Array of tabs; a tab contains charts, a chart series over the time of "plan" or "simulation".
 nlohmann::ordered_json report_charts(const MotionProblem& problem, const std::vector<TrajectoryPoint>& plan,
                                      const std::vector<TrajectoryPoint>& simulation);
 
-/// K(t), thinned out to samples about `step` [s] apart: "time" and "values", 2 nv gains of each joint in turn.
+/// K(t) at samples about `step` [s] apart: "time" and "values", nu x 2 nv each, row by row.
 nlohmann::ordered_json report_gains(const TrackingPlan& plan, double step);
 
 }  // namespace prowl

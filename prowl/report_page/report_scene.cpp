@@ -36,18 +36,18 @@ const char* to_text(RobotVisual::Kind kind) {
   return "box";
 }
 
-/// The files that the visuals name, each once, and how many of their triangles may stay.
+/// Mesh files of the visuals, each read once, reduced to a common budget of triangles.
 class Meshes {
  public:
   Meshes(const RobotModel& robot, const PackageSearch& search) : urdf_(robot.description().urdf), search_(search) {}
 
-  /// Throws InputError if it cannot be found or read.
+  /// Throws InputError if the file cannot be found or read.
   void read(const std::string& uri) {
     if (parts_.contains(uri)) return;
     parts_[uri] = read_visual_mesh(resolve_uri(uri, urdf_, {}, search_));
   }
 
-  /// Writes all that was read, and remembers where: see parts().
+  /// All meshes as JSON; sets the mesh indices of each URI.
   Json take() {
     double triangles = 0.0;
     for (const auto& [uri, parts] : parts_) {
@@ -94,7 +94,7 @@ std::vector<RobotVisual> readable_visuals(const RobotModel& robot, const BodyTre
     }
   }
   if (visuals.empty() && incomplete.empty()) {
-    warnings.push_back(fmt::format("{}: no <visual> in it: bodies are drawn as boxes of their inertia",
+    warnings.push_back(fmt::format("{}: contains no <visual>: bodies are drawn as boxes of their inertia",
                                    robot.description().urdf.string()));
     for (std::size_t b = 0; b < tree.bodies.size(); ++b) incomplete.insert(static_cast<int>(b));
   }

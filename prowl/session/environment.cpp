@@ -33,10 +33,11 @@ PackageSearch package_search(const std::filesystem::path& program, const std::ve
   search.folders.assign(package_dirs.begin(), package_dirs.end());
   for (const auto& prefix : path_list("AMENT_PREFIX_PATH")) search.folders.push_back(prefix / "share");
   for (const auto& path : path_list("ROS_PACKAGE_PATH")) search.folders.push_back(path);
-  std::error_code ignored;  // a working directory that was removed has nothing to offer
+  std::error_code ignored;  // the working directory may have been removed
   search.working_directory = std::filesystem::current_path(ignored);
-  // CLONE/build/bin/prowl, CLONE/build/python/prowl/: found from any working directory, without a path compiled in. In
-  // a wheel that is site-packages, where Pinocchio's wheels have their shared folder.
+  // From CLONE/build/bin/prowl or CLONE/build/python/prowl/ the clone follows without a compiled-in
+  // path. In a wheel the prefix is site-packages, which contains the share folder of Pinocchio's
+  // wheels.
   const std::filesystem::path folder = program.parent_path();
   const std::filesystem::path prefix = folder.filename() == "bin" ? folder.parent_path() : folder;
   search.clone = prefix.parent_path();
@@ -65,7 +66,8 @@ std::optional<std::string> why_no_mujoco() {
 }
 
 void check_mujoco() {
-  if (const auto reason = why_no_mujoco()) throw InputError(*reason + ": prowl simulate --engine rollout does without");
+  if (const auto reason = why_no_mujoco())
+    throw InputError(*reason + ": prowl simulate --engine rollout does not need it");
 }
 
 std::map<std::string, std::string> versions() {

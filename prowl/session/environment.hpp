@@ -8,30 +8,33 @@
 
 #include "prowl/model/urdf/package_path.hpp"
 
-// What the front ends take from the machine that they run on; the layers below read neither environment nor globals.
+// Queries of the environment and the processor, for front ends. Lower layers read neither
+// environment nor globals.
 namespace prowl {
 
-/// Where to look for package://: `package_dirs` of the user, then AMENT_PREFIX_PATH/share, then ROS_PACKAGE_PATH; the
-/// .venv of the clone that `program` was built in; and what was installed beside it. `program` is the file that the
-/// front end was loaded from: the command, or the Python module.
+/// Folders to search for package://, in order: `package_dirs`, AMENT_PREFIX_PATH/share,
+/// ROS_PACKAGE_PATH, the .venv of the clone that contains `program`, packages installed beside it.
+/// `program`: file of the front end, i.e. the command or the Python module.
 PackageSearch package_search(const std::filesystem::path& program, const std::vector<std::string>& package_dirs);
 
-/// Instruction sets of this processor that Prowl and its libraries may ask for, with blanks between: "AVX AVX2 FMA".
+/// Instruction sets of this processor that Prowl and its libraries may need, separated by blanks:
+/// "AVX AVX2 FMA".
 std::string processor_features();
 
-/// Throws InputError if this processor lacks the instructions that the build uses (PROWL_SIMD). Call before anything
-/// that computes.
+/// Throws InputError if this processor lacks the instructions of the build (PROWL_SIMD). Call it
+/// before any computation.
 void check_processor();
 
-/// Throws InputError if MuJoCo cannot run on this processor; the reason alone.
+/// Throws InputError if MuJoCo cannot run on this processor.
 void check_mujoco();
+/// The reason; nullopt if MuJoCo can run.
 std::optional<std::string> why_no_mujoco();
 
-/// "prowl", "vector instructions", "Pinocchio", "MuJoCo", "Eigen" -> version.
+/// Versions by name: "prowl", "vector instructions", "Pinocchio", "MuJoCo", "Eigen".
 std::map<std::string, std::string> versions();
-/// The same and the solver of that name (make_solver.hpp); throws InputError if there is none.
+/// The same and the named solver (make_solver.hpp). Throws InputError if it is unknown or not installed.
 std::map<std::string, std::string> versions_with(const std::string& solver);
-/// The same and all solvers that are installed: this loads their libraries.
+/// The same and all installed solvers; loads their libraries.
 std::map<std::string, std::string> all_versions();
 
 }  // namespace prowl

@@ -11,20 +11,20 @@
 
 namespace prowl {
 
-/// One iteration of the solver, and on which mesh: 0 is the first, the coarsest.
+/// One solver iteration and its mesh level; 0 is the coarsest.
 struct MeshIteration {
   int level = 0;
   SolveProgress progress = {};
 };
 
-/// A plan, what it was made from, and by what.
+/// A plan with its task, software versions and history.
 struct PlanRecord {
   Task task;
-  Plan plan;                                    ///< of the result, z and multipliers are not kept in files
+  Plan plan;                                    ///< files omit z and the multipliers of the result
   std::map<std::string, std::string> versions;  ///< "prowl" -> "0.1.0", "Ipopt" -> ...
-  std::optional<FeedbackDesign> feedback = {};  ///< gains, if there are; not read back: Tracker::read does
-  std::vector<MeshIteration> iterations = {};   ///< of all meshes, in order; empty if nobody wrote them down
-  std::string warm_start = {};                  ///< folder of the plan that it started from; "" if from the task alone
+  std::optional<FeedbackDesign> feedback = {};  ///< gains, if designed; not read back: see Tracker::read
+  std::vector<MeshIteration> iterations = {};   ///< of all meshes, in order; empty if not recorded
+  std::string warm_start = {};                  ///< folder of the warm start; "" without one
 };
 
 }  // namespace prowl

@@ -25,7 +25,7 @@ Trajectory start_from(const PlanStart& start, const DiscreteProblem& asked) {
   }
 }
 
-/// Writes iterations down while it hands them on.
+/// Records iterations and forwards them to the callbacks.
 class Watch {
  public:
   Watch(const PlanRequest& request, PlanOptions& options) : request_(request) {
@@ -49,10 +49,10 @@ class Watch {
   std::vector<MeshIteration> iterations_;
 };
 
-/// A front end wants no gains any more.
+/// Thrown when a front end cancels the gain design.
 struct NoMoreGains {};
 
-/// Gains for a plan that is good; why there are none, for the plan is as good without.
+/// Designs gains and returns why there are none: the plan is valid without them.
 std::string add_gains(const PlanRequest& request, PlanRecord& record) {
   const MotionProblem& problem = record.task.problem;
   const TrackingOptions& options = record.task.tracking;
@@ -62,7 +62,7 @@ std::string add_gains(const PlanRequest& request, PlanRecord& record) {
     const std::vector<ReferencePhase> grid = reference_grid(problem, record.plan.trajectory, options.step);
     for (const ReferencePhase& phase : grid) samples += static_cast<int>(phase.samples.size());
     on_sample = [&, phases = std::ssize(grid)](const ReducedSample& sample) {
-      const bool stands_on = sample.phase >= phases;  // that phase is one more
+      const bool stands_on = sample.phase >= phases;  // the extra phase after the end
       if (!stands_on) ++done;
       if (!request.on_gain(done, samples)) throw NoMoreGains();
     };

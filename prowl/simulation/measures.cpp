@@ -45,7 +45,7 @@ void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& ta
   if (actuators.saturated()) saturated_ += dt;
 }
 
-/// Between `from` and `to`: the first touch if the contact lands, else the last.
+/// Time of the first (landing) or last (opening) touch between `from` and `to`; NaN without one.
 double Measures::touch_near(int contact, double from, double to, bool lands) const {
   const auto& touches = touches_[contact];
   double found = std::nan("");

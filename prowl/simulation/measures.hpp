@@ -5,19 +5,19 @@
 
 namespace prowl {
 
-/// Collects a SimulationResult, sample by sample of the controller.
+/// Accumulates a SimulationResult over the samples of the controller.
 class Measures {
  public:
-  /// `end`: when the simulation is to end [s].
+  /// `end`: planned end of the simulation [s].
   Measures(const MotionProblem& problem, const Tracker& tracker, double end);
 
-  /// A sample. `slip`: way of each contact's material along its surface since the one before [m], world
-  /// frame.
+  /// `slip`: displacement of each contact's material along its surface since the last sample, world
+  /// frame [m].
   void add(const SimulationSample& sample, const std::vector<Eigen::Vector3d>& slip);
-  /// Torques of a physics step of `dt`, at the joints, which turn at v.
+  /// One physics step of `dt` [s] with joint torques tau (nu) and velocity v (nv).
   void add_torques(const Actuators& actuators, const Eigen::VectorXd& tau, const Eigen::VectorXd& v, double dt);
 
-  /// All but end, samples and failures.
+  /// Sets everything except end, samples and failures.
   SimulationResult result() const;
 
  private:
@@ -31,7 +31,7 @@ class Measures {
   std::vector<Eigen::Vector3d> slip_now_;
   std::vector<double> slip_;
   std::vector<double> times_;
-  std::vector<std::vector<bool>> touches_;  ///< one a contact, at each of the times
+  std::vector<std::vector<bool>> touches_;  ///< per contact, at each of the times
   SimulationResult result_;
   double time_ = 0.0, saturated_ = 0.0;
 };

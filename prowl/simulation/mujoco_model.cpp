@@ -15,15 +15,15 @@ namespace prowl {
 namespace {
 
 constexpr double kSmallestBall = 1e-3;  // [m] for contacts without a radius: corners of flat feet
-constexpr double kPatchDepth = 0.2;     // [m] of the block under a patch
+constexpr double kPatchDepth = 0.2;     // [m] thickness of the block under a patch
 
-// Contact: what docs/simulation.md says and measures. The reference is a critically damped return of a penetration with
-// this time constant, four steps of the default step: the stiffest that stays clear of MuJoCo's own bound of two.
+// Contact parameters: see docs/simulation.md for the measurements. Penetrations decay, critically
+// damped, with this time constant: four default steps; MuJoCo's lower bound is two.
 constexpr double kTimeConstant = 2e-3;  // [s]
 constexpr double kImpedance[mjNIMP] = {0.99, 0.999, 1e-4, 0.5, 2.0};
 constexpr double kFrictionToNormal = 10.0;  // impedance ratio: sticking feet creep ten times less
 
-/// Of every body in the nominal posture, to the world.
+/// Rotation of every body to the world, nominal posture.
 std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const BodyTree& tree) {
   std::vector<Eigen::Matrix3d> rotations;
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
@@ -40,7 +40,7 @@ std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const Bo
 
 void ignore_message(const mjLogMessage*) {}
 
-/// MuJoCo writes warnings to a file in the working directory unless told otherwise, for the whole process.
+/// By default MuJoCo writes warnings to a file in the working directory. Process-wide.
 void silence() {
   static std::once_flag once;
   std::call_once(once, [] { mju_setLogHandler(ignore_message); });
@@ -54,7 +54,7 @@ void copy_rotation(const Eigen::Matrix3d& R, double* quaternion) {
 }
 
 void set_inertia(const Body& from, double scale, mjsBody* to) {
-  // Principal axes by Eigen: MuJoCo's own are good to fewer digits.
+  // Principal axes by Eigen: MuJoCo's own have fewer correct digits.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(from.inertia);
   Eigen::Matrix3d axes = principal.eigenvectors();
   if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
@@ -77,7 +77,7 @@ void add_ball(const ContactPoint& contact, const BodyTree::Point& point, const E
   mjs_setName(geom->element, ("contact " + contact.name).c_str());
   geom->type = mjGEOM_SPHERE;
   geom->size[0] = std::max(contact.radius, kSmallestBall);
-  // The small ball of a corner is moved up so that its lowest point in the nominal posture is the corner.
+  // Raises the small ball of a corner: its lowest point in the nominal posture is the corner.
   copy(point.position + (geom->size[0] - contact.radius) * up, geom->pos);
   geom->contype = 0;
   geom->conaffinity = 1;
@@ -93,7 +93,7 @@ void add_surface(const Surface& surface, double friction, mjSpec* spec, mjsBody*
   copy_rotation(R, geom->quat);
   if (surface.patch.empty()) {
     geom->type = mjGEOM_PLANE;
-    geom->size[2] = 1.0;  // spacing of a grid that nobody draws
+    geom->size[2] = 1.0;  // grid spacing for rendering, unused
   } else {
     std::vector<float> corners;
     for (const double z : {0.0, -kPatchDepth}) {
@@ -109,7 +109,7 @@ void add_surface(const Surface& surface, double friction, mjSpec* spec, mjsBody*
   }
   geom->contype = 1;
   geom->conaffinity = 0;
-  geom->priority = 1;  // its friction counts, not the larger of the two
+  geom->priority = 1;  // use this geom's friction, not the larger of the two
   geom->friction[0] = friction;
   add_contact_law(geom);
 }
@@ -181,8 +181,7 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
 
 MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
                               const PhysicsOptions& options) {
-  // MuJoCo does not promise that specs may be made and compiled in several threads; ThreadSanitizer sees a race within
-  // it.
+  // MuJoCo does not guarantee thread-safe spec compilation; ThreadSanitizer reports a race.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const MujocoSpec spec = make_mujoco_spec(robot, surfaces, options);
@@ -195,7 +194,7 @@ MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface
     const std::string& name = robot.joint_names()[j];
     const int joint = mj_name2id(model, mjOBJ_JOINT, name.c_str());
     if (joint < 0 || model->jnt_dofadr[joint] != 6 + j || mj_name2id(model, mjOBJ_ACTUATOR, name.c_str()) != j) {
-      throw InputError(fmt::format("robot '{}' in MuJoCo: joint '{}' is not where it was", robot.name(), name));
+      throw InputError(fmt::format("robot '{}' in MuJoCo: joint '{}' has another index", robot.name(), name));
     }
   }
   result.contact_of_geom.assign(static_cast<std::size_t>(model->ngeom), -1);

@@ -24,12 +24,12 @@ struct DeleteMujocoSpec {
 };
 using MujocoSpec = std::unique_ptr<mjSpec, DeleteMujocoSpec>;
 
-/// The model of physics.hpp before MuJoCo's compiler has seen it.
+/// The model of physics.hpp before MuJoCo compiles it.
 MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces,
                             const PhysicsOptions& options);
 
-/// Builds the model of physics.hpp. Its degrees of freedom are in the robot's order. Throws InputError with MuJoCo's
-/// reason.
+/// Compiles the model of physics.hpp, degrees of freedom in the robot's order. Throws InputError
+/// with MuJoCo's reason.
 MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
                               const PhysicsOptions& options);
 

@@ -7,8 +7,9 @@
 #include "prowl/error.hpp"
 #include "prowl/simulation/mujoco_model.hpp"
 
-// In MuJoCo's library but not in its headers, and kept for one thread. Without it saved files have six digits, which
-// moves feet by micrometres. requirements.txt pins the library, and a test compares what comes back.
+// Private functions of MuJoCo's library, with thread-local effect. By default saved files have six
+// digits, which moves feet by micrometres. requirements.txt pins the library; a test checks the
+// round trip.
 extern "C" {
 int _mjPRIVATE__get_xml_precision();
 void _mjPRIVATE__set_xml_precision(int digits);
@@ -44,7 +45,7 @@ std::string mujoco_xml(const RobotModel& robot, const std::vector<Surface>& surf
   const AllDigits digits;
   std::array<char, 500> error{};
   std::string xml(1u << 16, '\0');
-  // Returns 0, or the size that it takes where this is too small, or -1.
+  // Returns 0, the required size if the buffer is too small, or -1.
   int needed = mj_saveXMLString(spec.get(), xml.data(), static_cast<int>(xml.size()), error.data(), error.size());
   if (needed > 0) {
     xml.resize(static_cast<std::size_t>(needed) + 1);

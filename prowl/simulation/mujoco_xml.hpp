@@ -7,8 +7,8 @@
 
 namespace prowl {
 
-/// The model of physics.hpp as an MJCF file, one that needs no other file: numbers with all digits, so that MuJoCo
-/// makes the same model of it. Throws InputError, with MuJoCo's reason, for a robot that it cannot have.
+/// The model of physics.hpp as one self-contained MJCF file. Numbers have all digits, so MuJoCo
+/// loads the identical model. Throws InputError with MuJoCo's reason if it rejects the robot.
 std::string mujoco_xml(const RobotModel& robot, const std::vector<Surface>& surfaces, const PhysicsOptions& options);
 
 }  // namespace prowl

@@ -6,11 +6,10 @@
 namespace prowl {
 namespace {
 
-// Joint accelerations that the model does not know, as white noise [rad^2/s^3]: docs/simulation.md says how it was
-// chosen.
+// Unmodelled joint accelerations as white noise [rad²/s³]; choice: docs/simulation.md.
 constexpr double kJointDensity = 1.0;
 
-/// What the filter is told of sensors without noise: it divides by it.
+/// Noise assumed by the filter, which divides by it: never zero.
 EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
   EstimatorNoise noise;
   noise.encoder = std::max(scale * sensors.encoder, 1e-5);
@@ -24,7 +23,8 @@ EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
 std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& tracker) {
   std::vector<Stand> stands;
   for (std::size_t s = 0; s < tracker.plan().segments.size(); ++s) {
-    const std::size_t p = std::min(s, problem.phases.size() - 1);  // what comes after the end stands as the last phase
+    const std::size_t p =
+        std::min(s, problem.phases.size() - 1);  // after the end the contacts are those of the last phase
     Stand& stand = stands.emplace_back();
     stand.in_contact = tracker.plan().segments[s].in_contact;
     stand.normals.assign(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());

@@ -7,20 +7,20 @@
 
 namespace prowl {
 
-/// What runs on the robot: from sensor readings to torques. Knows the plan, the robot as modelled, how noisy its
-/// sensors are and how long its torques take; nothing of the truth unless it is told.
+/// On-board software: state estimator and tracker, from sensor readings to torques. It knows the
+/// plan, the nominal robot model, the sensor noise and the delay, but not the true state.
 class Onboard {
  public:
-  /// Commands are `period` [s] apart.
+  /// `period`: time between commands [s].
   Onboard(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options, double period);
 
-  /// Takes the reading at time t. be_told() in its place: the true state.
+  /// Updates the estimate with the reading at time t [s]; be_told() sets the true state instead.
   void sense(double t, const SensorReading& reading);
   void be_told(const Eigen::VectorXd& q, const Eigen::VectorXd& v) { estimator_.set(q, v); }
   const Eigen::VectorXd& q() const { return estimator_.q(); }
   const Eigen::VectorXd& v() const { return estimator_.v(); }
 
-  /// Torques to command at time t, for the moment at which they will act.
+  /// Computes the torques commanded at time t [s], for the time at which they take effect.
   void act(double t);
   const Eigen::VectorXd& feedforward() const { return feedforward_; }
   const Eigen::VectorXd& feedback() const { return feedback_; }
@@ -34,8 +34,7 @@ class Onboard {
   double period_;
   std::vector<Stand> stands_;  ///< of each segment of the tracker
   StateEstimator estimator_;
-  std::vector<Eigen::VectorXd>
-      commands_;  ///< that are on their way, oldest first; the first acts until the next reading
+  std::vector<Eigen::VectorXd> commands_;  ///< pending, oldest first; the first acts until the next reading
   Eigen::VectorXd feedforward_, feedback_, command_, q_, v_;
 };
 

@@ -45,7 +45,7 @@ void Physics::set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v) {
 }
 
 bool Physics::step(const Eigen::VectorXd& tau, const Eigen::Vector3d& push) {
-  if (!tau.allFinite()) return false;  // MuJoCo would go on with torques of zero
+  if (!tau.allFinite()) return false;  // MuJoCo would continue with zero torques
   mjData* const data = engine_->data.get();
   Eigen::Map<Eigen::VectorXd>(data->ctrl, tau.size()) = tau;
   Eigen::Map<Eigen::Vector3d>(data->xfrc_applied + 6 * engine_->mujoco.base_body) = push;
@@ -88,7 +88,7 @@ void Physics::read_contacts() {
     largest[contact] = wrench[0];
     reading.surface = engine_->mujoco.surface_of_geom[robot_first ? g1 : g0];
     mj_jac(model, data, jacobian.data(), nullptr, touch.pos, model->geom_bodyid[robot_first ? g0 : g1]);
-    // The velocity after the step: it is the one that the contact forces of the step were chosen for.
+    // Velocity after the step: the contact forces were solved for it.
     const Eigen::Vector3d velocity = jacobian * Eigen::Map<const Eigen::VectorXd>(data->qvel, v_.size());
     reading.slip_velocity = velocity - frame.col(0) * frame.col(0).dot(velocity);
   }

@@ -10,50 +10,52 @@
 
 namespace prowl {
 
-/// What may differ between the robot and ground that are simulated and those that were planned for.
+/// Differences between the simulated and the planned robot and ground.
 struct PhysicsOptions {
   double step = 5e-4;                   ///< [s]
-  double mass_scale = 1.0;              ///< on the masses and inertias of all bodies
-  std::optional<double> friction = {};  ///< of every surface, in place of its own
+  double mass_scale = 1.0;              ///< factor on masses and inertias of all bodies
+  std::optional<double> friction = {};  ///< replaces the coefficient of every surface
 };
 
-/// How one contact of the robot stood during the last step.
+/// State of one contact during the last step.
 struct ContactReading {
   bool touches = false;                             ///< with a force above 0
-  int surface = -1;                                 ///< of the largest force; -1 without touch
+  int surface = -1;                                 ///< index; of the largest force; -1 without touch
   Eigen::Vector3d force = Eigen::Vector3d::Zero();  ///< on the robot, world frame [N]
-  /// Of the material that touches, along the surface [m/s]: zero for a ball that rolls.
+  /// Velocity of the touching material along the surface, world frame [m/s]; zero for a rolling
+  /// ball.
   Eigen::Vector3d slip_velocity = Eigen::Vector3d::Zero();
 };
 
-/// The robot on its surfaces in MuJoCo: its own kinematics, inertias, contact and integration; nothing of
-/// prowl/dynamics.
+/// The robot on its surfaces in MuJoCo, with MuJoCo's kinematics, contact and integration; nothing
+/// of prowl/dynamics.
 ///
-/// The model has the bodies of the robot with the inertias of links that fixed joints hold together in one, its joint
-/// limits, a ball for each contact (of a contact's radius; 1 mm for the corners of flat feet, whose lowest point is the
-/// corner), the surfaces, and no contact between parts of the robot. No joint damping and no joint friction: the plan
-/// has none. q, v, tau and the frames as in RobotModel; docs/simulation.md has the map between the two conventions.
+/// The model contains the bodies (links on fixed joints are merged), the joint limits, the
+/// surfaces, and one ball per contact: of the contact's radius, or of 1 mm for corners of flat
+/// feet, with its lowest point at the corner. It has no self-collision, joint damping or joint
+/// friction. q, v, tau and frames as in RobotModel; docs/simulation.md maps the conventions.
 class Physics {
  public:
-  /// Throws InputError, with MuJoCo's reason, for a robot that it cannot have.
+  /// Throws InputError with MuJoCo's reason if it rejects the robot.
   Physics(const RobotModel& robot, const std::vector<Surface>& surfaces, const PhysicsOptions& options);
   Physics(Physics&&) noexcept;
   ~Physics();
 
-  double step_size() const;
-  double mass() const;  ///< of the simulated robot [kg]
+  double step_size() const;  ///< [s]
+  double mass() const;       ///< of the simulated robot [kg]
   void set_state(const Eigen::VectorXd& q, const Eigen::VectorXd& v);
   const Eigen::VectorXd& q() const { return q_; }
   const Eigen::VectorXd& v() const { return v_; }
 
-  /// One step with joint torques tau (nu, as they are: no limit) and a force on the base's centre of mass [N], world
-  /// axes. False if the torques or the result are not finite: then it is over.
+  /// One step with joint torques tau (nu, not limited) and a force on the base's centre of mass,
+  /// world axes [N]. False if torques or result are not finite: end the simulation.
   bool step(const Eigen::VectorXd& tau, const Eigen::Vector3d& push = Eigen::Vector3d::Zero());
 
-  /// One for each contact of the robot.
+  /// One per contact of the robot.
   const std::vector<ContactReading>& contacts() const { return contacts_; }
 
-  /// At the state set last, without contacts: mass matrix (nv x nv) and bias force (nv), M a + h = forces; to compare.
+  /// For comparison, at the state set last, without contacts: mass matrix (nv x nv) and bias force
+  /// (nv), M a + h = forces.
   Eigen::MatrixXd mass_matrix();
   Eigen::VectorXd bias();
 

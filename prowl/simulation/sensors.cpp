@@ -18,7 +18,7 @@ void Sensors::integrate(double dt, const Eigen::VectorXd& q, const Eigen::Vector
   const Eigen::Matrix3d R = base_rotation(q), R_next = base_rotation(q_next);
   const Eigen::Vector3d change = R_next * v_next.head<3>() - R * v.head<3>();  // world axes
   velocity_change_ += R.transpose() * (change + Eigen::Vector3d(0.0, 0.0, RobotModel::kGravity * dt));
-  turn_ += dt * v_next.segment<3>(3);  // the rotation of a step of semi-implicit Euler is that of its new velocity
+  turn_ += dt * v_next.segment<3>(3);  // semi-implicit Euler rotates with the new velocity
   time_ += dt;
 }
 
@@ -42,7 +42,7 @@ SensorReading Sensors::read(const Eigen::VectorXd& q) {
 }
 
 Eigen::VectorXd Sensors::noise(Eigen::Index size, double deviation) {
-  boost::random::normal_distribution<double> normal;  // keeps nothing from one number to the next
+  boost::random::normal_distribution<double> normal;  // stateless between numbers
   Eigen::VectorXd values(size);
   for (double& value : values) value = deviation * normal(random_);
   return values;

@@ -8,17 +8,19 @@
 
 namespace prowl {
 
-/// Encoders and an IMU in the base frame. The IMU gives means over the time between two samples, as those that
-/// integrate inside do. The random numbers are those of std::mt19937_64 and of Boost's normal distribution, whose
-/// result, unlike that of std::normal_distribution, does not depend on the standard library.
+/// Joint encoders and an IMU in the base frame. The IMU returns means over the time between two
+/// readings, like integrating sensors. Noise: std::mt19937_64 with Boost's normal distribution,
+/// which unlike std::normal_distribution is the same with every standard library.
 class Sensors {
  public:
+  /// `scale`: factor on all noise.
   Sensors(int joints, const SensorNoise& noise, double scale, std::uint64_t seed);
 
-  /// One physics step of `dt`, from (q, v) to (q_next, v_next).
+  /// One physics step of `dt` [s], from (q, v) to (q_next, v_next).
   void integrate(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& q_next,
                  const Eigen::VectorXd& v_next);
-  /// At configuration q; starts the next interval of the IMU. Before the first step, what the IMU says at rest at q.
+  /// Reads the sensors at q and starts the next IMU interval. Before the first step the IMU reads
+  /// rest at q.
   SensorReading read(const Eigen::VectorXd& q);
 
  private:

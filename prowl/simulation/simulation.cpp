@@ -14,7 +14,7 @@
 namespace prowl {
 namespace {
 
-/// `end` of the simulation [s].
+/// Throws InputError for options out of range; `end` of the simulation [s].
 void check(const SimulationOptions& options, double end) {
   const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {
     if (!ok) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, range));
@@ -66,7 +66,7 @@ std::vector<std::string> failures(const SimulationResult& result, const MotionPr
   return texts;
 }
 
-/// One run: the physics on one side, what is on board on the other.
+/// One run: physics and on-board software.
 class Run {
  public:
   Run(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,

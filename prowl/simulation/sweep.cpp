@@ -17,7 +17,7 @@ namespace {
 
 using Uniform = boost::random::uniform_real_distribution<double>;
 
-/// Fewest contacts that hold at a time between `from` and `to`.
+/// Smallest number of contacts in stance between `from` and `to`.
 long fewest_contacts(const Tracker& tracker, double from, double to) {
   long fewest = std::numeric_limits<long>::max();
   for (const TrackingPlan::Segment& segment : tracker.plan().segments) {
@@ -27,7 +27,7 @@ long fewest_contacts(const Tracker& tracker, double from, double to) {
   return fewest;
 }
 
-/// A push of this impulse in a direction and at a moment drawn from `random`.
+/// A push in a random horizontal direction, at a random time of the motion.
 Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, double duration, std::mt19937_64& random) {
   const double angle = Uniform(0.0, 2.0 * std::numbers::pi)(random);
   const double time = Uniform(tracker.start(), tracker.end())(random);
@@ -40,10 +40,10 @@ struct Kind {
   static constexpr int kHalvings = 3;
   const char* name;
   const char* unit;
-  double first, most;  ///< sizes to try: first, doubled up to most
+  double first, most;  ///< sizes tried: first, doubled up to most
   std::function<void(SimulationOptions&, double, std::mt19937_64&)> apply;
 
-  /// That may have to be tried.
+  /// Upper bound on the number of sizes tried.
   int most_sizes() const {
     int sizes = kHalvings;
     for (double size = first; size <= most; size *= 2.0) ++sizes;
@@ -51,7 +51,7 @@ struct Kind {
   }
 };
 
-/// On top of `options`.
+/// Kinds of perturbation, applied to `options`.
 std::vector<Kind> kinds_of_perturbation(const MotionProblem& problem, const Tracker& tracker,
                                         const SimulationOptions& options) {
   const double planned = problem.surfaces.empty() ? 0.5 : problem.surfaces.front().friction;
@@ -76,7 +76,7 @@ SimulationOptions perturbed(const Tracker& tracker, const SimulationOptions& opt
                             std::uint64_t seed) {
   std::mt19937_64 random(seed);
   SimulationOptions result = options;
-  result.seed = random();  // the sensors' numbers are others than these
+  result.seed = random();  // a different random sequence for the sensors
   result.physics.mass_scale = Uniform(1.0 - ranges.mass, 1.0 + ranges.mass)(random);
   result.physics.friction = Uniform(ranges.friction_low, ranges.friction_high)(random);
   result.pushes = {draw_push(tracker, ranges.push, ranges.push_on_two_feet, ranges.push_duration, random)};
@@ -100,7 +100,7 @@ std::vector<SweepCase> run_cases(const MotionProblem& problem, const Tracker& tr
   };
   tell();
   const auto work = [&] {
-    while (!(interrupt && *interrupt)) {  // looked at before a case is taken, so that those taken have no gaps
+    while (!(interrupt && *interrupt)) {  // checked before taking a case: finished cases have no gaps
       const std::size_t i = next++;
       if (i >= options.size()) return;
       cases[i] = SweepCase{options[i], simulate(problem, tracker, criteria, options[i])};

@@ -17,7 +17,7 @@ std::optional<std::string> why_nothing_left(const Nlp& nlp) {
                       auto describe) -> std::optional<std::string> {
     for (int i = 0; i < lower.size(); ++i) {
       if (lower[i] <= upper[i]) continue;  // false for NaN too
-      return fmt::format("{}: bounds [{}, {}] leave nothing", describe(i), lower[i], upper[i]);
+      return fmt::format("{}: bounds [{}, {}] contain no value", describe(i), lower[i], upper[i]);
     }
     return std::nullopt;
   };
@@ -29,11 +29,11 @@ std::optional<std::string> why_nothing_left(const Nlp& nlp) {
 
 std::optional<std::string> why_no_chain(Nlp& nlp, const std::string& solver) {
   const StagewiseNlp* stages = nlp.stagewise();
-  if (!stages) return solver + " needs a problem that is a chain of stages, and this one is not";
+  if (!stages) return solver + " needs a problem that is a chain of stages; this one is not";
   for (int k = 0; k < stages->num_stages(); ++k) {
     for (int i = 0; i < stages->size(k).inequalities; ++i) {
       if (stages->lower(k)(i) < stages->upper(k)(i)) continue;  // false for NaN too
-      return fmt::format("{}: bounds [{}, {}] leave nothing", stages->describe_stage(k), stages->lower(k)(i),
+      return fmt::format("{}: bounds [{}, {}] contain no interior", stages->describe_stage(k), stages->lower(k)(i),
                          stages->upper(k)(i));
     }
   }

@@ -8,13 +8,15 @@
 
 namespace prowl {
 
-/// Throws InputError if an option makes no sense or the start has another size than the problem.
+/// Throws InputError for an invalid option or a start of the wrong size.
 void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options);
 
-/// For solvers that take every program: the first variable or constraint whose bounds leave nothing.
+/// For solvers of general programs: the first variable or constraint with empty bounds; nullopt if
+/// none.
 std::optional<std::string> why_nothing_left(const Nlp& nlp);
 
-/// For solvers that go by stages: the reason why `solver`, as the subject of a sentence, cannot take the problem.
+/// For stage-wise solvers: why `solver` (subject of the sentence) cannot solve the problem; nullopt
+/// if it can.
 std::optional<std::string> why_no_chain(Nlp& nlp, const std::string& solver);
 
 }  // namespace prowl

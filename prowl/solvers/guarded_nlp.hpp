@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// An Nlp as C and C++ solver libraries can bear it: no exception passes, NaN and infinity are found and named in the
-/// words of the task, and time is taken. Every function gives false if its result must not be used.
+/// An Nlp for C and C++ solver libraries: catches exceptions, reports NaN and infinity in the words
+/// of the task, and measures time. Every function returns false if its result must not be used.
 class GuardedNlp {
  public:
   explicit GuardedNlp(Nlp& nlp) : nlp_(nlp) {}
@@ -22,15 +22,15 @@ class GuardedNlp {
   bool jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> values);
   bool hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
                Eigen::Ref<Eigen::VectorXd> values);
-  /// False if a component of z itself is NaN or infinite.
+  /// False if a component of z is NaN or infinite.
   bool finite_point(const Eigen::VectorXd& z);
 
-  /// What went wrong in the latest evaluation that failed; empty if none has since forget_failure().
+  /// Reason of the latest failed evaluation; empty if none failed since forget_failure().
   const std::string& failure() const { return failure_; }
   void forget_failure() {
     if (!broken_) failure_.clear();
   }
-  /// Something else than NumericalError was thrown: a mistake in the program, no shorter step will help.
+  /// True after an exception other than NumericalError: a programming error, no shorter step helps.
   bool broken() const { return broken_; }
   const SolveTimes& times() const { return times_; }  ///< spent in the problem's functions
 

@@ -10,7 +10,7 @@ namespace prowl {
 
 const std::vector<std::string>& solver_names();  ///< the first is the default
 
-/// Throws InputError that lists the names for any other, and with the remedy for one that is not installed.
+/// Throws InputError with the list of names for any other name, and with the remedy if the solver is not installed.
 std::unique_ptr<NlpSolver> make_solver(const std::string& name);
 
 /// The same; nullptr instead of an exception.

@@ -15,7 +15,8 @@ void remeasure_result(Nlp& nlp, double tolerance, const std::string& solver, Sol
     result.constraint_violation = constraint_violation(nlp, result.z, rows);
   } else {
     result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
-    const bool has_reason = result.status == solver_failed || result.status == evaluation_failed;  // of where it began
+    const bool has_reason =
+        result.status == solver_failed || result.status == evaluation_failed;  // reason known already
     if (!has_reason) {
       result.status = guarded.broken() ? solver_failed : evaluation_failed;
       result.message = "result cannot be evaluated: " + guarded.failure();
@@ -23,7 +24,7 @@ void remeasure_result(Nlp& nlp, double tolerance, const std::string& solver, Sol
   }
   if (result.status == converged && !(result.constraint_violation <= tolerance)) {
     result.status = solver_failed;
-    result.message = solver + " says it is done, but a constraint is not within tolerance";
+    result.message = solver + " reports convergence, but a constraint is not within tolerance";
   }
 }
 

@@ -5,7 +5,7 @@
 
 namespace prowl {
 
-/// Within a catch (...): what the exception says.
+/// Message of the current exception; call within a catch block.
 inline std::string thrown_error() {
   try {
     throw;

@@ -12,15 +12,15 @@
 namespace prowl {
 namespace {
 
-constexpr std::size_t kSoleJoints = 5;  // with fewer a leg cannot keep a sole level
-constexpr double kSnap = 0.35;          // [rad]
-constexpr double kSameHeight = 5e-3;    // [m]: spheres that touch together
-constexpr double kLargestBall = 0.25;   // of the leg's length: wheels are the largest
+constexpr std::size_t kSoleJoints = 5;  // a leg with fewer cannot keep a sole level
+constexpr double kSnap = 0.35;          // [rad]: largest tilt of an axis taken for down
+constexpr double kSameHeight = 5e-3;    // [m]: spheres that touch the ground together
+constexpr double kLargestBall = 0.25;   // of the leg's length; wheels are the largest
 constexpr double kPointRounding = 1e-5;      // [m]
 
 double rounded(double x) { return kPointRounding * std::round(x / kPointRounding) + 0.0; }
 
-/// The foot turned so that its sole is level, about the origin of its body.
+/// Rotation of the foot with a level sole.
 Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {
   Eigen::Matrix3d R = pose.body(leg.foot).rotation();
   if (leg.joints.size() < kSoleJoints) return R;
@@ -40,7 +40,7 @@ Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {
   return Eigen::Quaterniond::FromTwoVectors(down, -Eigen::Vector3d::UnitZ()).toRotationMatrix() * R;
 }
 
-/// The link of the foot whose origin is nearest to a point of the body.
+/// Link of the body whose origin is nearest to `point`; `preferred` wins ties.
 const RobotLink& nearest_link(const RobotPose& pose, int body, const Eigen::Vector3d& point,
                               const std::string& preferred) {
   const RobotLink* nearest = nullptr;
@@ -62,7 +62,7 @@ ContactPoint contact_at(const RobotLink& link, const std::string& name, const Ei
   return {name, link.name, rounded(radius), offset.unaryExpr([](double x) { return rounded(x); })};
 }
 
-/// "_toe_in", "_heel_out": at the point (x, y) of a level foot, seen from its middle.
+/// "_toe_in", "_heel_out": corner at (x, y) from the middle of a level foot.
 std::string corner_name(const Eigen::Vector2d& from_middle, bool toe_is_ahead, bool inside_is_right) {
   return std::string((from_middle.x() > 0.0) == toe_is_ahead ? "_toe" : "_heel") +
          ((from_middle.y() < 0.0) == inside_is_right ? "_in" : "_out");
@@ -81,7 +81,7 @@ class FootFinder {
   }
 
  private:
-  /// Of a shape, levelled about the body's origin.
+  /// Points of a shape, levelled.
   Eigen::Matrix3Xd levelled(const FootShape& shape) const { return level_ * shape.points; }
   double lowest(const FootShape& shape) const { return levelled(shape).row(2).minCoeff() - shape.radius; }
   double lowest() const {
@@ -89,7 +89,7 @@ class FootFinder {
     for (const FootShape& shape : shapes_.shapes) least = std::min(least, lowest(shape));
     return least;
   }
-  const char* kind() const { return shapes_.are_visual ? "visual (for want of collision)" : "collision"; }
+  const char* kind() const { return shapes_.are_visual ? "visual (no collision)" : "collision"; }
   bool is_on_the_left() const { return pose_.body(leg_.foot).translation().y() > 0.0; }
 
   FootContacts spheres() const {
@@ -169,10 +169,10 @@ class FootFinder {
     if (radius > 0.0 && radius < kLargestBall * reach && is_above) {
       foot.contacts = {contact_at(link, link.name, link.placement.translation(), radius)};
       foot.how =
-          fmt::format("a ball around the frame, as large as the {} shape ({}) reaches below it", kind(), shape->kind);
+          fmt::format("a ball around the frame, down to the lowest point of the {} shape ({})", kind(), shape->kind);
     } else {
       foot.contacts = {contact_at(link, link.name, shape->points.col(at), 0.0)};
-      foot.how = fmt::format("the lowest point of the {} shape ({}), without a ball around it", kind(), shape->kind);
+      foot.how = fmt::format("the lowest point of the {} shape ({}), no ball", kind(), shape->kind);
     }
     return foot;
   }
@@ -185,7 +185,7 @@ class FootFinder {
     };
     const RobotLink& lowest = *std::ranges::min_element(pose_.links(), {}, height);
     return {{contact_at(lowest, lowest.name, lowest.placement.translation(), 0.0)},
-            "the origin of the frame: the URDF has no shape there that can be read"};
+            "the origin of the frame: the URDF contains no readable shape there"};
   }
 
   const RobotPose& pose_;

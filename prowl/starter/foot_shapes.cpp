@@ -11,7 +11,7 @@
 namespace prowl {
 namespace {
 
-constexpr int kCircle = 48;  // points on a circle: its edges are within 0.2 % of the radius
+constexpr int kCircle = 48;  // points of a circle; its chords are within 0.2 % of the radius
 
 Eigen::Matrix3Xd box_points(const Eigen::Vector3d& size) {
   Eigen::Matrix3Xd points(3, 8);
@@ -22,7 +22,7 @@ Eigen::Matrix3Xd box_points(const Eigen::Vector3d& size) {
   return points;
 }
 
-/// Circles about z: (radius, height).
+/// Points of circles (radius, height) about z [m].
 Eigen::Matrix3Xd circle_points(const std::vector<std::pair<double, double>>& circles) {
   Eigen::Matrix3Xd points(3, kCircle * static_cast<int>(circles.size()));
   int column = 0;

@@ -9,22 +9,22 @@
 
 namespace prowl {
 
-/// A shape of the URDF that is fixed to a body, as points of its surface; of a sphere, its centre and radius.
+/// A shape of the URDF on a body: points of its surface, or centre and radius of a sphere.
 struct FootShape {
   std::string link;
-  std::string kind;         ///< "sphere", "mesh foot.stl": for comments
-  Eigen::Matrix3Xd points;  ///< in the body [m]; one, the centre, if it is a sphere
-  double radius = 0.0;      ///< of a sphere [m]; 0: no sphere
-  bool rolls = false;       ///< a sphere, cylinder or capsule: no sole, however fine it is cut into points
+  std::string kind;         ///< for comments: "sphere", "mesh foot.stl"
+  Eigen::Matrix3Xd points;  ///< 3 x n, body frame [m]; the centre of a sphere
+  double radius = 0.0;      ///< of a sphere [m]; else 0
+  bool rolls = false;       ///< sphere, cylinder or capsule: never a sole
 };
 
 struct FootShapes {
   std::vector<FootShape> shapes;
-  bool are_visual = false;           ///< the URDF has no <collision> there: what it looks like
-  std::vector<std::string> missing;  ///< meshes that cannot be read, and why
+  bool are_visual = false;           ///< <visual> shapes, as the body has no <collision>
+  std::vector<std::string> missing;  ///< unreadable meshes, with the reason
 };
 
-/// The <collision> shapes of each of these bodies; its <visual> ones where it has none.
+/// <collision> shapes of each body of `bodies`; if it has none, its <visual> shapes.
 std::vector<FootShapes> foot_shapes(const RobotModel& robot, const std::vector<int>& bodies,
                                     const PackageSearch& search);
 

@@ -15,14 +15,15 @@
 namespace prowl {
 namespace {
 
-constexpr double kSameLevel = 0.25;  // of the height of the base over the lowest end
-constexpr double kHangs = 0.5;       // of the reach of the furthest end: less, and it is an arm to the side
-constexpr double kBelow = 0.8;  // of the height: legs stand around the base, not beside it; bent ones all reach back
+constexpr double kSameLevel = 0.25;  // of the height of the base above the lowest end
+constexpr double kHangs = 0.5;       // of the largest reach; a limb with less is an arm to the side
+constexpr double kBelow =
+    0.8;  // of the height: legs stand around the base, not beside it; bent legs may all reach back
 
 struct Limb {
   std::vector<int> joints;
   int end = 0;             // body
-  Eigen::Vector3d lowest;  // of its frames, in the axes of the search [m]
+  Eigen::Vector3d lowest;  // lowest frame, axes of the search [m]
 };
 
 std::vector<Limb> find_limbs(const BodyTree& tree) {
@@ -53,7 +54,7 @@ void find_lowest_points(const RobotPose& pose, std::vector<Limb>& limbs) {
   }
 }
 
-/// The limbs that stand on the ground if z of the pose is up; empty if none hang down.
+/// Limbs that stand on the ground with z of the pose up; empty if none hang down.
 std::vector<Limb> standing_limbs(std::vector<Limb> limbs, const RobotPose& pose) {
   find_lowest_points(pose, limbs);
   double lowest = 0.0, furthest = 0.0;
@@ -70,7 +71,7 @@ std::vector<Limb> standing_limbs(std::vector<Limb> limbs, const RobotPose& pose)
   return limbs;
 }
 
-/// Leaves out the joints that legs have in common: a waist above both moves neither against the other.
+/// Drops joints common to several legs: a waist above both moves neither against the other.
 std::vector<Leg> to_legs(const std::vector<Limb>& limbs) {
   std::map<int, int> uses;
   for (const Limb& limb : limbs) {
@@ -91,7 +92,8 @@ std::vector<Leg> to_legs(const std::vector<Limb>& limbs) {
 
 LegSearch find_legs(const RobotModel& robot) {
   constexpr double kRight = std::numbers::pi / 2.0;
-  // z up, then y up and down, x up and down, z down: rotations about x and y alone, so that forward stays near x.
+  // z up, then y up and down, x up and down, z down. Rotations about x and y only: forward stays
+  // close to x.
   const std::vector<Eigen::Vector3d> tries = {{0.0, 0.0, 0.0},     {kRight, 0.0, 0.0}, {-kRight, 0.0, 0.0},
                                               {0.0, -kRight, 0.0}, {0.0, kRight, 0.0}, {2.0 * kRight, 0.0, 0.0}};
   const Eigen::VectorXd joints = neutral_joints(robot);
@@ -110,9 +112,8 @@ LegSearch find_legs(const RobotModel& robot) {
   }
   if (found.empty()) {
     throw InputError(
-        fmt::format("{}: no legs found: no two of its {} limbs reach down to one level with all joints next to 0; "
-                    "write the robot file by hand "
-                    "(docs/adding-a-robot.md), or see that the URDF is of a legged robot",
+        fmt::format("{}: no legs found: no two of its {} limbs reach down to the same level with all joints near 0; "
+                    "write the robot file by hand (docs/adding-a-robot.md), or use the URDF of a legged robot",
                     robot.description().urdf.string(), limbs.size()));
   }
   search.legs = to_legs(found);

@@ -13,7 +13,7 @@
 namespace prowl {
 namespace {
 
-constexpr double kFullTurn = 2.0 * std::numbers::pi;    // [rad]; a range beyond is none
+constexpr double kFullTurn = 2.0 * std::numbers::pi;    // [rad]; a range beyond this limits nothing
 constexpr double kStraight = 0.1, kMostBent = 2.6;  // [rad], of a knee
 constexpr double kSwing = 1.5;                      // [rad], of other joints of legs, either way
 constexpr double kVelocity = 10.0;                  // [rad/s]
@@ -41,9 +41,8 @@ std::map<std::string, JointLimits> usable_limits(const UrdfOutline& outline) {
     JointLimits usable;
     if (joint.prismatic && (!joint.has_range() || !(joint.velocity > 0.0))) {
       throw InputError(
-          fmt::format("joint '{}' slides, and its range [m] or velocity [m/s] is not in the URDF, nor can it be "
-                      "guessed: put lower, upper "
-                      "and velocity into its <limit>",
+          fmt::format("joint '{}' slides, but the URDF lacks its range [m] or velocity [m/s], and Prowl cannot "
+                      "guess them: put lower, upper and velocity into its <limit>",
                       joint.joint));
     }
     if (!joint.has_range()) {

@@ -13,9 +13,9 @@
 namespace prowl {
 namespace {
 
-constexpr std::size_t kLargestUrdf = 4u << 20;  // [bytes], as RobotModel has it
+constexpr std::size_t kLargestUrdf = 4u << 20;  // [bytes], as in RobotModel
 
-/// The contacts of all feet in one pose; contacts_of_leg gets the indices of those of each leg.
+/// Contacts of all feet in one pose; sets contacts_of_leg to their indices by leg.
 std::vector<ContactPoint> find_feet(const RobotPose& pose, const std::vector<Leg>& legs,
                                     const std::vector<FootShapes>& shapes, std::vector<FootContacts>& feet,
                                     std::vector<std::vector<int>>& contacts_of_leg) {
@@ -53,7 +53,7 @@ void set_limits(const std::vector<LimitGuess>& guesses, RobotDescription& descri
   }
 }
 
-/// The URDF's name, or that of its file; "b1_description", a package, is of "b1".
+/// Name of the URDF or of its file, without "_description".
 std::string robot_name(const std::string& outline_name, const std::filesystem::path& urdf) {
   std::string name = is_name(outline_name) ? outline_name : is_name(urdf.stem().string()) ? urdf.stem().string() : "";
   constexpr std::string_view kPackage = "_description";
@@ -87,7 +87,8 @@ NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& searc
     }
   }
 
-  // Where a foot touches depends on how it stands: first with the joints next to 0, then in the posture found so.
+  // The touching points depend on the posture: first with joints near 0, then in the posture found
+  // with these.
   RobotPose pose(bare, result.search.upright);
   pose.set(neutral_joints(bare));
   std::vector<std::vector<int>> contacts_of_leg;

@@ -13,20 +13,21 @@
 
 namespace prowl {
 
-/// A robot description made from a URDF alone, and how each part of it came about.
+/// A robot description made from a URDF alone, with the origin of each part.
 struct NewRobot {
   RobotDescription description;  ///< with contacts, posture and limits; its name is the URDF's without "_description"
   double mass = 0.0;             ///< [kg]
   LegSearch search;
-  std::vector<FootContacts> feet;  ///< one a leg
+  std::vector<FootContacts> feet;  ///< one per leg
   StandingPosture posture;
   std::vector<LimitGuess> limits;
-  double torque_share = 0.0;  ///< most that a joint needs for standing still, of its limit
-  std::string torque_joint;   ///< which
+  double torque_share = 0.0;  ///< largest joint torque for standing, as a share of the limit
+  std::string torque_joint;   ///< its joint
   std::vector<std::string> missing_meshes;
 };
 
-/// Throws FileError or InputError: the URDF is no file, is one that Prowl cannot take, or of a robot without legs.
+/// Throws FileError or InputError if the URDF cannot be read, is unsuitable, or describes a robot
+/// without legs.
 NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& search);
 
 }  // namespace prowl

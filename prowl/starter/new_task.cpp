@@ -19,18 +19,19 @@
 namespace prowl {
 namespace {
 
-// Shares of the standing height, from those of the tasks that Prowl ships for HyQ, Go2, Solo12 and Talos.
+// Shares of the standing height, from the shipped tasks for HyQ, Go2, Solo12 and Talos.
 constexpr double kDepth = 0.25, kDepthOnSoles = 0.12;
 constexpr double kStep = 0.2, kStepOnSoles = 0.1;
 constexpr double kShift[] = {0.08, 0.045, -0.08}, kShiftOnSoles[] = {0.02, 0.02, -0.05};
 constexpr double kTurn[] = {0.05, 0.1, 0.1}, kTurnOnSoles[] = {0.0, 0.0, 0.05};  // [rad]
-constexpr double kSmaller = 0.8, kSmallest = 0.1;                                // factors on all of these
+constexpr double kSmaller = 0.8, kSmallest = 0.1;                                // factor per try, smallest factor
 constexpr double kInside = 0.05;                                                 // [rad], from the limits
 constexpr double kTorqueShare = 0.8;                                             // of the limits, at rest
-constexpr double kFitted = 1e-6, kFittedSoles = 1e-4;  // [m]: soles that are level but for rounding
+constexpr double kFitted = 1e-6, kFittedSoles = 1e-4;  // [m]: soles are level only to rounding
 constexpr double kUnbalanced = 0.01;                   // of the weight
 
-// The weight of torques goes with 1 / mass^2: docs/adding-a-robot.md. HyQ's and Talos's tasks have these.
+// The torque weight scales with 1 / mass^2: docs/adding-a-robot.md. Values of HyQ's and Talos's
+// tasks.
 constexpr double kHyqMass = 86.8, kHyqWeight = 1e-5, kWeightOnSoles = 3e-5;
 
 double one_digit(double x) {
@@ -44,7 +45,7 @@ std::vector<int> all_contacts(const RobotModel& robot) {
   return all;
 }
 
-/// Contacts where they are in the nominal posture.
+/// Contacts at their positions in the nominal posture.
 std::vector<ContactTarget> standing_places(const RobotModel& robot) {
   const LegKinematics legs(robot);
   const Eigen::VectorXd& q = robot.nominal_configuration();
@@ -53,7 +54,7 @@ std::vector<ContactTarget> standing_places(const RobotModel& robot) {
   return places;
 }
 
-/// Whether the robot can rest with its base moved and turned, its contacts where they are.
+/// True if the robot can rest with its base shifted and turned and its contacts in place.
 bool can_rest(const RobotModel& robot, bool soles, const Eigen::Vector3d& shift, const Eigen::Vector3d& turn) {
   Eigen::VectorXd q = robot.nominal_configuration();
   q.head<3>() += shift;
@@ -65,14 +66,14 @@ bool can_rest(const RobotModel& robot, bool soles, const Eigen::Vector3d& shift,
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
     if (std::abs(torque(j)) > kTorqueShare * robot.torque_limit()(j)) return false;
     const double start = robot.nominal_configuration()(7 + j);
-    if (std::abs(joints(j) - start) < 1e-6) continue;  // not part of this motion: near a limit it may be
+    if (std::abs(joints(j) - start) < 1e-6) continue;  // unused in this motion, may be near a limit
     if (joints(j) < robot.position_lower()(j) + kInside || joints(j) > robot.position_upper()(j) - kInside)
       return false;
   }
   return true;
 }
 
-/// The largest factor from 1 down with which `fits` is true, if there is one.
+/// Largest tried factor <= 1 for which `fits` is true, if any.
 template <class Fits>
 std::optional<double> largest_factor(const Fits& fits) {
   for (double factor = 1.0; factor > kSmallest; factor *= kSmaller) {
@@ -83,27 +84,26 @@ std::optional<double> largest_factor(const Fits& fits) {
 
 [[noreturn]] void refuse_all_sizes(const RobotModel& robot, const char* motion) {
   throw InputError(
-      fmt::format("robot '{}': no {} found that stays within its limits, however small; see prowl robot, and choose a "
-                  "nominal posture further inside the limits, or --kind hold",
+      fmt::format("robot '{}': found no {} within the limits, however small; see prowl robot, and choose a nominal "
+                  "posture further inside the limits, or --kind hold",
                   robot.name(), motion));
 }
 
-/// Throws InputError for a robot that its contacts or its joints cannot carry at rest in the nominal posture.
+/// Throws InputError if contacts or joints cannot carry the robot at rest in the nominal posture.
 void check_that_it_stands(const RobotModel& robot) {
   const StaticEquilibrium rest = static_equilibrium(robot, robot.nominal_configuration(), all_contacts(robot));
   if (rest.residual > kUnbalanced * robot.weight()) {
-    throw InputError(
-        fmt::format("robot '{}': its {} contacts cannot balance it at rest in the nominal posture ({:.0f} N are left "
-                    "of {:.0f} N): a task that begins and ends at "
-                    "rest needs contacts around its centre of mass, three points or flat feet",
-                    robot.name(), robot.contacts().size(), rest.residual, robot.weight()));
+    throw InputError(fmt::format(
+        "robot '{}': its {} contacts cannot balance it in the nominal posture ({:.0f} N of {:.0f} N remain): "
+        "a task that begins and ends at rest needs contacts around the centre of mass, three points "
+        "or flat feet",
+        robot.name(), robot.contacts().size(), rest.residual, robot.weight()));
   }
   for (Eigen::Index j = 0; j < robot.nu(); ++j) {
     if (std::abs(rest.tau(j)) <= kTorqueShare * robot.torque_limit()(j)) continue;
     throw InputError(fmt::format(
         "robot '{}': standing in the nominal posture takes {:.3g} of {:.3g} N m at {}: need another posture, or "
-        "limits.{}.torque_Nm if the "
-        "limit is not the maker's",
+        "limits.{}.torque_Nm if that limit is not the maker's",
         robot.name(), std::abs(rest.tau(j)), robot.torque_limit()(j), robot.joint_names()[j], robot.joint_names()[j]));
   }
 }
@@ -116,7 +116,7 @@ bool is_same_foot(const RobotModel& robot, std::size_t c, std::size_t other) {
 void check_that_it_can_step(const RobotModel& robot, const NewTask& task, int foot) {
   if (!task.soles && task.stay.size() < 3) {
     throw InputError(
-        fmt::format("robot '{}': with {} lifted it stands on {} points, which need three to be balanced, or a flat "
+        fmt::format("robot '{}': with {} lifted it stands on {} points; it needs three to be balanced, or a flat "
                     "foot; no --kind step",
                     robot.name(), task.swing.front(), task.stay.size()));
   }
@@ -125,13 +125,14 @@ void check_that_it_can_step(const RobotModel& robot, const NewTask& task, int fo
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(legs.linear(foot));
   if ((svd.singularValues().array() > 1e-6 * svd.singularValues()(0)).count() < 3) {
     throw InputError(
-        fmt::format("robot '{}': the leg of {} moves its foot in a plane only, so that the weight cannot go to the "
+        fmt::format("robot '{}': the leg of {} moves its foot in a plane only, so the weight cannot shift to the "
                     "other feet; no --kind step",
                     robot.name(), task.swing.front()));
   }
 }
 
-/// The base forward, left and down, turned about all axes; of legs that move in a plane only what they can.
+/// Shifts the base forward, left and down, and turns it about all axes; planar legs only as far as
+/// they can.
 void choose_shift(const RobotModel& robot, NewTask& task) {
   const auto& shares = task.soles ? kShiftOnSoles : kShift;
   const auto& angles = task.soles ? kTurnOnSoles : kTurn;
@@ -152,7 +153,7 @@ void choose_shift(const RobotModel& robot, NewTask& task) {
   refuse_all_sizes(robot, "shift of the base");
 }
 
-/// The left foot; on four legs or more the left one in front.
+/// Steps with the left foot; on four legs or more the left fore foot.
 void choose_step(const RobotModel& robot, NewTask& task) {
   const std::vector<ContactTarget> places = standing_places(robot);
   std::size_t first = 0;
@@ -170,15 +171,15 @@ void choose_step(const RobotModel& robot, NewTask& task) {
   task.place.z() = 0.0;
 }
 
-/// Speeds and sizes of walking animals and robots go with their height h: strides with h, times with sqrt(h) (equal
-/// Froude numbers). These are for a base 0.6 m up.
+/// Strides scale with the height h of the base, times with sqrt(h) (equal Froude numbers). These
+/// are for h = 0.6 m.
 constexpr double kReferenceHeight = 0.6;
 struct GaitScale {
   const char* pattern;
   double stride;                ///< [s]
   double length;                ///< of the height [-]
   double duty_factor;           ///< 0: that of the pattern
-  double intervals_per_second;  ///< enough for grade draft of walk and trot; pace and bound take --refine
+  double intervals_per_second;  ///< enough for grade draft of walk and trot; pace and bound need --refine
 };
 constexpr GaitScale kGaitScales[] = {{"walk", 3.0, 0.4, 0.0, 170.0},
                                      {"trot", 0.8, 0.35, 0.55, 200.0},
@@ -189,16 +190,16 @@ constexpr double kHyqGaitWeight = 1e-4;  // of torques
 
 void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& task) {
   if (!find_feet(robot)) {
-    throw InputError(
-        fmt::format("robot '{}': a gait needs four contacts, one fore left, fore right, hind left and hind right; it "
-                    "has {}; no --kind {}",
-                    robot.name(), robot.contacts().size(), pattern));
+    throw InputError(fmt::format(
+        "robot '{}': a gait needs four contacts: fore left, fore right, hind left and hind right; this robot "
+        "has {}; no --kind {}",
+        robot.name(), robot.contacts().size(), pattern));
   }
   const auto* const known =
       std::ranges::find_if(kGaitScales, [&](const GaitScale& scale) { return pattern == scale.pattern; });
   const GaitScale& scale = known == std::end(kGaitScales) ? kOtherGait : *known;
   const double time = std::sqrt(task.height / kReferenceHeight);
-  constexpr double kTimeStep = 0.05;  // [s] that a person would write
+  constexpr double kTimeStep = 0.05;  // [s], rounding
   task.pattern = pattern;
   task.stride_duration = kTimeStep * std::max(1.0, std::round(scale.stride * time / kTimeStep));
   task.stride_length = std::max(0.01, hundredths(scale.length * task.height));
@@ -252,7 +253,7 @@ NewTask new_task(const RobotModel& robot, const std::string& name) {
   }
   if (kind == NewTaskKind::stand && robot.contacts().size() < 3) {
     throw InputError(
-        fmt::format("robot '{}': on {} points a base that moves aside falls over; no --kind stand, but hold and crouch",
+        fmt::format("robot '{}': with a shifted base it falls over on {} points; no --kind stand, use hold or crouch",
                     robot.name(), robot.contacts().size()));
   }
   if (kind == NewTaskKind::stand) choose_shift(robot, task);

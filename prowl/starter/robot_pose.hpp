@@ -11,10 +11,10 @@
 
 namespace prowl {
 
-/// Forward kinematics of a robot whose base stays at the origin, turned so that z is up.
+/// Forward kinematics with the base at the origin, turned so that z is up.
 class RobotPose {
  public:
-  /// Keeps a reference to the robot. `upright`: from the axes of the base to those of the world.
+  /// Keeps a reference to the robot. `upright`: rotation from base to world axes.
   RobotPose(const RobotModel& robot, const Eigen::Matrix3d& upright);
 
   /// `joints`: nu positions [rad].
@@ -26,8 +26,8 @@ class RobotPose {
   const std::vector<RobotLink>& links() const { return links_; }
   const Eigen::Isometry3d& body(int index) const { return (*bodies_)[index]; }
   Eigen::Vector3d point(int body_index, const Eigen::Vector3d& in_body) const { return body(body_index) * in_body; }
-  Eigen::Vector3d contact(std::size_t index) const;  ///< of robot().contacts() [m]
-  /// Of a joint: the origin of the body that it moves [m].
+  Eigen::Vector3d contact(std::size_t index) const;  ///< contact of robot(), world frame [m]
+  /// Origin of the body that the joint moves, world frame [m].
   Eigen::Vector3d joint(int index) const { return body(index + 1).translation(); }
   Eigen::Vector3d center_of_mass() const;
 
@@ -40,7 +40,8 @@ class RobotPose {
   const std::vector<Eigen::Isometry3d>* bodies_ = nullptr;
 };
 
-/// The joint positions next to 0 that are well within the limits: 0.1 rad, or a tenth of the range, from both ends.
+/// Joint positions (nu) closest to 0 at a distance of 0.1 rad, or a tenth of the range, from the
+/// limits.
 Eigen::VectorXd neutral_joints(const RobotModel& robot);
 
 }  // namespace prowl

@@ -16,15 +16,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kRobotHead =
-    R"(# {name}: {mass:.1f} kg, {legs} legs. Written by `prowl new robot` from the URDF. What says "guess" is to be looked at;
-# `prowl robot {file}` shows what Prowl understands of it and warns. All keys: docs/robot-file.md.
+    R"(# {name}: {mass:.1f} kg, {legs} legs. Written by `prowl new robot` from the URDF. Check everything marked "guess":
+# `prowl robot {file}` shows how Prowl reads this file, and warns. All keys: docs/robot-file.md.
 name = "{name}"
 
-# A path is relative to this file; package://NAME/PATH is looked for in --package-dir, ROS_PACKAGE_PATH and others.
+# A path is relative to this file; package://NAME/PATH is searched in --package-dir, ROS_PACKAGE_PATH and others.
 urdf = {urdf}
 
-# Contacts, guess: the ends of the {legs} limbs that reach furthest down with all joints next to 0.{others}
-# Others may be added, on any link or fixed joint: `prowl robot {file} --frames` lists them.
+# Contacts, guess: the ends of the {legs} limbs that reach furthest down with all joints near 0.{others}
+# You can add others, on any link or fixed joint: `prowl robot {file} --frames` lists them.
 )";
 
 constexpr const char* kContact = R"([[contact]]
@@ -33,20 +33,20 @@ frame = "{frame}"
 )";
 
 constexpr const char* kPosture =
-    R"(# Posture that motions start from, guess: by inverse kinematics, all contacts on the ground below the hips, legs
-# stretched to {stretch:.0f} % of their length, knees {knees} where limits allow both ways.
-# The base is then {height:.3f} m up. Standing takes {torque}.
-# Instead: `group_state` "standing" or the like of the robot's SRDF. Keep joints inside their limits and knees bent.
+    R"(# Start posture of motions, guess: by inverse kinematics, all contacts on the ground below the hips, legs
+# stretched to {stretch:.0f} % of their length, knees {knees} if the limits allow both ways.
+# The height of the base is then {height:.3f} m. Standing takes {torque}.
+# A `group_state` of the robot's SRDF may be better ("standing"). Keep joints inside their limits and knees bent.
 )";
 
 constexpr const char* kNoPosture =
-    R"(# Posture that motions start from. NOT FOUND: no posture with bent knees puts all contacts level on the ground below the hips.
-# These are joint positions next to 0 within the limits. Change them until `prowl robot {file}` warns of nothing.
+    R"(# Start posture of motions: NOT FOUND. No posture with bent knees puts all contacts on level ground below the hips.
+# These are joint positions near 0 within the limits. Change them until `prowl robot {file}` gives no warning.
 )";
 
 constexpr const char* kLimits =
-    R"(# Limits: the URDF's, but for what follows: they were missing or placeholders that limit nothing. Guesses, not the
-# maker's: put the data sheet's figures here, with the source. Ranges keep each knee bent its own way.
+    R"(# Limits: the URDF's, except those below, which were missing or placeholders that limit nothing. These are guesses:
+# replace them by the maker's data sheet, and name it. The ranges keep each knee on its own side.
 )";
 
 constexpr const char* kAllLimits =
@@ -57,13 +57,13 @@ std::string number(double x) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-/// For a comment: names of files and paths may have any character in them.
+/// For a comment: file names may contain any character.
 std::string one_line(std::string text) {
   std::replace_if(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
   return text;
 }
 
-/// A key of TOML: quoted where a bare one is not allowed.
+/// A TOML key, quoted if necessary.
 std::string key(const std::string& name) {
   const bool bare =
       name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") == std::string::npos;
@@ -73,7 +73,7 @@ std::string key(const std::string& name) {
 std::string contacts(const NewRobot& robot) {
   std::string text, last;
   for (const FootContacts& foot : robot.feet) {
-    if (foot.how != last) text += fmt::format("# Place and size: {}.\n", one_line(foot.how));
+    if (foot.how != last) text += fmt::format("# Position and size: {}.\n", one_line(foot.how));
     last = foot.how;
     for (const ContactPoint& contact : foot.contacts) {
       text += fmt::format(fmt::runtime(kContact), fmt::arg("name", contact.name), fmt::arg("frame", contact.frame));
@@ -91,7 +91,7 @@ std::string contacts(const NewRobot& robot) {
 std::string torque_in_words(const NewRobot& robot) {
   const bool placeholders =
       std::any_of(robot.limits.begin(), robot.limits.end(), [](const LimitGuess& g) { return g.torque_is_no_limit; });
-  if (placeholders) return "torques that cannot be compared with limits, for the URDF has none";
+  if (placeholders) return "torques without a limit to compare with: the URDF has none";
   return fmt::format("{:.0f} % of the torque limits at most ({})", 100.0 * robot.torque_share, robot.torque_joint);
 }
 
@@ -107,11 +107,11 @@ std::string posture(const NewRobot& robot, const fs::path& file) {
   const Eigen::Vector3d& rpy = robot.search.base_rpy;
   if (!rpy.isZero(0.0)) {
     text += fmt::format(
-        "[nominal]   # guess: z of the base does not point up, the legs hang down another way\nbase_rpy_rad = [{}, {}, "
+        "[nominal]   # guess: the legs do not hang along -z of the base\nbase_rpy_rad = [{}, {}, "
         "{}]\n\n",
         number(rpy.x()), number(rpy.y()), number(rpy.z()));
   }
-  text += "[nominal.joints]   # [rad]; those not named are at 0\n";
+  text += "[nominal.joints]   # [rad]; others are 0\n";
   for (const auto& [joint, position] : robot.description.nominal_joints) {
     if (position != 0.0) text += fmt::format("{} = {}\n", key(joint), number(position));
   }
@@ -130,7 +130,7 @@ std::string limits(const NewRobot& robot) {
     if (guess.velocity)
       text += fmt::format("velocity_radps = {}   # guess: the URDF has none\n", number(*guess.velocity));
     if (guess.torque)
-      text += fmt::format("torque_Nm = {}   # guess: five times what standing takes; the URDF has none\n",
+      text += fmt::format("torque_Nm = {}   # guess: five times the torque of standing; the URDF has none\n",
                           number(*guess.torque));
     if (guess.torque_is_no_limit) text += "# torque_Nm =      the URDF's 1000 N m or more is no limit\n";
     text += '\n';
@@ -148,8 +148,7 @@ std::string robot_template(const NewRobot& robot, const std::string& urdf, const
       fmt::format(fmt::runtime(kRobotHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
                   fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
                   fmt::arg("urdf", toml_string(urdf)), fmt::arg("others", others));
-  for (const std::string& mesh : robot.missing_meshes)
-    text += fmt::format("# A mesh that was not read: {}\n", one_line(mesh));
+  for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# Unreadable mesh: {}\n", one_line(mesh));
   text += '\n';
   text += contacts(robot);
   text += posture(robot, file);
@@ -171,7 +170,7 @@ std::string urdf_reference(const RobotDescription& robot, const fs::path& file, 
     try {
       std::error_code error;
       if (fs::equivalent(resolve_uri(uri, file, {}, search), robot.urdf, error) && !error) return uri;
-    } catch (const InputError&) {  // not to be found from there: try a folder further up
+    } catch (const InputError&) {  // not found from there: try a parent folder
     }
   }
   return robot.urdf.lexically_relative(fs::absolute(file).lexically_normal().parent_path()).string();

@@ -8,11 +8,11 @@
 
 namespace prowl {
 
-/// The robot file, with a comment on everything that was guessed. `urdf`: what the file is to say for its URDF.
+/// Text of the robot file, with a comment on every guess. `urdf`: value of its key `urdf`.
 std::string robot_template(const NewRobot& robot, const std::string& urdf, const std::filesystem::path& file);
 
-/// What a robot file at `file` should say for this URDF: package://NAME/PATH if that is found from there, for a package
-/// that the URDF itself names; else a path relative to the file.
+/// Value of the key `urdf` for a robot file at `file`: package://NAME/PATH if the URDF names that
+/// package and it is found from there; else a path relative to the file.
 std::string urdf_reference(const RobotDescription& robot, const std::filesystem::path& file,
                            const PackageSearch& search);
 

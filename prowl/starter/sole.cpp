@@ -13,11 +13,11 @@ namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point>;
 
-constexpr double kLayer = 2e-3;       // [m]: rounded edges and triangles of a mesh
+constexpr double kLayer = 2e-3;       // [m]: tolerance for rounded edges and mesh triangles
 constexpr double kLayerShare = 0.02;  // of the foot's length
 constexpr double kLeast = 0.02;       // [m]
-constexpr double kDrawnIn = 0.97;     // an edge does not carry
-constexpr int kSteps = 40;            // of each side of the rectangle
+constexpr double kDrawnIn = 0.97;     // edges carry no load
+constexpr int kSteps = 40;            // search steps per side of the rectangle
 
 std::optional<Polygon> hull_of_lowest(const Eigen::Matrix3Xd& points) {
   const double lowest = points.row(2).minCoeff();
@@ -53,7 +53,8 @@ std::optional<Rectangle> find_sole(const Eigen::Matrix3Xd& points) {
   bg::envelope(*hull, box);
   const Eigen::Vector2d lower(box.min_corner().x(), box.min_corner().y()),
       upper(box.max_corner().x(), box.max_corner().y());
-  // Feet are symmetrical across, and not along: the ends of the length are free, of the width only its half.
+  // Feet are symmetrical across but not along: both ends of the length are free, but only half the
+  // width.
   const Eigen::Vector2d middle = 0.5 * (lower + upper), edges = upper - lower;
   std::optional<Rectangle> best;
   double best_area = 0.0;
@@ -64,7 +65,7 @@ std::optional<Rectangle> find_sole(const Eigen::Matrix3Xd& points) {
                      x1 = lower.x() + edges.x() * front / kSteps;
         if ((x1 - x0) * width <= best_area) break;
         const Rectangle r{{x0, middle.y() - 0.5 * width}, {x1, middle.y() + 0.5 * width}};
-        // A corner on the edge of the hull may be outside by rounding.
+        // Rounding may move a corner on the hull outside.
         const Eigen::Vector2d center = 0.5 * (r.lower + r.upper), in = (1.0 - 1e-9) * (r.upper - center);
         if (!contains(*hull, {center - in, center + in})) continue;
         best = r;

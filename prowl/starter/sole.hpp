@@ -5,16 +5,16 @@
 
 namespace prowl {
 
-inline constexpr double kToe = 0.02;  ///< [m]; the toe is the longer end of a foot, and ahead if neither is
+inline constexpr double kToe = 0.02;  ///< [m]; the toe is the end longer by this, else the front
 
-/// A rectangle along x and y [m].
+/// An axis-aligned rectangle [m].
 struct Rectangle {
   Eigen::Vector2d lower, upper;
 };
 
-/// The largest rectangle along the axes with all corners inside the convex hull of the lowest points, those within a
-/// few millimetres of the lowest one, drawn in by 3 %. `points`: of a foot, z up [m]. None if they are no
-/// sole: less than 2 cm long or wide.
+/// Largest axis-aligned rectangle inside the convex hull of the points within a few millimetres of
+/// the lowest one, shrunk by 3 %. `points`: 3 x n, of a foot, z up [m]. Nullopt if it is less than
+/// 2 cm long or wide.
 std::optional<Rectangle> find_sole(const Eigen::Matrix3Xd& points);
 
 }  // namespace prowl

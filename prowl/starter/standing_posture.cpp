@@ -14,11 +14,11 @@ namespace prowl {
 namespace {
 
 constexpr double kSweep = 0.01;           // [rad]
-constexpr double kHipApart = 0.1;         // of the leg: hip joints that meet in a point, or nearly so
+constexpr double kHipApart = 0.1;         // of the leg: joints closer to the knee are at the knee
 constexpr double kPostureFitted = 1e-4;          // [m]
 constexpr double kJointRounding = 1e-4;        // [rad]
-constexpr std::size_t kSoleContacts = 3;  // from so many on the orientation of a foot counts
-// How far legs are stretched, in the order of the tries. A sole at 0.93: the knee of a humanoid at 45 degrees.
+constexpr std::size_t kSoleContacts = 3;  // feet with this many contacts keep a level orientation
+// Stretch of the legs, in order of trial. 0.93 bends a humanoid knee by 45 degrees.
 constexpr double kStretchOfPoints[] = {0.8, 0.75, 0.85, 0.7, 0.65, 0.9, 0.95};
 constexpr double kStretchOfSoles[] = {0.93, 0.9, 0.95, 0.87, 0.97, 0.84};
 
@@ -71,8 +71,8 @@ class PostureSearch {
     return sum / static_cast<double>(contacts_[leg].size());
   }
 
-  /// Distance from a joint to the middle of the contacts over one joint of the leg: (angle, distance), over a full
-  /// turn.
+  /// Distance from joint `from` to the middle of the contacts over a full turn of `joint`: (angle,
+  /// distance).
   std::vector<std::pair<double, double>> sweep(std::size_t leg, int joint, int from) {
     std::vector<std::pair<double, double>> distances;
     Eigen::VectorXd joints = neutral_;
@@ -108,7 +108,7 @@ class PostureSearch {
     return knee;
   }
 
-  /// The last joint before the knee that is not at the knee itself.
+  /// Last joint before the knee that is not at the knee.
   int hip_joint(std::size_t leg, int knee) const {
     const std::vector<int>& joints = legs_[leg].joints;
     const double reach = (middle(leg) - pose_.joint(joints.front())).norm();
@@ -120,7 +120,7 @@ class PostureSearch {
     return hip;
   }
 
-  /// Where the leg hangs from in the neutral pose: fore and aft the hip, to the side the foot.
+  /// Hip in the neutral pose, moved along the knee axis to the side of the foot.
   Eigen::Vector3d hip_of(std::size_t leg) const {
     const Eigen::Vector3d hip = pose_.joint(hip_joint(leg, knees_[leg].joint));
     const Eigen::Vector3d axis = knee_axis(leg);
@@ -133,7 +133,7 @@ class PostureSearch {
     return pose_.body(body).rotation() * pose_.tree().bodies[body].axis;
   }
 
-  /// Contacts about their middle, with the sole turned level; their heights are those of the centres of their balls.
+  /// Contact positions about their middle, sole level; heights are those of the ball centres.
   void find_soles() {
     for (std::size_t l = 0; l < legs_.size(); ++l) {
       Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
@@ -151,7 +151,7 @@ class PostureSearch {
     }
   }
 
-  /// Where the knee should point to, horizontally.
+  /// Horizontal direction that the knee should point to.
   Eigen::Vector3d wanted_side(std::size_t leg) const {
     if (legs_.size() > 2) {
       Eigen::Vector3d center = Eigen::Vector3d::Zero();
@@ -169,14 +169,14 @@ class PostureSearch {
     return result;
   }
 
-  /// The leg's joints, in a vector of all, with the knee to one side (-1 or 1) of straight; none if that cannot be.
+  /// Joint positions (nu) with the knee on one side (-1 or 1) of straight; nullopt if impossible.
   std::optional<Eigen::VectorXd> bend(std::size_t leg, int side, double stretch, double ground,
                                       const Eigen::Vector2d& shift) {
     const Knee& knee = knees_[leg];
     const double bent = 2.0 * std::acos(std::clamp(stretch, 0.0, 1.0));
     const double lower = robot_.position_lower()(knee.joint), upper = robot_.position_upper()(knee.joint);
     const double margin = std::min(0.05, 0.02 * (upper - lower));
-    // A hip that starts half as much bent the other way keeps the foot below it.
+    // Start with the hip bent half as much the other way: this keeps the foot below it.
     for (const double share : {1.0, 0.6, 1.4}) {
       Eigen::VectorXd q = pose_.q();
       q.tail(robot_.nu()) = neutral_;
@@ -220,7 +220,7 @@ class PostureSearch {
   }
 
   std::optional<Eigen::VectorXd> stand(double stretch) {
-    double ground = -std::numeric_limits<double>::infinity();  // the leg that needs it highest decides
+    double ground = -std::numeric_limits<double>::infinity();  // the leg that needs the highest ground decides
     for (std::size_t l = 0; l < legs_.size(); ++l) {
       const double radius = soles_[l].front().z();
       ground = std::max(ground, hips_[l].z() - stretch * knees_[l].length - radius);
@@ -229,7 +229,8 @@ class PostureSearch {
     auto joints = stand_at(stretch, ground, shift);
     for (int i = 0; i < 4 && joints && legs_.size() == 2; ++i) {
       pose_.set(*joints);
-      // Fore and aft only: to the side a robot of two legs is nearly symmetrical, and its posture should be so quite.
+      // Only along x: sideways, bipeds are nearly symmetrical and their posture should be exactly
+      // so.
       shift.x() += pose_.center_of_mass().x() - 0.5 * (middle(0) + middle(1)).x();
       joints = stand_at(stretch, ground, shift);
     }

@@ -13,30 +13,30 @@ namespace prowl {
 namespace {
 
 constexpr const char* kTaskHead = R"(# {what}
-# Written by `prowl new task` for {robot}: {mass:.1f} kg, its base {height:.2f} m up. All keys: docs/task-file.md.
+# Written by `prowl new task` for {robot}: {mass:.1f} kg, base height {height:.2f} m. All keys: docs/task-file.md.
 name = "{kind}"
 robot = {file}   # relative to this file
 
-# Where contacts may touch: planes and patches. Without more keys, level ground at z = 0.
+# Surfaces that contacts may touch: planes and patches. By default level ground at z = 0.
 [[surface]]
 name = "floor"
 friction = 0.5   # Coulomb coefficient
 
 )";
 
-constexpr const char* kOnePhase = R"(# Phases: times with one set of contacts. Here all of them stand all the time.
+constexpr const char* kOnePhase = R"(# Phases: times with one set of contacts. Here all contacts hold all the time.
 [[phase]]
 contacts = "all"
 duration_s = {duration:.1f}
-intervals = {intervals}   # of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do
+intervals = {intervals}   # of the mesh. Too few fail the certificate; `prowl plan` then tells how many suffice
 
 )";
 
 constexpr const char* kStepsText =
-    R"(# Phases: times with one set of contacts. A contact that the next phase lacks opens, one that the phase before lacked lands.
-# intervals: of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do.
+    R"(# Phases: times with one set of contacts. Contacts open and land between phases.
+# intervals: of the mesh. Too few fail the certificate by integration errors; `prowl plan` then tells how many suffice.
 [[phase]]
-name = "shift"   # the weight goes over the feet that stay
+name = "shift"   # the weight shifts over the other feet
 contacts = "all"
 duration_s = {shift}
 intervals = {shift_intervals}
@@ -56,18 +56,18 @@ intervals = {settle_intervals}
 )";
 
 constexpr const char* kGait =
-    R"(# A gait: feet swing in turn while the others stand. Where they land is left to the optimiser. Other kinds: {others}.
+    R"(# A gait: feet swing in turn while the others stand. The optimiser chooses the footholds. Other kinds: {others}.
 [gait]
 kind = "{kind}"
 strides = {strides}
 stride_s = {stride:.4g}          # of one stride, in which each foot swings once
-stride_length_m = {length:.3g}   # forward; heading_rad turns the way
-{duty}intervals_per_second = {rate:.0f}   # of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do
+stride_length_m = {length:.3g}   # forward; heading_rad turns the direction
+{duty}intervals_per_second = {rate:.0f}   # of the mesh. Too few fail the certificate; `prowl plan` then tells how many suffice
 
 )";
 
 constexpr const char* kGoalsNote =
-    R"(# Goals hold exactly; what is not named is free. Displacements are from the start: forward, left, up [m].
+    R"(# Goals hold exactly; all else is free. Displacements are from the start: forward, left, up [m].
 )";
 
 constexpr const char* kAtRest = R"(base_linear_velocity_mps = [0, 0, 0]   # at rest
@@ -75,8 +75,8 @@ base_angular_velocity_radps = [0, 0, 0]
 )";
 
 constexpr const char* kCostNote =
-    R"(# Running cost: half the integral of weight x difference^2, about the start posture and the torques that hold it. Mostly
-# acceleration: the smoother the motion, the smaller the errors of the mesh. torque goes with 1 / mass^2 of the robot.
+    R"(# Running cost: half the integral of weight x difference^2, from the start posture and the torques that hold it. Mostly
+# acceleration: smooth motions have small mesh errors. The weight of torque scales with 1 / mass^2 of the robot.
 [cost]
 )";
 
@@ -91,7 +91,7 @@ base_angular_acceleration = 1.0
 joint_acceleration = 0.01
 )";
 
-constexpr const char* kCostOfSoles = R"(joint_position = 1.0   # holds the arms where they are
+constexpr const char* kCostOfSoles = R"(joint_position = 1.0   # keeps the arms in place
 base_orientation = 1.0
 joint_velocity = 0.1
 base_linear_velocity = 0.1
@@ -102,7 +102,7 @@ joint_acceleration = 0.02
 )";
 
 constexpr const char* kCostOfStepOnPoints =
-    R"(time = 0.2   # the phases last as long as the optimiser likes, within their bounds
+    R"(time = 0.2   # the optimiser chooses the durations of the phases, within their bounds
 joint_velocity = 0.1
 base_linear_velocity = 0.1
 base_angular_velocity = 0.1
@@ -121,7 +121,7 @@ base_angular_acceleration = 0.1
 joint_acceleration = {joints}
 )";
 
-constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride in which a foot is in contact\n";
+constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride with a foot in contact\n";
 constexpr int kStrides = 2;
 
 std::string vector(const Eigen::Vector3d& v) {
@@ -136,7 +136,7 @@ std::string quoted(const std::vector<std::string>& names) {
 
 std::string what(const NewTask& task) {
   switch (task.kind) {
-    case NewTaskKind::hold: return "The robot stands still, by goal and by cost.";
+    case NewTaskKind::hold: return "Goal and cost keep the robot still.";
     case NewTaskKind::stand: return "The base moves and turns a little, feet in place.";
     case NewTaskKind::crouch:
       return fmt::format("Crouch: the base {:.0f} cm down and back up, feet in place.", 100.0 * task.depth);
@@ -149,15 +149,15 @@ std::string what(const NewTask& task) {
   return "";
 }
 
-/// Enough for grade draft on the robots of docs/adding-a-robot.md; even, for a goal in the middle.
+/// Enough for grade draft on the robots of docs/adding-a-robot.md; even, for a goal halfway.
 int intervals_of(const NewTask& task, std::size_t contacts) {
   if (task.kind == NewTaskKind::hold) return task.soles ? 80 : 40;
   if (task.soles) return 200;
-  return contacts < 3 ? 240 : 120;  // two points: a balance on a line
+  return contacts < 3 ? 240 : 120;  // two points: balancing on a line
 }
 
 std::string step_phases(const NewTask& task) {
-  // Only the first corner of a sole gets a place: the others are as far from it as the foot is large.
+  // Only the first corner of a sole gets a foothold: the foot fixes the others.
   std::string landed = fmt::format("{{ contact = \"{}\", place_m = {} }}", task.swing.front(), vector(task.place));
   for (std::size_t i = 1; i < task.swing.size(); ++i) landed += ", \"" + task.swing[i] + '"';
   const auto phases = [&](const char* shift, int i, const char* swing, int j, const char* settle, int k) {
@@ -165,7 +165,7 @@ std::string step_phases(const NewTask& task) {
                        fmt::arg("shift", shift), fmt::arg("shift_intervals", i), fmt::arg("swing", swing),
                        fmt::arg("swing_intervals", j), fmt::arg("settle", settle), fmt::arg("settle_intervals", k));
   };
-  // Smaller robots move faster: as G1, 0.76 m up, needs it against Talos, 1.03 m up.
+  // Smaller robots move faster; fitted to G1 (base at 0.76 m) and Talos (1.03 m).
   const double finer = std::max(1.0, std::pow(1.1 / task.height, 1.5));
   const auto intervals = [&](int at_one_metre) { return static_cast<int>(std::ceil(finer * at_one_metre)); };
   return task.soles ? phases("1.2", intervals(120), "0.8", intervals(100), "1.2", intervals(60))
@@ -184,7 +184,7 @@ std::string gait(const NewTask& task) {
                      fmt::arg("rate", task.intervals_per_second));
 }
 
-/// Roll, pitch and yaw of a base that has `rpy` already and is turned by `turn` about the world's axes.
+/// Roll, pitch and yaw of `rpy` followed by `turn` about the world's axes [rad].
 Eigen::Vector3d turned(const Eigen::Vector3d& rpy, const Eigen::Vector3d& turn) {
   return rpy_from_rotation(rotation_from_rpy(turn) * rotation_from_rpy(rpy));
 }
@@ -206,7 +206,7 @@ std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double durati
     case NewTaskKind::step:
       return goal("phase = \"settle\"   # at its end\n", {(task.soles ? 0.5 : 0.25) * task.length, 0.0, 0.0}, rpy,
                   true);
-    case NewTaskKind::gait: break;  // the length of its strides says where to go
+    case NewTaskKind::gait: break;  // its stride length determines the goal
   }
   return "";
 }
@@ -214,8 +214,8 @@ std::string goals(const NewTask& task, const Eigen::Vector3d& rpy, double durati
 std::string cost(const NewTask& task) {
   std::string text = kCostNote;
   if (task.kind == NewTaskKind::step && task.soles)
-    text += "force = 1e-6   # forces of the corners of one sole are not unique: the small ones\n";
-  // A trot needs quick legs; smoother joints keep the errors of the mesh small where there is time.
+    text += "force = 1e-6   # selects the smallest of the non-unique forces at the corners of a sole\n";
+  // A trot needs quick legs; slower gaits get smoother joints and smaller mesh errors.
   text += task.kind == NewTaskKind::gait
               ? fmt::format(fmt::runtime(kCostOfGait), fmt::arg("joints", task.pattern == "trot" ? 0.001 : 0.005))
           : task.soles                     ? kCostOfSoles

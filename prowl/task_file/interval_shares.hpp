@@ -4,7 +4,8 @@
 
 namespace prowl {
 
-/// `total` mesh intervals, shared out over phases in proportion to the `counts` of the task file; at least one each.
+/// Distributes `total` mesh intervals over the phases in proportion to `counts` of the task file;
+/// at least one each.
 std::vector<int> share_intervals(const std::vector<int>& counts, int total);
 
 }  // namespace prowl

@@ -9,7 +9,7 @@
 namespace prowl {
 namespace {
 
-/// Keys that a field of MotionProblem may come from, the likeliest first.
+/// Keys that may set a field of MotionProblem, likeliest first.
 std::vector<std::string> keys_of(const std::string& field) {
   const auto rest_after = [&field](const std::string& start) { return field.substr(start.size()); };
   if (field.starts_with("boundary_conditions[0]")) return {"start", "phase[0].contacts", "gait"};

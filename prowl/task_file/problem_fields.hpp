@@ -6,8 +6,9 @@
 
 namespace prowl {
 
-/// What validate() says of a MotionProblem, in the words of the task file that it comes from:
-/// "task.toml:12:1: start: contact 'lf_foot' ..." for "boundary_conditions[0].q_ref: contact 'lf_foot' ...".
+/// Translates a complaint of validate() about a MotionProblem into the words of its task file:
+/// "task.toml:12:1: start: contact 'lf_foot' ..." for "boundary_conditions[0].q_ref: contact
+/// 'lf_foot' ...".
 std::string in_terms_of_the_file(const SourceText& task_file, const std::string& complaint);
 
 }  // namespace prowl

@@ -22,8 +22,7 @@ std::vector<ContactPoint> read_contacts(const TomlTable& root, bool needed) {
   if (!needed && !root.find("contact")) return {};
   root.need("contact");
   std::vector<ContactPoint> contacts;
-  constexpr std::size_t kMostContacts =
-      100;  // two hands and two feet of twenty points have fewer; each is a frame of the model
+  constexpr std::size_t kMostContacts = 100;  // each is a frame of the model; two hands and feet of 20 points need 80
   for (const TomlTable& table : root.find_tables("contact", kMostContacts)) {
     const ContactPoint contact = read_contact(table);
     for (const ContactPoint& other : contacts) {
@@ -73,7 +72,8 @@ JointLimits read_limits(const TomlTable& table) {
   return limits;
 }
 
-/// Where a robot file has that key: of joints the name, which may be no joint's, of others the value.
+/// Location of a key in a robot file: of its name for joints, which may not exist, else of its
+/// value.
 std::string location_of_key(const SourceText& source, const std::string& key) {
   const bool is_joint = key.starts_with("limits.") || key.starts_with("nominal.");
   return (is_joint ? locate_key(source, key) : locate(source, key)) + key;

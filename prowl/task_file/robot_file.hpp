@@ -9,19 +9,20 @@
 
 namespace prowl {
 
-/// How a robot file is read.
+/// Options of reading a robot file.
 struct RobotReading {
-  bool needs_contacts = true;                          ///< a robot may also be looked at before its contacts are known
-  std::optional<SourceText> urdf_copy = std::nullopt;  ///< in place of the URDF, if that is not there
+  bool needs_contacts = true;                          ///< false: accept a robot without contacts, to inspect it
+  std::optional<SourceText> urdf_copy = std::nullopt;  ///< used if the URDF file does not exist
 };
 
-/// Reads a robot file (docs/robot-file.md). Throws InputError "file:line:column: key: ..." for anything wrong in it;
-/// names of frames and joints are checked by load_robot only, as only the URDF knows them.
+/// Reads a robot file (docs/robot-file.md). Throws InputError "file:line:column: key: ..." for
+/// errors in it. Only load_robot() checks names of frames and joints, as only the URDF defines
+/// them.
 RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search,
                                   const RobotReading& reading = {});
 RobotDescription read_robot_file(const std::filesystem::path& path, const PackageSearch& search);
 
-/// The robot itself, with file and line on what RobotModel finds wrong.
+/// Builds the robot; adds file and line to errors of RobotModel.
 RobotModel load_robot(const SourceText& source, const PackageSearch& search, const RobotReading& reading = {});
 
 }  // namespace prowl

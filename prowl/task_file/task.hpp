@@ -12,22 +12,23 @@
 
 namespace prowl {
 
-/// What the command line puts in place of a task file's values.
+/// Values of the command line that replace those of a task file.
 struct TaskOverrides {
-  std::optional<int> intervals;  ///< total, shared out over the phases as in the file; at least one each
+  std::optional<int> intervals;  ///< total, distributed over the phases as in the file; at least one each
   std::optional<int> max_iterations;
   std::optional<double> max_seconds;
   std::optional<double> tolerance;
 };
 
-/// A task file, understood, and all that it was read from: enough to read it again (see plan_folder/plan_folder.hpp).
+/// A parsed task file with its sources, sufficient to parse it again (see
+/// plan_folder/plan_folder.hpp).
 struct Task {
   MotionProblem problem;
   Mesh mesh;
   SolverOptions solver;
   TrackingOptions tracking;
-  SuccessCriteria success = {};                   ///< of a simulation
-  std::optional<double> simulated_friction = {};  ///< of all surfaces in a simulation; else as planned with
+  SuccessCriteria success = {};                   ///< of simulations
+  std::optional<double> simulated_friction = {};  ///< of all surfaces in simulations; nullopt: as planned
   SourceText task_file;
   SourceText robot_file;
   TaskOverrides overrides;

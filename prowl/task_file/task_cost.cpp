@@ -36,7 +36,7 @@ QuadraticCost no_cost(const MotionProblem& problem) {
   return cost;
 }
 
-/// The keys that both tables have.
+/// Keys common to both tables.
 void read_state_cost(const TomlTable& table, const MotionProblem& problem, QuadraticCost& cost) {
   const RobotModel& robot = problem.robot;
   if (const auto reference = table.find("reference")) {

@@ -1,12 +1,12 @@
 #pragma once
 
-// Reads [cost] and [terminal_cost] of a task file. Not installed: shows toml++.
+// Reads [cost] and [terminal_cost] of a task file. Not installed: exposes toml++.
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
 
 namespace prowl {
 
-/// Sets running_cost and terminal_cost of a problem whose robot, phases and boundary conditions are there.
+/// Sets running_cost and terminal_cost; needs robot, phases and boundary conditions of `problem`.
 void read_costs(const TomlTable& root, MotionProblem& problem);
 
 }  // namespace prowl

@@ -60,7 +60,8 @@ std::vector<Surface> read_surfaces(const TomlTable& root) {
   return surfaces;
 }
 
-/// Throws, naming the joint and where its position was written, unless the posture keeps the joint limits.
+/// Throws InputError with the joint and the location of its position if the posture violates a
+/// joint limit.
 void check_start(const RobotModel& robot, const Eigen::VectorXd& q, const std::optional<TomlValue>& joints,
                  const SourceText& robot_file) {
   for (int j = 0; j < robot.nu(); ++j) {
@@ -85,8 +86,8 @@ int find_name(const TomlValue& value, const std::string& what, const std::vector
   return static_cast<int>(found - names.begin());
 }
 
-/// Takes a posture from the level ground, z = 0, to a surface: turned the shortest way, what was at the origin at its
-/// point.
+/// Moves a posture from level ground, z = 0, to a surface: by the shortest rotation, the origin to
+/// its point.
 void put_on(const Surface& surface, TaskStart& start) {
   const Eigen::Matrix3d turn =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), surface.normal).toRotationMatrix();
@@ -109,7 +110,7 @@ TaskStart read_start(const TomlTable& root, const RobotModel& robot, const Sourc
       }
     }
     if (const auto rpy = table->find("base_rpy_rad")) posture.nominal_base_rpy = rpy->as_vector3();
-    // A robot with this as its nominal posture puts it on the ground.
+    // RobotModel puts its nominal posture on the ground.
     start = {RobotModel(posture).nominal_configuration(), posture.nominal_base_rpy};
     const auto position = table->find("base_position_m");
     if (position) start.q.head<3>() = position->as_vector3();
@@ -155,7 +156,7 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
   return contacts;
 }
 
-/// Phases of the file and their mesh; where their steps are free, the key that says so.
+/// Phases of the file and their mesh; for phases with free steps their key `steps`.
 struct FilePhases {
   std::vector<Phase> phases;
   Mesh mesh;
@@ -179,7 +180,7 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
     auto steps = table.find("steps");
     if (steps && steps->as_choice("kind of steps") == "equal") steps.reset();
     if (steps && phase.duration.is_fixed()) {
-      steps->fail("the steps of a fixed duration are not free; need duration_s = [min, max]");
+      steps->fail("a fixed duration has no free steps; need duration_s = [min, max]");
     }
     read.phases.push_back(phase);
     read.free_steps.push_back(steps);
@@ -188,15 +189,15 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
   return read;
 }
 
-/// Equal steps, so many intervals a phase.
+/// Equal steps, `intervals` per phase.
 Mesh mesh_of(const std::vector<int>& intervals) {
   Mesh mesh;
   for (const int count : intervals) mesh.phases.emplace_back(count);
   return mesh;
 }
 
-/// A phase whose steps are free becomes phases of one interval each, so that each step is a duration of its own between
-/// the phase's bounds / intervals. Conditions go with their nodes.
+/// Splits a phase with free steps into phases of one interval: each step is a duration between the
+/// phase's bounds / intervals. Conditions stay at their nodes.
 void split_free_steps(FilePhases& read, std::vector<BoundaryCondition>& conditions) {
   std::vector<Phase> pieces;
   Mesh mesh;
@@ -211,8 +212,8 @@ void split_free_steps(FilePhases& read, std::vector<BoundaryCondition>& conditio
     }
     const int n = read.mesh.phases[p].intervals();
     if (n > kMostFreeSteps) {
-      read.free_steps[p]->fail(fmt::format(
-          "{} free steps are not allowed; need at most {}: each takes the space of a phase", n, kMostFreeSteps));
+      read.free_steps[p]->fail(
+          fmt::format("{} free steps are not allowed; need at most {}: each is a phase of its own", n, kMostFreeSteps));
     }
     for (int i = 0; i < n; ++i) {
       Phase& step = pieces.emplace_back(phase);
@@ -220,7 +221,7 @@ void split_free_steps(FilePhases& read, std::vector<BoundaryCondition>& conditio
       step.duration = {phase.duration.min / n, phase.duration.max / n};
       mesh.phases.emplace_back(1);
       if (i == 0) continue;
-      for (PhaseContact& contact : step.contacts) contact.place.reset();  // it landed with the first step
+      for (PhaseContact& contact : step.contacts) contact.place.reset();  // landed in the first step
     }
   }
   for (BoundaryCondition& condition : conditions) {
@@ -245,7 +246,7 @@ void check_lengths(const TomlTable& root, const FilePhases& read) {
   }
 }
 
-/// Overrides keep the ranges of the keys that they replace. Throws InputError.
+/// Throws InputError for overrides outside the ranges of the keys that they replace.
 void check_overrides(const SourceText& task_file, const TaskOverrides& overrides) {
   const auto check = [&](const char* table, const char* name, auto value) {
     const NumberRange& range = file_key(task_file_keys(), table, name).range;
@@ -272,7 +273,7 @@ SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides)
   return options;
 }
 
-/// A problem with the mesh of its file.
+/// A problem with its mesh.
 struct FileProblem {
   MotionProblem problem;
   Mesh mesh;
@@ -325,7 +326,7 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
 
 std::filesystem::path robot_path(const TomlDocument& document, const SourceText& task_file, const TomlTable& root) {
   const auto robot = root.find("robot");
-  if (!robot) document.read_with([&] { return root.need("robot"); });  // throws, also where the key is misspelt
+  if (!robot) document.read_with([&] { return root.need("robot"); });  // throws, also for a misspelt key
   return (task_file.path.parent_path() / robot->as_text()).lexically_normal();
 }
 
@@ -336,7 +337,7 @@ TomlTable task_root(const TomlDocument& document) {
   return document.root(task_file_keys());
 }
 
-/// The file's name without its ending, with '_' for what no name may have.
+/// File name without extension, with '_' for characters not allowed in names.
 std::string name_of_file(const std::filesystem::path& path) {
   std::string name = path.stem().string();
   for (char& c : name) {
@@ -345,7 +346,7 @@ std::string name_of_file(const std::filesystem::path& path) {
   return name;
 }
 
-/// The robot, or a mistake more of the document that names it, as InputError.
+/// The robot; its errors are added to those of `document` and thrown as InputError.
 RobotModel robot_of(const TomlDocument& document, const SourceText& robot_file, const PackageSearch& search,
                     const std::optional<SourceText>& urdf) {
   try {
@@ -397,7 +398,7 @@ Task read_task_text(const SourceText& task_file, const PackageSearch& search, co
   const TomlDocument document(task_file);
   const TomlTable root = task_root(document);
   const std::filesystem::path robot = robot_path(document, task_file, root);
-  std::error_code unknown;  // which read_text_file then tells
+  std::error_code unknown;  // reported by read_text_file()
   if (!std::filesystem::exists(robot, unknown) && !unknown)
     root.need("robot").fail(fmt::format("no such file: {}", robot.string()));
   SourceText robot_file;

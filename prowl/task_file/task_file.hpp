@@ -10,20 +10,21 @@
 
 namespace prowl {
 
-/// Reads a task file (docs/task-file.md) and the robot file that it names. Throws InputError
-/// "file:line:column: key: ..." for whatever is wrong in either.
+/// Reads a task file (docs/task-file.md) and its robot file. Throws InputError "file:line:column:
+/// key: ..." for errors in either, FileError for an unreadable file.
 Task read_task_file(const std::filesystem::path& path, const PackageSearch& search,
                     const TaskOverrides& overrides = {});
 
-/// The same from a text at hand; what it names is relative to the folder of task_file.path, where no file needs to be.
+/// The same from text; its paths are relative to the folder of task_file.path, which need not
+/// exist.
 Task read_task_text(const SourceText& task_file, const PackageSearch& search, const TaskOverrides& overrides = {});
 
-/// The same from texts at hand: those that a plan keeps. `robot_file` stands for the file that the task names, and
-/// `urdf` for the one that the robot names if that is not there.
+/// The same from the texts stored in a plan. `robot_file` replaces the robot file of the task;
+/// `urdf` is used if the URDF file does not exist.
 Task parse_task(const SourceText& task_file, const SourceText& robot_file, const PackageSearch& search,
                 const TaskOverrides& overrides = {}, const std::optional<SourceText>& urdf = std::nullopt);
 
-/// "hyq_crouch" for tasks/hyq/crouch.toml: folder and name tell one task from another.
+/// "hyq_crouch" for tasks/hyq/crouch.toml: folder and name.
 std::string task_slug(const std::filesystem::path& task_file);
 
 }  // namespace prowl

@@ -9,14 +9,14 @@
 namespace prowl {
 namespace {
 
-constexpr double kSteepest = 0.1;  // z of the normal: 84 degrees
+constexpr double kSteepest = 0.1;  // z of the normal: 84 degrees of slope
 
 Feet need_feet(const TomlTable& table, const RobotModel& robot) {
   if (const auto feet = find_feet(robot)) return *feet;
-  table.value().fail(fmt::format(
-      "a gait needs four contacts, one fore left, fore right, hind left and hind right in the nominal posture; "
-      "the {} of {} are not that: write the phases out as [[phase]]",
-      robot.contacts().size(), robot.name()));
+  table.value().fail(
+      fmt::format("a gait needs four contacts: fore left, fore right, hind left and hind right in the nominal posture; "
+                  "the {} of {} differ: write the phases as [[phase]]",
+                  robot.contacts().size(), robot.name()));
 }
 
 GaitPattern read_pattern(const TomlTable& table) {
@@ -55,7 +55,7 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
   return gait;
 }
 
-/// Of a phase at its longest [1/s].
+/// Reads intervals_per_second [1/s], for phases at their longest.
 double read_intervals_per_second(const TomlTable& table, const Gait& gait) {
   const auto value = table.find("intervals_per_second");
   const double rate = value ? value->as_number() : kIntervalsPerSecond;
@@ -67,13 +67,13 @@ double read_intervals_per_second(const TomlTable& table, const Gait& gait) {
   return rate;
 }
 
-/// Of the base over all strides; none if the file says by itself where to go.
+/// Displacement of the base over all strides, world frame [m]; nullopt if the file has goals.
 std::optional<Eigen::Vector3d> read_displacement(const TomlTable& root, const TomlTable& table, const Gait& gait,
                                                  const Surface& surface, const TaskStart& start) {
   if (root.find("goal")) {
     for (const char* key : {"stride_length_m", "heading_rad"}) {
       if (const auto value = table.find(key)) {
-        value->fail("has no use beside [[goal]], which says where to go; need one of the two");
+        value->fail("has no effect beside [[goal]], which sets the target; need one of the two");
       }
     }
     return std::nullopt;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Reads [gait] of a task file. Not installed: shows toml++.
+// Reads [gait] of a task file. Not installed: exposes toml++.
 #include <optional>
 #include <vector>
 
@@ -10,15 +10,15 @@
 
 namespace prowl {
 
-/// What [gait] stands for.
+/// Phases, mesh and displacement of [gait].
 struct TaskGait {
   std::vector<Phase> phases;
   Mesh mesh;
-  std::optional<Eigen::Vector3d> displacement;  ///< of the base at the end [m]; none if the file has goals of its own
+  std::optional<Eigen::Vector3d> displacement;  ///< of the base, world frame [m]; nullopt if the file has goals
 };
 
-/// None if the file has no [gait]. Throws InputError on anything wrong in it, on [[phase]] beside it, and if the robot
-/// is not one on four legs.
+/// Nullopt if the file has no [gait]. Throws InputError for errors in it, for an additional
+/// [[phase]], and for robots without four feet.
 std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot, const std::vector<Surface>& surfaces,
                                   const TaskStart& start);
 

@@ -15,7 +15,7 @@ struct NodeTime {
   double time;  ///< [s]
 };
 
-/// All nodes but the start; of the two nodes at a phase switch only the earlier.
+/// All nodes except the start; at a phase transition only the earlier node.
 std::vector<NodeTime> node_times(const std::vector<Phase>& phases, const Mesh& mesh) {
   std::vector<NodeTime> nodes;
   double begin = 0.0;
@@ -30,7 +30,7 @@ std::vector<NodeTime> node_times(const std::vector<Phase>& phases, const Mesh& m
 }
 
 PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& phases, const Mesh& mesh) {
-  constexpr double kSameTime = 1e-6;  // [s]; a decimal fraction in a file is not an exact node time
+  constexpr double kSameTime = 1e-6;  // [s]; decimal fractions in files are not exact node times
   const double time = value.as_number();
   const std::vector<NodeTime> nodes = node_times(phases, mesh);
   const auto after =
@@ -47,7 +47,7 @@ PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& p
                          std::prev(after)->time, after->time));
 }
 
-/// The part of the phase at the node that is there.
+/// Fraction of the phase at the node there.
 double fraction_at_node(const TomlValue& value, const PhaseMesh& mesh) {
   constexpr double kRounding = 1e-6;  // a decimal fraction in a file is not an exact node
   const int intervals = mesh.intervals();
@@ -64,14 +64,14 @@ PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phase
   const auto phase = goal.find("phase");
   const auto fraction = goal.find("fraction");
   if (time && phase) phase->fail("need either time_s or phase, not both");
-  if (fraction && !phase) fraction->fail("goes with phase only");
+  if (fraction && !phase) fraction->fail("needs the key phase");
   if (time) {
     for (const Phase& p : phases) {
       if (!p.duration.is_fixed()) time->fail("the duration of phase '" + p.name + "' is free: need phase, not time_s");
     }
     return moment_at_time(*time, phases, mesh);
   }
-  if (!phase) return moment_at_time(goal.need("time_s"), phases, mesh);  // which may be a misspelt one
+  if (!phase) return moment_at_time(goal.need("time_s"), phases, mesh);  // perhaps misspelt
   std::vector<std::string> names;
   for (const Phase& p : phases) names.push_back(p.name);
   const auto found = std::find(names.begin(), names.end(), phase->as_text());
@@ -80,7 +80,7 @@ PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phase
   return {index, fraction ? fraction_at_node(*fraction, mesh.phases[index]) : 1.0};
 }
 
-/// Bounds of three entries of the file, less `origin`, as rows first ... first + 2 of lower and upper.
+/// Reads bounds of three entries, minus `origin`, into rows first ... first + 2 of lower and upper.
 void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int first, Eigen::VectorXd& lower,
                   Eigen::VectorXd& upper) {
   const std::vector<TomlValue> entries = value.as_list(3);
@@ -91,13 +91,13 @@ void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int fir
   }
 }
 
-/// What the robot can do, of each joint.
+/// Limits of all joints.
 struct JointRange {
   Eigen::VectorXd lower, upper;  ///< nu
   const char* name;
 };
 
-/// Bounds of the joints that the file names, less `origin` (nu), as the last nu rows of lower and upper.
+/// Reads bounds of the named joints, minus `origin` (nu), into the last nu rows of lower and upper.
 void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const JointRange& range,
                        const Eigen::VectorXd& origin, Eigen::VectorXd& lower, Eigen::VectorXd& upper) {
   constexpr double kRounding = 1e-9;  // [rad, m, rad/s, m/s, N m]
@@ -107,7 +107,7 @@ void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const Jo
     const Eigen::Index joint = std::find(names.begin(), names.end(), name) - names.begin();
     const Bounds bounds = entry.as_bounds();
     if (bounds.lower > range.upper(joint) + kRounding || bounds.upper < range.lower(joint) - kRounding) {
-      entry.fail(fmt::format("outside the joint's {} limits; need something from {:.5g} to {:.5g}", range.name,
+      entry.fail(fmt::format("outside the joint's {} limits; need a value from {:.5g} to {:.5g}", range.name,
                              range.lower(joint), range.upper(joint)));
     }
     lower(first + joint) = bounds.lower - origin(joint);
@@ -124,7 +124,7 @@ void read_base_position(const TomlTable& goal, const TaskStart& start, BoundaryC
   Eigen::VectorXd lower(3), upper(3);
   read_bounds3(position ? *position : *displacement, origin, 0, lower, upper);
   for (int i = 0; i < 3; ++i) {
-    // A prescribed component becomes part of q_ref, so that q_ref is the pose to reach (the initial guess goes there).
+    // A prescribed component becomes part of q_ref, the pose that the initial guess goes to.
     const double shift = lower(i) == upper(i) ? lower(i) : 0.0;
     condition.q_ref(i) += shift;
     condition.configuration_lower(i) = lower(i) - shift;
@@ -177,7 +177,8 @@ BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, cons
     read_joint_bounds(*torques, robot, {-robot.torque_limit(), robot.torque_limit(), "torque"}, zero,
                       condition.torque_lower, condition.torque_upper);
   }
-  if (!binds(condition)) goal.value().fail("binds nothing; need one key that prescribes or bounds something");
+  if (!binds(condition))
+    goal.value().fail("constrains nothing; need at least one key that prescribes or bounds a value");
   return condition;
 }
 
@@ -211,7 +212,7 @@ std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotMode
     const std::string name = fmt::format("goal {}", goals.size() + 1);
     goals.push_back(read_goal(goal, name, robot, start, read_moment(goal, phases, mesh)));
     if (std::count_if(goals.begin(), goals.end(), [&](const auto& g) { return g.at == goals.back().at; }) > 1) {
-      goal.value().fail("two goals at one time; put them into one [[goal]]");
+      goal.value().fail("two goals at the same time; merge them into one [[goal]]");
     }
   }
   return goals;

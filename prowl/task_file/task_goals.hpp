@@ -1,27 +1,27 @@
 #pragma once
 
-// Reads [[goal]] of a task file. Not installed: shows toml++.
+// Reads [[goal]] of a task file. Not installed: exposes toml++.
 #include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
 
 namespace prowl {
 
-/// Where goals are measured from.
+/// Start of the motion, the reference of goals.
 struct TaskStart {
   Eigen::VectorXd q;    ///< nq
-  Eigen::Vector3d rpy;  ///< of the base [rad]; what "free" angles of a goal are taken from
+  Eigen::Vector3d rpy;  ///< of the base [rad]; used for "free" angles of a goal
 };
 
-/// The condition that fixes the start, at rest.
+/// Boundary condition that fixes the start at q, at rest.
 BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q);
 
-/// The goal of a gait: at the end of the last phase the base is displaced from the start by so much (world frame [m]),
-/// at rest, turned as at the start; the legs as they like.
+/// Goal of a gait: at the end of the last phase the base is at rest, displaced from the start
+/// (world frame [m]), with its start orientation; legs are free.
 BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
                           int num_phases);
 
-/// One condition for each [[goal]] of the file, at a node of the mesh, which has equal steps in each phase.
+/// One condition per [[goal]], at a node of the mesh. `mesh` has equal steps in each phase.
 std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
                                           const std::vector<Phase>& phases, const Mesh& mesh);
 

@@ -7,13 +7,13 @@
 
 namespace prowl {
 
-/// What a task says of its simulation.
+/// Simulation settings of a task.
 struct TaskSimulation {
   SuccessCriteria success;
-  std::optional<double> friction;  ///< of all surfaces; none: as planned
+  std::optional<double> friction;  ///< of all surfaces; nullopt: as planned
 };
 
-/// [simulation] of a task file; defaults where it says nothing.
+/// Reads [simulation] of a task file; missing keys keep their defaults.
 TaskSimulation read_simulation(const TomlTable& root);
 
 }  // namespace prowl

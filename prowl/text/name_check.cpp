@@ -6,7 +6,7 @@ namespace prowl {
 
 namespace {
 
-constexpr std::size_t kLongestName = 200;  // file names and columns are made of them
+constexpr std::size_t kLongestName = 200;  // used in file names and columns
 
 }  // namespace
 

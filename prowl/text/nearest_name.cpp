@@ -9,8 +9,7 @@ namespace prowl {
 
 namespace {
 
-/// Letters changed, missing, added, or swapped with the next: Levenshtein's distance with swaps (optimal string
-/// alignment), row by row.
+/// Levenshtein distance with swaps of neighbours (optimal string alignment), row by row.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   const auto same = [](char x, char y) {
     return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
@@ -32,7 +31,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }  // namespace
 
 std::string nearest_name(const std::string& wrong, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 200;  // as of names: nobody means one of them by more, and the search takes its time
+  constexpr std::size_t kLongest = 200;  // as in is_name(): bounds the time of the search
   if (wrong.size() > kLongest) return "";
   const auto nearest = std::min_element(names.begin(), names.end(), [&](const auto& a, const auto& b) {
     return edit_distance(wrong, a) < edit_distance(wrong, b);

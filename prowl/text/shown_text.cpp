@@ -7,7 +7,7 @@
 namespace prowl {
 namespace {
 
-/// A character of UTF-8; of size 0 where the bytes are none.
+/// A UTF-8 character; size 0 for invalid bytes.
 struct Character {
   char32_t code = 0;
   std::size_t size = 0;
@@ -24,12 +24,13 @@ Character first_of(std::string_view text) {
     if ((byte(i) & 0xc0) != 0x80) return {};
     code = (code << 6) | (byte(i) & 0x3fu);
   }
-  constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // a longer form than needed is none
+  constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};  // overlong forms are invalid
   if (code < kLeast[size] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return {};
   return {code, size};
 }
 
-/// C0 but tab and line end, DEL and C1; direction marks, embeddings, overrides and isolates; line separators.
+/// C0 except tab and newline, DEL, C1; bidirectional marks, embeddings, overrides and isolates;
+/// line separators.
 bool is_control(char32_t c) {
   return (c < 0x20 && c != '\n' && c != '\t') || (c >= 0x7f && c < 0xa0) || c == 0x200e || c == 0x200f ||
          (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069);

@@ -5,11 +5,12 @@
 
 namespace prowl {
 
-/// `text` as it is fit for a terminal: control characters, marks that turn text round (Unicode bidirectional controls)
-/// and bytes that are not UTF-8 as escapes, as in a string of C++. Ends of lines and tabs stay.
+/// `text` made safe for a terminal: control characters, Unicode bidirectional controls and invalid
+/// UTF-8 become C++ escapes. Newlines and tabs stay.
 std::string printable(std::string_view text);
 
-/// What a file says, to be quoted in a message: printable, ends of lines as escapes too, cut after kLongestShown bytes.
+/// Text of a file for quoting in a message: printable(), newlines escaped, cut after kLongestShown
+/// bytes.
 std::string shown(std::string_view text);
 constexpr std::size_t kLongestShown = 100;
 

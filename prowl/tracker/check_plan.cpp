@@ -1,4 +1,4 @@
-// What a tracking plan has to be, before a control loop relies on it.
+// Checks of a tracking plan before a control loop relies on it.
 #include <cmath>
 #include <string>
 
@@ -15,7 +15,7 @@ void check_matrix(const Eigen::MatrixXd& matrix, Eigen::Index rows, Eigen::Index
   need(matrix.rows() == rows && matrix.cols() == cols, name + " has " + std::to_string(matrix.rows()) + " x " +
                                                            std::to_string(matrix.cols()) + " numbers; need " +
                                                            std::to_string(rows) + " x " + std::to_string(cols));
-  need(matrix.allFinite(), name + " holds NaN or infinity");
+  need(matrix.allFinite(), name + " contains NaN or infinity");
 }
 
 void check_segments(const TrackingPlan& plan) {
@@ -24,24 +24,24 @@ void check_segments(const TrackingPlan& plan) {
   for (const TrackingPlan::Segment& segment : plan.segments) {
     const std::string name = "segment \"" + segment.name + "\": ";
     need(std::isfinite(segment.start) && std::isfinite(segment.end) && segment.start < segment.end,
-         name + "its end has to be after its start");
+         name + "must end after its start");
     need(&segment == &plan.segments.front() || segment.start == (&segment)[-1].end,
-         name + "has to start where the one before ends");
+         name + "must start where the previous one ends");
     need(segment.samples >= 2 && segment.first_sample == next,
-         name + "its samples have to follow those before, 2 or more");
-    need(segment.in_contact.size() == plan.contact_names.size(), name + "need one flag a contact");
+         name + "need 2 samples or more, directly after the previous ones");
+    need(segment.in_contact.size() == plan.contact_names.size(), name + "need one flag per contact");
     next += segment.samples;
   }
-  need(next == plan.num_samples(), "the segments do not have all samples");
+  need(next == plan.num_samples(), "the segments do not cover all samples");
 }
 
 void check_limits(const TrackingPlan& plan) {
-  need(plan.torque_limit.size() == plan.nu(), "need one torque limit a joint");
+  need(plan.torque_limit.size() == plan.nu(), "need one torque limit per joint");
   need((plan.torque_limit.array() >= 0.0).all(), "a torque limit is negative or NaN");
   for (const TrackingPlan::TorqueCurve& curve : plan.torque_curves) {
-    need(curve.joint >= 0 && curve.joint < plan.nu(), "a torque curve is of a joint that is not there");
+    need(curve.joint >= 0 && curve.joint < plan.nu(), "a torque curve names a joint that does not exist");
     need(std::isfinite(curve.lower) && std::isfinite(curve.upper) && curve.lower < curve.upper,
-         "a torque curve has no range");
+         "a torque curve has an empty range");
     need(curve.values.size() >= 2 && curve.values.allFinite() && (curve.values.array() >= 0.0).all(),
          "a torque curve needs 2 or more values >= 0");
   }

@@ -6,14 +6,16 @@
 
 /// tracker.bin: a TrackingPlan as bytes, all numbers little-endian, floating point IEEE 754 double.
 ///
-///   header   8 bytes "PROWLTRK", then uint32: version, joints (nu), contacts, segments, torque curves, samples;
-///            uint64: bytes of the payload, checksum of the payload
+///   header   8 bytes "PROWLTRK"; uint32: version, joints (nu), contacts, segments, torque curves,
+///            samples; uint64: bytes of the payload, checksum of the payload
 ///   payload  names of joints and contacts; a text is its length (uint32) and its bytes
-///            segments: name, start and end (double), samples (uint32), one byte a contact: 1 if it holds its place,
-///            else 0 torque curves: joint, over_velocity, number of values (uint32), lower, upper, values (double)
-///            torque limits (nu), then q, v, tau and gains of all samples, each sample after the other (double)
+///            segments: name, start and end [s] (double), samples (uint32), one byte per contact: 1
+///            in contact, 0 not
+///            torque curves: joint, over_velocity, number of values (uint32), lower, upper, values
+///            (double)
+///            torque limits (nu), then q, v, tau and gains, sample after sample (double)
 ///
-/// The file ends where the payload does. The writer is in prowl/plan_folder, the reader is Tracker::read.
+/// The file ends with the payload. Writer: prowl/plan_folder; reader: Tracker::read.
 namespace prowl::tracker_file {
 
 constexpr char kMagic[] = "PROWLTRK";
@@ -22,10 +24,10 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kHeaderBytes = kMagicBytes + 6 * sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
 constexpr std::uint64_t kLongestFile = std::uint64_t{1} << 30;  // [bytes]
 
-/// FNV-1a (Fowler, Noll, Vo) over words of 8 bytes, the last filled up with zeros.
+/// FNV-1a (Fowler, Noll, Vo) over words of 8 bytes, the last padded with zeros.
 class Checksum {
  public:
-  /// All parts but the last have to be of a multiple of 8 bytes.
+  /// All parts but the last must be a multiple of 8 bytes.
   void add(const char* bytes, std::size_t size) {
     constexpr std::uint64_t kPrime = 0x100000001b3;
     for (std::size_t i = 0; i < size; i += sizeof(std::uint64_t)) {

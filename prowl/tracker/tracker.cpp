@@ -8,16 +8,16 @@
 namespace prowl {
 namespace {
 
-/// On the stack, so that the control loop does not allocate.
+/// On the stack: the control loop does not allocate.
 using Tangent = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Tracker::kMostVelocities, 1>;
 using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * Tracker::kMostVelocities, 1>;
 using Configuration = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Tracker::kMostVelocities + 1, 1>;
 
-/// Rotation vector of a unit quaternion, the shorter way round.
+/// Rotation vector of a unit quaternion, at most pi long [rad].
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& turn) {
   const double sine = turn.vec().norm();  // of half the angle
   const double sign = turn.w() < 0.0 ? -1.0 : 1.0;
-  constexpr double kSmall = 1e-8;  // below it angle / sine is 2 to rounding
+  constexpr double kSmall = 1e-8;  // below it angle / sine is 2 within rounding
   const double scale = sine < kSmall ? 2.0 : 2.0 * std::atan2(sine, std::abs(turn.w())) / sine;
   return sign * scale * turn.vec();
 }
@@ -55,7 +55,7 @@ Tracker::Place Tracker::find(double t) const noexcept {
   const TrackingPlan::Segment& at = segment(t);
   const double intervals = at.samples - 1;
   double place = (t - at.start) / (at.end - at.start) * intervals;
-  if (!(place < intervals)) place = intervals;  // NaN too
+  if (!(place < intervals)) place = intervals;  // also NaN
   place = std::max(place, 0.0);
   const int i = std::min(static_cast<int>(place), at.samples - 2);
   return {at.first_sample + i, at.first_sample + i + 1, place - i};
@@ -111,7 +111,7 @@ void Tracker::limit(const ConstVector& q, const ConstVector& v, Vector tau) cons
 
 void Tracker::torque(double t, const ConstVector& q, const ConstVector& v, Vector tau) const noexcept {
   feedback(t, q, v, tau);
-  if (!tau.allFinite()) tau.setZero();  // a state so absurd that the sum overflows
+  if (!tau.allFinite()) tau.setZero();  // overflow for absurd states
   tau += between(find(t), plan_.tau);
   limit(q, v, tau);
 }

@@ -1,5 +1,5 @@
-// Reads tracker.bin (file_format.hpp). Nothing is allocated on the word of the file alone: every size is compared with
-// the bytes that are there first.
+// Reads tracker.bin (file_format.hpp). Every size is compared with the bytes left in the file
+// before any allocation.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@
 namespace prowl {
 namespace {
 
-/// Takes one thing after the other from a file, never more than it has.
+/// Reads a file sequentially, never beyond its end.
 class Bytes {
  public:
   explicit Bytes(const std::string& path) : path_(path) {
@@ -25,7 +25,7 @@ class Bytes {
     if (!std::filesystem::is_regular_file(path, error)) fail("no such file");
     left_ = std::filesystem::file_size(path, error);
     if (error) fail(error.message());
-    if (left_ > tracker_file::kLongestFile) fail("more than 1 GB");
+    if (left_ > tracker_file::kLongestFile) fail("larger than 1 GB");
     file_.open(path, std::ios::binary);
     if (!file_) fail("cannot be read");
   }
@@ -33,9 +33,9 @@ class Bytes {
   [[noreturn]] void fail(const std::string& message) const { throw TrackerError(path_ + ": " + message); }
   std::uint64_t left() const { return left_; }
 
-  /// The next `size` bytes to `target`.
+  /// Copies the next `size` bytes to `target`.
   void take(void* target, std::uint64_t size, const char* what) {
-    if (size > left_) fail(std::string("cut short in ") + what);
+    if (size > left_) fail(std::string("truncated in ") + what);
     if (!file_.read(static_cast<char*>(target), static_cast<std::streamsize>(size))) fail("cannot be read");
     left_ -= size;
   }
@@ -51,26 +51,26 @@ class Bytes {
   int count(const char* what) {
     const auto value = number<std::uint32_t>(what);
     if (value > static_cast<std::uint32_t>(std::numeric_limits<int>::max()))
-      fail(std::string("too large a number in ") + what);
+      fail(std::string("a number is too large in ") + what);
     return static_cast<int>(value);
   }
 
   std::string text(const char* what) {
     const auto size = number<std::uint32_t>(what);
-    if (size > left_) fail(std::string("cut short in ") + what);
+    if (size > left_) fail(std::string("truncated in ") + what);
     std::string value(size, '\0');
     take(value.data(), size, what);
     return value;
   }
 
   Eigen::MatrixXd matrix(std::uint64_t rows, std::uint64_t cols, const char* what) {
-    if (rows != 0 && cols > left_ / sizeof(double) / rows) fail(std::string("cut short in ") + what);
+    if (rows != 0 && cols > left_ / sizeof(double) / rows) fail(std::string("truncated in ") + what);
     Eigen::MatrixXd matrix(rows, cols);
     take(matrix.data(), rows * cols * sizeof(double), what);
     return matrix;
   }
 
-  /// Of all bytes that are left, which stay there to be taken.
+  /// Checksum of all remaining bytes; the position stays.
   std::uint64_t checksum_of_rest() {
     const std::streampos here = file_.tellg();
     tracker_file::Checksum sum;
@@ -98,7 +98,7 @@ struct Header {
 Header read_header(Bytes& bytes) {
   std::string magic(tracker_file::kMagicBytes, '\0');
   bytes.take(magic.data(), magic.size(), "the header");
-  if (magic != tracker_file::kMagic) bytes.fail("no tracker file; need tracker.bin of a plan");
+  if (magic != tracker_file::kMagic) bytes.fail("not a tracker file; need tracker.bin of a plan");
   const auto count = [&bytes] { return bytes.number<std::uint32_t>("the header"); };
   if (const std::uint32_t version = count(); version != tracker_file::kVersion) {
     bytes.fail("version " + std::to_string(version) + " of the format; need " + std::to_string(tracker_file::kVersion));
@@ -113,14 +113,14 @@ Header read_header(Bytes& bytes) {
   const auto checksum = bytes.number<std::uint64_t>("the header");
   if (payload != bytes.left()) {
     bytes.fail(std::to_string(bytes.left()) + " bytes after the header; need " + std::to_string(payload) +
-               ": the file is cut short or has something behind it");
+               ": the file is truncated or has trailing bytes");
   }
-  if (checksum != bytes.checksum_of_rest()) bytes.fail("changed since it was written");
-  // A count above the bytes that are left cannot be true, and is not worth reserving for.
+  if (checksum != bytes.checksum_of_rest()) bytes.fail("altered since it was written");
+  // A count above the number of remaining bytes is wrong.
   for (const std::uint64_t n : {header.joints, header.contacts, header.segments, header.curves, header.samples}) {
-    if (n > bytes.left()) bytes.fail("a count of the header is larger than the file");
+    if (n > bytes.left()) bytes.fail("a count in the header exceeds the file size");
   }
-  if (header.joints > Tracker::kMostVelocities) bytes.fail(std::to_string(header.joints) + " joints; need fewer");
+  if (header.joints > Tracker::kMostVelocities) bytes.fail(std::to_string(header.joints) + " joints are too many");
   return header;
 }
 
@@ -167,7 +167,7 @@ TrackingPlan read_plan(Bytes& bytes) {
   plan.v = bytes.matrix(nu + 6, samples, "v");
   plan.tau = bytes.matrix(nu, samples, "tau");
   plan.gains = bytes.matrix(2 * nu * (nu + 6), samples, "the gains");
-  if (bytes.left() != 0) bytes.fail(std::to_string(bytes.left()) + " bytes too many");
+  if (bytes.left() != 0) bytes.fail(std::to_string(bytes.left()) + " trailing bytes");
   return plan;
 }
 

@@ -6,8 +6,8 @@
 
 namespace prowl {
 
-/// What a tracker needs of a plan: reference, gains and contact schedule on a grid of time. Plain data; sizes as below,
-/// or Tracker refuses it. nq = 7 + nu, nv = 6 + nu.
+/// Input of a tracker: reference, gains and contact schedule on a time grid. Plain data; Tracker
+/// rejects other sizes than those below. nq = 7 + nu, nv = 6 + nu.
 ///
 /// Configuration q = (base position in the world [m], base quaternion x y z w, joint positions [rad, m]).
 /// Velocity v = (linear and angular velocity of the base in the base frame [m/s, rad/s], joint rates).
@@ -15,9 +15,9 @@ struct TrackingPlan {
   /// A time with one set of contacts, sampled at `samples` >= 2 equally spaced times from start to end.
   struct Segment {
     std::string name;
-    double start = 0.0, end = 0.0;      ///< [s], start < end; each segment starts where the one before ends
+    double start = 0.0, end = 0.0;      ///< [s], start < end; each segment starts where the previous one ends
     int first_sample = 0, samples = 0;  ///< columns of the matrices below
-    std::vector<bool> in_contact;       ///< one a contact: whether it holds its place
+    std::vector<bool> in_contact;       ///< per contact
   };
 
   /// A torque limit that depends on the state: |tau| <= value(position), or tau <= value(velocity) and -tau <=
@@ -31,7 +31,7 @@ struct TrackingPlan {
 
   std::vector<std::string> joint_names;  ///< nu, in the order of q, v and tau
   std::vector<std::string> contact_names;
-  Eigen::VectorXd torque_limit;  ///< nu [N m], +inf where none
+  Eigen::VectorXd torque_limit;  ///< nu [N m]; +inf without limit
   std::vector<TorqueCurve> torque_curves;
   std::vector<Segment> segments;  ///< one or more, in order of time
 

@@ -29,9 +29,8 @@ StartState displaced_start(const RobotModel& robot, const Tracker& tracker,
   for (const int c : contacts) feet.push_back({c, terms.contact_position(c)});
   const InverseKinematics found = inverse_kinematics(robot, moved, feet);
   if (!found.converged) {
-    throw InputError(
-        fmt::format("base offset: {:.3g} m and {:.3g} rad is more than the legs allow; {:.1f} mm are missing",
-                    displacement.head<3>().norm(), displacement.tail<3>().norm(), 1e3 * found.residual));
+    throw InputError(fmt::format("base offset: {:.3g} m and {:.3g} rad are out of reach of the legs by {:.1f} mm",
+                                 displacement.head<3>().norm(), displacement.tail<3>().norm(), 1e3 * found.residual));
   }
   return {found.q, velocity_after_landing(robot, contacts, found.q, start.v)};
 }

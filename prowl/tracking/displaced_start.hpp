@@ -11,10 +11,10 @@ struct StartState {
   Eigen::VectorXd q, v;  ///< nq, nv
 };
 
-/// How the robot of a tracking plan stands at its start if the base is elsewhere and the feet are in place: the base of
-/// the reference moved, the joints by inverse kinematics, the velocity of the reference but for what the contacts
-/// forbid there. `displacement`: of the base in the world frame [m], and a rotation vector in the base frame [rad].
-/// Throws InputError if it is not finite or the legs do not reach so far.
+/// Start state with the base displaced and the feet in place: joints by inverse kinematics,
+/// velocity of the reference projected on what the contacts allow. `displacement`: of the base,
+/// world frame [m], and a rotation vector, base frame [rad]. Throws InputError if it is not finite
+/// or out of reach of the legs.
 StartState displaced_start(const RobotModel& robot, const Tracker& tracker,
                            const Eigen::Matrix<double, 6, 1>& displacement);
 

@@ -20,7 +20,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The dynamics at one sample on the deviations that its contacts allow.
+/// Dynamics at one sample, reduced to the deviations that its contacts allow.
 struct Reduced {
   MatrixXd Z, A, B;
 };
@@ -30,9 +30,9 @@ Reduced reduce(const LinearisedDynamics& linear, const VectorXd& weight, MatrixX
   return {Z, left * linear.A() * Z, left * linear.B()};
 }
 
-/// `Z` turned within its space to lie as near as can be to the basis of the next sample, so that along a phase the
-/// basis turns only as much as the space itself does (its own turning, Z' W dZ/dt, then is zero). The polar factor of
-/// Z' W next by Newton's iteration: Higham, Functions of Matrices, 2008, section 8.3.
+/// `Z` rotated within its space to be closest to the basis of the next sample. Along a phase the
+/// basis then rotates only with the space: Z' W dZ/dt = 0. Polar factor of Z' W next by Newton's
+/// iteration: Higham, Functions of Matrices, 2008, section 8.3.
 MatrixXd aligned(const MatrixXd& Z, const MatrixXd& next, const VectorXd& weight) {
   MatrixXd turn = Z.transpose() * weight.asDiagonal() * next;
   const MatrixXd identity = MatrixXd::Identity(turn.rows(), turn.cols());
@@ -44,11 +44,11 @@ MatrixXd aligned(const MatrixXd& Z, const MatrixXd& next, const VectorXd& weight
   return Z * turn;
 }
 
-/// Largest and mean singular value, and the coordinate that leads in the worst initial deviation.
+/// Largest and mean singular value, and the dominant coordinate of the worst initial deviation.
 void fill_decay(const RobotModel& robot, const MatrixXd& transition, const MatrixXd& Z, const VectorXd& weight,
                 PhaseDecay& decay) {
   const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(transition.transpose() *
-                                                     transition);  // a fifth of an SVD's time to compile
+                                                     transition);  // compiles in a fifth of the time of an SVD
   const Eigen::Index largest = Z.cols() - 1;
   decay.directions = static_cast<int>(Z.cols());
   decay.worst = std::sqrt(gram.eigenvalues()(largest));
@@ -58,7 +58,7 @@ void fill_decay(const RobotModel& robot, const MatrixXd& transition, const Matri
   decay.worst_direction = state_name(robot, leading);
 }
 
-/// The backward pass: from the end of the motion to its start, one sample after the other.
+/// Backward pass from the end of the motion to its start, sample by sample.
 class BackwardPass {
  public:
   BackwardPass(const MotionProblem& problem, const TrackingOptions& options, bool has_phase_after_end,
@@ -92,7 +92,7 @@ class BackwardPass {
       const MatrixXd Z = linear.consistent_directions(weight_);
       if (Z.cols() == 0) {
         throw NumericalError(
-            fmt::format("no feedback gains in phase \"{}\": its contacts leave nothing that moves", phase.name));
+            fmt::format("no feedback gains in phase \"{}\": its contacts allow no motion", phase.name));
       }
       if (k + 1 == phase.samples.size()) {
         transition =
@@ -102,14 +102,13 @@ class BackwardPass {
             (transition * step_back(reduce(linear, weight_, aligned(Z, now_.Z, weight_)), phase.step())).eval();
       } else {
         throw NumericalError(
-            fmt::format("no feedback gains in phase \"{}\": at t = {:.3f} s its contacts begin to depend on "
-                        "each other in another way (a leg is straight)",
+            fmt::format("no feedback gains in phase \"{}\": at t = {:.3f} s the rank of its contacts changes "
+                        "(a leg is straight)",
                         phase.name, point.time));
       }
       if (!S_.allFinite()) {
         throw NumericalError(
-            fmt::format("no feedback gains in phase \"{}\" at t = {:.3f} s: the Riccati equation is not finite "
-                        "there",
+            fmt::format("no feedback gains in phase \"{}\" at t = {:.3f} s: the Riccati equation is not finite",
                         phase.name, point.time));
       }
       design_.gains[p][k] = gain_ * now_.Z.transpose() * weight_.asDiagonal();
@@ -119,7 +118,7 @@ class BackwardPass {
     if (p > 0) landing_ = linear.landing(weight_);
   }
 
-  /// The phase after the end of the motion is not part of it.
+  /// Records the decay of a phase, except for the one after the end of the motion.
   void record(std::size_t p, const MatrixXd& transition) {
     const bool after_end = has_phase_after_end_ && p + 1 == design_.phases.size();
     if (!after_end) {
@@ -136,9 +135,9 @@ class BackwardPass {
     bandwidth_ = 0.0;
   }
 
-  /// Feedback from S at the sample that was done last, dtau = -gain xi, no faster than allowed: from torque to torque
-  /// the loop is gain (s I - A)⁻¹ B, in R^(1/2) dtau at high frequencies F' S F / s with F = B R^(-1/2). The
-  /// eigenvalues of F' S F are where it crosses one.
+  /// Feedback dtau = -gain xi from S at the latest sample, with limited bandwidth. The loop from
+  /// torque to torque is gain (s I - A)⁻¹ B; in R^(1/2) dtau at high frequencies F' S F / s with F
+  /// = B R^(-1/2). The eigenvalues of F' S F are its crossover frequencies.
   void set_gain() {
     const VectorXd root = control_weight_.cwiseSqrt();
     const MatrixXd F = now_.B * root.asDiagonal();
@@ -158,7 +157,7 @@ class BackwardPass {
     gain_ = root.asDiagonal() * U * share.asDiagonal() * U.transpose() * feedback;
   }
 
-  /// S at the end: of standing on for ever as at the end, or if that cannot be, for a second.
+  /// S at the end: of standing for ever in the final posture or, if impossible, for one second.
   MatrixXd begin_at_end(Reduced end) {
     now_ = std::move(end);
     const Eigen::Index n = now_.A.rows();
@@ -176,13 +175,14 @@ class BackwardPass {
       const Eigen::VectorXcd poles = (now_.A - now_.B * gain_).eigenvalues();
       design_.slowest_rate = -poles.real().maxCoeff();
       design_.fastest_rate = poles.cwiseAbs().maxCoeff();
-      // The limit on the bandwidth may have taken so much of the gains that they hold it no more.
+      // The limited bandwidth may leave gains too small to stabilise.
       design_.stands_on = design_.stands_on && design_.slowest_rate > 0.0;
     }
     return MatrixXd::Identity(n, n);
   }
 
-  /// S before the switch to the phase after, whose first sample is at hand, and what the switch does to a deviation.
+  /// S before the transition to the later phase, whose first sample is current; returns the effect
+  /// of the transition on deviations.
   MatrixXd land(Reduced before) {
     const MatrixXd landed = landing_ * before.Z;
     const MatrixXd jump = now_.Z.transpose() * weight_.asDiagonal() * landed;
@@ -217,12 +217,12 @@ class BackwardPass {
   FeedbackDesign& design_;
   const std::function<void(const ReducedSample&)>& on_sample_;
   VectorXd weight_, control_weight_;  // W; R⁻¹
-  Reduced now_;                       // at the sample that was done last
-  MatrixXd S_, gain_;                 // there, dtau = -gain xi
+  Reduced now_;                       // at the latest sample
+  MatrixXd S_, gain_;                 // likewise; dtau = -gain xi
   bool is_limited_ = false;
   double bandwidth_ = 0.0;  // largest of the phase so far
-  MatrixXd landing_;        // at the first sample of the phase that was done last
-  MatrixXd whole_;          // deviation at the first sample of that phase -> at the end
+  MatrixXd landing_;        // at the first sample of the latest phase
+  MatrixXd whole_;          // deviation there -> at the end
 };
 
 }  // namespace
@@ -233,7 +233,7 @@ std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferenceP
   rest.v.setZero();
   ForwardDynamics dynamics(robot, last.contacts, kContactRankThreshold);
   dynamics.evaluate_with_derivatives(rest.q, rest.v, rest.tau);
-  // a = a0 + D dtau, exactly: the dtau of least weight that makes it zero.
+  // a = a0 + D dtau is exact; take the dtau of smallest weight with a = 0.
   const VectorXd scale = options.torque_deviation;
   const MatrixXd D = dynamics.acceleration_derivatives().tau * scale.asDiagonal();
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
@@ -242,7 +242,7 @@ std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferenceP
   rest.tau -= scale.asDiagonal() * factors.solve(dynamics.acceleration());
   rest.a.setZero();
   dynamics.evaluate(rest.q, rest.v, rest.tau);
-  constexpr double kStill = 1e-6;  // of what gravity does
+  constexpr double kStill = 1e-6;  // of gravity
   if (dynamics.acceleration().norm() > kStill * RobotModel::kGravity) return std::nullopt;
 
   ReferencePhase after{"stand on", last.contacts, {rest, rest}};

@@ -12,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// X with rows: X y = M⁻¹ V (V' M⁻¹ V)⁻¹ y, the velocity that impulses along V need to change V' v by y.
+/// M⁻¹ V (V' M⁻¹ V)⁻¹: maps y to the velocity change by impulses along V that changes V' v by y.
 MatrixXd impulse_response(const MatrixXd& M, const MatrixXd& V) {
   const MatrixXd moved = M.llt().solve(V);
   return (V.transpose() * moved).llt().solve(moved.transpose()).transpose();
@@ -41,8 +41,8 @@ void LinearisedDynamics::evaluate(const VectorXd& q, const VectorXd& v, const Ve
   B_.setZero(2 * nv, tau.size());
   B_.bottomRows(nv) = da.tau;
 
-  // J⁺ = V T⁻¹ U' (projector.hpp): V' J⁺ takes the rows of all contacts to rank J independent ones, also where their
-  // number is larger. V' J⁺ J = V'.
+  // J⁺ = V T⁻¹ U' (projector.hpp): V' J⁺ maps the rows of all contacts to rank J independent ones,
+  // even if there are more. V' J⁺ J = V'.
   terms_.update_kinematics(q);
   kinematics_.set_configuration(terms_);
   kinematics_.set_motion(VectorXd::Zero(nv), v);  // the acceleration is then J v

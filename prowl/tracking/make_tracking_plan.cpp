@@ -5,7 +5,7 @@
 namespace prowl {
 namespace {
 
-/// The curve at so many points that straight lines between them are off by less than its rounding in a robot file.
+/// Samples a curve densely: linear interpolation errs by less than the rounding in a robot file.
 TrackingPlan::TorqueCurve tabulated(const RobotModel::TorqueCurve& curve) {
   constexpr int kValues = 513;
   TrackingPlan::TorqueCurve table{

@@ -6,8 +6,8 @@
 
 namespace prowl {
 
-/// What a robot takes along: reference, gains and schedule of a design, joints, contacts and torque limits of the
-/// robot.
+/// Data for a tracker: reference, gains and schedule of a design; joints, contacts and torque
+/// limits of the robot.
 TrackingPlan make_tracking_plan(const MotionProblem& problem, const FeedbackDesign& design);
 
 }  // namespace prowl

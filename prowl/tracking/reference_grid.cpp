@@ -16,7 +16,7 @@ std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const T
     const Phase& phase = problem.phases[begin->phase];
     const double start = begin->time, duration = std::prev(end)->time - start;
     if (!(duration > 0.0)) throw InputError(fmt::format("phase \"{}\" has no duration: no gains for it", phase.name));
-    constexpr double kRounding = 1e-9;  // a duration of ten steps has ten, not eleven
+    constexpr double kRounding = 1e-9;  // a duration of ten steps gives ten, not eleven
     const int intervals = std::max(1, static_cast<int>(std::ceil(duration / step - kRounding)));
 
     ReferencePhase& sampled = grid.emplace_back();

@@ -8,10 +8,10 @@
 
 namespace prowl {
 
-/// One phase of a motion on a grid of its own: equal steps of at most so long, both ends included.
+/// One phase of a motion on its own grid of equal steps, both ends included.
 struct ReferencePhase {
   std::string name;
-  std::vector<int> contacts;             ///< of the robot, held throughout
+  std::vector<int> contacts;             ///< indices of the robot, in stance throughout
   std::vector<TrajectoryPoint> samples;  ///< two or more
 
   double start() const { return samples.front().time; }
@@ -19,8 +19,9 @@ struct ReferencePhase {
   double step() const { return (end() - start()) / static_cast<double>(samples.size() - 1); }
 };
 
-/// The phases of a motion, interpolated as it was transcribed. At a switch of contacts, the last sample of a phase and
-/// the first of the next are at one time. `step` > 0 [s]. Throws InputError where a phase has no duration.
+/// Samples the phases of a motion with its own interpolation, in equal steps of at most `step` > 0
+/// [s]. The last sample of a phase and the first of the next have the same time. Throws InputError
+/// for a phase of zero duration.
 std::vector<ReferencePhase> reference_grid(const MotionProblem& problem, const Trajectory& trajectory, double step);
 
 }  // namespace prowl

@@ -28,7 +28,8 @@ MatrixXd RiccatiFlow::back(const MatrixXd& S) const {
 
 RiccatiFlow riccati_flow(const MatrixXd& A, const MatrixXd& G, const MatrixXd& Q, double h) {
   const Eigen::Index n = A.rows();
-  // λ in a unit in which both off-diagonal blocks are of one size: fewer squarings, fewer digits lost.
+  // Scales λ so that both off-diagonal blocks have the same norm: fewer squarings, smaller rounding
+  // errors.
   const double g = G.norm(), q = Q.norm();
   const double unit = g > 0.0 && q > 0.0 ? std::sqrt(q / g) : 1.0;
   MatrixXd hamiltonian(2 * n, 2 * n);

@@ -21,14 +21,14 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using Eigen::VectorXd;
 
-constexpr int kMostSteps = 20000;     // between two samples; more means that the motion blows up
-constexpr double kWidestChart = 0.5;  // [rad]; the rotation vector is good up to 2 pi
+constexpr int kMostSteps = 20000;     // between two samples; more means divergence
+constexpr double kWidestChart = 0.5;  // [rad]; rotation vectors are regular up to 2 pi
 
 struct State {
   VectorXd q, v;
 };
 
-/// The robot with the contacts of one segment, and the torque that drives it.
+/// The robot on the contacts of one segment, with its torques.
 class Motion {
  public:
   Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, int segment)
@@ -43,7 +43,7 @@ class Motion {
         held_(VectorXd::Zero(robot.nu())),
         force_size_(3 * static_cast<Eigen::Index>(robot.contacts().size())) {}
 
-  /// The torque that is held until the next tick.
+  /// Updates the torque held until the next tick.
   void tick(double t, const State& x) { held_ = torque_now(t, x); }
 
   VectorXd torque(double t, const State& x) const { return options_.control_step > 0.0 ? held_ : torque_now(t, x); }
@@ -67,7 +67,7 @@ class Motion {
 
  private:
   VectorXd torque_now(double t, const State& x) const {
-    t = std::min(t, last_moment_);  // at the end itself the tracker is in the next segment already
+    t = std::min(t, last_moment_);  // at the end itself the tracker returns the next segment
     VectorXd tau(held_.size());
     if (options_.closed_loop) {
       tracker_.torque(t, x.q, x.v, tau);
@@ -111,13 +111,13 @@ class Integrator {
       d_rate.segment<3>(3) = so3::right_jacobian_inverse(at_d.segment<3>(3)) * state.v.segment<3>(3);
       v_rate = motion.acceleration(time, state);
     };
-    stepper_.reset();  // it keeps the last rate, which was in another chart or with other contacts
+    stepper_.reset();  // forget the last rate: other chart or contacts
     for (int steps = 0; end - t > 1e-12; ++steps) {
       if (steps == kMostSteps || !(step_ > 1e-12)) return false;
       double step = std::min(step_, end - t);
       const bool whole = step == step_;
       const auto result = stepper_.try_step(rate, y, t, step);
-      if (whole || result == odeint::fail) step_ = step;  // a last short step says nothing of the next
+      if (whole || result == odeint::fail) step_ = step;  // a shortened last step does not limit the next
       step_ = std::min(step_, kLongestStep);
       if (d.segment<3>(3).norm() > kWidestChart) {
         origin = integrate(origin, d);

@@ -10,14 +10,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// The load of each contact, sample by sample.
+/// Accumulates the load of each contact.
 class ContactLoads {
  public:
   ContactLoads(const MotionProblem& problem, std::optional<double> friction)
       : problem_(problem), friction_(friction), worst_(problem.robot.contacts().size()) {}
 
   void record(const RolloutSample& sample) {
-    // What comes after the end stands as the last phase does.
+    // After the end the contacts are those of the last phase.
     const std::size_t phase = std::min(static_cast<std::size_t>(sample.segment), problem_.phases.size() - 1);
     for (const PhaseContact& held : problem_.phases[phase].contacts) {
       const Surface& surface = problem_.surfaces[held.surface];
@@ -53,7 +53,7 @@ class ContactLoads {
 
 RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tracker, const Rollout& rollout,
                                 double end, std::optional<double> friction) {
-  constexpr double kAtLimit = 0.999;  // of a curve: the tracker's is a table
+  constexpr double kAtLimit = 0.999;  // of a torque curve, which the tracker tabulates
   const RobotModel& robot = problem.robot;
   TrackingError error;
   WorstMoment torque;

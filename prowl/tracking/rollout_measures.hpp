@@ -10,28 +10,28 @@
 
 namespace prowl {
 
-/// What one contact of the robot had to give while it stood. In a rollout contacts hold whatever that is: where the
-/// force pulls, or leaves the friction cone, a foot on the ground would have lifted or slipped.
+/// Load of one contact during its stances. Contacts of a rollout always hold: where the force pulls
+/// or leaves the friction cone, a real foot would lift or slip.
 struct ContactLoad {
-  bool stood = false;               ///< at any sample; if not, the rest says nothing
+  bool stood = false;               ///< in stance at any sample; if not, the rest is undefined
   double least_normal_force = 0.0;  ///< [N]; < 0: it pulled
   double least_normal_time = 0.0;   ///< [s]
   double beyond_cone = 0.0;         ///< largest |ft| - mu max(fn, 0) [N]; > 0: outside the cone
   double beyond_cone_time = 0.0;    ///< [s]
 };
 
-/// How well a rollout followed its plan, and what that took.
+/// Tracking errors and effort of a rollout.
 struct RolloutMeasures {
-  ErrorMeasure base_position, base_angle, joints;  ///< as of TrackingError
+  ErrorMeasure base_position, base_angle, joints;  ///< see TrackingError
   double largest_torque_share = 0.0;               ///< of the limit
   std::string largest_torque_joint;
-  double saturated = 0.0;             ///< share of the samples in which some torque is at its limit
+  double saturated = 0.0;             ///< share of the samples with a torque at its limit
   double positive_work = 0.0;         ///< of the joints [J]
-  std::vector<ContactLoad> contacts;  ///< one a contact of the robot
+  std::vector<ContactLoad> contacts;  ///< per contact of the robot
 };
 
-/// Measures at the samples of a rollout; "in rest" is the last kRestWindow before `end` [s], when it should have ended.
-/// `friction` of all surfaces, in place of their own.
+/// Measures at the samples of a rollout. "At rest" is the last kRestWindow before `end`, the
+/// planned end [s]. `friction`: coefficient of all surfaces, if given.
 RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tracker, const Rollout& rollout,
                                 double end, std::optional<double> friction);
 

@@ -6,7 +6,7 @@
 
 namespace prowl {
 
-/// Indices of the contacts that hold during a segment, ascending.
+/// Indices of the contacts in stance during a segment, ascending.
 inline std::vector<int> contacts_of(const TrackingPlan::Segment& segment) {
   std::vector<int> contacts;
   for (std::size_t c = 0; c < segment.in_contact.size(); ++c) {

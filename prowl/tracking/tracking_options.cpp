@@ -15,7 +15,7 @@ TrackingOptions default_tracking_options(const RobotModel& robot) {
   options.state_deviation.segment<3>(nv).setConstant(deviations.base_linear_velocity);
   options.state_deviation.segment<3>(nv + 3).setConstant(deviations.base_angular_velocity);
   options.state_deviation.tail(robot.nu()).setConstant(deviations.joint_velocity);
-  // Where a joint has no limit: of the torque that holds the robot's weight on a lever as long as the robot.
+  // Joints without a limit: the robot's weight on a lever of the robot's size.
   const double weight_torque = robot.weight() * robot.size();
   options.torque_deviation = deviations.torque_share * robot.torque_limit().unaryExpr([&](double limit) {
     return std::isfinite(limit) ? limit : weight_torque;

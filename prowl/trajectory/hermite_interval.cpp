@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// The cubic with values y0, y1 and slopes d0, d1 at the ends of an interval of length h, and its derivative.
+/// Cubic with values y0, y1 and slopes d0, d1 at the ends of an interval of length h.
 struct Cubic {
   VectorXd y0, y1, d0, d1;
   double h;

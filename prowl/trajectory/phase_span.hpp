@@ -6,12 +6,12 @@
 
 namespace prowl {
 
-/// From the first node of a phase to its last [s].
+/// Times of the first and the last node of a phase [s].
 struct PhaseSpan {
   double start = 0.0, end = 0.0;
 };
 
-/// Nothing where the motion has no node of the phase.
+/// Nullopt if the motion has no node of the phase.
 std::optional<PhaseSpan> phase_span(const Trajectory& trajectory, std::size_t phase);
 
 }  // namespace prowl

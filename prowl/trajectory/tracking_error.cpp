@@ -7,7 +7,7 @@
 namespace prowl {
 
 void ErrorSum::add(double value, bool at_rest) {
-  if (!(value <= largest_)) largest_ = value;  // NaN stays
+  if (!(value <= largest_)) largest_ = value;  // keeps NaN
   squares_ += value * value;
   ++count_;
   if (at_rest && !(value <= rest_)) rest_ = value;

@@ -7,15 +7,15 @@
 
 namespace prowl {
 
-/// Size of an error over a whole run, and over the last kRestWindow of it: NaN if the run ended before. NaN if a value
-/// was.
+/// Size of an error over a run; `rest`: largest in its last kRestWindow, NaN if the run ended
+/// early. NaN values propagate.
 struct ErrorMeasure {
   double largest = 0.0, rms = 0.0, rest = std::numeric_limits<double>::quiet_NaN();
 };
 
 inline constexpr double kRestWindow = 0.2;  ///< [s]
 
-/// Collects an ErrorMeasure, value by value.
+/// Accumulates an ErrorMeasure.
 class ErrorSum {
  public:
   void add(double value, bool at_rest);
@@ -26,21 +26,21 @@ class ErrorSum {
   long count_ = 0;
 };
 
-/// How far a robot is from the plan that it follows, sample by sample.
+/// Accumulates the deviation of a robot from its plan.
 class TrackingError {
  public:
   void add(const Eigen::VectorXd& q_ref, const Eigen::VectorXd& q, bool at_rest);
 
   ErrorMeasure base_position() const { return position_.measure(); }  ///< distance [m]
   ErrorMeasure base_angle() const { return angle_.measure(); }        ///< [rad]
-  ErrorMeasure joints() const;                                        ///< of the worst joint; rms of all [rad]
+  ErrorMeasure joints() const;  ///< largest: of the worst joint; rms: of all [rad]
 
  private:
   ErrorSum position_, angle_, worst_joint_, joints_;
 };
 
-/// Whether the base is so far from the plan's, more than 0.5 rad or a third of its nominal height, that the robot lies,
-/// or soon will.
+/// True if the base deviates from the plan by more than 0.5 rad or a third of its nominal height:
+/// the robot falls.
 bool has_fallen(const RobotModel& robot, const Eigen::VectorXd& q_ref, const Eigen::VectorXd& q);
 
 }  // namespace prowl

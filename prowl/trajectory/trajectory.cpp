@@ -17,7 +17,7 @@ Eigen::VectorXd tangent_rate(const TrajectoryPoint& point) {
 
 TrajectoryPoint interpolate(const TrajectoryPoint& left, const TrajectoryPoint& right, double s) {
   const double h = right.time - left.time;
-  const double late = s / h;            // weight of the right node in what is linear
+  const double late = s / h;            // weight of the right node
   const double beta = s * s / (2 * h);  // integral of `late` from 0 to s [s]
   const double alpha = s - beta;        // integral of 1 - late
 
@@ -47,11 +47,11 @@ TrajectoryPoint sample(const Trajectory& trajectory, double t) {
   const auto after = std::upper_bound(nodes.begin(), nodes.end(), t,
                                       [](double time, const TrajectoryPoint& node) { return time < node.time; });
   if (after == nodes.begin()) return nodes.front();
-  const auto before = std::prev(after);  // of two nodes at one time, the later phase's
+  const auto before = std::prev(after);  // at a phase transition, the node of the later phase
   if (after == nodes.end() || t == before->time) return *before;
   const double s = t - before->time;
   if (trajectory.interpolation == Interpolation::trapezoid) return interpolate(*before, *after, s);
-  // Between the nodes before it, one a phase switch is no interval.
+  // Phase transitions before it are not intervals.
   const auto interval = static_cast<std::size_t>(before - nodes.begin() - (before->phase - nodes.front().phase));
   return hermite_point(*before, *after,
                        trajectory.middle_torques.empty() ? nullptr : &trajectory.middle_torques[interval], s);

@@ -6,7 +6,7 @@
 
 namespace prowl {
 
-/// The largest of many values of a motion, where and when it came; a NaN counts as larger than anything.
+/// Largest of the recorded values, with time and location; NaN counts as largest.
 struct WorstMoment {
   bool empty = true;  ///< nothing was recorded
   double worst = 0.0;

@@ -11,10 +11,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Place of each factor of the product among the twelve arguments.
+/// Column of each factor among the twelve arguments.
 constexpr int kColumn[] = {3, 0, 6, 9};
 
-/// Derivative of each factor in its argument.
+/// Derivative of each factor with respect to its argument.
 std::array<double, 4> slopes(double half) { return {-half, -1.0, 1.0, -half}; }
 
 }  // namespace
@@ -62,7 +62,8 @@ WorldVelocity::WorldVelocity(const Matrix3d& chart, const Vector3d& theta, const
 
 WorldVelocityHessian::WorldVelocityHessian(const Matrix3d& chart, const Vector3d& theta, const Vector3d& v,
                                            const Vector3d& lambda) {
-  // lambda . R exp(x) v = l . (v + x × v + 1/2 x × (x × v)) with l = R' lambda; then x(theta) is curved too.
+  // lambda . R exp(x) v = l . (v + x × v + 1/2 x × (x × v)) with l = R' lambda, plus the curvature
+  // of x(theta).
   const Vector3d l = (chart * so3::exp(theta)).transpose() * lambda;
   const Matrix3d Jr = so3::right_jacobian(theta);
   const Matrix3d tangent = 0.5 * (l * v.transpose() + v * l.transpose()) - l.dot(v) * Matrix3d::Identity();

@@ -17,7 +17,7 @@ struct Term {
   std::function<double(const TrajectoryPoint&)> value;
 };
 
-/// 1/2 sum_i weight_i x_i^2 over size entries from `first` on.
+/// 1/2 sum_i weight_i x_i^2 over `size` entries from `first`.
 double half_square(const VectorXd& weight, const VectorXd& x, Eigen::Index first, Eigen::Index size) {
   return 0.5 * weight.segment(first, size).dot(x.segment(first, size).cwiseAbs2());
 }
@@ -41,7 +41,7 @@ double force_cost(const Eigen::Vector3d& weight, const VectorXd& force) {
   return value;
 }
 
-/// Terms of a cost with a weight above zero; those of acceleration, torque, force and time in a running cost only.
+/// Terms with a positive weight; acceleration, torque, force and time in a running cost only.
 std::vector<Term> weighted_terms(RigidBodyTerms& kinematics, const QuadraticCost& cost, bool is_running) {
   std::vector<Term> terms;
   const auto add = [&](const std::string& key, const VectorXd& weight, Eigen::Index first, Eigen::Index size,
@@ -80,11 +80,11 @@ std::vector<Term> weighted_terms(RigidBodyTerms& kinematics, const QuadraticCost
   return terms;
 }
 
-/// Weights of the nodes in the trapezoid of a function over the motion [s].
+/// Trapezoidal quadrature weights of the nodes [s].
 VectorXd trapezoid_weights(const std::vector<TrajectoryPoint>& nodes) {
   VectorXd weights = VectorXd::Zero(std::ssize(nodes));
   for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-    if (nodes[k].phase != nodes[k + 1].phase) continue;  // two sides of one moment
+    if (nodes[k].phase != nodes[k + 1].phase) continue;  // phase transition
     const double half = 0.5 * (nodes[k + 1].time - nodes[k].time);
     weights(static_cast<Eigen::Index>(k)) += half;
     weights(static_cast<Eigen::Index>(k) + 1) += half;

@@ -9,16 +9,16 @@
 
 namespace prowl {
 
-inline constexpr const char* kTerminalCost = "terminal_cost.";  ///< begins the keys of the terminal cost
+inline constexpr const char* kTerminalCost = "terminal_cost.";  ///< prefix of the keys of the terminal cost
 
 /// One term of the cost of a motion.
 struct CostTerm {
-  std::string key;       ///< of the task file: "torque"; "terminal_cost.base_position" for one of the terminal cost
-  Eigen::VectorXd rate;  ///< its part of the running cost at each node [1/s]; zero for a terminal term
-  double cost = 0.0;     ///< its part of the cost: the trapezoid of `rate`, or the value at the last node
+  std::string key;       ///< of the task file: "torque", "terminal_cost.base_position"
+  Eigen::VectorXd rate;  ///< contribution to the running cost at each node [1/s]; zero for a terminal term
+  double cost = 0.0;     ///< contribution to the cost: integral of `rate` by the trapezoid, or value at the last node
 };
 
-/// The cost of a motion, term by term: their sum is that of the transcription. Terms without a weight are left out.
+/// Cost terms of a motion with a positive weight. Their sum is the cost of the transcription.
 std::vector<CostTerm> cost_terms(const MotionProblem& problem, const Trajectory& motion);
 
 }  // namespace prowl

@@ -6,22 +6,22 @@
 
 namespace prowl {
 
-/// Where everything is in the decision variables z and in the constraints g: the only index arithmetic of the
+/// Indices in the decision variables z and the constraints g: the only index arithmetic of the
 /// transcription.
 ///
-/// z: for each node of the mesh  (base position, rotation vector theta, joints | v | a | tau | w), then what nodes
-/// share:
-///    for each phase of free duration its duration, for each contact that lands two surface coordinates of its place.
-///    w are the forces of dependent contact rows, of a number that goes with the phase.
-/// g: for each node its rows (NodeFunctions),
-///    for each interval  (defects of q, nv rows | defects of v, nv rows),
-///    for each phase switch  (continuity of q, nv rows | of v, nv rows).
+/// z: per node  (base position, rotation vector theta, joints | v | a | tau | w), then shared variables:
+///    the duration of each phase of free duration, two surface coordinates of each free foothold.
+///    w: forces of dependent contact rows; their number depends on the phase.
+/// g: per node its rows (NodeFunctions), then
+///    per interval  (defects of q, nv rows | defects of v, nv rows),
+///    per phase transition  (continuity of q, nv rows | of v, nv rows).
 ///
-/// The base's rotation is R = R_chart exp(theta), with a chart of its own for each node (fixed by the initial guess or
-/// by a boundary condition there), so that theta stays near zero and bounds on a goal's rotation are bounds on theta.
+/// Rotation of the base: R = R_chart exp(theta), one chart per node, fixed by the initial guess or
+/// by a boundary condition there. So theta stays near zero, and a goal's bounds on rotation are
+/// bounds on theta.
 class DecisionLayout {
  public:
-  /// `num_chosen`: size of w, one a phase. `rows`: of each node.
+  /// `num_chosen`: size of w, per phase. `rows`: number of rows per node.
   DecisionLayout(const DiscreteProblem& discrete, const std::vector<int>& num_chosen, const std::vector<int>& rows);
 
   int num_variables() const { return num_variables_; }
@@ -44,14 +44,15 @@ class DecisionLayout {
   int place(int stance) const { return places_[stance]; }      ///< -1 if it does not land
 
   int node_row(int k) const { return node_rows_[k]; }  ///< first row of node k
-  /// Rows that link node k and node k + 1: the defects of an interval, or continuity at a phase switch.
+  /// First row that links nodes k and k + 1: defects of an interval, or continuity at a phase
+  /// transition.
   int link_row(int k) const { return first_link_row_ + 2 * nv_ * k; }
   int num_links() const { return num_nodes() - 1; }
 
  private:
   int nv_;
   int num_variables_ = 0, num_constraints_ = 0, first_link_row_ = 0;
-  std::vector<int> nodes_;  ///< and the end of the last
+  std::vector<int> nodes_;  ///< first variable of each node; the end of the last
   std::vector<int> node_rows_, durations_, places_;
 };
 

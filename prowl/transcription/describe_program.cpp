@@ -8,7 +8,7 @@ namespace prowl {
 
 namespace {
 
-/// A variable that nodes share: duration of a phase, place of a contact.
+/// Describes a shared variable: duration of a phase, coordinate of a foothold.
 std::string describe_shared(const NodeProgram& program, int index) {
   const DiscreteProblem& discrete = program.discrete();
   const DecisionLayout& layout = program.layout();
@@ -21,7 +21,7 @@ std::string describe_shared(const NodeProgram& program, int index) {
   std::size_t s = 0;
   while (layout.place(static_cast<int>(s)) != index && layout.place(static_cast<int>(s)) + 1 != index) ++s;
   const Stance& stance = discrete.schedule.stances()[s];
-  return fmt::format("phase {} '{}', place {} of {} on {}", stance.first_phase + 1,
+  return fmt::format("phase {} '{}', foothold coordinate {} of {} on {}", stance.first_phase + 1,
                      problem.phases[stance.first_phase].name, index - layout.place(static_cast<int>(s)) + 1,
                      problem.robot.contacts()[stance.contact].name, problem.surfaces[stance.surface].name);
 }
@@ -41,7 +41,7 @@ std::string describe_constraint(const NodeProgram& program, int row) {
     k = (row - layout.link_row(0)) / (2 * nv);
     const int i = row - layout.link_row(k);
     what = coordinate_name(discrete.problem.robot, i % nv) + (i < nv ? ", position" : ", velocity") +
-           (discrete.is_interval(k) ? " over the interval" : " across the phase switch");
+           (discrete.is_interval(k) ? " over the interval" : " across the phase transition");
   }
   return fmt::format("{}, {}, t = {:.3f} s", discrete.describe_node(k), what, discrete.nodes[k].time);
 }

@@ -19,7 +19,7 @@ Turn turn(const Matrix3d& charts, const Vector3d& theta, double s, const Vector3
   return Turn({{{charts, theta}, {Matrix3d::Identity(), s * omega}}});
 }
 
-/// `block` may be an expression: evaluated in place, without a temporary on the heap.
+/// `block` may be an expression, evaluated in place without heap allocation.
 template <class Block>
 void add_symmetric(MatrixXd& hessian, Index row, Index column, const Eigen::MatrixBase<Block>& block) {
   hessian.block<Block::RowsAtCompileTime, Block::ColsAtCompileTime>(row, column, block.rows(), block.cols()) += block;
@@ -27,7 +27,7 @@ void add_symmetric(MatrixXd& hessian, Index row, Index column, const Eigen::Matr
       block.transpose();
 }
 
-/// Adds the Hessian of lambda . s R v_linear, which is in theta, v and the duration.
+/// Adds the Hessian of lambda . s R v_linear in theta, v and the duration.
 void add_moving(const WorldVelocity& world, const WorldVelocityHessian& bent, const Vector3d& lambda,
                 const HalfTime& time, Index nv, MatrixXd& hessian) {
   hessian.block<3, 3>(3, 3) += time.s * bent.theta_theta;
@@ -37,7 +37,7 @@ void add_moving(const WorldVelocity& world, const WorldVelocityHessian& bent, co
   add_symmetric(hessian, nv, time.column, time.slope * world.d_v.transpose() * lambda);
 }
 
-/// Adds the Hessian of lambda . theta', which is in theta, omega and the duration.
+/// Adds the Hessian of lambda . theta' in theta, omega and the duration.
 void add_turning(const Turn& turn, const Vector3d& lambda, const Vector3d& omega, const HalfTime& time, Index nv,
                  MatrixXd& hessian) {
   const Turn::Hessian bent = turn.hessian(lambda);
@@ -52,12 +52,12 @@ void add_turning(const Turn& turn, const Vector3d& lambda, const Vector3d& omega
   hessian(time.column, time.column) += time.slope * time.slope * omega.dot(xx * omega);
 }
 
-/// Adds the Hessian of lambda . s x, where x are the variables from `first` on.
+/// Adds the Hessian of lambda . s x; x: variables from `first` on.
 void add_by_duration(Index first, const Eigen::Ref<const VectorXd>& lambda, const HalfTime& time, MatrixXd& hessian) {
   if (time.column >= 0) add_symmetric(hessian, first, time.column, time.slope * lambda);
 }
 
-/// Three columns times a matrix, in place, without a temporary on the heap.
+/// Three columns times a matrix, in place, without heap allocation.
 template <class Columns>
 void substitute_three(Columns&& columns, const Matrix3d& by) {
   for (Index i = 0; i < columns.rows(); ++i) {
@@ -92,8 +92,8 @@ VectorXd Arrival::state(const Matrix3d& chart, int nv, double s, const VectorXd&
   return state;
 }
 
-// The substitutions of set(), the last first. Each takes derivatives, as columns of `m`, from what it gives to what it
-// takes; s changes with the duration.
+// Substitutions of set(), last first. Each pulls derivatives (columns of `m`) back from its result
+// to its arguments; s depends on the duration.
 
 template <class Matrix>
 void Arrival::substitute_position(Matrix&& m) const {
@@ -246,7 +246,7 @@ void Departure::push_forward(const VectorXd& step, Eigen::Ref<VectorXd> state) c
   state.tail(nv_) += time_.s * step.segment(2 * nv_, nv_) + dT * node_.segment(2 * nv_, nv_);
 }
 
-/// Columns of (z', w') in the places of (q, v) become those of the node.
+/// Turns columns of (z', w'), stored in place of (q, v), into those of the node.
 template <class Matrix>
 void Departure::substitute(Matrix&& m) const {
   const Index nu = nv_ - 6;

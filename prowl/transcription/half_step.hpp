@@ -7,41 +7,43 @@
 
 namespace prowl {
 
-/// s = h/2 of the step on one side of a node, 0 where there is none, and how it depends on the duration of the phase.
+/// s = h/2 of the interval on one side of a node (0 without one) [s], and its dependence on the
+/// duration T of the phase.
 struct HalfTime {
   double s = 0.0;
   double slope = 0.0;  ///< ds/dT
-  int column = -1;     ///< of T among the variables of the node; -1 if T is fixed
+  int column = -1;     ///< index of T among the variables of the node; -1 if T is fixed
 };
 
-/// The trapezoid is explicit in a state in the middle between two nodes. From the state (z, w) before a node to the
-/// node:
+/// The trapezoid is explicit in a state halfway between two nodes. From the state (z, w) before a
+/// node to the node:
 ///
 ///   v = w + s a,   R = R_z exp(s omega),   p = p_z + s R v_linear,   joints = joints_z + s rates
 ///
-/// Variables are (base position, theta, joints | v | a | ... | shared), where R = chart exp(theta), with z in the place
-/// of q and w in that of v for the state; everything else is the same on both sides. docs/transcription.md, "Stage by
+/// Variables: (base position, theta, joints | v | a | ... | shared), R = chart exp(theta); the
+/// state stores z and w in place of q and v, all else is equal. docs/transcription.md, "Stage by
 /// stage".
 ///
-/// A linearised map takes derivatives in both directions: steps forward, gradients and Hessians back.
+/// The linearised map pushes steps forward and pulls gradients and Hessians back.
 class Arrival {
  public:
-  /// Takes the state at which the rest is evaluated.
+  /// Sets the state at which the rest is evaluated.
   void set(const Eigen::Matrix3d& chart, int nv, const HalfTime& time, const Eigen::VectorXd& state);
 
   /// Variables of the node.
   const Eigen::VectorXd& node() const { return node_; }
-  /// The way back: the state from which these variables of a node come.
+  /// Inverse map: the state that leads to these variables of a node.
   static Eigen::VectorXd state(const Eigen::Matrix3d& chart, int nv, double s, const Eigen::VectorXd& node);
 
-  /// A step of the state becomes that of the node.
+  /// Turns a step of the state into that of the node.
   void push_forward(Eigen::VectorXd& step) const;
-  /// Derivatives in the node's variables, one row a function, become those in the state's.
+  /// Turns derivatives in the node's variables (one row per function) into those in the state's.
   void pull_back(Eigen::MatrixXd& rows) const;
   void pull_back(Eigen::VectorXd& gradient) const;
-  /// The same for a quadratic form, m -> A' m A with A the derivative of the node in the state.
+  /// The same for a quadratic form: m -> A' m A, A = d node / d state.
   void pull_back_form(Eigen::MatrixXd& m) const;
-  /// The same for the Hessian of a function, with its gradient in the node's variables (which is used up).
+  /// The same for the Hessian of a function with its gradient in the node's variables
+  /// (overwritten).
   void pull_back_hessian(Eigen::MatrixXd& hessian, Eigen::VectorXd& gradient) const;
 
  private:
@@ -67,7 +69,7 @@ class Arrival {
 ///
 ///   w' = v + s a,   R_z' = R exp(s omega),   p_z' = p + s R v_linear,   joints_z' = joints + s rates
 ///
-/// What is carried over unchanged is not its business.
+/// It does not handle variables that are carried over unchanged.
 class Departure {
  public:
   void set(const Eigen::Matrix3d& chart, const Eigen::Matrix3d& next_chart, int nv, const HalfTime& time,
@@ -79,10 +81,10 @@ class Departure {
   /// Adds the Hessian of multipliers . value().
   void add_hessian(const Eigen::VectorXd& multipliers, Eigen::MatrixXd& hessian) const;
 
-  /// A step of the node becomes that of (z', w').
+  /// Turns a step of the node into that of (z', w').
   void push_forward(const Eigen::VectorXd& step, Eigen::Ref<Eigen::VectorXd> state) const;
-  /// A gradient in (z', w'), in the places of q and v of all the node's variables, becomes one in these; and a
-  /// quadratic form. What the variables that are carried over have in their places stays.
+  /// Turn a gradient or a quadratic form in (z', w'), stored in place of q and v, into one in the
+  /// node's variables. Entries of carried-over variables stay.
   void pull_back(Eigen::VectorXd& gradient) const;
   void pull_back_form(Eigen::MatrixXd& m) const;
 

@@ -2,8 +2,7 @@
 
 namespace prowl {
 
-/// Second derivatives of the Lagrangian: exact, or of the cost alone, as if constraints and recovered forces were
-/// linear.
+/// Hessian of the Lagrangian: exact, or of the cost with linearised constraints and forces.
 enum class HessianKind { exact, gauss_newton };
 
 /// As in plan.json and at the command line.

@@ -23,7 +23,7 @@ VectorXd IntervalDefects::value() const {
   return value;
 }
 
-// The rotation depends on h and w by their product alone: a derivative in h is one in w along w / h.
+// The rotation depends on h w only: its derivative in h is that in w along w / h.
 VectorXd IntervalDefects::d_step() const {
   VectorXd slope(2 * nv_);
   const BaseDefects::Matrix3x12 rotation = base_.rotation_derivative();

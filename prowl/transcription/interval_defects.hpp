@@ -6,7 +6,7 @@
 
 namespace prowl {
 
-/// One end of a mesh interval: the base, and (base, joints | v | a) as decision variables.
+/// One end of a mesh interval: chart and decision variables.
 struct IntervalEnd {
   Eigen::Matrix3d chart;
   Eigen::VectorXd q, v, a;  ///< nv each; q = (base position, theta, joints)
@@ -14,7 +14,7 @@ struct IntervalEnd {
   BaseState base() const { return {chart, q.segment<3>(0), q.segment<3>(3), v.segment<3>(0), v.segment<3>(3)}; }
 };
 
-/// Defects of the trapezoid over one interval of length h: (q, nv rows | v, nv rows), zero where the motion follows it.
+/// Defects of the trapezoid over one interval of length h [s]: (q, nv rows | v, nv rows).
 ///
 ///   joints   q1 - q0 - h/2 (v0 + v1),   v1 - v0 - h/2 (a0 + a1),   the base as in BaseDefects
 class IntervalDefects {
@@ -24,13 +24,13 @@ class IntervalDefects {
   Eigen::VectorXd value() const;
   Eigen::VectorXd d_step() const;  ///< derivative in h
 
-  /// Of the base: its defects' derivatives at an end (0 or 1).
+  /// Derivatives of the base defects at an end (0 or 1).
   Eigen::Matrix3d position_dtheta(int end) const;
   Eigen::Matrix3d position_dv(int end) const;
   BaseDefects::Matrix3x12 rotation_derivative() const { return base_.rotation_derivative(); }
 
-  /// Second derivatives of multipliers . value, by its blocks: in the variables of each end, between the ends, and with
-  /// the step.
+  /// Second derivatives of multipliers . value by blocks: at each end, between the ends, with the
+  /// step.
   struct Hessian {
     Eigen::Matrix3d theta_v[2];           ///< (theta, linear velocity) at an end
     Eigen::Matrix<double, 6, 6> turn[2];  ///< (theta, angular velocity) at an end

@@ -14,7 +14,7 @@ bool binds(const VectorXd& lower, const VectorXd& upper, int i) {
   return std::isfinite(lower(i)) || std::isfinite(upper(i));
 }
 
-/// What the goals bind, by decision variable.
+/// Limits of the goals, by decision variable.
 std::map<int, MotionLimit> limits_of_goals(const DiscreteProblem& discrete, const DecisionLayout& layout) {
   const MotionProblem& problem = discrete.problem;
   const RobotModel& robot = problem.robot;
@@ -72,7 +72,7 @@ std::vector<MotionLimit> motion_limits(const NodeProgram& program) {
       const auto goal = of_goals.find(variable);
       add_variable(goal == of_goals.end() ? limit_of_joint(robot, kind, joint) : goal->second, variable, k);
     };
-    const bool is_start = k == 0;  // which is as it is
+    const bool is_start = k == 0;  // the start is fixed
     for (int i = 0; i < 6 && !is_start; ++i) {
       add_base(layout.q(k) + i);
       add_base(layout.v(k) + i);

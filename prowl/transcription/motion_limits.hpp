@@ -7,8 +7,8 @@
 
 namespace prowl {
 
-/// All that a task might have otherwise, but for durations: friction, torques, positions and velocities of joints,
-/// goals, places and clearance. The start is none, and no bound that is not there.
+/// All limits that a task could change, except durations: friction, torques, joint positions and
+/// velocities, goals, footholds and clearance. Excludes the start and infinite bounds.
 std::vector<MotionLimit> motion_limits(const NodeProgram& program);
 
 }  // namespace prowl

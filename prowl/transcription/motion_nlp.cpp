@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 void MotionNlp::evaluate(const VectorXd& z, bool with_derivatives) {
   if (evaluated_at_.size() == z.size() && evaluated_at_ == z && (have_derivatives_ || !with_derivatives)) return;
-  evaluated_at_.resize(0);  // in case that an evaluation throws half-way
+  evaluated_at_.resize(0);  // in case the evaluation throws
   evaluate_all(z, with_derivatives);
   evaluated_at_ = z;
   have_derivatives_ = with_derivatives;

@@ -11,19 +11,19 @@
 
 namespace prowl {
 
-/// A motion problem on a mesh as a nonlinear program, whatever its variables and rows are.
+/// A motion problem on a mesh as a nonlinear program; base of all formulations.
 class MotionNlp : public StoredNlp {
  public:
   MotionNlp(const MotionNlp&) = delete;
   MotionNlp& operator=(const MotionNlp&) = delete;
 
-  /// From a motion with one point a node of the mesh.
+  /// Decision variables of a motion with one point per node of the mesh.
   virtual Eigen::VectorXd pack(const Trajectory& trajectory) const = 0;
-  /// At the nodes of the mesh, with contact forces, and how it runs between them. Throws NumericalError if z is not
-  /// finite.
+  /// Motion at the nodes of the mesh, with contact forces and interpolation. Throws NumericalError
+  /// if z is not finite.
   virtual Trajectory unpack(const Eigen::VectorXd& z) = 0;
 
-  virtual void use_hessian(HessianKind kind) = 0;  ///< exact, if not said otherwise
+  virtual void use_hessian(HessianKind kind) = 0;  ///< default: exact
 
  protected:
   /// `discrete` must outlive the program.
@@ -35,22 +35,21 @@ class MotionNlp : public StoredNlp {
   int phase_of(int k) const { return mesh_node(k).phase; }
   bool is_interval(int k) const { return discrete_.is_interval(k); }
 
-  /// Makes sure that everything is evaluated at z: only what was not evaluated there last is evaluated again.
+  /// Evaluates at z, unless the last evaluation was there.
   void evaluate(const Eigen::VectorXd& z, bool with_derivatives);
 
-  /// Duration of a phase, of which `variable` is the index in z; -1 if it is fixed.
+  /// Duration of a phase [s]; `variable`: its index in z, -1 if fixed.
   double duration(const Eigen::VectorXd& z, int phase, int variable) const {
     return variable >= 0 ? z(variable) : problem().phases[phase].duration.min;
   }
-  /// Time of node k of a motion with such a duration of its phase, which starts at phase_start and, at the last node,
-  /// is moved to the end of the phase [s].
+  /// Time of node k [s], in a phase of this duration that starts at phase_start; the last node of
+  /// the phase advances phase_start to its end.
   double node_time(int k, double duration, double& phase_start) const;
-  /// How long a phase of the motion lasts [s].
+  /// Duration of a phase of the motion [s].
   double planned_duration(const Trajectory& motion, int phase) const;
-  /// Where the contact of each stance that lands touches its surface in the motion, in surface coordinates; zero for
-  /// those that do not land.
+  /// Foothold of each stance that lands, in surface coordinates [m]; zero for the others.
   std::vector<Eigen::Vector2d> landing_places(const Trajectory& motion) const;
-  /// Appends a point to the motion, with the sign of its quaternion that goes on without a jump.
+  /// Appends a point, with the sign of its quaternion chosen for continuity.
   static void append(TrajectoryPoint point, Trajectory& motion);
 
   const DiscreteProblem& discrete_;

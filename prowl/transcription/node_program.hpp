@@ -14,16 +14,16 @@
 
 namespace prowl {
 
-/// A motion problem by the trapezoid, node by node: the decision variables of each node, what holds there and their
-/// bounds. Two programs read it: Transcription, with all variables in one vector, and StagewiseTranscription, as a
-/// chain of stages.
+/// A motion problem transcribed by the trapezoid, node by node: variables, bounds and functions of
+/// each node. Two programs read it: Transcription (all variables in one vector) and
+/// StagewiseTranscription (chain of stages).
 ///
-/// Derivatives at a node are in its own variables, followed by those that the nodes of its phase share (NodeFunctions);
-/// column() tells which decision variable each is.
+/// Derivatives at a node are in its own variables, then in those shared by its phase
+/// (NodeFunctions); column() maps them to decision variables.
 class NodeProgram {
  public:
-  /// `guess` (one point a node) fixes the chart of the base's rotation at each node. `discrete` must outlive the
-  /// program. Throws InputError if bounds contradict each other.
+  /// `guess` (one point per node) fixes the chart of the base rotation at each node. `discrete`
+  /// must outlive the program. Throws InputError for contradictory bounds.
   NodeProgram(const DiscreteProblem& discrete, const Trajectory& guess);
   NodeProgram(const NodeProgram&) = delete;
   NodeProgram& operator=(const NodeProgram&) = delete;
@@ -36,21 +36,20 @@ class NodeProgram {
   const Eigen::Matrix3d& chart(int k) const { return charts_[k]; }
 
   const NodeFunctions& functions(int k) const { return functions_.front()[phase_of(k)]; }
-  /// Those of the calling thread.
+  /// Functions of node k for the calling thread.
   NodeFunctions& functions(int k) { return functions_[ThreadTeam::slot()][phase_of(k)]; }
   int num_rows(int k) const { return functions(k).num_rows(discrete_.nodes[k].node); }
 
-  /// Decision variables that the nodes of a phase share.
+  /// Indices of the decision variables shared by the nodes of a phase.
   const std::vector<int>& shared(int phase) const { return shared_[phase]; }
-  /// Decision variable of column j of node k's derivatives.
+  /// Index of the decision variable of column j of node k's derivatives.
   int column(int k, int j) const;
-  /// Those of node k out of all decision variables, in the order of column().
+  /// Variables of node k, in the order of column().
   Eigen::VectorXd variables(int k, const Eigen::VectorXd& z) const;
-  /// The instant that such variables of node k mean; into what is there, without allocation if it has the sizes
-  /// already.
+  /// Sets `point` from the variables of node k; does not allocate if it has the right sizes.
   void set_point(int k, const Eigen::VectorXd& variables, NodePoint& point) const;
 
-  /// Evaluates something at node k; a NumericalError then says where.
+  /// Calls evaluate() and adds the location of node k to a NumericalError.
   template <class Evaluate>
   void at_node(int k, const Evaluate& evaluate) const {
     try {
@@ -60,7 +59,7 @@ class NodeProgram {
     }
   }
 
-  void use_threads(int count);  ///< node functions for so many; see Nlp
+  void use_threads(int count);  ///< prepares node functions for `count` threads; see Nlp
   void use_hessian(HessianKind kind);
   HessianKind hessian_kind() const { return functions_.front().front().hessian_kind(); }
 
@@ -68,13 +67,13 @@ class NodeProgram {
   std::vector<NodeFunctions> functions_of_phases() const;
 
   const DiscreteProblem& discrete_;
-  std::vector<PhaseContacts> contacts_;                ///< of each phase
-  std::vector<std::vector<NodeFunctions>> functions_;  ///< what holds at a node: for each thread, one a phase
-  std::vector<Eigen::VectorXd> anchor_origins_;        ///< anchors of each phase's contacts where the places are zero
+  std::vector<PhaseContacts> contacts_;                ///< per phase
+  std::vector<std::vector<NodeFunctions>> functions_;  ///< per thread and phase
+  std::vector<Eigen::VectorXd> anchor_origins_;        ///< per phase: anchors at zero foothold coordinates
   DecisionLayout layout_;
   VariableBounds bounds_;
-  std::vector<Eigen::Matrix3d> charts_;   ///< one a node
-  std::vector<std::vector<int>> shared_;  ///< of each phase
+  std::vector<Eigen::Matrix3d> charts_;   ///< per node
+  std::vector<std::vector<int>> shared_;  ///< per phase
 };
 
 }  // namespace prowl

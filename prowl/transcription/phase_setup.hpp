@@ -8,11 +8,11 @@
 
 namespace prowl {
 
-/// How the contacts of each phase depend on each other, at its first node of the guess.
+/// Dependence of the contacts of each phase at its first node of the guess.
 std::vector<PhaseContacts> contacts_of_phases(const DiscreteProblem& discrete, const Trajectory& guess);
 
-/// Anchors of each phase's contacts, those that land at the origin of their surface coordinates: a contact that is held
-/// from the start stays at the place that the start has. 3 rows a contact, world frame [m].
+/// Anchors of each phase's contacts: landing contacts at the origin of their surface coordinates,
+/// contacts held from the start at their start position. 3 rows per contact, world frame [m].
 std::vector<Eigen::VectorXd> anchor_origins(const DiscreteProblem& discrete);
 
 }  // namespace prowl

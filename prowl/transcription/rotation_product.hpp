@@ -28,7 +28,7 @@ class RotationProduct {
     }
     value_ = so3::log(product);
     log_derivative_ = so3::right_jacobian_inverse(value_);
-    // A change of factor i, moved behind all factors after it, is a right perturbation of the product.
+    // A change of factor i, moved behind all later factors, is a right perturbation of the product.
     for (int i = 0; i < N; ++i) moved_[i] = after_[i].transpose() * so3::right_jacobian(factors_[i].x);
   }
 
@@ -43,8 +43,8 @@ class RotationProduct {
   /// Second derivative of lambda . value().
   Hessian hessian(const Eigen::Vector3d& lambda) const {
     // log(M exp(y1) ... exp(yN)) to second order: the y_i add up to y + 1/2 sum_{i<j} y_i x y_j
-    // (Baker-Campbell-Hausdorff), each y_i has a second-order part of its own, and log bends with minus the derivative
-    // of Jr.
+    // (Baker-Campbell-Hausdorff), each y_i has its own second-order part, and log contributes minus
+    // the derivative of Jr.
     const Eigen::Vector3d pulled = log_derivative_.transpose() * lambda;
     const Eigen::Matrix3d pulled_cross = so3::skew(pulled);
     const Jacobian slope = derivative();

@@ -65,7 +65,8 @@ VectorXd StagewiseTranscription::units(int k) const {
     tau(i) = force;
   }
   VectorXd units = VectorXd::Constant(nodes_.functions(k).num_columns(), length);
-  // Dependent forces stay in newtons: they cost nothing, and what regularises them is all that holds them at first.
+  // Dependent forces stay in newtons: they have no cost, and initially only regularisation
+  // determines them.
   units.head(own) << q, q / time, q / (time * time), tau, VectorXd::Ones(layout_.num_w(k));
   if (nodes_.functions(k).has_free_duration()) units(own) = time;
   return units;
@@ -89,7 +90,7 @@ void StagewiseTranscription::set_variables(int k) {
       stage.fixed(i) = lower;
       continue;
     }
-    if (i < states) throw InputError("the start has to fix all positions and velocities");
+    if (i < states) throw InputError("the start must fix all positions and velocities");
     const bool is_shared = i >= own;
     (is_shared && is_shared_with(k - 1, i) ? carried_here : stage.variables).push_back(i);
     if (is_shared && is_shared_with(k + 1, i)) stage.carried.push_back(i);
@@ -132,7 +133,8 @@ void StagewiseTranscription::set_functions(int k) {
   const int states = 2 * layout_.nv();
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
     const int variable = stage.variables[i];
-    const bool is_carried = variable >= states && static_cast<int>(i) >= stage.size.inputs;  // bounded where it began
+    const bool is_carried =
+        variable >= states && static_cast<int>(i) >= stage.size.inputs;  // bounded at its first stage
     const bool is_twin = variable < states && node.h_in == 0.0;
     const auto [low, up] = bounds(k, variable);
     if (is_carried || is_twin || (!std::isfinite(low) && !std::isfinite(up))) continue;
@@ -160,7 +162,7 @@ HalfTime StagewiseTranscription::half_time(int k, int i, const VectorXd& node) c
   if (i < 0 || i == mesh.intervals()) return {};
   const double slope = 0.5 * mesh.step(i, 1.0);
   if (!nodes_.functions(k).has_free_duration()) return {slope * discrete_.phase_of(k).duration.min, slope, -1};
-  const int column = layout_.node_size(k);  // the first of what is shared
+  const int column = layout_.node_size(k);  // first shared variable
   return {slope * node(column), slope, column};
 }
 
@@ -258,7 +260,7 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
   rows.gradients.resize(size, count);
   rows.places.resize(size, count);
   rows.counts.setZero(count);
-  for (Index i = 0; i < count; ++i) {  // they come before the bounds
+  for (Index i = 0; i < count; ++i) {  // rows precede the bounds
     rows.gradients.col(i) = jacobian.row(stage.inequalities[i]).transpose();
     for (Index j = 0; j < size; ++j) {
       if (rows.gradients(j, i) != 0.0) rows.places(rows.counts(i)++, i) = static_cast<int>(j);
@@ -374,7 +376,7 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
       for (const int row : places) work.form(row, column) += factor * gradient(row);
     }
   }
-  if (dense > 0) {  // Eigen's triangular product of nothing divides by zero
+  if (dense > 0) {  // Eigen's triangular product of empty matrices divides by zero
     work.form.triangularView<Eigen::Lower>() += work.dense.leftCols(dense) * work.scaled.leftCols(dense).transpose();
     work.form.triangularView<Eigen::StrictlyUpper>() = work.form.transpose();
   }
@@ -480,7 +482,7 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
 
 VectorXd StagewiseTranscription::flat(const std::vector<VectorXd>& stages) const {
   VectorXd z(layout_.num_variables()), state;
-  for (int k = num_stages() - 1; k >= 0; --k) {  // what is shared: as it began
+  for (int k = num_stages() - 1; k >= 0; --k) {  // shared variables keep the value of their first stage
     Arrival arrival;
     set_arrival(k, stages[k], state, arrival);
     const VectorXd& node = arrival.node();

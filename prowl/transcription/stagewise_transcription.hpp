@@ -11,19 +11,22 @@
 
 namespace prowl {
 
-/// A NodeProgram as a chain of stages, one a node. docs/transcription.md, "stage by stage":
+/// A NodeProgram as a chain of stages, one per node. docs/transcription.md, "Stage by stage":
 ///
-///   states   z, w (half a step before the node's q, v), and what this node and the one before share
-///   inputs   a, tau, forces w of dependent contacts, and what is shared from this node on (duration, places)
+///   states   z, w (half a step before the node's q, v), variables shared with the node before
+///   inputs   a, tau, forces w of dependent contacts, variables shared from this node on (duration,
+///            footholds)
 ///
-/// Left out is what is fixed: the state of the first node, and inputs with equal bounds. Bounds on q and v are rows at
-/// the node; both nodes of a phase switch have the same q and v, so that the first has the rows of both.
+/// Fixed variables are left out: the state of the first node, and inputs with equal bounds. Bounds
+/// on q and v are rows of the node; the two nodes of a phase transition have the same q and v, so
+/// the first has the rows of both.
 ///
-/// Stage variables are without a unit: lengths are divided by the size l of the robot, forces by its weight m g, times
-/// by sqrt(l/g). A solver that regularises adds the same number to the curvature in each. (But w is in newtons.)
+/// Stage variables are dimensionless, as a regularising solver adds the same curvature to each:
+/// lengths are divided by the size l of the robot, forces by its weight m g, times by sqrt(l/g).
+/// (But w is in newtons.)
 class StagewiseTranscription : public StagewiseNlp {
  public:
-  /// Of `nodes`, which must outlive it.
+  /// `nodes` must outlive it.
   explicit StagewiseTranscription(NodeProgram& nodes);
 
   int num_stages() const override { return static_cast<int>(stages_.size()); }
@@ -54,13 +57,14 @@ class StagewiseTranscription : public StagewiseNlp {
   void use_threads(int count);  ///< see Nlp
 
  private:
-  /// Gradients of the inequalities among the rows of a node, one a column, and where they are not zero.
+  /// Gradients of the inequality rows of a node, one per column, with their non-zero positions.
   struct InequalityRows {
     Eigen::MatrixXd gradients;
     Eigen::MatrixXi places;
     Eigen::VectorXi counts;
   };
-  /// Work space, in the variables of a node. Stages of one shape share it, so that it keeps its size; one a thread.
+  /// Work space in the variables of a node, one per thread. Stages of one shape share it: no
+  /// reallocation.
   struct Work {
     NodeValues values;  ///< of the stage evaluated last
     Eigen::VectorXd on_rows, on_node, step, on_next, state;
@@ -68,25 +72,25 @@ class StagewiseTranscription : public StagewiseNlp {
   };
   struct Stage {
     StageSize size;
-    std::size_t shape = 0;       ///< its work space
-    std::vector<int> variables;  ///< of (u, x): places among the variables of the node, z and w in those of q and v
+    std::size_t shape = 0;       ///< index of its work space
+    std::vector<int> variables;  ///< of (u, x): indices into the variables of the node; z, w: those of q, v
     struct Run {
       int first, place, length;
     };
-    std::vector<Run> runs;     ///< the same, as ranges without a gap
-    Eigen::VectorXd unit;      ///< of each of those: variable of the node = unit * variable of the stage
-    Eigen::VectorXd fixed;     ///< all variables of the node, with the values of those that are fixed
-    std::vector<int> carried;  ///< shared variables that are states of the next stage: places among the node's
+    std::vector<Run> runs;     ///< the same as contiguous ranges
+    Eigen::VectorXd unit;      ///< variable of the node = unit * variable of the stage
+    Eigen::VectorXd fixed;     ///< all variables of the node; fixed ones have their values
+    std::vector<int> carried;  ///< shared variables that are states of the next stage: indices into the node's
     // Functions: (rows of the node, as in NodeFunctions | variables of the node with bounds), the last in their units.
     int num_rows = 0;
     std::vector<int> bounded;  ///< variables
     Eigen::VectorXd per_unit,
         next_per_unit;  ///< 1 / unit of the variables with bounds and of the states of the next stage
-    std::vector<int> equalities, inequalities;  ///< places among the functions
+    std::vector<int> equalities, inequalities;  ///< indices into the functions
     Eigen::VectorXd level;                      ///< equalities: function = level
     Eigen::VectorXd lower, upper;
 
-    // What was evaluated last, and where.
+    // Last evaluation and its point.
     Eigen::VectorXd at;
     bool have_values = false, have_derivatives = false;
     Arrival arrival;
@@ -96,13 +100,13 @@ class StagewiseTranscription : public StagewiseNlp {
     Eigen::VectorXd cost_gradient;
     Eigen::MatrixXd equality_slopes, hessian;
     InequalityRows rows;
-    Arrival linear_arrival;  ///< where the stage was linearised, which values elsewhere must not change
+    Arrival linear_arrival;  ///< point of linearisation, kept during evaluations elsewhere
     Departure linear_departure;
 
-    StageDerivatives derivatives;  ///< dense, if asked for
+    StageDerivatives derivatives;  ///< dense, on request
     const Eigen::VectorXd& node() const { return arrival.node(); }
     int num_next() const { return static_cast<int>(next_per_unit.size()); }
-    /// Of an inequality that is a bound: its variable, and the bound's slope in that.
+    /// For an inequality that is a bound: its variable and slope.
     std::pair<int, double> bound(Eigen::Index inequality) const {
       const int i = inequalities[inequality] - num_rows;
       return {bounded[i], per_unit(i)};
@@ -118,18 +122,20 @@ class StagewiseTranscription : public StagewiseNlp {
   void set_variables(int k);
   void set_functions(int k);
   void set_shapes();
-  /// Bounds on a variable of node k. Both nodes of a phase switch have one q and v: the first has the bounds of both.
+  /// Bounds on a variable of node k. At a phase transition the first node has the bounds of both.
   std::pair<double, double> bounds(int k, int variable) const;
 
-  /// Half of interval i of the phase of node k, which is on one side of it; there is none at the ends of the phase.
+  /// Half of interval i of the phase of node k, an interval beside the node; zero beyond the ends
+  /// of the phase.
   HalfTime half_time(int k, int i, const Eigen::VectorXd& node) const;
   void set_arrival(int k, const Eigen::VectorXd& ux, Eigen::VectorXd& state, Arrival& arrival) const;
-  /// Sets the point; what was evaluated elsewhere is forgotten.
+  /// Sets the point; discards evaluations elsewhere.
   void move_to(int k, const Eigen::VectorXd& ux);
   void fill_values(int k, const NodeValues& node);
   void fill_slopes(int k, const NodeValues& node);
   void keep_linear(Stage& stage);
-  /// Multipliers, or a gradient, of the next states in the places that these have among the node's variables.
+  /// Adds multipliers or a gradient of the next states at their positions among the node's
+  /// variables.
   void add_on_next(const Stage& stage, const Eigen::VectorXd& on_next, Eigen::VectorXd& on_node) const;
   static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
@@ -137,7 +143,7 @@ class StagewiseTranscription : public StagewiseNlp {
   const DiscreteProblem& discrete_;
   const DecisionLayout& layout_;
   std::vector<Stage> stages_;
-  std::vector<std::vector<Work>> works_;  ///< for each thread, one a shape
+  std::vector<std::vector<Work>> works_;  ///< per thread and shape
 };
 
 }  // namespace prowl

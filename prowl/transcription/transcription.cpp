@@ -63,7 +63,7 @@ StagewiseNlp* Transcription::stagewise() {
 }
 
 int Transcription::use_threads(int count) {
-  count = std::min(count, nodes_.num_nodes());  // more would have nothing to do
+  count = std::min(count, nodes_.num_nodes());  // more would idle
   nodes_.use_threads(count);
   if (stagewise_) stagewise_->use_threads(count);
   threads_ = ThreadTeam(count);
@@ -134,14 +134,14 @@ void Transcription::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
   for (int k = 0; k < layout_.num_links(); ++k) {
     if (is_interval(k)) {
       g.segment(layout_.link_row(k), 2 * nv) = interval(z, k).value();
-    } else {  // both nodes of a phase switch have one chart: the difference is the condition
+    } else {  // both nodes of a phase transition have one chart
       g.segment(layout_.link_row(k), 2 * nv) = z.segment(layout_.q(k + 1), 2 * nv) - z.segment(layout_.q(k), 2 * nv);
     }
   }
 }
 
-/// Calls emit(row, col, value) for each non-zero of the Jacobian, always in the same order. Without derivatives (z
-/// empty) the values mean nothing and only the places count.
+/// Calls emit(row, col, value) for each non-zero of the Jacobian, in a fixed order. With empty z
+/// the values are meaningless, for the pattern only.
 template <class Emit>
 void Transcription::visit_jacobian(const VectorXd& z, Emit emit) const {
   const int nv = layout_.nv(), nu = layout_.nu();
@@ -226,9 +226,9 @@ void Transcription::jacobian(const VectorXd& z, Eigen::Ref<VectorXd> values) {
   visit_jacobian(z, [&](int, int, double value) { values(next++) = value; });
 }
 
-/// As visit_jacobian, for the lower triangle of the Hessian: a dense block a node, over each interval the block of
-/// (theta, angular velocity) at its end with those at its start, each node with what its phase shares, and what is
-/// shared by itself.
+/// Like visit_jacobian, for the lower triangle of the Hessian: a dense block per node, per interval
+/// the block of (theta, angular velocity) at its end with those at its start, each node with its
+/// shared variables, and these among themselves.
 template <class Emit>
 void Transcription::visit_hessian(const std::vector<MatrixXd>& nodes,
                                   const std::vector<Eigen::Matrix<double, 6, 6>>& links, const MatrixXd& shared,

@@ -17,15 +17,15 @@ class StagewiseTranscription;
 
 /// Direct transcription by the trapezoid: a motion problem as a nonlinear program.
 ///
-/// At every node the projected dynamics c(q, v, a, tau) = 0, the friction cones of the recovered forces and what else
-/// NodeFunctions lists hold; over every interval q and v follow the trapezoid of v and a; all else (joint, velocity and
-/// torque limits, start, goals, durations, places of contacts) are bounds on the decision variables. Cost: the running
-/// cost by the trapezoid, and the terminal cost.
-/// Betts, Practical Methods for Optimal Control, 2010, sec. 4.5; docs/transcription.md.
+/// Rows at every node: projected dynamics c(q, v, a, tau) = 0, friction cones and the other rows of
+/// NodeFunctions. Rows of every interval: q and v follow the trapezoid of v and a. Joint, velocity
+/// and torque limits, start, goals, durations and footholds are bounds on the decision variables.
+/// Cost: running cost by the trapezoid, plus terminal cost. Betts, Practical Methods for Optimal
+/// Control, 2010, sec. 4.5; docs/transcription.md.
 class Transcription : public MotionNlp {
  public:
-  /// `guess` (one point a node) fixes the chart of the base's rotation at each node. `discrete` must outlive the
-  /// program. Throws InputError if bounds contradict each other.
+  /// `guess` (one point per node) fixes the chart of the base rotation at each node. `discrete`
+  /// must outlive the program. Throws InputError for contradictory bounds.
   Transcription(const DiscreteProblem& discrete, const Trajectory& guess);
   ~Transcription() override;
 
@@ -52,7 +52,7 @@ class Transcription : public MotionNlp {
  private:
   void evaluate_all(const Eigen::VectorXd& z, bool with_derivatives) override;
   NodePoint node_point(const Eigen::VectorXd& z, int k) const;
-  /// Of the interval after node k, and its derivative in the duration of the phase.
+  /// Step of the interval after node k [s], and its derivative in the duration of the phase.
   double step(const Eigen::VectorXd& z, int k) const;
   double step_per_duration(int k) const;
   IntervalDefects interval(const Eigen::VectorXd& z, int k) const;
@@ -70,11 +70,11 @@ class Transcription : public MotionNlp {
   NodeProgram nodes_;
   const DecisionLayout& layout_;  ///< of nodes_
   std::vector<std::pair<int, int>>
-      shared_pairs_;                ///< of shared variables (row >= column, from first_shared) in one phase
-  std::vector<NodeValues> values_;  ///< one a node, where evaluate() was last
+      shared_pairs_;                ///< of shared variables of one phase (row >= column, from first_shared)
+  std::vector<NodeValues> values_;  ///< per node, of the last evaluate()
   ThreadTeam threads_{1};
 
-  std::unique_ptr<StagewiseTranscription> stagewise_;  ///< made when first asked for
+  std::unique_ptr<StagewiseTranscription> stagewise_;  ///< created on demand
 };
 
 }  // namespace prowl

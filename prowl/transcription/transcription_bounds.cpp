@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// All nodes at the time of a node: itself and, at a phase switch, its twin.
+/// Nodes at the time of node k: itself and, at a phase transition, its twin.
 std::vector<int> nodes_at_time_of(const DiscreteProblem& discrete, int k) {
   std::vector<int> nodes{k};
   const MeshNode& node = discrete.nodes[k];
@@ -36,7 +36,7 @@ void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, co
     const double limit_lower = lo, limit_upper = up;
     lo = std::max(lo, lower(i));
     up = std::min(up, upper(i));
-    // A start or goal on a limit of the robot, but for the rounding of its decimals: the limit counts.
+    // A start or goal on a limit of the robot, up to decimal rounding: use the limit.
     constexpr double kRounding = 1e-9;
     if (lo > up && lo <= up + kRounding) lo = up = std::clamp(lower(i), limit_lower, limit_upper);
     if (lo > up) {
@@ -98,7 +98,8 @@ VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLa
   for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
     const BoundaryCondition& condition = problem.boundary_conditions[c];
     const int k = discrete.condition_nodes[c];
-    // The chart of the node is that of q_ref, so the variables are q_ref (+) tangent: shift by what is not zero there.
+    // The chart of the node is that of q_ref, so the variables are q_ref ⊕ tangent: add the
+    // non-zero reference.
     Eigen::VectorXd reference(layout.nv());
     reference << base_position(condition.q_ref), Eigen::Vector3d::Zero(), condition.q_ref.tail(nu);
     tighten(bounds, layout.q(k), reference + condition.configuration_lower, reference + condition.configuration_upper,

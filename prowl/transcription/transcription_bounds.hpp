@@ -8,15 +8,16 @@
 
 namespace prowl {
 
-/// A chart R_chart of the base's rotation for each node: that of the boundary condition there, so that its bounds are
-/// bounds on theta, else that of the guess. Both nodes of a phase switch get the same.
+/// Chart R_chart of the base rotation at each node: from the boundary condition there, so its
+/// bounds are bounds on theta, else from the guess. Both nodes of a phase transition have the same
+/// chart.
 std::vector<Eigen::Matrix3d> rotation_charts(const DiscreteProblem& discrete, const Trajectory& guess);
 
 struct VariableBounds {
-  Eigen::VectorXd lower, upper;  ///< one a decision variable
+  Eigen::VectorXd lower, upper;  ///< per decision variable
 };
-/// Limits of the robot at every node, the boundary conditions at theirs, durations, and places of contacts that land.
-/// Throws InputError where they contradict.
+/// Bounds from robot limits at every node, boundary conditions at theirs, durations and free
+/// footholds. Throws InputError for contradictions.
 VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLayout& layout);
 
 }  // namespace prowl

@@ -11,8 +11,8 @@
 
 # %% [markdown]
 # # A first plan
-# HyQ, a quadruped of 87 kg, lowers its body by 17 cm and stands up again. From the task to a motion that was checked and
-# simulated: a few seconds. Run it as it is, or open it as a notebook (`jupytext --to ipynb first_plan.py`).
+# HyQ, a quadruped of 87 kg, lowers its body by 17 cm and stands up again. It takes a few seconds from the task to a checked and
+# simulated motion. Run this file as a script, or open it as a notebook (`jupytext --to ipynb first_plan.py`).
 
 # %%
 import matplotlib.pyplot as plt
@@ -25,7 +25,7 @@ print(task, task.robot, *task.phases, sep="\n")
 
 # %% [markdown]
 # ## Solve
-# Iterations are shown as they come. Ctrl-C, or the notebook's stop button, ends it with the best motion so far.
+# Shows the iterations. Ctrl-C, or the notebook's stop button, ends the solve with the best motion so far.
 
 # %%
 plan = prowl.solve(task)
@@ -33,15 +33,15 @@ plan
 
 # %% [markdown]
 # ## See it move
-# The page of `prowl report`: below this cell in a notebook, in the browser for a script.
+# The page of `prowl report`, below this cell in a notebook, in the browser from a script.
 
 # %%
 plan.show()
 
 # %% [markdown]
-# ## Is it any good?
-# Converged is a claim of the solver. The certificate is a check of the finished motion by code with other dynamics and no solver:
-# how well it obeys the dynamics, whether contacts hold, whether torques and friction stay within their limits.
+# ## Is the plan good?
+# *Converged* is the result of the solver. The certificate checks the finished motion with different dynamics and without a solver:
+# errors of the dynamics, drift of contacts, limits of torques and friction.
 
 # %%
 assert plan.good
@@ -50,18 +50,18 @@ plan.certificate
 
 # %% [markdown]
 # ## Plots
-# Base, contact forces, torques of the joints that work hardest, and their share of the limits.
+# Base, contact forces, torques of the most loaded joints, and their share of the limits.
 
 # %%
 plan.plot()
 
 # %% [markdown]
 # ## The motion as arrays
-# NumPy arrays, one row a node: `t`, `q`, `v`, `a`, `tau`, `f`. They are views, not copies, and read-only.
+# NumPy arrays, one row per node: `t`, `q`, `v`, `a`, `tau`, `f`. They are read-only views, not copies.
 
 # %%
 robot = plan.robot
-motion = plan.sample(0.005)  # between the nodes as the planner means it
+motion = plan.sample(0.005)  # interpolated as in the transcription
 figure, torque = plt.subplots(figsize=(8, 3), layout="constrained")
 for j, name in enumerate(robot.joint_names):
     if name.startswith("lf_"):
@@ -78,7 +78,7 @@ assert abs(lowest + 0.17) < 0.01
 
 # %% [markdown]
 # ## Simulate
-# In MuJoCo, which knows nothing of how the plan was made, with noisy sensors, an estimator and delayed torques.
+# In MuJoCo, independent of the planner, with noisy sensors, an estimator and delayed torques.
 
 # %%
 simulation = prowl.simulate(plan)
@@ -87,14 +87,14 @@ assert simulation.success
 simulation
 
 # %% [markdown]
-# The same page with the simulation beside the plan:
+# The same page, with the simulation next to the plan:
 
 # %%
 plan.show(simulation)
 
 # %% [markdown]
-# ## Keep it
-# The folder that `prowl plan` writes: for `prowl check`, `prowl figures` and a robot's controller.
+# ## Save it
+# The same folder as `prowl plan` writes, for `prowl check`, `prowl figures` and a robot's controller.
 
 # %%
 plan.write("out/first_plan")

@@ -11,8 +11,8 @@
 
 # %% [markdown]
 # # Your own robot
-# From a URDF to a plan. The robot here is made up on the spot: a body of 12 kg on four legs of three joints each. Take the
-# path of your own URDF in its place; docs/adding-a-robot.md has the long version.
+# From a URDF to a plan. The robot here is made up: a body of 12 kg on four legs with three joints each. Replace it by the path
+# of your own URDF; docs/adding-a-robot.md contains the long version.
 
 # %%
 from pathlib import Path
@@ -61,9 +61,9 @@ legs = "\n".join(leg(name, x, y) for name, (x, y) in FEET.items())
 (folder / "quad.urdf").write_text(f'<robot name="quad">{link("body", 12, (0.5, 0.2, 0.12), (0, 0, 0))}{legs}</robot>')
 
 # %% [markdown]
-# ## What Prowl understands of it
-# A robot file names the URDF, the places that may touch the ground, and a posture. As a dict here, or as TOML in a file. Which
-# frames are there to touch with?
+# ## The robot file
+# A robot file names the URDF, the contacts that may touch the ground, and a posture, here as a dict, or as TOML in a file. List
+# the frames for contacts first:
 
 # %%
 description: dict = {"name": "quad", "urdf": "quad.urdf"}
@@ -81,7 +81,7 @@ print("warnings:", robot.warnings())
 assert robot.mass > 19 and robot.contact_names == ["lf_foot", "lh_foot", "rf_foot", "rh_foot"]
 
 # %% [markdown]
-# A mistake is told with its location and its remedy:
+# Errors contain location and remedy:
 
 # %%
 try:
@@ -91,7 +91,7 @@ except prowl.InputError as error:
 
 # %% [markdown]
 # ## A task for it
-# Down by 8 cm and up again. Keys and units are those of docs/task-file.md; the robot is the object from above.
+# Down by 8 cm and up again. Keys and units: docs/task-file.md. The robot is the object from above.
 
 # %%
 rest = np.zeros(3)
@@ -129,8 +129,8 @@ assert plan.good
 
 # %% [markdown]
 # ## How much can it do?
-# The same with ever deeper goals, each started from the first plan. The last is too deep for these legs: that is no exception but
-# a plan that is not good, with reasons or hints.
+# The same with deeper and deeper goals, each started from the first plan. The last is too deep for these legs: this raises no
+# exception, but returns a plan that is not good, with reasons or hints.
 
 # %%
 for depth in (0.08, 0.14, 0.20, 0.26):

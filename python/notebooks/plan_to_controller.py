@@ -11,12 +11,12 @@
 
 # %% [markdown]
 # # From plan to controller
-# A plan carried out with its torques alone falls: standing is unstable. `solve` also designs feedback gains K(t) along the
-# motion, and `plan.tracker` is the control law
+# The planned torques alone let the robot fall: standing is unstable. `solve` also designs feedback gains K(t) along the motion,
+# and `plan.tracker` is the control law
 #
 #     tau = tau*(t) + K(t) (x* - x),  within the torque limits
 #
-# This notebook looks at it, runs it by hand, and hands it to a robot.
+# This notebook shows it, runs it by hand, and prepares it for a robot.
 
 # %%
 import time
@@ -33,8 +33,8 @@ print(tracker, tracker.K.shape, "joints x (position and velocity), for each of",
 
 # %% [markdown]
 # ## By hand
-# The dynamics with all feet on the ground, integrated in small steps, from a start that is 2 cm and 2 degrees off, with the
-# torques of the plan alone and with the tracker's.
+# Integrates the dynamics with all feet on the ground in small steps, from a start that is 2 cm and 2 degrees off, with the planned
+# torques alone and with those of the tracker.
 
 # %%
 dynamics = prowl.Dynamics(plan.robot, contacts=plan.task.phases[0].contacts)
@@ -42,19 +42,19 @@ step = 1e-3
 
 
 def start_beside() -> np.ndarray:
-    """The plan's start with the feet where they are and the body somewhere else, by a few steps of Newton's method."""
+    """The planned start with the body displaced and the feet in place, by a few Newton steps."""
     q0 = plan.q[0]
     q = prowl.integrate(q0, np.array([0.01, 0.015, -0.01, 0.02, -0.02, 0.0] + 12 * [0.0]))
     feet = dynamics.contact_positions(q0)
     for _ in range(10):
         off = (feet - dynamics.contact_positions(q)).ravel()
-        J = dynamics.contact_jacobian(q).reshape(12, 18)[:, 6:]  # of the joints: the body stays
+        J = dynamics.contact_jacobian(q).reshape(12, 18)[:, 6:]  # columns of the joints: the body stays
         q = prowl.integrate(q, np.concatenate([np.zeros(6), np.linalg.solve(J, off)]))
     return q
 
 
 def run(control, until: float) -> np.ndarray:
-    """How far the base is from the plan [m], at every step."""
+    """Distance of the base from the plan at every step [m]."""
     q, v, distance = start_beside(), np.zeros(18), []
     for t in np.arange(0.0, until, step):
         distance.append(np.linalg.norm(q[:3] - tracker.reference(t)[0][:3]))
@@ -83,7 +83,7 @@ assert open_loop[-1] > 2 * open_loop[0] and closed_loop[600] < 0.2 * closed_loop
 
 # %% [markdown]
 # ## In MuJoCo
-# With sensors, an estimator and delay, on a robot that is 5 % heavier than planned for, and a push of 30 N s from the side.
+# With sensors, an estimator and delay, on a robot 5 % heavier than planned, and a push of 30 N s from the side.
 
 # %%
 simulation = prowl.simulate(plan, mass=1.05, delay=3e-3, pushes=[(0.5, (0.0, 30.0, 0.0))])
@@ -93,7 +93,7 @@ print("without feedback:", *prowl.simulate(plan, open_loop=True).failures)
 
 # %% [markdown]
 # ## On a robot
-# `tracker.bin` has all that a controller needs. In C++ (`prowl/tracker`, which needs Eigen and nothing else):
+# `tracker.bin` contains everything that a controller needs. In C++ (`prowl/tracker`, which needs only Eigen):
 #
 #     const auto tracker = prowl::Tracker::read("out/plan_to_controller/tracker.bin");
 #     tracker.torque(t, q, v, tau);   // every tick; no allocation

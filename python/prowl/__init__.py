@@ -2,15 +2,16 @@
 
     import prowl
 
-    plan = prowl.solve("hyq/crouch")         # a task that comes with Prowl, a path, a dict; Ctrl-C stops it
-    print(plan.certificate)                  # whether it is any good
+    plan = prowl.solve("hyq/crouch")         # a shipped task, a path, or a dict; Ctrl-C stops it
+    print(plan.certificate)                  # is it good?
     plan.t, plan.q, plan.tau, plan.f         # NumPy arrays, no copies
     prowl.simulate(plan).success             # in MuJoCo, with its feedback gains
     plan.show()                              # the robot in motion, in a notebook or the browser
-    plan.write("out/crouch")                 # what the command writes
+    plan.write("out/crouch")                 # same folder as the command
 
-Conventions are Pinocchio's: q has the base position in the world [m], its quaternion x y z w, then the joints [rad or m];
-v has the base twist in the base frame [m/s, rad/s], then the joint rates. SI units throughout. docs/python.md has more.
+Conventions are Pinocchio's: q contains the base position in the world [m], its quaternion x y z w, then the
+joints [rad or m]; v contains the base twist in the base frame [m/s, rad/s], then the joint rates. SI units
+throughout. More: docs/python.md.
 """
 
 import importlib.util as _util

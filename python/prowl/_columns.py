@@ -1,10 +1,10 @@
-"""Names and numbers as Prowl's own tables have them."""
+"""Names and numbers in the format of Prowl's tables."""
 
 from __future__ import annotations
 
 
 def gain_columns(joints: list[str]) -> list[str]:
-    """Names, with units, of the 2 nv columns of a gain K: what a torque answers to (docs/tracking.md)."""
+    """Names, with units, of the 2 nv columns of a gain K (docs/tracking.md)."""
 
     def base(quantity: str, unit: str) -> list[str]:
         return [f"base_{quantity}{axis}_{unit}" for axis in "xyz"]
@@ -14,5 +14,5 @@ def gain_columns(joints: list[str]) -> list[str]:
 
 
 def number(value: float) -> str:
-    """All digits, as in trajectory.csv: a whole number without ".0"."""
+    """All digits, as in trajectory.csv; integers without ".0"."""
     return repr(value).removesuffix(".0")

@@ -1,4 +1,4 @@
-"""Dicts as the text of a robot or task file."""
+"""Dicts as text of a robot or task file."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from typing import Any
 
 from . import _prowl
 
-Document = str | Mapping[str, Any]  #: the text of a file, or a dict of the same keys
+Document = str | Mapping[str, Any]  #: text of a file, or a dict with its keys
 
 
 def toml_text(document: Document) -> str:
-    """The text of a file with this content. NumPy's arrays and numbers become lists and numbers, paths their text."""
+    """Text of a file with this content. NumPy arrays and numbers become lists and numbers, paths strings."""
     if isinstance(document, str):
         return document
-    import tomli_w  # figures() and export() do without
+    import tomli_w  # not needed by figures() and export()
 
     try:
         return tomli_w.dumps(_plain(document))
-    except (TypeError, AttributeError) as error:  # of None, keys that are no strings
-        raise _prowl.InputError(f"document: {error}; need a dict of what a TOML file can hold") from error
+    except (TypeError, AttributeError) as error:  # None, or keys that are not strings
+        raise _prowl.InputError(f"document: {error}; need a dict with TOML types") from error
 
 
 def _plain(value: Any) -> Any:
@@ -30,6 +30,6 @@ def _plain(value: Any) -> Any:
         return [_plain(entry) for entry in value]
     if isinstance(value, os.PathLike):
         return os.fspath(value)
-    if hasattr(value, "tolist"):  # an array or a number of NumPy
+    if hasattr(value, "tolist"):  # NumPy array or number
         return _plain(value.tolist())
     return value

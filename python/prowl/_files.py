@@ -1,4 +1,4 @@
-"""Robots and tasks: from files, from texts, and those that come with Prowl."""
+"""Robots and tasks: from files, from texts, and shipped ones."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from . import _prowl
 from ._documents import Document, toml_text
 
 _HERE = Path(__file__).resolve().parent
-# In a wheel beside this file; installed, share/prowl/python/prowl, above it; in a build, build/python/prowl, those of
-# the repository.
+# Wheel: beside this file. Installed (share/prowl/python/prowl): above it. Build
+# (build/python/prowl): the repository.
 _PLACES = (_HERE / "share" / "prowl", _HERE.parents[1], _HERE.parents[2])
 SHARE = next(folder for folder in _PLACES if (folder / "tasks").is_dir())
 
 
 def shipped_tasks() -> list[str]:
-    """Names of the tasks that come with Prowl, such as "hyq/crouch", for read_task()."""
+    """Names of the shipped tasks, such as "hyq/crouch", for read_task()."""
     folder = SHARE / "tasks"
     return sorted(path.relative_to(folder).with_suffix("").as_posix() for path in folder.glob("*/*.toml"))
 
 
 def shipped_robots() -> list[str]:
-    """Names of the robots that come with Prowl, such as "hyq", for read_robot()."""
+    """Names of the shipped robots, such as "hyq", for read_robot()."""
     return sorted(path.stem for path in (SHARE / "robots").glob("*.toml"))
 
 
@@ -33,32 +33,30 @@ def _find(name: str | os.PathLike[str], shipped: list[str], folder: str) -> Path
     if path.is_file() or os.fspath(name) not in shipped:
         if not path.suffix and not path.exists():
             nearest = _prowl.did_you_mean(os.fspath(name), shipped)
-            raise _prowl.InputError(
-                f"{path}: no such file, nor one that comes with Prowl{nearest} Known: {', '.join(shipped)}"
-            )
+            raise _prowl.InputError(f"{path}: no such file, nor a shipped one{nearest} Known: {', '.join(shipped)}")
         return path
     return SHARE / folder / f"{name}.toml"
 
 
-# Has the URDFs of the shipped robots; HyQ's is also in Prowl's own wheel.
+# Contains the URDFs of the shipped robots; that of HyQ is also in Prowl's wheel.
 _ROBOTS = "example-robot-data==6.0.0"
 
 
 @contextmanager
 def _remedy(path: Path) -> Iterator[None]:
-    """For a shipped robot without its URDF, what to install in place of all the folders that were searched."""
+    """For a shipped robot without its URDF: names the package to install instead of all searched folders."""
     try:
         yield
     except _prowl.InputError as error:
         if SHARE not in path.parents or "package://example-robot-data" not in str(error):
             raise
         raise _prowl.InputError(
-            f"{path}: the URDF of its robot comes with another package: pip install {_ROBOTS}"
+            f"{path}: the URDF of its robot is in another package: pip install {_ROBOTS}"
         ) from error
 
 
 def _robot_of(task: Document, folder: Path) -> tuple[Document, tuple[Path, str] | None]:
-    """The task with the path of its robot file, and that file if the dict has a Robot."""
+    """The task with the path of its robot file, and that file if the dict contains a Robot."""
     if isinstance(task, str) or "robot" not in task:
         return task, None
     robot = task["robot"]
@@ -77,9 +75,9 @@ def _folders(package_dirs: Sequence[str | os.PathLike[str]]) -> list[str]:
 
 
 def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os.PathLike[str]] = ()) -> _prowl.Robot:
-    """Reads a robot file (docs/robot-file.md), or a robot that comes with Prowl by its name: read_robot("hyq").
+    """Reads a robot file (docs/robot-file.md), or a shipped robot by name: read_robot("hyq").
 
-    package_dirs: where to look for package://, before ROS's own places. Raises InputError with file, line and column.
+    package_dirs: folders to search for package://, before those of ROS. Raises InputError with file, line and column.
     """
     path = _find(robot, shipped_robots(), "robots")
     with _remedy(path):
@@ -92,10 +90,10 @@ def parse_robot(
     folder: str | os.PathLike[str] = ".",
     package_dirs: Sequence[str | os.PathLike[str]] = (),
 ) -> _prowl.Robot:
-    """A robot from the text of a robot file, or from a dict of the same keys, where arrays are NumPy's or lists. Paths in
-    it are relative to `folder`.
+    """A robot from the text of a robot file, or from a dict with the same keys and NumPy arrays or lists.
+    Paths in it are relative to `folder`.
 
-    Messages call it FOLDER/robot.toml, with the lines of the text; of a dict, of the text that it makes: look at the key.
+    Messages name FOLDER/robot.toml and lines of the text; for a dict look at the key.
     """
     return _prowl.parse_robot(toml_text(document), Path(folder) / "robot.toml", _folders(package_dirs))
 
@@ -109,11 +107,11 @@ def read_task(
     max_time: float | None = None,
     tolerance: float | None = None,
 ) -> _prowl.Task:
-    """Reads a task file (docs/task-file.md), or a task that comes with Prowl by its name: read_task("hyq/crouch").
+    """Reads a task file (docs/task-file.md), or a shipped task by name: read_task("hyq/crouch").
 
-    intervals, max_iterations, max_time [s] and tolerance take the place of the file's; intervals are those of all phases
-    together. package_dirs: where to look for package://, before ROS's own places. Raises InputError with file, line and
-    column.
+    intervals, max_iterations, max_time [s] and tolerance replace those of the file; intervals: of all phases
+    together. package_dirs: folders to search for package://, before those of ROS. Raises InputError with
+    file, line and column.
     """
     path = _find(task, shipped_tasks(), "tasks")
     with _remedy(path):
@@ -137,12 +135,12 @@ def parse_task(
     max_time: float | None = None,
     tolerance: float | None = None,
 ) -> _prowl.Task:
-    """A task from the text of a task file, or from a dict of the same keys, as tomllib.loads(task.text) gives it.
+    """A task from the text of a task file, or from a dict with the same keys, like tomllib.loads(task.text).
 
-    A dict may have a Robot, or the name of one that comes with Prowl, as its robot, and NumPy's arrays in place of lists. A
-    robot file that it names is relative to `folder`: task.path.parent for a task that was changed. The other arguments are
-    those of read_task(). Messages call it FOLDER/task.toml, with the lines of the text; of a dict, of the
-    text that it makes: look at the key.
+    A dict may contain a Robot, or the name of a shipped one, as its robot, and NumPy arrays instead of lists.
+    The path of a robot file is relative to `folder`: use task.path.parent for a changed task. The other
+    arguments are those of read_task(). Messages name FOLDER/task.toml and lines of the text; for a dict look
+    at the key.
     """
     document, robot_file = _robot_of(document, Path(folder))
     return _prowl.parse_task(

@@ -1,4 +1,4 @@
-"""Plans, as objects or as the folders that they are in."""
+"""Plans, as objects or folders."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _PLAN_FILES = ("plan.json", "trajectory.csv", "tracker.bin")
 
 
 def as_plan(plan: PlanOrFolder, package_dirs: Folders = ()) -> _prowl.Plan:
-    """The plan, read if it is a folder."""
+    """The plan, read if given as a folder."""
     if isinstance(plan, _prowl.Plan):
         return plan
     return _prowl.read_plan(os.fspath(plan), [os.fspath(folder) for folder in package_dirs])
@@ -26,8 +26,7 @@ def as_plan(plan: PlanOrFolder, package_dirs: Folders = ()) -> _prowl.Plan:
 
 @contextmanager
 def folder_with(plan: _prowl.Plan, simulation: _prowl.Simulation | None) -> Iterator[Path]:
-    """A folder that holds the plan and the simulation: the plan's own if that will do, or else one that lasts as long as
-    this."""
+    """A folder with plan and simulation: the plan folder if sufficient, or else a temporary one."""
     if plan.path is not None and simulation is None:
         yield plan.path
         return
@@ -45,7 +44,7 @@ def folder_with(plan: _prowl.Plan, simulation: _prowl.Simulation | None) -> Iter
 
 
 def output_folder(plan: _prowl.Plan, out: str | os.PathLike[str] | None, name: str) -> str:
-    """`out`, or else the folder of this name in that of the plan."""
+    """`out`, or else the folder `name` in the plan folder."""
     if out is not None:
         return os.fspath(out)
     if plan.path is None:

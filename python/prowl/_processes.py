@@ -1,4 +1,4 @@
-"""Processes of Linux that end together."""
+"""Linux processes that end together."""
 
 import ctypes
 import signal
@@ -7,5 +7,5 @@ _PR_SET_PDEATHSIG = 1  # of prctl(2)
 
 
 def die_with_parent() -> None:
-    """From now on the kernel kills this process when the thread that started it ends, however it ends."""
+    """Makes the kernel kill this process when the thread that started it ends."""
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)

@@ -1,9 +1,10 @@
-"""The verbs of the command that this package does. `prowl figures` and `prowl export` run this file (cli/verbs/python_verb.cpp):
+"""Verbs of the command that this package implements. `prowl figures` and `prowl export` run this file
+(cli/verbs/python_verb.cpp):
 
     _verb.py VERB OPTIONS
 
-Prints one JSON object a line: {"progress": [done, total]}, {"message": text}, and at the end {"error": text, "kind": as in
-docs/command-line.md}, or {"result": object, "text": the same for people}.
+Prints one JSON object per line: {"progress": [done, total]}, {"message": text}, and at the end {"error":
+text, "kind": as in docs/command-line.md}, or {"result": object, "text": the same for people}.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ LIBRARIES = {"figures": "numpy, scipy and matplotlib", "export": "numpy, mcap an
 
 def _say(**line: object) -> None:
     text = json.dumps(line, ensure_ascii=False) + "\n"
-    # Names of files may be no UTF-8, but JSON has to be.
+    # File names may not be UTF-8, but JSON must be.
     sys.stdout.buffer.write(text.encode("utf-8", "surrogateescape").decode("utf-8", "replace").encode())
     sys.stdout.buffer.flush()
 
@@ -75,7 +76,7 @@ def _export(options: argparse.Namespace) -> None:
 
 
 def _options() -> argparse.Namespace:
-    """The options, which the command has checked. Its --help explains them."""
+    """Options, checked and explained by the command."""
     parser = argparse.ArgumentParser()
     parser.error = lambda text: sys.exit(_say(error=text.removeprefix("argument "), kind="input"))
     parser.add_argument("verb", choices=LIBRARIES)
@@ -104,7 +105,7 @@ def _run(options: argparse.Namespace) -> None:
     try:
         {"figures": _figures, "export": _export}[options.verb](options)
     except tuple(kinds) as error:
-        is_option = str(error).startswith(("format: ", "joint: ", "rate: "))  # to the functions, an argument
+        is_option = str(error).startswith(("format: ", "joint: ", "rate: "))  # named like the argument of the function
         kind = next(kind for base, kind in kinds.items() if isinstance(error, base))
         _say(error=f"{'--' if is_option else ''}{error}", kind=kind)
 
@@ -115,9 +116,9 @@ def main() -> None:
     try:
         _run(options)
     except ModuleNotFoundError as error:
-        needed = f"need a Python with {LIBRARIES[options.verb]} (scripts/setup makes one in .venv): --python PATH"
+        needed = f"need a Python with {LIBRARIES[options.verb]} (scripts/setup installs one in .venv): --python PATH"
         _say(error=f"{sys.executable}: {error.name} is missing; {needed}", kind="input")
-    except ImportError as error:  # the compiled part is missing, or its libraries
+    except ImportError as error:  # compiled module or its libraries are missing
         _say(error=str(error), kind="files")
 
 

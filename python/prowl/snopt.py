@@ -4,7 +4,7 @@
     result = prowl.snopt.solve(program)
     program.judge(result.z).certificate
 
-SNOPT is commercial; Drake's wheels have it with the permission of its authors, for use through Drake.
+SNOPT is commercial; Drake's wheels contain it with the permission of its authors, for use through Drake.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ import numpy as np
 
 from . import _prowl
 
-DRAKE = "drake==1.51.1"  # the last with wheels for Python 3.11; SNOPT 7.4-1.2 is in it
+DRAKE = "drake==1.51.1"  # the last with wheels for Python 3.11; contains SNOPT 7.4-1.2
 
-# What SNOPT's INFO means (User's Guide 7.4, section 8.6), as a status of Prowl's and in words.
+# SNOPT's INFO (User's Guide 7.4, section 8.6) -> status of Prowl, message.
 _INFO = {
     1: ("converged", "optimality conditions satisfied"),
     2: ("solver_failed", "feasible, but not shown to be optimal"),
-    3: ("solver_failed", "the accuracy that was asked for could not be reached"),
+    3: ("solver_failed", "the requested accuracy could not be reached"),
     11: ("infeasible", "infeasible linear constraints"),
     12: ("infeasible", "infeasible linear equalities"),
     13: ("infeasible", "nonlinear infeasibilities minimised"),
@@ -46,16 +46,16 @@ _INFO = {
     52: ("solver_failed", "incorrect constraint derivatives"),
 }
 
-# A block of rows is evaluated with derivatives in all variables of the block: narrow ones keep those arrays small.
+# A block of rows has dense derivatives in all its variables: narrow blocks keep the arrays small.
 _WIDEST_BLOCK = 160
 
-# Up to so many variables SNOPT keeps the whole quasi-Newton matrix. It takes half the iterations or fewer than with the last ten updates,
-# its default beyond 75, and where the paper's contact rows slow it down it is what makes it end; on larger programs the n² numbers
-# take more time than that saves (docs/solvers.md).
+# Up to this many variables SNOPT keeps the full quasi-Newton matrix. This halves the iterations
+# compared with the last ten updates, its default beyond 75, and with the paper's contact rows only
+# this converges. On larger programs the n² numbers cost more than they save (docs/solvers.md).
 _MOST_FOR_FULL_MEMORY = 500
 
-# Drake opens "Print file" as this Fortran unit and lets SNOPT write no more than its name there; the summary, which has the
-# number of iterations, goes to any unit that one names.
+# Drake opens "Print file" as this Fortran unit, with little output. The summary, which contains the
+# number of iterations, goes to any chosen unit.
 _PRINT_UNIT = 10
 
 
@@ -65,23 +65,23 @@ class _TimeUp(Exception):
 
 @dataclass(frozen=True)
 class Result:
-    """Where SNOPT stopped, and why. Whether that is any good: program.judge(result.z)."""
+    """Result of SNOPT. To certify it: program.judge(result.z)."""
 
-    z: np.ndarray  #: the solution, or the point of least violation that was seen (num_variables)
+    z: np.ndarray  #: the solution, or the evaluated point of smallest violation (num_variables)
     status: str  #: "converged", "infeasible", "iteration_limit", "time_limit", "evaluation_failed" or "solver_failed"
     message: str
-    info: int  #: SNOPT's own code; 0 if it did not return
-    iterations: int  #: major ones
-    evaluations: int  #: of the program with its derivatives
+    info: int  #: SNOPT's INFO; 0 if it did not return
+    iterations: int  #: major iterations
+    evaluations: int  #: of the program with derivatives
     seconds: float
-    summary: str  #: what SNOPT prints: one line a major iteration
+    summary: str  #: output of SNOPT: one line per major iteration
     multipliers: (
         np.ndarray | None
-    )  #: of the constraints, in cost + multipliers . constraints; None unless SNOPT finished
+    )  #: of the constraints, in cost + multipliers . constraints; None unless converged or infeasible
 
 
 def _violation(program: _prowl.Program, z: np.ndarray, rows: np.ndarray) -> float:
-    """Largest of rows and bounds, unscaled."""
+    """Largest violation of rows and bounds, unscaled."""
     parts = (
         program.variable_lower - z,
         z - program.variable_upper,
@@ -94,13 +94,14 @@ def _violation(program: _prowl.Program, z: np.ndarray, rows: np.ndarray) -> floa
 @dataclass
 class _Block:
     rows: range
-    columns: np.ndarray  # in order
-    places: slice  # in the Jacobian's values, once they are sorted by row
-    at: tuple[np.ndarray, np.ndarray] = field(repr=False)  # of those places in the block
+    columns: np.ndarray  # ascending
+    places: slice  # in the Jacobian's values, sorted by row
+    at: tuple[np.ndarray, np.ndarray] = field(repr=False)  # row and column of these entries in the block
 
 
 def _blocks(pattern: tuple[np.ndarray, np.ndarray], num_rows: int) -> tuple[np.ndarray, list[_Block]]:
-    """The order that sorts the places by row, and neighbouring rows together as long as they share most of their variables."""
+    """The order that sorts entries by row, and blocks of neighbouring rows with at most _WIDEST_BLOCK
+    variables."""
     order = np.lexsort((pattern[1], pattern[0]))
     rows, columns = pattern[0][order], pattern[1][order]
     ends = np.searchsorted(rows, np.arange(num_rows + 1))
@@ -120,7 +121,7 @@ def _blocks(pattern: tuple[np.ndarray, np.ndarray], num_rows: int) -> tuple[np.n
 
 
 class _Watched:
-    """The program as Drake's functions see it: evaluated once a point, when Drake tells of the whole of it."""
+    """The program for Drake's functions: evaluated once per point, when Drake announces it."""
 
     def __init__(
         self,
@@ -153,16 +154,17 @@ class _Watched:
             if self.on_evaluation is not None:
                 self.on_evaluation(self.count, self.cost, worst)
         except BaseException as error:
-            self.error = error  # Drake passes on no more than its words
+            self.error = error  # Drake passes on only its message
             raise
 
 
 def _add(program: Any, z: np.ndarray, watched: _Watched) -> None:
-    """Cost and constraints to Drake's program, in blocks: Drake gives each function derivatives in all of its variables."""
+    """Adds cost and constraints to Drake's program, in blocks: Drake uses dense derivatives in all variables
+    of a function."""
     from pydrake.autodiffutils import ExtractValue, InitializeAutoDiff
 
     def at_the_point(x: np.ndarray, columns: np.ndarray) -> bool:
-        """Whether derivatives are asked for. Drake evaluates all functions at the point that it has just told of."""
+        """True if derivatives are requested. Drake evaluates all functions at the announced point."""
         wants_derivatives = x.dtype == object
         assert np.array_equal(ExtractValue(x).ravel() if wants_derivatives else x, watched.z[columns])
         return wants_derivatives
@@ -200,15 +202,15 @@ def _options(
     start: np.ndarray, tolerance: float, max_iterations: int, print_file: str, others: Mapping[str, int | float | str]
 ) -> dict[str, int | float | str]:
     return {
-        # SNOPT takes a row for met within this times |z|, and Prowl's tolerance is on the row itself.
+        # SNOPT accepts a row within this times |z|; Prowl's tolerance applies to the row itself.
         "Major feasibility tolerance": tolerance / max(1.0, float(np.linalg.norm(start))),
         "Major optimality tolerance": tolerance,
         "Major iterations limit": max_iterations,
-        "Iterations limit": 1_000_000,  # minor ones: the limit is on the major ones
+        "Iterations limit": 1_000_000,  # minor iterations; max_iterations limits the major ones
         "Superbasics limit": start.size + 1,  # the default ends programs with more than 500 degrees of freedom
         "Hessian full memory" if start.size <= _MOST_FOR_FULL_MEMORY else "Hessian limited memory": "",
-        "Derivative option": 1,  # all are given
-        "Verify level": -1,  # and not to be checked by differences
+        "Derivative option": 1,  # all derivatives are given
+        "Verify level": -1,  # do not check them by differences
         "Print file": print_file,
         "Summary file": _PRINT_UNIT,
     } | dict(others)
@@ -231,13 +233,13 @@ def solve(
 ) -> Result:
     """Solves a program with exact, sparse first derivatives.
 
-    start: program.start if None. tolerance: on optimality, as SNOPT measures it, and on constraint violation. max_iterations:
-    major ones. options: SNOPT's own by name, such as {"Scale option": 2}, before those that this function sets.
-    on_evaluation: called with number, cost and constraint violation of each evaluation; what it raises ends the solve and is
-    raised here.
+    start: program.start if None. tolerance: on optimality, as SNOPT measures it, and on constraint violation.
+    max_iterations: major ones. options: of SNOPT by name, such as {"Scale option": 2}; they override those
+    set here. on_evaluation: called with number, cost and constraint violation of each evaluation; its
+    exceptions end the solve and are raised here.
 
-    Raises InputError if pydrake is not installed. A program that is too hard is a status. An evaluation that fails ends the
-    solve: Drake has no way to tell SNOPT to take a shorter step.
+    Raises InputError if pydrake is not installed. A hard program gives a status. A failed evaluation ends the
+    solve: Drake cannot ask SNOPT for a shorter step.
     """
     z = np.array(program.start if start is None else start, dtype=float)
     if z.shape != (program.num_variables,):
@@ -249,7 +251,7 @@ def solve(
     except ModuleNotFoundError as error:
         if error.name is None or not error.name.startswith("pydrake"):
             raise
-        raise _prowl.InputError(f"SNOPT comes with Drake, which is not installed: pip install {DRAKE}") from error
+        raise _prowl.InputError(f"SNOPT is part of Drake, which is not installed: pip install {DRAKE}") from error
 
     begin = time.perf_counter()
     watched = _Watched(program, z, tolerance, max_seconds, on_evaluation)
@@ -257,7 +259,7 @@ def solve(
     variables = drake.NewContinuousVariables(z.size)
     drake.AddBoundingBoxConstraint(program.variable_lower, program.variable_upper, variables)
     _add(drake, variables, watched)
-    # Called with each point before all else is evaluated there.
+    # Called with each point before evaluations there.
     drake.AddVisualizationCallback(watched.visit, variables)
     summary = ""
 
@@ -275,7 +277,8 @@ def solve(
         try:
             found = SnoptSolver().Solve(drake, z, settings)
         except RuntimeError:
-            # Drake's program keeps our functions where the garbage collector does not look: no cycle must go through it.
+            # Drake's program holds our functions outside the garbage collector: avoid reference
+            # cycles through it.
             error, watched.error = watched.error, None
             if isinstance(error, _TimeUp):
                 return outcome("time_limit", str(error), watched.best)

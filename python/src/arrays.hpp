@@ -11,16 +11,16 @@ namespace prowl::python {
 
 namespace nb = nanobind;
 
-/// One row an instant: contiguous, as NumPy has it.
+/// One row per instant: contiguous, like NumPy.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 using Vector = nb::ndarray<nb::numpy, const double, nb::ndim<1>>;
 using Integers = nb::ndarray<nb::numpy, const int, nb::ndim<1>>;
 using Matrix = nb::ndarray<nb::numpy, const double, nb::ndim<2>>;
 using Block = nb::ndarray<nb::numpy, const double, nb::ndim<3>>;
-using Array = nb::ndarray<nb::numpy, double>;  ///< of any number of dimensions, a new one
+using Array = nb::ndarray<nb::numpy, double>;  ///< a new array of any dimension
 
-/// Read-only views of what `owner` holds: no copy; the view keeps the owner alive.
+/// Read-only views of data of `owner`, without copy; a view keeps the owner alive.
 inline Vector view(const Eigen::VectorXd& values, nb::handle owner) {
   return {values.data(), {static_cast<std::size_t>(values.size())}, owner};
 }
@@ -30,16 +30,16 @@ inline Integers view(const Eigen::VectorXi& values, nb::handle owner) {
 inline Matrix view(const RowMatrix& rows, nb::handle owner) {
   return {rows.data(), {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols())}, owner};
 }
-/// Column by column in memory: its columns as rows.
+/// View with columns as rows; column-major in memory.
 inline Matrix transposed_view(const Eigen::MatrixXd& columns, nb::handle owner) {
   return {columns.data(), {static_cast<std::size_t>(columns.cols()), static_cast<std::size_t>(columns.rows())}, owner};
 }
-/// Rows of three numbers a contact: instants x contacts x 3.
+/// Rows of three numbers per contact as instants x contacts x 3.
 inline Block contacts_view(const RowMatrix& rows, nb::handle owner) {
   return {rows.data(), {static_cast<std::size_t>(rows.rows()), static_cast<std::size_t>(rows.cols()) / 3, 3}, owner};
 }
 
-/// The vector of every point, as rows.
+/// One vector of every point, as rows.
 template <class Point>
 RowMatrix rows_of(const std::vector<Point>& points, Eigen::VectorXd Point::* vector) {
   if (points.empty()) return {};
@@ -49,7 +49,7 @@ RowMatrix rows_of(const std::vector<Point>& points, Eigen::VectorXd Point::* vec
   return rows;
 }
 
-/// A new array with numbers of its own.
+/// A new array that owns its numbers.
 inline Array new_array(std::vector<double> values, const std::vector<std::size_t>& shape) {
   auto kept = std::make_unique<std::vector<double>>(std::move(values));
   const nb::capsule owner(kept.get(), [](void* memory) noexcept { delete static_cast<std::vector<double>*>(memory); });

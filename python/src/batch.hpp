@@ -10,10 +10,10 @@
 
 namespace prowl::python {
 
-/// What functions of one state or of many take: `width` numbers, or N rows of them.
+/// Argument of functions of one or many states: `width` numbers, or N rows of them.
 using Argument = nb::ndarray<const double, nb::c_contig, nb::device::cpu>;
 
-/// An argument whose shape was checked, row by row. Needs no GIL.
+/// An argument of checked shape, row by row. Needs no GIL.
 class Batch {
  public:
   Batch(const Argument& array, Eigen::Index width, const char* name)
@@ -39,7 +39,7 @@ class Batch {
   const double* data_;
 };
 
-/// Throws InputError unless all have as many rows as the first, and are single if it is.
+/// Throws InputError unless all have as many rows as `first`, and are single if it is.
 inline void check_same_rows(const Batch& first, std::initializer_list<std::pair<const char*, const Batch*>> others) {
   for (const auto& [name, other] : others) {
     if (other->rows() == first.rows() && other->single() == first.single()) continue;
@@ -47,7 +47,7 @@ inline void check_same_rows(const Batch& first, std::initializer_list<std::pair<
   }
 }
 
-/// Throws InputError unless the quaternions of all configurations are of unit length.
+/// Throws InputError unless all quaternions have unit length.
 inline void check_configurations(const Batch& q, const char* name) {
   constexpr double kTolerance = 1e-6;
   for (Eigen::Index i = 0; i < q.rows(); ++i) {

@@ -4,7 +4,7 @@
 
 namespace prowl::python {
 
-// One for each subject, in the order in which they need each other's types.
+// One per subject, in order of their dependence on types.
 void bind_errors(nanobind::module_& module);
 void bind_files(nanobind::module_& module);
 void bind_robot(nanobind::module_& module);

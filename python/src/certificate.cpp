@@ -13,14 +13,13 @@ namespace prowl::python {
 namespace nb = nanobind;
 
 void bind_certificate(nb::module_& module) {
-  nb::class_<CertificateCheck>(module, "Check", "One thing that has to hold, at its worst moment.")
+  nb::class_<CertificateCheck>(module, "Check", "A check of the certificate at its worst moment.")
       .def_ro("name", &CertificateCheck::name, "\"contact drift\", \"friction cone\", \"joint torque\", ...")
-      .def_ro("worst", &CertificateCheck::worst,
-              "Largest value, in `unit`; below zero it is what is left to the bound.")
-      .def_ro("limit", &CertificateCheck::limit, "It passes if worst <= limit.")
-      .def_ro("certified_limit", &CertificateCheck::certified_limit, "What grade \"certified\" asks for.")
+      .def_ro("worst", &CertificateCheck::worst, "Largest value, in `unit`; negative values are remaining margin.")
+      .def_ro("limit", &CertificateCheck::limit, "The check passes if worst <= limit.")
+      .def_ro("certified_limit", &CertificateCheck::certified_limit, "Limit of grade \"certified\".")
       .def_ro("unit", &CertificateCheck::unit)
-      .def_ro("time", &CertificateCheck::time, "When the worst happens [s].")
+      .def_ro("time", &CertificateCheck::time, "Time of the worst value [s].")
       .def_ro("where", &CertificateCheck::where, "Contact, joint or coordinate; \"\" if none.")
       .def_ro("passed", &CertificateCheck::passed)
       .def("__repr__", [](const CertificateCheck& check) {
@@ -29,15 +28,15 @@ void bind_certificate(nb::module_& module) {
       });
   nb::class_<Certificate>(
       module, "Certificate",
-      "Whether a finished motion is what was asked for, by code that shares neither dynamics nor transcription\n"
-      "with the planner (docs/verification.md). print() shows it as a table, and so does a notebook.")
+      "Checks of a finished motion by code that shares neither dynamics nor transcription with the planner\n"
+      "(docs/verification.md). print() and notebooks show it as a table.")
       .def_ro("passed", &Certificate::passed)
       .def_prop_ro(
           "grade", [](const Certificate& certificate) { return to_string(certificate.grade); },
           "\"failed\", \"draft\" or \"certified\".")
       .def_ro("checks", &Certificate::checks, nb::rv_policy::reference_internal)
       .def_ro("redundant_contacts", &Certificate::redundant_contacts,
-              "Contacts whose forces are one choice of many; those of all others follow from the motion.")
+              "Contacts whose forces are not unique; the motion determines all others.")
       .def("__str__", &certificate_summary)
       .def(
           "_repr_html_", [](nb::handle self) { return call_package("prowl._show.notebook", "certificate_html", self); },

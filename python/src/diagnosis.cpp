@@ -16,7 +16,7 @@ namespace nb = nanobind;
 namespace prowl::python {
 namespace {
 
-/// What was found, in words: its numbers are in the JSON.
+/// A diagnosis with its texts and JSON.
 struct DiagnosisObject {
   Diagnosis found;
   std::string headline, summary, json;
@@ -48,34 +48,33 @@ DiagnosisObject run_diagnosis(const Task& task, double max_time, const nb::objec
 
 void bind_diagnosis(nb::module_& module) {
   nb::class_<DiagnosisObject>(module, "Diagnosis",
-                              "Why a task has no plan, and what would change that (docs/diagnose.md).")
+                              "Why a task has no plan, and changes that would help (docs/diagnose.md).")
       .def_prop_ro(
           "solvable",
           [](const DiagnosisObject& d) { return d.found.is_undecided() ? std::optional<bool>() : d.found.solvable; },
-          "Whether the task as it is has a plan; None if that is not known, for time or iterations were up.")
+          "True if the unchanged task has a plan; None if time or iterations ran out before this was known.")
       .def_prop_ro(
-          "headline", [](const DiagnosisObject& d) { return d.headline; }, "All of it in one sentence.")
+          "headline", [](const DiagnosisObject& d) { return d.headline; }, "The result in one sentence.")
       .def_prop_ro(
           "reasons", [](const DiagnosisObject& d) { return d.found.reasons; }, "Proofs that there is no such motion.")
       .def_prop_ro(
           "hints", [](const DiagnosisObject& d) { return d.found.hints; },
           "Doubts about postures of the initial guess.")
       .def(
-          "summary", [](const DiagnosisObject& d) { return d.summary; }, "What `prowl diagnose` prints.")
+          "summary", [](const DiagnosisObject& d) { return d.summary; }, "Text that `prowl diagnose` prints.")
       .def(
-          "to_json", [](const DiagnosisObject& d) { return d.json; }, "What `prowl diagnose --json` has as result.")
+          "to_json", [](const DiagnosisObject& d) { return d.json; }, "Result of `prowl diagnose --json`.")
       .def("__repr__", [](const DiagnosisObject& d) { return "<prowl.Diagnosis " + d.headline + ">"; });
-  module.def("diagnose", &run_diagnosis, nb::arg("task"), nb::kw_only(),
-             nb::arg("max_time") = DiagnosisOptions().max_seconds, nb::arg("on_step") = nb::none(),
-             nb::sig(fmt::format("def diagnose(task: Task, *, max_time: float = {:.1f}, "
-                                 "on_step: collections.abc.Callable[[str], object] | None = None) -> Diagnosis",
-                                 DiagnosisOptions().max_seconds)
-                         .c_str()),
-             "Finds out why a task has no plan: which limit, in which phase, at what time, on which foot or joint, by "
-             "how much, and the\n"
-             "smallest changes of one number that make it solvable. max_time: of all of it [s]. on_step: called with a "
-             "line on what is\n"
-             "being tried; what it raises, or Ctrl-C, ends the diagnosis and is raised here.");
+  module.def(
+      "diagnose", &run_diagnosis, nb::arg("task"), nb::kw_only(), nb::arg("max_time") = DiagnosisOptions().max_seconds,
+      nb::arg("on_step") = nb::none(),
+      nb::sig(fmt::format("def diagnose(task: Task, *, max_time: float = {:.1f}, "
+                          "on_step: collections.abc.Callable[[str], object] | None = None) -> Diagnosis",
+                          DiagnosisOptions().max_seconds)
+                  .c_str()),
+      "Finds out why a task has no plan: which limit, phase, time, foot or joint, by how much, and the smallest\n"
+      "changes of one number that make it solvable. max_time: total time limit [s]. on_step: called with a line\n"
+      "about each step; its exceptions, and Ctrl-C, end the diagnosis and are raised here.");
 }
 
 }  // namespace prowl::python

@@ -17,18 +17,18 @@
 namespace prowl::python {
 namespace {
 
-/// First derivatives of one quantity in each of the arguments that it has.
+/// First derivatives of one quantity in each of its arguments.
 struct Derivatives {
   std::optional<Array> q, v, a, tau;
 };
 
-/// What forward() and residual() give: `value` is the acceleration or the residual.
+/// Result of forward() and residual(): `value` is the acceleration or the residual.
 struct Evaluation {
   Array value, force;
   std::optional<Derivatives> value_derivatives, force_derivatives;
 };
 
-/// prowl.Dynamics: one state or many, with a work space for each thread.
+/// prowl.Dynamics: for one or many states, with work space per thread.
 class Dynamics {
  public:
   Dynamics(const RobotModel& robot, const std::optional<std::vector<std::string>>& contacts, int threads)
@@ -224,12 +224,12 @@ class Dynamics {
     return q;
   }
 
-  /// Without the GIL; one call at a time, for the work spaces are this object's.
+  /// Releases the GIL; one call at a time, as calls share work space.
   template <class Function>
   void for_each(Eigen::Index rows, const Function& function) {
     const nb::gil_scoped_release others_may_run;
     const std::lock_guard lock(busy_);
-    constexpr Eigen::Index kRows = 4096;  // between two looks for Ctrl-C
+    constexpr Eigen::Index kRows = 4096;  // between checks for Ctrl-C
     for (Eigen::Index first = 0; first < rows; first += kRows) {
       if (first > 0) check_signals();
       team_.for_each(static_cast<int>(std::min(kRows, rows - first)),
@@ -271,34 +271,34 @@ Array difference_rows(const Argument& from_array, const Argument& to_array) {
 }  // namespace
 
 void bind_dynamics(nb::module_& module) {
-  constexpr auto kKept = nb::rv_policy::reference;  // arrays keep their memory themselves
+  constexpr auto kKept = nb::rv_policy::reference;  // arrays own their memory
   nb::class_<Derivatives>(
       module, "Derivatives",
-      "First derivatives of one quantity, of its shape with one more axis at the end. In q they are with respect to\n"
-      "the tangent of integrate(): displacement of the base in the WORLD, rotation vector in the base frame, joints.")
+      "First derivatives of one quantity: its shape with one more axis at the end. In q they refer to the\n"
+      "tangent of integrate(): displacement of the base in the WORLD, rotation vector in the base frame, joints.")
       .def_ro("q", &Derivatives::q, kKept, "(..., nv)")
       .def_ro("v", &Derivatives::v, kKept, "(..., nv)")
-      .def_ro("a", &Derivatives::a, kKept, "(..., nv); None where there is no such argument.")
+      .def_ro("a", &Derivatives::a, kKept, "(..., nv); None if the function has no such argument.")
       .def_ro("tau", &Derivatives::tau, kKept, "(..., nu)");
   nb::class_<Evaluation>(module, "Evaluation",
-                         "What Dynamics gives at one state, or at N of them: then with a first axis of N.")
+                         "Result of Dynamics at one state, or at N states with a first axis of N.")
       .def_ro("value", &Evaluation::value, kKept, "The acceleration or the residual, (nv).")
       .def_ro("force", &Evaluation::force, kKept, "Contact forces on the robot, (contacts, 3), world axes [N].")
-      .def_ro("value_derivatives", &Evaluation::value_derivatives, "None unless asked for.")
-      .def_ro("force_derivatives", &Evaluation::force_derivatives, "None unless asked for.");
+      .def_ro("value_derivatives", &Evaluation::value_derivatives, "None unless requested.")
+      .def_ro("force_derivatives", &Evaluation::force_derivatives, "None unless requested.");
   nb::class_<Dynamics>(
       module, "Dynamics",
-      "Projected dynamics of a robot whose contacts hold (docs/theory.md), for one state or for many: q (nq) or (N, "
+      "Projected dynamics of a robot with contacts in stance (docs/theory.md), for one or many states: q (nq) or (N, "
       "nq),\n"
-      "v and a (nv) or (N, nv), tau (nu) or (N, nu). Conventions are those of Robot. The GIL is released; one object\n"
+      "v and a (nv) or (N, nv), tau (nu) or (N, nu). Conventions: see Robot. Releases the GIL; one object\n"
       "serves one call at a time.\n\n"
-      "contacts: names, any set, also none or redundant ones (then forces are the choice of least norm); None: all\n"
-      "of the robot's. threads: that share out the rows; results do not depend on it.")
+      "contacts: names, possibly none or redundant ones (then forces have least norm); None: all of the robot.\n"
+      "threads: share the rows; results do not depend on it.")
       .def(nb::init<const RobotModel&, const std::optional<std::vector<std::string>>&, int>(), nb::arg("robot"),
            nb::arg("contacts").none() = nb::none(), nb::arg("threads") = 1)
-      .def_prop_ro("contact_names", &Dynamics::contact_names, "In the order of the forces.")
+      .def_prop_ro("contact_names", &Dynamics::contact_names, "Names in the order of the forces.")
       .def("forward", &Dynamics::forward, nb::arg("q"), nb::arg("v"), nb::arg("tau"), nb::arg("derivatives") = false,
-           "Accelerations and contact forces that torques cause: value is a (nv), rates of the numbers in v [m/s^2, "
+           "Accelerations and contact forces caused by torques: value is a (nv), rates of the components of v [m/s^2, "
            "rad/s^2].")
       .def("residual", &Dynamics::residual, nb::arg("q"), nb::arg("v"), nb::arg("a"), nb::arg("tau"),
            nb::arg("derivatives") = false,
@@ -307,13 +307,14 @@ void bind_dynamics(nb::module_& module) {
       .def("mass_matrix", &Dynamics::mass_matrix, nb::arg("q"), "M(q), (nv, nv) [kg, kg m, kg m^2].")
       .def("bias", &Dynamics::bias, nb::arg("q"), nb::arg("v"),
            "h(q, v), (nv) [N, N m]: Coriolis, centrifugal and gravity forces; M a + h = S' tau + J' f.")
-      .def("contact_positions", &Dynamics::contact_positions, nb::arg("q"), "In the world, (contacts, 3) [m].")
+      .def("contact_positions", &Dynamics::contact_positions, nb::arg("q"),
+           "Positions in the world, (contacts, 3) [m].")
       .def("contact_jacobian", &Dynamics::contact_jacobian, nb::arg("q"),
            "J, (contacts, 3, nv): velocity of the contact points in the world is J v [m/s].")
       .def("contact_acceleration", &Dynamics::contact_acceleration, nb::arg("q"), nb::arg("v"), nb::arg("a"),
            "J a + Jdot v, (contacts, 3): acceleration of the contact points in the world [m/s^2].")
       .def_prop_ro("contact_joints", &Dynamics::contact_joints,
-                   "Of each contact, the names of the joints that move it, from the base to the tip.");
+                   "Per contact, names of the joints that move it, from the base to the tip.");
   module.def(
       "integrate", &integrate_rows, nb::arg("q"), nb::arg("tangent"),
       "q moved by a tangent (nv): displacement of the base in the WORLD [m], rotation vector in the base frame [rad],\n"

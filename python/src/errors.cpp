@@ -15,7 +15,7 @@ nb::tuple also(nb::handle error, PyObject* kind) { return nb::make_tuple(error, 
 
 void document(nb::handle type, const char* text) { nb::setattr(type, "__doc__", nb::str(text)); }
 
-PyObject* interrupted_type = nullptr;  // of this module, which is loaded once in a process
+PyObject* interrupted_type = nullptr;  // the module is loaded once per process
 
 }  // namespace
 
@@ -26,24 +26,22 @@ void raise_interrupted(nb::handle plan) {
   throw nb::python_error();
 }
 
-/// The hierarchy of prowl/error.hpp, each also of the kind that Python's own functions raise in such a case.
+/// The hierarchy of prowl/error.hpp; each class also derives from the matching Python exception.
 void bind_errors(nb::module_& module) {
   const nb::exception<Error> error(module, "Error", PyExc_RuntimeError);
-  document(error,
-           "Base of all that Prowl raises on purpose. The message says what is wrong, where, and what would be right.");
+  document(error, "Base of all exceptions of Prowl. Messages contain the error, its location, and the remedy.");
   const nb::exception<InputError> input(module, "InputError", also(error, PyExc_ValueError));
-  document(input,
-           "The caller or a file asks for something that cannot be: unknown name, wrong shape, value out of range.");
+  document(input, "Invalid input of the caller or a file: unknown name, wrong shape, value out of range.");
   const nb::exception<FileError> file(module, "FileError", also(error, PyExc_OSError));
   document(file, "A file or a folder cannot be read or written.");
   const nb::exception<NumericalError> numerical(module, "NumericalError", also(error, PyExc_ArithmeticError));
-  document(numerical, "A model evaluation gave NaN or infinity, or a matrix that must be regular is not.");
+  document(numerical, "A model evaluation gave NaN or infinity, or a matrix is singular.");
   nb::register_exception_translator(
       [](const std::exception_ptr& thrown, void* type) {
         try {
           std::rethrow_exception(thrown);
         } catch (
-            const TrackerError& tracker_error) {  // not of the hierarchy: it goes on robots without the rest of Prowl
+            const TrackerError& tracker_error) {  // outside the hierarchy, as the tracker runs on robots without Prowl
           PyErr_SetString(static_cast<PyObject*>(type), tracker_error.what());
         }
       },
@@ -51,10 +49,10 @@ void bind_errors(nb::module_& module) {
 
   const std::string name = nb::cast<std::string>(module.attr("__name__")) + ".Interrupted";
   const nb::object interrupted = nb::steal(PyErr_NewException(name.c_str(), PyExc_KeyboardInterrupt, nullptr));
-  document(interrupted,
-           "Ctrl-C, or the stop button of a notebook, while solve() ran: a KeyboardInterrupt. Its attribute `plan` is "
-           "the best\n"
-           "motion so far, with status \"interrupted\".");
+  document(
+      interrupted,
+      "Ctrl-C, or the stop button of a notebook, during solve(): a KeyboardInterrupt. Its attribute `plan` is the\n"
+      "best motion so far, with status \"interrupted\".");
   module.attr("Interrupted") = interrupted;
   interrupted_type = interrupted.ptr();
 }

@@ -26,11 +26,12 @@ std::map<std::string, std::string> contents(const Files& files) {
   return texts;
 }
 
-/// The folder is made if it is missing, and may hold other files.
+/// Creates the folder if missing; it may contain other files.
 void write_files(const fs::path& folder, const Files& files) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) throw FileError(fmt::format("{}: cannot make this folder", folder.string()));
+  if (error || !fs::is_directory(folder))
+    throw FileError(fmt::format("{}: cannot create this folder", folder.string()));
   write_files_atomically(folder, contents(files));
 }
 
@@ -42,23 +43,24 @@ std::vector<std::string> export_format_names() {
 
 }  // namespace
 
-/// For functions of the package that write files as the command does.
+/// For functions of the package that write files like the command.
 void bind_files(nb::module_& module) {
   module.def("check_replaceable", &check_replaceable, nb::arg("folder"), nb::arg("own_names"),
-             "Raises FileError unless the folder is missing or holds only files with these names.");
+             "Raises FileError unless the folder is missing or contains only files with these names.");
   module.def(
       "write_folder",
       [](const fs::path& folder, const Files& files, const std::set<std::string>& own_names) {
         write_folder_atomically(folder, contents(files), own_names);
       },
       nb::arg("folder"), nb::arg("files"), nb::arg("own_names"),
-      "Makes a folder hold exactly these files, whole or not at all. Other files in it than own_names: FileError.");
+      "Replaces the content of a folder by these files, atomically. Raises FileError if it contains files other than "
+      "own_names.");
   module.def("write_files", &write_files, nb::arg("folder"), nb::arg("files"),
-             "Writes files beside others into a folder, each whole or not at all.");
+             "Writes files into a folder with others, each atomically.");
   module.def("figure_file_names", &figure_file_names, "Names of the files that figures() may write.");
   module.def("export_format_names", &export_format_names, "Formats of export().");
   module.def("did_you_mean", &did_you_mean, nb::arg("wrong"), nb::arg("names"),
-             "The end of a message: \"; did you mean 'x'?\"");
+             "End of a message: \"; did you mean 'x'?\"");
 }
 
 }  // namespace prowl::python

@@ -4,7 +4,7 @@
 
 namespace prowl::python {
 
-/// Raises prowl.Interrupted with that plan.
+/// Raises prowl.Interrupted with this plan.
 [[noreturn]] void raise_interrupted(nanobind::handle plan);
 
 }  // namespace prowl::python

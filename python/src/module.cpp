@@ -7,7 +7,7 @@
 
 NB_MODULE(_prowl, module) {
   using namespace prowl::python;
-  module.doc() = "Prowl's library as seen from Python; use it through the package prowl.";
+  module.doc() = "Bindings of Prowl's library; use the package prowl.";
   bind_errors(module);
   prowl::check_processor();
   bind_files(module);
@@ -24,6 +24,6 @@ NB_MODULE(_prowl, module) {
   bind_diagnosis(module);
   bind_dynamics(module);
   bind_program(module);
-  module.def("versions", &prowl::all_versions, "Versions of Prowl and of what it uses.");
+  module.def("versions", &prowl::all_versions, "Versions of Prowl and its libraries.");
   module.attr("__version__") = PROWL_VERSION;
 }

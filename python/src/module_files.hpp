@@ -7,7 +7,7 @@
 
 namespace prowl::python {
 
-/// Where this module looks for package://, these folders first (session/environment.hpp).
+/// Folders to search for package://, these first (session/environment.hpp).
 PackageSearch package_search(const std::vector<std::string>& package_dirs);
 
 }  // namespace prowl::python

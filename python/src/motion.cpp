@@ -30,7 +30,7 @@ Trajectory Motion::trajectory() const {
 
 void bind_motion(nb::module_& module) {
   const auto motion = [](nb::handle self) -> const Motion& { return nb::cast<const Motion&>(self); };
-  nb::class_<Motion>(module, "Motion", "A motion at N instants. All arrays are read-only and one piece of memory each.")
+  nb::class_<Motion>(module, "Motion", "A motion at N instants. Arrays are read-only and contiguous.")
       .def_prop_ro(
           "t", [=](nb::handle self) { return view(motion(self).t, self); }, "Times (N) [s].")
       .def_prop_ro(
@@ -43,7 +43,7 @@ void bind_motion(nb::module_& module) {
           "Velocities (N, nv): base twist in the base frame [m/s, rad/s], joint rates.")
       .def_prop_ro(
           "a", [=](nb::handle self) { return view(motion(self).a, self); },
-          "Accelerations (N, nv): rates of the numbers in v [m/s^2, rad/s^2].")
+          "Accelerations (N, nv): rates of the components of v [m/s^2, rad/s^2].")
       .def_prop_ro(
           "tau", [=](nb::handle self) { return view(motion(self).tau, self); }, "Torques (N, nu) [N m or N].")
       .def_prop_ro(

@@ -8,7 +8,7 @@
 
 namespace prowl::python {
 
-/// A trajectory as arrays, one row a point.
+/// A trajectory as arrays, one row per point.
 struct Motion {
   explicit Motion(const Trajectory& trajectory);
   Trajectory trajectory() const;

@@ -6,7 +6,7 @@
 
 namespace prowl::python {
 
-/// Calls a function of the package that is written in Python. It is imported at the call: the package imports this
+/// Calls a Python function of the package. Imports it at the call, as the package imports this
 /// module first.
 template <class... Arguments>
 nanobind::object call_package(const char* module, const char* function, Arguments&&... arguments) {

@@ -47,9 +47,8 @@ void bind_page(nb::module_& module) {
   module.def("report_page", &report_page, nb::arg("plan"), nb::kw_only(), nb::arg("directory"),
              nb::arg("template_html"), nb::arg("simulation_csv").none() = nb::none(),
              nb::arg("simulation_json").none() = nb::none(), nb::arg("package_dirs") = std::vector<std::string>{},
-             "The page that replays a plan, made from the page without data, and its warnings. directory: that of the "
-             "plan, \"\" if it\n"
-             "is in none.");
+             "The page that replays a plan, made from the template, and its warnings. directory: of the plan, \"\" "
+             "without one.");
 }
 
 }  // namespace prowl::python

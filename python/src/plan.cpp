@@ -39,8 +39,8 @@ std::shared_ptr<PlanObject> read(const std::filesystem::path& directory, const s
 
 void save_plan(const PlanObject& plan, const std::filesystem::path& directory, std::optional<double> step) {
   if (plan.read_from) {
-    throw InputError(
-        fmt::format("this plan was read from {}, which has all of it: copy that folder", plan.read_from->string()));
+    throw InputError(fmt::format("this plan was read from {}, which contains all files: copy that folder",
+                                 plan.read_from->string()));
   }
   if (step && !(*step > 0.0)) throw InputError(fmt::format("step: {} is not allowed; need a number > 0 [s]", *step));
   const nb::gil_scoped_release others_may_run;
@@ -99,7 +99,7 @@ nb::dict term_rates(const PlanObject& plan) {
   return rates;
 }
 
-/// Functions of the package that a plan has as methods.
+/// Functions of the package as methods of a plan.
 nb::object show(nb::handle plan, nb::handle simulation, int height) {
   return call_package("prowl._show.page", "show", plan, simulation, height);
 }
@@ -120,9 +120,8 @@ void bind_plan(nb::module_& module) {
   const auto plan = [](nb::handle self) -> const PlanObject& { return nb::cast<const PlanObject&>(self); };
   nb::class_<PlanObject>(
       module, "Plan",
-      "A motion, how it was found, and whether it is any good: `good` is True if the solver converged and the\n"
-      "certificate passed. Arrays are at the N nodes of the mesh (at a change of contacts two nodes have one time),\n"
-      "read-only, and views of one piece of memory each.")
+      "A motion with its solver result and certificate: `good` is True if the solver converged and the certificate\n"
+      "passed. Arrays are read-only contiguous views at the N nodes of the mesh (two nodes at a phase transition).")
       .def_prop_ro(
           "t", [=](nb::handle self) { return view(plan(self).motion.t, self); }, "Times (N) [s].")
       .def_prop_ro(
@@ -136,7 +135,7 @@ void bind_plan(nb::module_& module) {
           "Velocities (N, nv): base twist in the base frame [m/s, rad/s], joint rates.")
       .def_prop_ro(
           "a", [=](nb::handle self) { return view(plan(self).motion.a, self); },
-          "Accelerations (N, nv): rates of the numbers in v [m/s^2, rad/s^2].")
+          "Accelerations (N, nv): rates of the components of v [m/s^2, rad/s^2].")
       .def_prop_ro(
           "tau", [=](nb::handle self) { return view(plan(self).motion.tau, self); }, "Torques (N, nu) [N m or N].")
       .def_prop_ro(
@@ -145,35 +144,37 @@ void bind_plan(nb::module_& module) {
       .def_prop_ro(
           "duration", [](const PlanObject& p) { return p.record.plan.trajectory.duration(); }, "[s]")
       .def_prop_ro(
-          "good", [](const PlanObject& p) { return is_good(p.record.plan); }, "Whether the plan may be used.")
+          "good", [](const PlanObject& p) { return is_good(p.record.plan); },
+          "True if the solver converged and the certificate passed.")
       .def_prop_ro(
           "status", [](const PlanObject& p) { return to_string(p.record.plan.result.status); },
           "Why the solver stopped: \"converged\", \"infeasible\", \"iteration_limit\", \"time_limit\", "
           "\"interrupted\",\n"
           "\"evaluation_failed\" or \"solver_failed\".")
       .def_prop_ro(
-          "message", [](const PlanObject& p) { return p.record.plan.result.message; }, "The solver's own words.")
+          "message", [](const PlanObject& p) { return p.record.plan.result.message; }, "Message of the solver.")
       .def_prop_ro(
           "reasons", [](const PlanObject& p) { return p.record.plan.reasons; },
-          "Why there is no such motion, proven before the solve; empty if nothing is.")
+          "Proofs, before the solve, that there is no such motion; may be empty.")
       .def_prop_ro(
           "hints", [](const PlanObject& p) { return p.record.plan.hints; },
-          "What may be the matter, after a solve that did not converge.")
+          "Possible causes, after a solve that did not converge.")
       .def_prop_ro("cost", [](const PlanObject& p) { return p.record.plan.result.cost; })
       .def_prop_ro("cost_terms", &term_costs, nb::sig("def cost_terms(self) -> dict[str, float]"),
-                   "The cost term by term, by the keys of the task file (\"torque\", "
+                   "Terms of the cost by keys of the task file (\"torque\", "
                    "\"terminal_cost.base_position\"); their sum is `cost`.")
       .def_prop_ro("cost_rates", &term_rates,
                    nb::sig("def cost_rates(self) -> dict[str, numpy.typing.NDArray[numpy.float64]]"),
-                   "Terms of the running cost at each node (N) [1/s], by the keys of the task file.")
+                   "Terms of the running cost at each node (N) [1/s], by keys of the task file.")
       .def_prop_ro(
-          "iterations", [](const PlanObject& p) { return p.record.plan.result.iterations; }, "On all meshes together.")
+          "iterations", [](const PlanObject& p) { return p.record.plan.result.iterations; },
+          "Iterations on all meshes.")
       .def_prop_ro(
-          "seconds", [](const PlanObject& p) { return p.record.plan.result.seconds; }, "That the solver took [s].")
+          "seconds", [](const PlanObject& p) { return p.record.plan.result.seconds; }, "Time of the solver [s].")
       .def_prop_ro(
-          "solver", [](const PlanObject& p) { return p.record.plan.solver; }, "Its name.")
+          "solver", [](const PlanObject& p) { return p.record.plan.solver; }, "Name of the solver.")
       .def_prop_ro(
-          "versions", [](const PlanObject& p) { return p.record.versions; }, "Of Prowl and of what it used.")
+          "versions", [](const PlanObject& p) { return p.record.versions; }, "Versions of Prowl and its libraries.")
       .def_prop_ro(
           "certificate", [](const PlanObject& p) -> const Certificate& { return p.record.plan.certificate; },
           nb::rv_policy::reference_internal)
@@ -187,19 +188,18 @@ void bind_plan(nb::module_& module) {
           nb::sig("def robot(self) -> Robot"))
       .def_prop_ro(
           "path", [](const PlanObject& p) { return p.read_from; },
-          "The folder that it was read from; None for a plan that was solved.")
+          "Folder that the plan was read from; None for a solved plan.")
       .def_prop_ro(
           "tracker", [](const PlanObject& p) { return p.tracker; }, nb::sig("def tracker(self) -> Tracker | None"),
-          "Reference and feedback gains on a fine grid, and the control law; None if there are no gains.")
+          "Reference, feedback gains and control law; None without gains.")
       .def_ro("motion", &PlanObject::motion, "The arrays above as one Motion.")
       .def("sample", &sampled, nb::arg("step"),
-           "The motion every `step` seconds and at its end, interpolated as transcribed.")
+           "The motion every `step` seconds and at its end, interpolated as in the transcription.")
       .def("at", &at_times, nb::arg("times"),
-           "The motion at these times [s]; at a change of contacts, that of the later phase.")
+           "The motion at these times [s]; at a phase transition that of the later phase.")
       .def("simulated_motion", &simulated_motion, nb::arg("step") = 0.0,
-           "Of a plan that was read: the true motion in simulate.csv, without a, at rows no less than `step` [s] "
-           "apart.\n"
-           "f is the measured force. The last phase goes on after the end of the plan.")
+           "For a plan read from a folder: true motion of simulate.csv, without a, at rows at least `step` [s] apart.\n"
+           "f is the measured force. The last phase continues after the end of the plan.")
       .def("to_csv", &to_csv, nb::arg("step") = nb::none(),
            "Text of trajectory.csv, at the nodes or every `step` seconds.")
       .def(
@@ -208,27 +208,27 @@ void bind_plan(nb::module_& module) {
             return mujoco_keyframes_xml(p.problem(), motion.trajectory(), model_file);
           },
           nb::arg("motion"), nb::arg("model_file"),
-          "An MJCF file that includes `model_file` (Task.mujoco_xml) and has one keyframe an instant of a motion.")
+          "An MJCF file that includes `model_file` (Task.mujoco_xml) and contains one keyframe per instant of a "
+          "motion.")
       .def(
-          "summary", [](const PlanObject& p) { return plan_report(p.record); }, "What `prowl plan` prints of it.")
+          "summary", [](const PlanObject& p) { return plan_report(p.record); }, "Text that `prowl plan` prints.")
       .def(
           "to_json", [](const PlanObject& p) { return plan_report_json(p.record, p.read_from.value_or("")); },
-          "plan.json (docs/plan-directory.md) but for the texts of task, robot and URDF.")
+          "plan.json (docs/plan-directory.md) without the texts of task, robot and URDF.")
       .def("show", &show, nb::arg("simulation").none() = nb::none(), nb::kw_only(), nb::arg("height") = 720,
            nb::sig("def show(self, simulation: Simulation | None = None, *, height: int = 720) -> None"),
-           "Shows the page of `prowl report`: in a notebook below the cell, `height` pixels high; else in the browser.")
+           "Shows the page of `prowl report`: below the cell of a notebook, `height` pixels high, or in the browser.")
       .def("plot", &plot, nb::arg("simulation").none() = nb::none(),
            nb::sig("def plot(self, simulation: Simulation | None = None) -> matplotlib.figure.Figure"),
-           "Draws base height, contact forces, joint torques and the largest share of the torque limits over time, "
+           "Draws base position, contact forces, joint torques and the largest share of the torque limits over time "
            "with\n"
-           "Matplotlib. Returns the figure: a notebook shows it, figure.savefig(path) writes it.")
+           "Matplotlib. Returns the figure: notebooks show it, figure.savefig(path) saves it.")
       .def("_repr_html_", &html, nb::sig("def _repr_html_(self) -> str"))
       .def("write", &save_plan, nb::arg("directory"), nb::arg("step") = nb::none(),
-           "Writes the folder that `prowl plan` writes (docs/plan-directory.md), whole or not at all; with `step` [s] "
-           "also\n"
+           "Writes the same folder as `prowl plan` (docs/plan-directory.md), atomically; with `step` [s] also\n"
            "trajectory_uniform.csv.")
       .def(
-          "__len__", [](const PlanObject& p) { return p.motion.t.size(); }, "Nodes, N.")
+          "__len__", [](const PlanObject& p) { return p.motion.t.size(); }, "Number of nodes, N.")
       .def("__repr__", [](const PlanObject& p) {
         const Plan& found = p.record.plan;
         return fmt::format("<prowl.Plan {}: {}, certificate {}, {} nodes, {:.3g} s>", p.problem().name,
@@ -236,7 +236,7 @@ void bind_plan(nb::module_& module) {
                            found.trajectory.duration());
       });
   module.def("read_plan", &read, nb::arg("directory"), nb::arg("package_dirs") = std::vector<std::string>{},
-             "Reads the folder that `prowl plan` or Plan.write wrote.");
+             "Reads a folder written by `prowl plan` or Plan.write.");
 }
 
 }  // namespace prowl::python

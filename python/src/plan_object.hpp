@@ -9,7 +9,7 @@
 
 namespace prowl::python {
 
-/// prowl.Plan: a plan with its arrays and its tracker. Nothing in it changes.
+/// prowl.Plan: a plan with its arrays and its tracker. Immutable.
 struct PlanObject {
   explicit PlanObject(PlanRecord plan_record, std::optional<std::filesystem::path> directory = {});
 
@@ -18,7 +18,7 @@ struct PlanObject {
   PlanRecord record;
   Motion motion;
   std::shared_ptr<const Tracker> tracker;          ///< null: no gains
-  std::optional<std::filesystem::path> read_from;  ///< the folder, if it was not solved here
+  std::optional<std::filesystem::path> read_from;  ///< the folder, unless solved here
 };
 
 }  // namespace prowl::python

@@ -21,14 +21,14 @@ namespace {
 using ConstVector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Places = std::pair<Integers, Integers>;
 
-/// What a point of a program is worth: a FormulationRun of no solver.
+/// Quality of a point of a program: a FormulationRun without solver.
 struct JudgedPoint {
   FormulationRun run;
   Motion motion;
 };
 
-/// prowl.Program: one motion problem as a nonlinear program. The functions of an Nlp share work space, so that calls
-/// wait for each other; the GIL is released meanwhile.
+/// prowl.Program: a motion problem as a nonlinear program. Functions of an Nlp share work space, so
+/// calls are serialised; they release the GIL.
 class Program {
  public:
   Program(const Task& task, const Formulation& formulation, const std::string& guess_name)
@@ -131,25 +131,24 @@ Places places(nb::handle self, const SparsityPattern& pattern) {
 const Program& program(nb::handle self) { return nb::cast<const Program&>(self); }
 
 void bind_judged_point(nb::module_& module) {
-  nb::class_<JudgedPoint>(module, "JudgedPoint", "What a point of a Program is worth.")
+  nb::class_<JudgedPoint>(module, "JudgedPoint", "Cost, violation, motion and certificate of a point of a Program.")
       .def_prop_ro("cost", [](const JudgedPoint& p) { return p.run.result.cost; })
       .def_prop_ro(
           "constraint_violation", [](const JudgedPoint& p) { return p.run.result.constraint_violation; },
-          "Largest, of the program's rows and bounds, unscaled.")
+          "Largest violation of the program's rows and bounds, unscaled.")
       .def_prop_ro(
           "certificate", [](const JudgedPoint& p) -> const Certificate& { return p.run.certificate; },
           nb::rv_policy::reference_internal,
-          "Of the motion, by code that shares neither dynamics nor transcription with the program.")
+          "Certificate of the motion, by code that shares neither dynamics nor transcription with the program.")
       .def_ro("motion", &JudgedPoint::motion, nb::rv_policy::reference_internal,
-              "The motion that the program means by this point, at its nodes.")
+              "Motion of this point at the nodes of the program.")
       .def(
           "check", [](const JudgedPoint& p, const std::string& name) { return p.run.certificate.find(name); },
           nb::arg("name"), nb::rv_policy::reference_internal, nb::sig("def check(self, name: str) -> Check | None"),
-          "One check of the certificate by its name, such as \"contact drift\"; None if the motion has nothing for it.")
+          "One check of the certificate by its name, such as \"contact drift\"; None if it does not apply.")
       .def_prop_ro(
           "worst_check", [](const JudgedPoint& p) { return p.run.worst_check(); }, nb::rv_policy::reference_internal,
-          nb::sig("def worst_check(self) -> Check | None"),
-          "The check that is furthest beyond its limit, or nearest to it.")
+          nb::sig("def worst_check(self) -> Check | None"), "The check with the largest share of its limit.")
       .def("__repr__", [](const JudgedPoint& p) {
         return fmt::format("<prowl.JudgedPoint cost {:.6g}, violation {:.2e}, certificate {}>", p.run.result.cost,
                            p.run.result.constraint_violation, to_string(p.run.certificate.grade));
@@ -163,12 +162,11 @@ void bind_program(nb::module_& module) {
   nb::class_<Program>(
       module, "Program",
       "A task as a nonlinear program (docs/formulations.md): minimise cost(z), variable_lower <= z <= variable_upper,\n"
-      "constraint_lower <= constraints(z) <= constraint_upper, with exact derivatives, for a solver of one's own.\n"
-      "Bounds are +-inf where there is none. Sparse matrices have fixed places, (rows, columns), and values in their\n"
-      "order. Functions may raise NumericalError. They release the GIL and wait for each other.\n\n"
-      "guess: \"smooth\", what `prowl plan` starts from, or \"straight\", straight lines from posture to posture with "
-      "the\n"
-      "torques of standing.")
+      "constraint_lower <= constraints(z) <= constraint_upper, with exact derivatives, for your own solver.\n"
+      "Missing bounds are +-inf. Sparse matrices have a fixed pattern (rows, columns), and values in the same order.\n"
+      "Functions may raise NumericalError. They release the GIL and are serialised.\n\n"
+      "guess: \"smooth\", as in `prowl plan`, or \"straight\": straight lines between postures with the torques of "
+      "standing.")
       .def(
           "__init__",
           [](Program* self, const Task& task, const std::string& dynamics, const std::string& transcription,
@@ -183,11 +181,11 @@ void bind_program(nb::module_& module) {
       .def_prop_ro("transcription", [](const Program& p) { return p.formulation().transcription; })
       .def_prop_ro("contact", [](const Program& p) { return p.formulation().contact; })
       .def_prop_ro("orientation", [](const Program& p) { return p.formulation().orientation; })
-      .def_prop_ro("nodes", &Program::nodes, "Of the mesh.")
+      .def_prop_ro("nodes", &Program::nodes, "Nodes of the mesh.")
       .def_prop_ro("num_variables", [](const Program& p) { return p.nlp().num_variables(); })
       .def_prop_ro("num_constraints", [](const Program& p) { return p.nlp().num_constraints(); })
       .def_prop_ro(
-          "start", [](nb::handle self) { return numbers(self, program(self).start()); }, "The guess, z.")
+          "start", [](nb::handle self) { return numbers(self, program(self).start()); }, "Initial guess z.")
       .def_prop_ro("variable_lower",
                    [](nb::handle self) { return numbers(self, program(self).nlp().variable_lower()); })
       .def_prop_ro("variable_upper",
@@ -198,24 +196,24 @@ void bind_program(nb::module_& module) {
                    [](nb::handle self) { return numbers(self, program(self).nlp().constraint_upper()); })
       .def_prop_ro(
           "jacobian_pattern", [](nb::handle self) { return places(self, program(self).nlp().jacobian_pattern()); },
-          "(rows, columns); no place twice.")
+          "(rows, columns), without duplicates.")
       .def_prop_ro(
           "hessian_pattern", [](nb::handle self) { return places(self, program(self).nlp().hessian_pattern()); },
           "(rows, columns) of the lower triangle.")
       .def("cost", &Program::cost, nb::arg("z"))
       .def("cost_gradient", &Program::cost_gradient, nb::arg("z"), "(num_variables)")
       .def("constraints", &Program::constraints, nb::arg("z"), "(num_constraints)")
-      .def("jacobian", &Program::jacobian, nb::arg("z"), "Values at the places of jacobian_pattern.")
+      .def("jacobian", &Program::jacobian, nb::arg("z"), "Values in the order of jacobian_pattern.")
       .def("hessian", &Program::hessian, nb::arg("z"), nb::arg("cost_factor"), nb::arg("multipliers"),
-           "Of cost_factor cost + multipliers . constraints, at the places of hessian_pattern.")
+           "Hessian of cost_factor cost + multipliers . constraints, in the order of hessian_pattern.")
       .def("dual_violation", &Program::dual_violation, nb::arg("z"), nb::arg("multipliers"),
-           "How far a z within its bounds is from stationary: |clip(z - gradient, lower, upper) - z| at its largest, "
-           "of the gradient of\n"
-           "cost + multipliers . constraints.")
-      .def("describe_variable", &Program::describe_variable, nb::arg("index"), "In the words of the task.")
-      .def("describe_constraint", &Program::describe_constraint, nb::arg("row"), "In the words of the task.")
-      .def("judge", &Program::judge, nb::arg("z"),
-           "Cost, violation, motion and certificate of a point, whoever found it.")
+           "Violation of stationarity of a z within its bounds: largest |clip(z - gradient, lower, upper) - z|, with "
+           "the\n"
+           "gradient of cost + multipliers . constraints.")
+      .def("describe_variable", &Program::describe_variable, nb::arg("index"), "Description in the words of the task.")
+      .def("describe_constraint", &Program::describe_constraint, nb::arg("row"),
+           "Description in the words of the task.")
+      .def("judge", &Program::judge, nb::arg("z"), "Cost, violation, motion and certificate of any point.")
       .def("__repr__", [](const Program& p) {
         return fmt::format("<prowl.Program {}: {}, {}, {}, {}: {} variables, {} constraints>", p.task().problem.name,
                            p.formulation().dynamics, p.formulation().transcription, p.formulation().contact,

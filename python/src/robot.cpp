@@ -52,7 +52,7 @@ std::vector<std::string> warnings(const RobotModel& robot) {
   return texts;
 }
 
-/// A link with the name of its parent in place of the index.
+/// A link with the name of its parent instead of the index.
 struct LinkView {
   std::string name;
   std::optional<std::string> parent;
@@ -89,13 +89,13 @@ Array placements(const RobotModel& robot, const Argument& q_array, bool in_paren
   return std::move(results).array();
 }
 
-/// What is not UTF-8 becomes U+FFFD.
+/// Invalid UTF-8 becomes U+FFFD.
 nb::str urdf_text(const RobotModel& robot) {
   const std::string& text = robot.description().urdf_text;
   return nb::steal<nb::str>(PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "replace"));
 }
 
-/// Least and greatest torques.
+/// Smallest and largest torques.
 std::pair<Array, Array> torque_limits(const RobotModel& robot, const Argument& q_array, const Argument& v_array) {
   const Batch q(q_array, robot.nq(), "q"), v(v_array, robot.nv(), "v");
   check_same_rows(q, {{"v", &v}});
@@ -114,7 +114,7 @@ std::pair<Array, Array> torque_limits(const RobotModel& robot, const Argument& q
   return {std::move(lower).array(), std::move(upper).array()};
 }
 
-/// Joints with a torque limit over their position, and the ends of its table.
+/// Joints with a torque limit over position -> ends of its table.
 nb::dict torque_over_position(const RobotModel& robot) {
   nb::dict ends;
   for (const RobotModel::TorqueCurve& limit : robot.torque_curves()) {
@@ -124,7 +124,7 @@ nb::dict torque_over_position(const RobotModel& robot) {
   return ends;
 }
 
-/// A property that is a read-only view of a vector of the robot.
+/// A property: read-only view of a vector of the robot.
 template <const Eigen::VectorXd& (RobotModel::*vector)() const>
 Vector robot_view(nb::handle self) {
   return view((nb::cast<const RobotModel&>(self).*vector)(), self);
@@ -145,18 +145,18 @@ nb::object robot_of(nb::handle owner, const RobotModel& robot, const SourceText&
 void bind_robot(nb::module_& module) {
   nb::class_<ContactPoint>(
       module, "Contact",
-      "A place on the robot that may touch a surface: the centre of a ball fixed to a frame of the URDF.")
+      "A point of the robot that may touch a surface: centre of a ball fixed to a frame of the URDF.")
       .def_ro("name", &ContactPoint::name)
       .def_ro("frame", &ContactPoint::frame, "A link or a fixed joint of the URDF.")
       .def_ro("radius", &ContactPoint::radius, "[m]")
       .def_prop_ro(
           "offset", [](const ContactPoint& c) { return Point{c.offset.x(), c.offset.y(), c.offset.z()}; },
-          "Of the centre from the frame's origin, in the frame [m].")
+          "Centre of the ball in the frame [m].")
       .def("__repr__", [](const ContactPoint& c) { return fmt::format("<prowl.Contact {} at {}>", c.name, c.frame); });
   nb::class_<LinkView>(module, "Link", "A link of the URDF.")
       .def_ro("name", &LinkView::name)
-      .def_ro("parent", &LinkView::parent, "Name of the link that it hangs on; None for the root.")
-      .def_ro("fixed", &LinkView::fixed, "Whether a fixed joint holds it to its parent.")
+      .def_ro("parent", &LinkView::parent, "Name of the parent link; None for the root.")
+      .def_ro("fixed", &LinkView::fixed, "True if a fixed joint connects it to its parent.")
       .def("__repr__", [](const LinkView& link) { return fmt::format("<prowl.Link {}>", link.name); });
   nb::class_<RobotModel>(
       module, "Robot",
@@ -166,16 +166,16 @@ void bind_robot(nb::module_& module) {
       "the base in the base frame [m/s, rad/s], joint rates. Torques tau: nu [N m].",
       nb::dynamic_attr())
       .def_prop_ro("name", &RobotModel::name)
-      .def_prop_ro("nq", &RobotModel::nq, "Numbers in q.")
-      .def_prop_ro("nv", &RobotModel::nv, "Numbers in v.")
-      .def_prop_ro("nu", &RobotModel::nu, "Joints, all of them with an actuator.")
+      .def_prop_ro("nq", &RobotModel::nq, "Size of q.")
+      .def_prop_ro("nv", &RobotModel::nv, "Size of v.")
+      .def_prop_ro("nu", &RobotModel::nu, "Number of joints, each with an actuator.")
       .def_prop_ro("mass", &RobotModel::mass, "[kg]")
       .def_prop_ro("joint_names", &RobotModel::joint_names, "nu names, in the order of q, v and tau.")
       .def_prop_ro("contacts", &RobotModel::contacts, nb::rv_policy::reference_internal)
-      .def_prop_ro("contact_names", &contact_names, "In the order of contact forces.")
+      .def_prop_ro("contact_names", &contact_names, "Names in the order of contact forces.")
       .def_prop_ro(
           "path", [](nb::handle self) { return self.attr(kPath); }, nb::sig("def path(self) -> pathlib.Path"),
-          "The robot file that it came from.")
+          "Path of the robot file.")
       .def_prop_ro(
           "text", [](nb::handle self) { return self.attr(kText); }, nb::sig("def text(self) -> str"),
           "Text of the robot file.")
@@ -185,31 +185,26 @@ void bind_robot(nb::module_& module) {
       .def_prop_ro("links", &links, "All links of the URDF: the root first, parents before children.")
       .def_prop_ro("nominal_configuration", &robot_view<&RobotModel::nominal_configuration>,
                    "Nominal posture on the ground: q (nq).")
-      .def_prop_ro("position_lower", &robot_view<&RobotModel::position_lower>,
-                   "(nu) [rad or m]; -inf where there is none.")
-      .def_prop_ro("position_upper", &robot_view<&RobotModel::position_upper>,
-                   "(nu) [rad or m]; inf where there is none.")
+      .def_prop_ro("position_lower", &robot_view<&RobotModel::position_lower>, "(nu) [rad or m]; -inf without limit.")
+      .def_prop_ro("position_upper", &robot_view<&RobotModel::position_upper>, "(nu) [rad or m]; inf without limit.")
       .def_prop_ro("velocity_limit", &robot_view<&RobotModel::velocity_limit>,
-                   "(nu) [rad/s or m/s]; inf where there is none.")
+                   "(nu) [rad/s or m/s]; inf without limit.")
       .def_prop_ro("torque_limit", &robot_view<&RobotModel::torque_limit>,
-                   "(nu) [N m or N]; inf where there is none. Joints may have further limits that depend on position "
-                   "or velocity.")
+                   "(nu) [N m or N]; inf without limit. Joints may have further limits over position or velocity.")
       .def_prop_ro("torque_over_position", &torque_over_position,
                    nb::sig("def torque_over_position(self) -> dict[str, tuple[float, float]]"),
-                   "Joints with a torque limit that depends on the position: least and greatest position of its table "
-                   "[rad].")
+                   "Joints with a torque limit over position: smallest and largest position of its table [rad].")
       .def("torque_limits", &torque_limits, nb::arg("q"), nb::arg("v"), nb::rv_policy::reference,
-           "Least and greatest torques of the joints in a state, all limits together: two arrays (nu) [N m or N].\n"
+           "Smallest and largest torques of the joints in a state under all limits: two arrays (nu) [N m or N].\n"
            "One state, or N rows.")
       .def("link_placements", &placements, nb::arg("q"), nb::arg("in_parent") = false,
-           "Placements of the links in the world, or in their parents (the root's in the world), (links, 7): position "
-           "[m],\n"
+           "Placements of the links in the world, or in their parents (root: in the world), (links, 7): position [m],\n"
            "quaternion x y z w. One configuration, or N rows.")
-      .def("warnings", &warnings, "What looks wrong with the robot, one sentence each.")
-      .def("frames", &contact_frame_names, "Frames of the URDF that a contact may be fixed to.")
+      .def("warnings", &warnings, "Possible problems of the robot, one sentence each.")
+      .def("frames", &contact_frame_names, "Frames of the URDF that may carry a contact.")
       .def(
           "summary", [](const RobotModel& robot) { return robot_summary(robot, inspect(robot)); },
-          "What `prowl robot` prints: joints with limits, mass, contacts, warnings.")
+          "Text that `prowl robot` prints: joints with limits, mass, contacts, warnings.")
       .def("__repr__", [](const RobotModel& robot) {
         return fmt::format("<prowl.Robot {}: {} joints, {} contacts, {:.3g} kg>", robot.name(), robot.nu(),
                            robot.contacts().size(), robot.mass());
@@ -222,7 +217,7 @@ void bind_robot(nb::module_& module) {
       "parse_robot", &parse_robot, nb::arg("text"), nb::arg("path"), nb::arg("package_dirs") = Folders{},
       nb::sig("def parse_robot(text: str, path: str | os.PathLike, package_dirs: collections.abc.Sequence[str] = []) "
               "-> Robot"),
-      "Reads the text of a robot file; paths in it are relative to the folder of `path`, where no file needs to be.");
+      "Reads the text of a robot file; paths in it are relative to the folder of `path`, which need not exist.");
 }
 
 }  // namespace prowl::python

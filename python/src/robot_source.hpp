@@ -7,10 +7,10 @@
 
 namespace prowl::python {
 
-/// The same prowl.Robot, which from now on knows the file that it was read from (Robot.path, Robot.text).
+/// Attaches the source file to a prowl.Robot (Robot.path, Robot.text), and returns it.
 nanobind::object with_source(nanobind::object robot, const SourceText& file);
 
-/// Robot `robot`, kept alive by `owner`, with the file that it was read from.
+/// prowl.Robot of `robot`, kept alive by `owner`, with its source file.
 nanobind::object robot_of(nanobind::handle owner, const RobotModel& robot, const SourceText& file);
 
 }  // namespace prowl::python

@@ -8,14 +8,14 @@
 
 namespace prowl::python {
 
-/// Lets Python look whether there was a Ctrl-C, from code that runs without the GIL. Throws nanobind::python_error if
-/// so (that is, whatever the handler of the signal raised). Only Python's main thread handles signals.
+/// Checks for Ctrl-C, from code without the GIL. Throws nanobind::python_error with the exception
+/// of the signal handler. Only Python's main thread handles signals.
 inline void check_signals() {
   const nanobind::gil_scoped_acquire in_python;
   if (PyErr_CheckSignals() != 0) throw nanobind::python_error();
 }
 
-/// The same at every so-many-th call.
+/// The same at every `every`-th call.
 class SignalCheck {
  public:
   explicit SignalCheck(int every) : every_(every) {}
@@ -27,11 +27,11 @@ class SignalCheck {
   int every_, calls_ = 0;
 };
 
-/// Between C++ that runs without the GIL and Python: Ctrl-C and a callback's exceptions set stop(), and wait here until
-/// C++ has returned, for they must not pass through foreign code.
+/// Connects C++ without the GIL to Python. Ctrl-C and exceptions of a callback set stop(), and are
+/// kept here until C++ has returned: they must not pass through foreign code.
 class Stop {
  public:
-  /// Calls `callback`, with the GIL, unless it is stopped already.
+  /// Calls `callback` with the GIL, unless already stopped.
   template <class Callback>
   void ask(const Callback& callback) {
     if (stop_) return;

@@ -18,7 +18,7 @@
 namespace prowl::python {
 namespace {
 
-/// prowl.Simulation: what came out, as arrays of one row a sample.
+/// prowl.Simulation: results as arrays, one row per sample.
 struct SimulationObject {
   SimulationObject(std::shared_ptr<const PlanObject> simulated, SimulationRecord made);
 
@@ -57,8 +57,7 @@ std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject
                                       double noise, double delay, double bandwidth, double control_rate, double mass,
                                       std::optional<double> friction, const std::vector<PushArgument>& pushes,
                                       double push_duration, double step, std::uint64_t seed, double record_rate) {
-  if (!plan->tracker)
-    throw InputError("this plan has no gains to simulate it with: solve(gains=True) makes them for one that is good");
+  if (!plan->tracker) throw InputError("this plan contains no gains: solve(gains=True) designs them for a good plan");
   SimulationOptions options;
   options.open_loop = open_loop;
   options.perfect_state = perfect_state;
@@ -109,33 +108,35 @@ void bind_simulation(nb::module_& module) {
   nb::class_<ErrorMeasure>(module, "ErrorMeasure", "Size of an error over a simulation.")
       .def_ro("largest", &ErrorMeasure::largest)
       .def_ro("rms", &ErrorMeasure::rms)
-      .def_ro("rest", &ErrorMeasure::rest, "Over the last 0.2 s.")
+      .def_ro("rest", &ErrorMeasure::rest, "Largest error in the last 0.2 s.")
       .def("__repr__", [](const ErrorMeasure& e) {
         return fmt::format("<prowl.ErrorMeasure largest {:.3g}, rms {:.3g}, at rest {:.3g}>", e.largest, e.rms, e.rest);
       });
   nb::class_<SimulationObject>(
-      module, "Simulation", "A plan and its gains in MuJoCo (docs/simulation.md), at S samples. Arrays are read-only.")
+      module, "Simulation",
+      "Simulation of a plan with its gains in MuJoCo (docs/simulation.md), at S samples. Arrays are read-only.")
       .def_prop_ro(
-          "success", [=](const SimulationObject& s) { return result(s).success(); }, "By the criteria of the task.")
+          "success", [=](const SimulationObject& s) { return result(s).success(); },
+          "True if the criteria of the task are met.")
       .def_prop_ro(
-          "failures", [=](const SimulationObject& s) { return result(s).failures; }, "Of the criteria, in words.")
+          "failures", [=](const SimulationObject& s) { return result(s).failures; }, "Violated criteria, in words.")
       .def_prop_ro("end", &end_name, "\"finished\", \"fell\" or \"diverged\".")
       .def_prop_ro(
           "end_time", [=](const SimulationObject& s) { return result(s).end_time; }, "[s]")
       .def_prop_ro(
           "base_position_error", [=](const SimulationObject& s) { return result(s).base_position; },
-          "From the plan's base [m].")
+          "Distance from the planned base [m].")
       .def_prop_ro(
           "base_angle_error", [=](const SimulationObject& s) { return result(s).base_angle; }, "[rad]")
       .def_prop_ro(
           "joint_error", [=](const SimulationObject& s) { return result(s).joints; },
-          "Of the worst joint; rms of all [rad].")
+          "Largest: of the worst joint; rms: of all [rad].")
       .def_prop_ro(
           "slip", [=](const SimulationObject& s) { return result(s).slip; },
-          "One a contact: farthest from where it began to stand [m].")
+          "Per contact: largest distance from where its stance began [m].")
       .def_prop_ro(
           "largest_torque_share", [=](const SimulationObject& s) { return result(s).largest_torque_share; },
-          "Of the limit.")
+          "Largest torque, as a share of its limit.")
       .def_prop_ro(
           "plan", [](const SimulationObject& s) { return std::const_pointer_cast<PlanObject>(s.plan); },
           nb::sig("def plan(self) -> Plan"))
@@ -146,8 +147,9 @@ void bind_simulation(nb::module_& module) {
       .def_prop_ro("q_ref", &rows_view<&SimulationObject::q_ref>, "Planned configurations (S, nq).")
       .def_prop_ro("v_ref", &rows_view<&SimulationObject::v_ref>, "Planned velocities (S, nv).")
       .def_prop_ro("q_seen", &rows_view<&SimulationObject::q_seen>,
-                   "Configurations that the controller was given (S, nq).")
-      .def_prop_ro("v_seen", &rows_view<&SimulationObject::v_seen>, "Velocities that the controller was given (S, nv).")
+                   "Estimated configurations, given to the controller (S, nq).")
+      .def_prop_ro("v_seen", &rows_view<&SimulationObject::v_seen>,
+                   "Estimated velocities, given to the controller (S, nv).")
       .def_prop_ro("feedforward", &rows_view<&SimulationObject::feedforward>,
                    "Commanded feedforward torques (S, nu) [N m].")
       .def_prop_ro("feedback", &rows_view<&SimulationObject::feedback>, "Commanded feedback torques (S, nu) [N m].")
@@ -157,7 +159,7 @@ void bind_simulation(nb::module_& module) {
           "Contact forces on the robot (S, contacts, 3), world axes [N].")
       .def(
           "summary", [](const SimulationObject& s) { return simulation_summary(s.plan->record, s.record); },
-          "What `prowl simulate` prints of it.")
+          "Text that `prowl simulate` prints.")
       .def(
           "to_json", [](const SimulationObject& s) { return simulation_json(s.plan->record, s.record); },
           "Text of simulate.json (docs/simulation.md).")
@@ -170,31 +172,27 @@ void bind_simulation(nb::module_& module) {
           nb::sig("def _repr_html_(self) -> str"))
       .def("write", &save_simulation, nb::arg("directory"), "Writes simulate.json and simulate.csv into the folder of the plan.")
       .def(
-          "__len__", [](const SimulationObject& s) { return s.t.size(); }, "Samples, S.")
+          "__len__", [](const SimulationObject& s) { return s.t.size(); }, "Number of samples, S.")
       .def("__repr__", [](const SimulationObject& s) {
         return fmt::format("<prowl.Simulation {}: {}, {} at {:.3g} s>", s.plan->problem().name,
                            s.record.result.success() ? "success" : "no success", end_name(s), s.record.result.end_time);
       });
   const SimulationOptions defaults;
-  module.def("simulate", &simulate_plan, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false,
-             nb::arg("perfect_state") = false, nb::arg("noise") = defaults.noise_scale,
-             nb::arg("delay") = defaults.delay, nb::arg("bandwidth") = defaults.bandwidth,
-             nb::arg("control_rate") = defaults.control_rate, nb::arg("mass") = defaults.physics.mass_scale,
-             nb::arg("friction") = nb::none(), nb::arg("pushes") = std::vector<PushArgument>{},
-             nb::arg("push_duration") = Push{}.duration, nb::arg("step") = defaults.physics.step,
-             nb::arg("seed") = defaults.seed, nb::arg("record_rate") = kRecordRate,
-             "Runs a plan with its gains in MuJoCo, with sensors, estimator and delay, as `prowl simulate` does. The "
-             "same arguments\n"
-             "give the same result.\n\n"
-             "open_loop: feedforward torques only. perfect_state: the controller sees the true state. noise: factor on "
-             "that of the\n"
-             "sensors. delay: from sensors to torque [s]. bandwidth: of the actuators [Hz], 0: they follow at once. "
-             "control_rate\n"
-             "[Hz]. mass: factor on all masses and inertias. friction: of all surfaces, in place of the task's. "
-             "pushes: (time [s],\n"
-             "impulse [N s] in world x, y, z) on the base, each push_duration [s] long. step: of the physics [s]. "
-             "record_rate: of\n"
-             "the samples that are kept [Hz].");
+  module.def(
+      "simulate", &simulate_plan, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false, nb::arg("perfect_state") = false,
+      nb::arg("noise") = defaults.noise_scale, nb::arg("delay") = defaults.delay,
+      nb::arg("bandwidth") = defaults.bandwidth, nb::arg("control_rate") = defaults.control_rate,
+      nb::arg("mass") = defaults.physics.mass_scale, nb::arg("friction") = nb::none(),
+      nb::arg("pushes") = std::vector<PushArgument>{}, nb::arg("push_duration") = Push{}.duration,
+      nb::arg("step") = defaults.physics.step, nb::arg("seed") = defaults.seed, nb::arg("record_rate") = kRecordRate,
+      "Runs a plan with its gains in MuJoCo, with sensors, estimator and delay, like `prowl simulate`. "
+      "Deterministic.\n\n"
+      "open_loop: feedforward torques only. perfect_state: give the controller the true state. noise: factor on "
+      "sensor\n"
+      "noise. delay: from sensors to torque [s]. bandwidth: of the actuators [Hz]; 0: ideal. control_rate [Hz]. mass:\n"
+      "factor on all masses and inertias. friction: of all surfaces, replaces that of the task. pushes: (time [s],\n"
+      "impulse [N s] in world x, y, z) on the base, each push_duration [s] long. step: of the physics [s].\n"
+      "record_rate: of the recorded samples [Hz].");
 }
 
 }  // namespace prowl::python

@@ -14,18 +14,18 @@
 namespace prowl::python {
 namespace {
 
-/// What is told of an iteration.
+/// Data of one iteration.
 struct Progress {
   int intervals = 0;  ///< of the mesh
   SolveProgress solve;
 };
 
-/// An iteration with the motion that the solver is at.
+/// An iteration with the current motion.
 struct Iterate : Progress {
   Motion motion;
 };
 
-/// Tells Python of iterations, which may stop the solver.
+/// Reports iterations to Python, which may stop the solver.
 class Observer : public Stop {
  public:
   Observer(nb::object on_iteration, nb::object on_iterate)
@@ -46,7 +46,7 @@ class Observer : public Stop {
         ask([&] { on_iterate_(std::move(told)); });
       };
     }
-    constexpr int kSamples = 20;  // between two looks for Ctrl-C: about 10 ms
+    constexpr int kSamples = 20;  // between checks for Ctrl-C: about 10 ms
     request.on_gain = [this, calls = 0](int, int) mutable {
       if (calls++ % kSamples == 0) ask([] {});
       return !stop();
@@ -66,7 +66,7 @@ nb::object solve(const Task& task, const std::string& solver, int threads, bool 
   if (start_from) {
     const bool is_solution = start_from->record.plan.result.status == SolveStatus::converged;
     request.start = {.record = &start_from->record,
-                     .resume = !is_solution,  // an iterate is no solution to stay near
+                     .resume = !is_solution,  // not a solution to stay close to
                      .folder = start_from->read_from ? start_from->read_from->string() : ""};
   }
   std::shared_ptr<PlanObject> plan;
@@ -92,22 +92,23 @@ nb::object solve(const Task& task, const std::string& solver, int threads, bool 
 
 void bind_solve(nb::module_& module) {
   nb::class_<Progress>(module, "Progress", "One iteration of a solver.")
-      .def_ro("intervals", &Progress::intervals, "Of the mesh that is being solved: coarse ones come first.")
+      .def_ro("intervals", &Progress::intervals, "Intervals of the current mesh; coarse meshes come first.")
       .def_prop_ro(
-          "iteration", [](const Progress& p) { return p.solve.iteration; }, "On this mesh, from 0.")
+          "iteration", [](const Progress& p) { return p.solve.iteration; }, "Iteration on this mesh, from 0.")
       .def_prop_ro("cost", [](const Progress& p) { return p.solve.cost; })
       .def_prop_ro(
-          "constraint_violation", [](const Progress& p) { return p.solve.constraint_violation; }, "Largest, unscaled.")
+          "constraint_violation", [](const Progress& p) { return p.solve.constraint_violation; },
+          "Largest violation, unscaled.")
       .def_prop_ro("dual_violation", [](const Progress& p) { return p.solve.dual_violation; })
       .def_prop_ro(
-          "seconds", [](const Progress& p) { return p.solve.elapsed_seconds; }, "On this mesh [s].")
+          "seconds", [](const Progress& p) { return p.solve.elapsed_seconds; }, "Time on this mesh [s].")
       .def("__repr__", [](const Progress& p) {
         return fmt::format("<prowl.Progress {} intervals, iteration {}: cost {:.6g}, violation {:.2e}>", p.intervals,
                            p.solve.iteration, p.solve.cost, p.solve.constraint_violation);
       });
-  nb::class_<Iterate, Progress>(module, "Iterate", "One iteration of a solver, with the motion that it is at.")
+  nb::class_<Iterate, Progress>(module, "Iterate", "One iteration of a solver, with its current motion.")
       .def_ro("motion", &Iterate::motion, nb::rv_policy::reference_internal,
-              "At the nodes of the mesh that is being solved; it does not obey the dynamics yet.");
+              "Motion at the nodes of the current mesh; it does not satisfy the dynamics yet.");
   module.def("solver_names", &solver_names, "Names of the solvers; the first is the default.");
   module.def("solve", &solve, nb::arg("task"), nb::kw_only(), nb::arg("solver") = solver_names().front(),
              nb::arg("threads") = 1, nb::arg("coarse_first") = true, nb::arg("start_from").none() = nb::none(),
@@ -116,7 +117,7 @@ void bind_solve(nb::module_& module) {
                      "start_from: Plan | None = None, gains: bool = True, "
                      "on_iteration: collections.abc.Callable[[Progress], object] | None = None, "
                      "on_iterate: collections.abc.Callable[[Iterate], object] | None = None) -> Plan"),
-             "prowl.solve without the display of progress.");
+             "prowl.solve without the progress bar.");
 }
 
 }  // namespace prowl::python

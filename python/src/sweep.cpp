@@ -22,7 +22,7 @@ namespace {
 
 namespace nb = nanobind;
 
-/// prowl.Sweep: simulations of one plan, each perturbed in another way.
+/// prowl.Sweep: simulations of one plan, each perturbed differently.
 struct SweepObject {
   std::shared_ptr<const PlanObject> plan;
   SweepRecord record;
@@ -54,8 +54,8 @@ std::vector<SweepCaseView> cases(const SweepObject& sweep) {
   return views;
 }
 
-/// Runs `work(on_done, interrupt)` on a thread of its own, without the GIL, while this one tells Python of progress and
-/// looks for Ctrl-C.
+/// Runs `work(on_done, interrupt)` on its own thread without the GIL, while this thread reports
+/// progress to Python and checks for Ctrl-C.
 template <class Work>
 auto watched(Stop& python, const nb::object& on_progress, const Work& work) {
   std::atomic<int> done = 0, total = 0;
@@ -96,8 +96,7 @@ void check_arguments(const PlanObject& plan, int n, const PerturbationRanges& ra
     if (!(size >= 0.0 && size <= kAny))
       throw InputError(fmt::format("{}: {} is not allowed; need a number >= 0 [N s]", name, size));
   }
-  if (!plan.tracker)
-    throw InputError("this plan has no gains to simulate it with: solve(gains=True) makes them for one that is good");
+  if (!plan.tracker) throw InputError("this plan contains no gains: solve(gains=True) designs them for a good plan");
 }
 
 SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint64_t seed, double mass_spread,
@@ -137,9 +136,9 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
 
 void bind_sweep(nb::module_& module) {
   nb::class_<SweepCaseView>(module, "SweepCase", "One simulation of a sweep.")
-      .def_ro("seed", &SweepCaseView::seed, "`prowl simulate DIR --case SEED` runs it again.")
+      .def_ro("seed", &SweepCaseView::seed, "`prowl simulate DIR --case SEED` repeats it.")
       .def_ro("success", &SweepCaseView::success)
-      .def_ro("failures", &SweepCaseView::failures, "Criteria that it fails, in words.")
+      .def_ro("failures", &SweepCaseView::failures, "Violated criteria, in words.")
       .def_ro("pushed_phase", &SweepCaseView::pushed_phase, "Name of the phase at the middle of the push.")
       .def_ro("mass", &SweepCaseView::mass, "Factor on all masses.")
       .def_ro("friction", &SweepCaseView::friction, "Coefficient of all surfaces.")
@@ -147,11 +146,11 @@ void bind_sweep(nb::module_& module) {
         return fmt::format("<prowl.SweepCase seed {}: {}>", one.seed, one.success ? "success" : one.failures.front());
       });
   nb::class_<SweepObject>(module, "Sweep",
-                          "Simulations of one plan, each with other masses, friction, pushes and sensor noise.")
+                          "Simulations of one plan with different masses, friction, pushes and sensor noise.")
       .def_prop_ro(
           "plan", [](const SweepObject& s) { return std::const_pointer_cast<PlanObject>(s.plan); },
           nb::sig("def plan(self) -> Plan"))
-      .def_prop_ro("cases", &cases, "In the order of their seeds.")
+      .def_prop_ro("cases", &cases, "Cases in the order of their seeds.")
       .def_prop_ro(
           "successes", [](const SweepObject& s) { return s.rate().successes; }, "Number of successes.")
       .def_prop_ro(
@@ -166,7 +165,7 @@ void bind_sweep(nb::module_& module) {
           "to_json", [](const SweepObject& s) { return sweep_json(s.plan->record, *s.plan->tracker, s.record); },
           "Text of sweep.json (docs/simulation.md).")
       .def(
-          "__len__", [](const SweepObject& s) { return s.record.cases.size(); }, "Simulations.")
+          "__len__", [](const SweepObject& s) { return s.record.cases.size(); }, "Number of simulations.")
       .def("__repr__", [](const SweepObject& s) {
         return fmt::format("<prowl.Sweep {}: {} of {} succeed>", s.plan->problem().name, s.rate().successes,
                            s.rate().cases);
@@ -179,7 +178,7 @@ void bind_sweep(nb::module_& module) {
              nb::sig("def sweep(plan: Plan, n: int = 200, *, seed: int = 1, mass_spread: float = 0.1, push_impulse: "
                      "float = 10.0, push_impulse_on_two_feet: float = 2.0, breakdown: int = 0, open_loop: bool = "
                      "False, on_progress: collections.abc.Callable[[int, int], object] | None = None) -> Sweep"),
-             "prowl.sweep of a plan, without the display of progress.");
+             "prowl.sweep of a plan, without the progress bar.");
 }
 
 }  // namespace prowl::python

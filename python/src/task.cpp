@@ -17,7 +17,7 @@
 namespace prowl::python {
 namespace {
 
-/// A phase with names in place of indices.
+/// A phase with names instead of indices.
 struct PhaseView {
   std::string name;
   std::vector<std::string> contacts, surfaces;
@@ -73,30 +73,30 @@ Task parse_task_text(const std::string& text, const std::filesystem::path& path,
 }  // namespace
 
 void bind_task(nb::module_& module) {
-  nb::class_<PhaseView>(module, "Phase", "A time with one set of contacts, cut into mesh intervals.")
+  nb::class_<PhaseView>(module, "Phase", "A period with one set of contacts, divided into mesh intervals.")
       .def_ro("name", &PhaseView::name)
-      .def_ro("contacts", &PhaseView::contacts, "Names of the contacts that hold.")
-      .def_ro("surfaces", &PhaseView::surfaces, "Of each of them, the name of the surface that it touches.")
-      .def_ro("shortest", &PhaseView::shortest, "Least duration [s]; the same as `longest` where it is fixed.")
+      .def_ro("contacts", &PhaseView::contacts, "Names of the contacts in stance.")
+      .def_ro("surfaces", &PhaseView::surfaces, "Per contact, the name of its surface.")
+      .def_ro("shortest", &PhaseView::shortest, "Shortest duration [s]; equals `longest` if fixed.")
       .def_ro("longest", &PhaseView::longest, "Longest duration [s].")
       .def_ro("intervals", &PhaseView::intervals, "Mesh intervals.")
       .def("__repr__", [](const PhaseView& phase) {
         return fmt::format("<prowl.Phase {}: {} contacts, {} intervals>", phase.name, phase.contacts.size(),
                            phase.intervals);
       });
-  nb::class_<Surface>(module, "Surface", "A plane in the world that contacts may touch, or a convex polygon of it.")
+  nb::class_<Surface>(module, "Surface", "A plane in the world, or a convex polygon of it, that contacts may touch.")
       .def_ro("name", &Surface::name)
       .def_prop_ro(
           "point", [](const Surface& s) { return as_point(s.point); }, "Any point of the plane [m].")
       .def_prop_ro(
           "normal", [](const Surface& s) { return as_point(s.normal); }, "Unit vector out of the ground.")
-      .def_ro("friction", &Surface::friction, "Coulomb's coefficient.")
-      .def_prop_ro("patch", &corners, "Corners of the polygon in the world [m]; none for the whole plane.")
+      .def_ro("friction", &Surface::friction, "Coulomb coefficient.")
+      .def_prop_ro("patch", &corners, "Corners of the polygon in the world [m]; empty for a whole plane.")
       .def("__repr__", [](const Surface& s) { return fmt::format("<prowl.Surface {}>", s.name); });
   nb::class_<Task>(
       module, "Task",
-      "A motion that is asked for: robot, surfaces, phases, goals and costs, as a task file says. Immutable; for\n"
-      "another goal, change the text and parse it again.")
+      "A requested motion: robot, surfaces, phases, goals and costs of a task file. Immutable; for another goal,\n"
+      "change the text and parse it again.")
       .def_prop_ro("name", [](const Task& task) { return task.problem.name; })
       .def_prop_ro(
           "robot",
@@ -107,9 +107,9 @@ void bind_task(nb::module_& module) {
           nb::sig("def robot(self) -> Robot"))
       .def_prop_ro("phases", &phases)
       .def_prop_ro(
-          "surfaces", [](const Task& task) { return task.problem.surfaces; }, "That the phases name.")
+          "surfaces", [](const Task& task) { return task.problem.surfaces; }, "Surfaces for the phases.")
       .def_prop_ro(
-          "path", [](const Task& task) { return task.task_file.path; }, "The file that it came from.")
+          "path", [](const Task& task) { return task.task_file.path; }, "Path of the task file.")
       .def_prop_ro(
           "text", [](const Task& task) { return task.task_file.text; }, "Text of the task file.")
       .def_prop_ro(
@@ -126,7 +126,7 @@ void bind_task(nb::module_& module) {
           [](const Task& task) {
             return mujoco_xml(task.problem.robot, task.problem.surfaces, {.friction = task.simulated_friction});
           },
-          "The model that simulate() runs, as an MJCF file.")
+          "The model of simulate() as an MJCF file.")
       .def("__repr__", [](const Task& task) {
         return fmt::format("<prowl.Task {}: {}, {} phase{}>", task.problem.name, task.problem.robot.name(),
                            task.problem.phases.size(), task.problem.phases.size() == 1 ? "" : "s");
@@ -135,12 +135,12 @@ void bind_task(nb::module_& module) {
              nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
              nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
              "Reads a task file, docs/task-file.md.");
-  module.def(
-      "parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
-      nb::arg("robot_file").none() = nb::none(), nb::arg("package_dirs") = Folders{}, nb::arg("intervals") = nb::none(),
-      nb::arg("max_iterations") = nb::none(), nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
-      "Reads the text of a task file; what it names is relative to the folder of `path`, where no file needs to be.\n"
-      "robot_file: path and text in place of the file that the task names.");
+  module.def("parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
+             nb::arg("robot_file").none() = nb::none(), nb::arg("package_dirs") = Folders{},
+             nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
+             nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
+             "Reads the text of a task file; paths in it are relative to the folder of `path`, which need not exist.\n"
+             "robot_file: path and text that replace the robot file of the task.");
 }
 
 }  // namespace prowl::python

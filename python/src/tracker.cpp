@@ -68,7 +68,7 @@ Array times(const Tracker& tracker) {
   return new_array(std::move(all), {count});
 }
 
-/// samples x nu x 2 nv; in memory each K is column by column.
+/// samples x nu x 2 nv; each K is column-major in memory.
 Block all_gains(const TrackingPlan& plan, nb::handle owner) {
   const auto nu = static_cast<std::size_t>(plan.nu()), nx = 2 * static_cast<std::size_t>(plan.nv());
   const auto stride = static_cast<std::int64_t>(nu);
@@ -78,7 +78,7 @@ Block all_gains(const TrackingPlan& plan, nb::handle owner) {
           {stride * static_cast<std::int64_t>(nx), 1, stride}};
 }
 
-/// Names of the contacts that hold at time t.
+/// Names of the contacts in stance at time t.
 std::vector<std::string> contacts(const Tracker& tracker, double t) {
   std::vector<std::string> names;
   const TrackingPlan& plan = tracker.plan();
@@ -94,16 +94,16 @@ void bind_tracker(nb::module_& module) {
   const auto plan = [](nb::handle self) -> const TrackingPlan& { return nb::cast<const Tracker&>(self).plan(); };
   nb::class_<Tracker>(
       module, "Tracker",
-      "Torques that keep a robot on its plan (docs/tracking.md):\n\n"
+      "Control law that keeps a robot on its plan (docs/tracking.md):\n\n"
       "    tau = tau*(t) + K(t) (x* - x),  within the torque limits\n\n"
-      "x* - x, 2 nv numbers: way of the base to the reference in the world [m], its rotation vector in the base\n"
-      "frame [rad], joints, then the difference of v. S samples, 2 ms apart unless the task says otherwise.\n"
-      "A robot takes the same along in C++ without Python: prowl/tracker and tracker.bin.")
+      "x* - x (2 nv): displacement of the base to the reference in the world [m], rotation vector in the base frame\n"
+      "[rad], joints, then the difference of v. S samples, by default 2 ms apart. Robots use the same in C++:\n"
+      "prowl/tracker and tracker.bin.")
       .def_static(
           "read", [](const std::filesystem::path& path) { return Tracker::read(path.string()); }, nb::arg("path"),
           "Reads tracker.bin.")
       .def_prop_ro("t", &times, nb::rv_policy::reference,
-                   "Times of the samples (S) [s]; at a change of contacts two samples have one time.")
+                   "Times of the samples (S) [s]; two samples at a phase transition.")
       .def_prop_ro(
           "q", [=](nb::handle self) { return transposed_view(plan(self).q, self); },
           "Reference configurations (S, nq), a read-only view.")
@@ -115,7 +115,7 @@ void bind_tracker(nb::module_& module) {
           "Feedforward torques (S, nu) [N m], a read-only view.")
       .def_prop_ro(
           "K", [=](nb::handle self) { return all_gains(plan(self), self); },
-          "Gains (S, nu, 2 nv) [N m per m, rad, m/s, rad/s], a read-only view; each K lies column by column.")
+          "Gains (S, nu, 2 nv) [N m per m, rad, m/s, rad/s], a read-only view; each K is column-major.")
       .def_prop_ro("start", &Tracker::start, "[s]")
       .def_prop_ro("end", &Tracker::end, "[s]; after it, the last sample holds.")
       .def_prop_ro("joint_names", [](const Tracker& tracker) { return tracker.plan().joint_names; })
@@ -129,9 +129,9 @@ void bind_tracker(nb::module_& module) {
       .def(
           "phase", [](const Tracker& tracker, double t) { return tracker.segment(t).name; }, nb::arg("t"),
           "Name of the phase at time t [s].")
-      .def("contacts", &contacts, nb::arg("t"), "Names of the contacts that hold at time t [s].")
+      .def("contacts", &contacts, nb::arg("t"), "Names of the contacts in stance at time t [s].")
       .def(
-          "__len__", [](const Tracker& tracker) { return tracker.plan().num_samples(); }, "Samples, S.")
+          "__len__", [](const Tracker& tracker) { return tracker.plan().num_samples(); }, "Number of samples, S.")
       .def("__repr__", [](const Tracker& tracker) {
         return fmt::format("<prowl.Tracker {} samples, {:.3g} to {:.3g} s>", tracker.plan().num_samples(),
                            tracker.start(), tracker.end());

@@ -63,7 +63,7 @@ def test_export_of_a_folder(crouch, tmp_path):
         prowl.export(tmp_path / "plan", "cvs")
     with pytest.raises(prowl.InputError, match="first prowl simulate"):
         prowl.export(tmp_path / "plan", "npz", simulation=True)
-    with pytest.raises(prowl.FileError, match="cannot make this folder"):
+    with pytest.raises(prowl.FileError, match="cannot create this folder"):
         prowl.export(tmp_path / "plan", "csv", out="/dev/null")
 
 

@@ -13,10 +13,10 @@ import {
   Vector3,
 } from "three";
 
-const kFlat = 0.01; // points count as level within this height [m]
-const kLoaded = 1e-3; // of the weight: a smaller force has no point of attack
+const kFlat = 0.01; // largest height difference of level points [m]
+const kLoaded = 1e-3; // of the weight; contacts with a smaller force count as unloaded
 
-/// A contact that may push now: where it touches, its surface's normal, its force on the robot [N].
+/// A contact in stance: touching point, normal of its surface, force on the robot [N].
 export interface Support {
   point: Vector3;
   normal: Vector3;
@@ -38,8 +38,9 @@ export function hullFromAbove(points: Vector3[]): Vector3[] {
   return sorted.length < 3 ? sorted : [...half(sorted), ...half([...sorted].reverse())];
 }
 
-/// Zero-moment point: mean of the points of contact, weighted by their normal forces. Null unless all that bear load are on
-/// one horizontal plane, where this is the point about which the ground's forces have no horizontal moment.
+/// Zero-moment point: mean of the contact points, weighted by normal forces. Null unless all loaded
+/// contacts are on one horizontal plane; there the contact forces have no horizontal moment about
+/// it.
 export function zeroMomentPoint(supports: Support[], weight: number): Vector3 | null {
   const loaded = supports.filter(({ force, normal }) => force.dot(normal) > kLoaded * weight);
   if (loaded.length === 0) return null;
@@ -107,7 +108,7 @@ export class Balance {
 
   private drawPolygon(): void {
     const raised = this.corners.map((corner) => corner.clone().setZ(corner.z + 0.004 * this.size));
-    // Geometry of another number of corners needs other buffers.
+    // Another number of corners needs new buffers.
     this.edge.geometry.dispose();
     this.face.geometry.dispose();
     this.edge.geometry = new BufferGeometry().setFromPoints(raised);

@@ -8,7 +8,7 @@ import { failedChecks, kGrades } from "./verdict";
 const kDraft = 1e-4; // CertificateLimits of prowl/certificate/certificate.hpp
 const kCertified = 1e-6;
 
-/// The checks of the finished plan in groups; each goes to its worst moment.
+/// Checks of the finished plan in groups; a click on one goes to its worst moment.
 export function certificate(
   data: ReportData,
   clock: Clock,
@@ -50,7 +50,7 @@ export function certificate(
       el(
         "li",
         {},
-        `Forces of ${found.redundant_contacts.join(", ")} are one choice of many: the motion does not tell them.`,
+        `Forces of ${found.redundant_contacts.join(", ")} are not unique: the motion does not determine them.`,
       ),
     );
   }
@@ -116,7 +116,7 @@ export function certificate(
     el(
       "p",
       { class: "hint" },
-      "Computed from the finished motion by separate code for dynamics and integration. A check passes if its worst value is at most its limit; “left” is the distance to the bound. The bar is logarithmic: empty at a millionth of the limit, full at all of it. Click a row to go to its worst moment.",
+      "Computed from the finished motion by separate code for dynamics and integration. A check passes if its worst value is at most its limit; “left” is the remaining margin. The bar is logarithmic, from a millionth of the limit to the limit. Click a row to go to its worst moment.",
     ),
     notes.length > 0 ? el("ul", { class: "notes" }, ...notes) : null,
     el("div", { class: "wide" }, table),

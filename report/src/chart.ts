@@ -8,12 +8,12 @@ export interface Line {
   label: string;
   time: ArrayLike<number>;
   values: ArrayLike<number>;
-  colour: string; // name of a colour of the theme
+  colour: string; // name of a theme colour
   dash?: number[];
   width?: number;
-  limit?: boolean; // not in the readout, and to be switched off
+  limit?: boolean; // not in the readout; can be switched off
   quiet?: boolean; // not in the readout
-  steps?: boolean; // holds its value up to the next
+  steps?: boolean; // piecewise constant
 }
 
 export interface ChartOptions {
@@ -22,13 +22,13 @@ export interface ChartOptions {
   lines: Line[];
   logarithmic?: boolean;
   height?: number;
-  limits: boolean; // whether they are shown
+  limits: boolean; // show them
   group: string; // charts of one group share cursor and zoom
-  resized?: () => void; // called when the reader enlarges the chart or makes it small again
-  xLabel?: string; // in place of time, which can be clicked
+  resized?: () => void; // called when the chart is enlarged or reduced
+  xLabel?: string; // replaces time; then clicks do not seek
 }
 
-/// A line for each series over the same x, as uPlot wants it; what is no number is a gap.
+/// All series over one common x, as uPlot requires; non-finite values are gaps.
 function aligned(lines: Line[]): uPlot.AlignedData {
   const one = (line: Line): uPlot.AlignedData => [
     Array.from(line.time),
@@ -36,7 +36,7 @@ function aligned(lines: Line[]): uPlot.AlignedData {
   ];
   const same = lines.every((line) => line.time === lines[0].time);
   if (same) return [Array.from(lines[0].time), ...lines.map((line) => one(line)[1])] as uPlot.AlignedData;
-  // Two points at one time (a phase switch) would fall together in a join: the first comes a little earlier.
+  // A join would merge two points at one time (a phase transition): shift the first slightly.
   const apart = (data: uPlot.AlignedData): uPlot.AlignedData => {
     const x = data[0] as number[];
     for (let i = x.length - 2; i >= 0; --i) if (x[i] >= x[i + 1]) x[i] = x[i + 1] - 1e-9;
@@ -51,10 +51,10 @@ function aligned(lines: Line[]): uPlot.AlignedData {
 const kHeight = 112; // [px]
 const kLargeHeight = 320; // [px], enlarged
 const kFont = "10px system-ui, sans-serif";
-const kLabelHeight = 16; // of a label of the vertical axis, with air [px]
+const kLabelHeight = 16; // of a label of the vertical axis, with padding [px]
 
-/// A small chart over time: a click seeks, the time of the clock is a line, the values at that time are under its title.
-/// A click on the title enlarges it.
+/// A small chart over time. A click seeks; a line marks the time of the clock; the values at that
+/// time are under the title. A click on the title enlarges it.
 export class Chart {
   readonly element: HTMLElement;
   private readonly title: HTMLButtonElement;
@@ -98,13 +98,13 @@ export class Chart {
   enlarge(on: boolean): void {
     this.element.classList.toggle("large", on);
     this.title.setAttribute("aria-expanded", String(on));
-    this.title.title = on ? "Make small" : "Enlarge";
+    this.title.title = on ? "Reduce" : "Enlarge";
     this.options.resized?.();
     this.resize();
     if (on) this.element.scrollIntoView({ block: "nearest" });
   }
 
-  /// Draws it; the element has to be in the page.
+  /// Draws the chart; its element must be in the page.
   draw(): void {
     this.plot?.destroy();
     const { lines, options } = { lines: this.options.lines, options: this.options };
@@ -117,7 +117,7 @@ export class Chart {
         width,
         height: this.height(),
         padding: [8, 16, 0, 0], // half a label
-        pxAlign: 0, // whole pixels would make steps of slow changes
+        pxAlign: 0, // whole pixels would turn slow changes into steps
         legend: { show: false },
         cursor: { sync: { key: options.group }, drag: { x: true, y: false }, points: { size: 5 } },
         scales: {
@@ -155,7 +155,7 @@ export class Chart {
             paths: line.steps ? uPlot.paths.stepped!({ align: 1 }) : undefined,
           })),
         ],
-        // Scales are set when it draws, which is later than this constructor and again after a zoom or a new size.
+        // uPlot sets scales when it draws: after this constructor, and after zooming or resizing.
         hooks: { drawClear: [(u) => this.shade(u)], draw: [() => this.update()] },
       },
       aligned(lines),
@@ -176,7 +176,7 @@ export class Chart {
     this.options.limits = on;
     this.options.lines.forEach((line, i) => line.limit && this.plot?.setSeries(i + 1, { show: on }));
   }
-  /// Line and values of the time.
+  /// Updates time line and values.
   update(): void {
     if (!this.plot || this.options.xLabel) return;
     const t = this.clock.time;
@@ -206,7 +206,7 @@ export class Chart {
       this.clock.seek(this.plot!.posToVal(event.clientX - over.getBoundingClientRect().left, "x"));
     });
   }
-  /// Every other phase has a shade.
+  /// Shades every other phase.
   private shade(u: uPlot): void {
     if (this.options.xLabel) return;
     u.ctx.save();
@@ -220,7 +220,7 @@ export class Chart {
   }
 }
 
-/// Linear between samples, nothing outside of them.
+/// Linear between samples, NaN outside.
 function at(line: Line, t: number): number {
   const { time, values } = line;
   if (time.length === 0 || t > time[time.length - 1] + 1e-9) return NaN;
@@ -229,7 +229,7 @@ function at(line: Line, t: number): number {
   return values[index] + share * (values[index + 1] - values[index]);
 }
 
-/// Of the ticks of a logarithmic axis the powers of ten, as many as have room for their labels.
+/// Keeps the powers of ten among ticks of a logarithmic axis, as many as have room for labels.
 const powersOfTen = (u: uPlot, ticks: number[]): (number | null)[] => {
   const exponents = ticks.map((tick) => Math.log10(tick));
   const isPower = exponents.map((exponent) => Math.abs(exponent - Math.round(exponent)) < 1e-6);
@@ -238,7 +238,7 @@ const powersOfTen = (u: uPlot, ticks: number[]): (number | null)[] => {
   return ticks.map((tick, i) => (isPower[i] && Math.round(exponents[i]) % every === 0 ? tick : null));
 };
 
-/// What the widest label of the vertical axis takes [px].
+/// Width of the widest label of the vertical axis [px].
 function labelWidth(u: uPlot, texts: string[] | null): number {
   u.ctx.save();
   u.ctx.font = kFont;
@@ -247,7 +247,7 @@ function labelWidth(u: uPlot, texts: string[] | null): number {
   return Math.ceil(Math.max(widest + 9, 34));
 }
 
-/// A range with some air, and not one that makes rounding look like a motion.
+/// A padded range, large enough that rounding does not look like a motion.
 function padded(low: number, high: number): [number, number] {
   if (!Number.isFinite(low) || !Number.isFinite(high)) return [-1, 1];
   const size = Math.max(Math.abs(low), Math.abs(high));

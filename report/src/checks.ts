@@ -1,7 +1,7 @@
 import type { Check, ReportData } from "./data";
 import { short } from "./dom";
 
-/// Groups of checks by name, in the order in which they are shown.
+/// Groups of checks by beginning of their names, in order of display.
 export const kGroups: [string, string[]][] = [
   ["Task", ["nodes fit the problem", "start state", "goal", "phase duration"]],
   ["Limits of the robot", ["joint "]],
@@ -16,7 +16,7 @@ export const kGroups: [string, string[]][] = [
 export const groupOf = (check: Check): string =>
   kGroups.find(([, beginnings]) => beginnings.some((beginning) => check.name.startsWith(beginning)))![0];
 
-/// The unit of a check; where it covers several kinds of quantities ("SI"), that of its worst coordinate.
+/// Unit of a check; for mixed quantities ("SI") that of the worst coordinate.
 export function unitOf(check: Check, data: ReportData): string {
   if (check.unit === "-" || check.unit === "") return "";
   if (check.unit !== "SI") return check.unit.replace("^2", "²");
@@ -28,7 +28,7 @@ export function unitOf(check: Check, data: ReportData): string {
   return check.name === "start state" ? `${unit}, ${unit}/s` : unit;
 }
 
-/// Share of the limit that is used: 0 for a value inside its bound; null where there is no limit to compare with.
+/// Used share of the limit: 0 for a value inside its bound; null without a positive limit.
 export function usedShare(check: Check): number | null {
   if (check.worst === null || check.limit === null) return null;
   if (check.worst <= 0) return 0;
@@ -42,11 +42,11 @@ export function percent(share: number | null): string {
   return share > 10 ? `${short(share, 2)}-fold` : `${short(100 * share, 2)} %`;
 }
 
-/// Length of a bar for a share, 0 to 1: logarithmic from a millionth to all of the limit.
+/// Length of a bar, 0 to 1: logarithmic from a millionth of the limit to the limit.
 export const barLength = (share: number): number =>
   share <= 0 ? 0 : Math.min(Math.max(1 + Math.log10(share) / 6, 0.03), 1);
 
-/// The worst value: what is left to the bound if it is inside of it.
+/// The worst value, or the remaining margin if it is inside the bound.
 export function worstText(check: Check, unit: string): string {
   const { worst, limit } = check;
   const suffix = unit ? ` ${unit}` : "";
@@ -56,7 +56,7 @@ export function worstText(check: Check, unit: string): string {
   return `${short(worst)}${suffix}`;
 }
 
-/// Texts that differ by a contact's name only, as one that names all of these contacts.
+/// Merges texts that differ only in the name of a contact.
 export function mergedByContact(texts: string[], contacts: string[]): string[] {
   const groups = new Map<string, { text: string; names: string[] }>();
   for (const text of texts) {

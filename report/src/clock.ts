@@ -1,7 +1,7 @@
-/// One step of an arrow key [s].
+/// Step of an arrow key [s].
 export const kFrame = 0.01;
 
-/// The one time that scene, time line and charts show. Plays in real time times `speed`, stops at the end.
+/// Common time of scene, time line and charts. Plays at `speed` times real time, stops at the end.
 export class Clock {
   time = 0;
   playing = false;
@@ -19,7 +19,7 @@ export class Clock {
     this.time = Math.min(Math.max(time, 0), this.end);
     this.tell();
   }
-  /// Of another motion: the time stays where it is, if there is such a time in it.
+  /// Sets the end of a new motion; keeps the time if possible.
   setEnd(end: number): void {
     this.end = end;
     this.seek(this.time);
@@ -46,7 +46,7 @@ export class Clock {
 
   private readonly step = (now: number): void => {
     if (!this.playing) return;
-    // A page in the background gets no frames: go on from where it was.
+    // A page in the background gets no frames: limit the step.
     const elapsed = Math.min(Math.max(now - this.last, 0), 250) / 1000;
     this.last = now;
     this.time = Math.min(this.time + elapsed * this.speed, this.end);

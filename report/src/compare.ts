@@ -7,7 +7,7 @@ type One = Pick<ReportData, "directory" | "robot" | "phases" | "plan_json">;
 
 const kShares = ["joint torque", "joint velocity"];
 
-/// Two plans side by side; null if the page has one.
+/// Two plans side by side; null if the page contains one.
 export function comparison(data: ReportData): HTMLElement | null {
   if (!data.other) return null;
   const both: One[] = [data, data.other];
@@ -55,7 +55,7 @@ export function comparison(data: ReportData): HTMLElement | null {
     el(
       "p",
       { class: "hint" },
-      "Plots, view and time line show the first plan; the second is a line and a robot in its colour.",
+      "Plots, view and time line show the first plan. The second appears as a line in the plots and a robot in the view, in its colour.",
     ),
   );
 }

@@ -1,4 +1,5 @@
-// What `prowl report` puts into the page (docs/report.md). Seconds, metres, newtons; world axes, z up.
+// Data that `prowl report` embeds in the page (docs/report.md). Seconds, metres, newtons; world
+// axes, z up.
 
 export type Triple = [number, number, number];
 
@@ -15,7 +16,7 @@ export interface Surface {
   point: Triple;
   normal: Triple;
   friction: number;
-  patch: Triple[]; // corners in the world; none for a whole plane
+  patch: Triple[]; // corners in the world; empty for a whole plane
 }
 
 export interface Visual {
@@ -117,14 +118,15 @@ export interface PlanJson {
   urdf: TextFile;
 }
 
-/// "rest" is null if the robot did not come to stand in the end.
+/// "rest" is null if the robot did not stand at the end.
 export interface SimulationError {
   largest: number | null;
   rms: number | null;
   rest: number | null;
 }
 
-/// Of MuJoCo, or of a rollout (engine "rollout"), which has no slip, sensors and versions, but loads of contacts.
+/// Result of MuJoCo, or of a rollout (engine "rollout"): without slip, sensors and versions, but
+/// with loads of contacts.
 export interface SimulationJson {
   engine: string;
   success: boolean;
@@ -173,10 +175,10 @@ export interface ReportData {
   gains: { time: number[]; values: string } | null;
   warnings: string[];
   live: { solved: boolean } | null; // served by prowl view
-  other: OtherPlan | null; // to compare with
+  other: OtherPlan | null; // second plan, to compare
 }
 
-/// A second plan in the same page. Its scene is null if it is that of the first.
+/// A second plan in the same page. Its scene is null if equal to the first.
 export type OtherPlan = Pick<
   ReportData,
   "directory" | "robot" | "size_m" | "phases" | "plan_json" | "plan" | "charts"

@@ -1,4 +1,4 @@
-// Makes elements. Text goes in as text, never as markup.
+// Creates elements. Text is inserted as text, never as markup.
 
 type Child = Node | string | null | undefined;
 
@@ -16,11 +16,11 @@ export function el<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/// Colour of the theme by the name of its CSS variable.
+/// Theme colour by the name of its CSS variable.
 export const colour = (name: string): string =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-/// A number as short as it can be with so many digits; "–" for what is none.
+/// A number with at most `digits` digits, shortest form; "–" for missing values.
 export function short(value: number | null | undefined, digits = 3): string {
   if (value == null || !Number.isFinite(value)) return "–";
   const size = Math.abs(value);

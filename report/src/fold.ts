@@ -2,8 +2,8 @@ import { el } from "./dom";
 
 const kNarrow = matchMedia("(max-width: 900px)");
 
-/// Lets a section be folded to its heading by a button in it; folded at first on a narrow screen. `opened` draws what has no
-/// size while it is folded.
+/// Adds a button to the heading that folds a section; initially folded on narrow screens. `opened`
+/// draws content that has no size while folded.
 export function foldable(section: HTMLElement | null, opened: () => void = () => undefined): HTMLElement | null {
   const heading = section?.querySelector("h2");
   if (!section || !heading) return section;

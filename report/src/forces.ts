@@ -18,9 +18,10 @@ import type { Scene, Surface } from "./data";
 import type { Motion } from "./motion";
 
 const kUp = new Vector3(0, 0, 1);
-const kSeen = 1e-3; // of the weight: smaller forces are not drawn
+const kSeen = 1e-3; // of the weight; smaller forces are hidden
 
-/// As seen in the scene: where the arrow begins [m], the force that its length stands for [N], the cone's friction coefficient.
+/// An arrow as drawn: start [m], force that its length represents [N], friction coefficient of its
+/// cone.
 export interface DrawnForce {
   name: string;
   visible: boolean;
@@ -36,8 +37,8 @@ interface Contact {
   cone: Group;
 }
 
-/// Contact forces on the robot as arrows, from where the contact touches, each in its friction cone: the mouth of the cone is
-/// as high as the arrow's tip, so that a tip on its rim is a foot about to slip.
+/// Contact forces on the robot as arrows from the touching points, in friction cones as high as the
+/// arrow's tip: a tip on the rim is a foot about to slip.
 export class Forces {
   readonly arrows = new Group();
   readonly cones = new Group();
@@ -53,7 +54,7 @@ export class Forces {
   private readonly perNewton: number; // [m/N]
   private readonly thickness: number; // [m]
 
-  /// Broad arrows are seen through, and lie below others.
+  /// Broad arrows are transparent, and lie below others.
   constructor(
     private readonly scene: Scene,
     size: number,
@@ -72,7 +73,8 @@ export class Forces {
     this.rimMaterial.color.copy(cone);
   }
 
-  /// `point(c)` is where contact c is in the world, `held(c)` the surface that it may push against now, if any.
+  /// `point(c)`: position of contact c in the world; `held(c)`: surface that it may push against
+  /// now, if any.
   show(
     motion: Motion,
     t: number,
@@ -150,7 +152,7 @@ export class Forces {
   }
 }
 
-/// Lines that points of the robot draw.
+/// Paths of points of the robot.
 export class Trails {
   readonly group = new Group();
   private readonly material = new LineBasicMaterial({ transparent: true, opacity: 0.8 });

@@ -16,13 +16,13 @@ import {
 } from "three";
 import type { Surface } from "./data";
 
-/// Planes as a grid around the motion, patches as they are; from behind a wall or from below one sees through.
+/// Planes as a grid around the motion, patches as polygons; invisible from behind or below.
 export class Ground {
   readonly group = new Group();
   private readonly faces: MeshStandardMaterial[] = [];
   private readonly lines: LineBasicMaterial[] = [];
 
-  /// `centre` and `reach` [m]: what of a plane is to be seen.
+  /// `centre` and `reach` [m]: visible part of a plane.
   constructor(surfaces: Surface[], centre: Vector3, reach: number) {
     for (const surface of surfaces)
       this.group.add(surface.patch.length > 0 ? this.patch(surface) : this.plane(surface, centre, reach));
@@ -54,7 +54,7 @@ export class Ground {
   private plane(surface: Surface, centre: Vector3, reach: number): Group {
     const normal = new Vector3(...surface.normal);
     const point = new Vector3(...surface.point);
-    const size = 2 * Math.ceil(2 * reach) * 0.5; // in whole steps of the grid
+    const size = 2 * Math.ceil(2 * reach) * 0.5; // whole grid steps
     const plane = new Group();
     const face = new Mesh(new PlaneGeometry(size, size), this.face(1));
     face.receiveShadow = true;
@@ -70,7 +70,7 @@ export class Ground {
     }
     plane.add(face, new LineSegments(new BufferGeometry().setFromPoints(points), this.line()));
     plane.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), normal));
-    // Below the robot, on whole steps of the grid, so that the lines are round numbers on level ground.
+    // Below the robot, on whole grid steps: on level ground the lines are at round coordinates.
     const rounded = new Vector3(Math.round(centre.x / step) * step, Math.round(centre.y / step) * step, centre.z);
     plane.position.copy(rounded.addScaledVector(normal, -rounded.clone().sub(point).dot(normal)));
     return plane;

@@ -10,7 +10,7 @@ function badge(data: ReportData): HTMLElement {
   return el("span", { class: "badge good", title: kGrades[found.grade] }, `✓ passed · ${found.grade}`);
 }
 
-/// The motion and its solve in one line.
+/// Motion and solve in one line.
 function summary(data: ReportData): string {
   const { good, solver: solved } = data.plan_json;
   const intervals = data.phases.reduce((sum, phase) => sum + phase.intervals, 0);

@@ -5,9 +5,9 @@ import type { Layers, View } from "./view";
 
 export const kKeys: [string, string][] = [
   ["space", "play, pause"],
-  ["← →", "10 ms back, on; with shift 100 ms; from tab to tab if a tab has the focus"],
+  ["← →", "10 ms back, forward; with shift 100 ms; previous, next tab if a tab has the focus"],
   ["home, end", "start, end"],
-  ["n, p", "next phase, phase before"],
+  ["n, p", "next, previous phase"],
   ["+ −", "faster, slower"],
   ["f, c, g, t", "forces, friction cones, simulation, paths"],
   ["o, m, s, z", "other plan, centre of mass, support polygon, zero-moment point"],
@@ -28,7 +28,7 @@ const kLayers: Record<string, keyof Layers> = {
   w: "follow",
 };
 
-/// Keys of the whole page; those of a field that has the focus go first.
+/// Keys of the whole page; a focused field takes precedence.
 export function keyboard(
   clock: Clock,
   timeline: Timeline,
@@ -57,7 +57,7 @@ export function keyboard(
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const target = event.target as HTMLElement;
     if (target.closest("select, textarea, dialog")) return;
-    // Space presses a button, arrows move within tabs and text.
+    // Space presses buttons, arrow keys move within tabs and text.
     if (event.key === " " && target.closest("button, summary, input[type=checkbox]")) return;
     if (event.key.length > 1 && target.closest("pre, .wide")) return;
     const action = actions[event.key];

@@ -2,7 +2,7 @@ import type { ReportData } from "./data";
 import { el } from "./dom";
 import type { Layers, View } from "./view";
 
-/// What the view shows, each with a switch.
+/// Switches for the layers of the view.
 export function layerSwitches(view: View, data: ReportData): HTMLElement {
   const names: [keyof Layers, string, boolean][] = [
     ["forces", "forces", true],
@@ -25,7 +25,7 @@ export function layerSwitches(view: View, data: ReportData): HTMLElement {
   const reset = el("button", { type: "button" }, "reset view");
   reset.addEventListener("click", () => view.resetCamera());
   const list = el("details", { class: "layer-list" }, el("summary", {}, "layers"), el("div", {}, ...boxes));
-  // On a narrow screen the list is folded: it would cover the view.
+  // Folded on narrow screens, where the list would cover the view.
   const narrow = matchMedia("(max-width: 900px)");
   const fit = () => (list.open = !narrow.matches);
   narrow.addEventListener("change", fit);

@@ -3,10 +3,10 @@ import { el } from "./dom";
 import type { Plots } from "./plots";
 import type { View } from "./view";
 
-const kPatience = 300; // after the last change, before the address follows [ms]
+const kPatience = 300; // delay between the last change and the update of the address [ms]
 const kDigits = 3; // of times and lengths
 
-/// The moment, tab and view that the page shows, as the part of its address behind "#": t=1.25&tab=Base&view=...
+/// Time, tab and view of the page in the fragment of its address: t=1.25&tab=Base&view=...
 export class MomentLink {
   readonly button = el("button", { type: "button", class: "link" }, "Copy link");
   private waiting = 0;
@@ -21,7 +21,7 @@ export class MomentLink {
     this.button.addEventListener("click", () => void this.copy());
   }
 
-  /// Goes where the address says; from then on the address follows when the motion is paused.
+  /// Applies the address; afterwards the address follows while the motion is paused.
   start(): void {
     this.read();
     this.clock.onChange(() => this.follow());
@@ -53,7 +53,7 @@ export class MomentLink {
     try {
       history.replaceState(null, "", this.written);
     } catch {
-      // Some browsers refuse this to pages that are opened from a file.
+      // Some browsers refuse this for pages opened from a file.
     }
   }
   private async copy(): Promise<void> {

@@ -1,17 +1,17 @@
 import type { Iterate, ReportData } from "./data";
 import { el, short } from "./dom";
 
-/// What the page shows of a motion, and what changes from iterate to iterate.
+/// Data of a motion that changes between iterates.
 export type Shown = Pick<ReportData, "phases" | "plan" | "charts">;
 
-const kPause = 200; // between two pictures of the newest iterate: drawing takes time from the solver [ms]
+const kPause = 200; // between pictures of the latest iterate: drawing slows the solver [ms]
 
-/// The solver's iterates as the server of prowl view sends them, on a slider whose right end is the newest, or the result.
-/// When the plan is solved the page is loaded anew, now with its certificate.
+/// Iterates of the solver, sent by the server of prowl view, on a slider that ends with the latest,
+/// or the result. When the plan is solved, the page reloads with its certificate.
 export class Live {
   readonly element: HTMLElement;
   private readonly result: Shown | null;
-  private readonly iterates: (Iterate | string)[] = []; // parsed when they are first shown
+  private readonly iterates: (Iterate | string)[] = []; // parsed when first shown
   private readonly slider = el("input", {
     type: "range",
     min: "0",
@@ -42,7 +42,7 @@ export class Live {
     this.describe();
   }
 
-  /// Call it after the first picture: the iterates so far come all at once.
+  /// Call it after the first picture: all iterates so far arrive at once.
   listen(): void {
     const events = new EventSource("/events");
     events.addEventListener("iterate", (event) => {
@@ -58,16 +58,16 @@ export class Live {
     events.addEventListener("error", () => {
       events.close();
       this.element.classList.add("ended");
-      this.element.title = "prowl view has ended: this page keeps what it has";
+      this.element.title = "prowl view has ended: this page keeps its data";
       this.describe();
     });
   }
 
-  /// Index on the slider of the newest, or of the result after it.
+  /// Slider index of the latest iterate, or of the result after it.
   private last(): number {
     return this.result ? this.iterates.length : Math.max(this.iterates.length - 1, 0);
   }
-  /// They come faster than they can be drawn.
+  /// Limits the rate: iterates may arrive faster than they can be drawn.
   private ask(): void {
     if (this.waiting) return;
     this.waiting = true;

@@ -20,7 +20,7 @@ import { ThemeSwitch } from "./theme";
 import { Timeline } from "./timeline";
 import { View } from "./view";
 
-/// For tests of the page: what it shows, in numbers.
+/// State of the page, for tests.
 declare global {
   interface Window {
     prowl?: { clock: Clock; view: View | null; data: ReportData };
@@ -37,7 +37,7 @@ function helpDialog(): HTMLDialogElement {
     el(
       "p",
       { class: "hint" },
-      "In the view: drag to turn, right drag or two fingers to move, wheel or pinch to come nearer. Click a body or a foot for its series.",
+      "In the view: drag to turn, right drag or two fingers to move, wheel or pinch to zoom. Click a body or a foot to plot its series.",
     ),
     close,
   );
@@ -45,7 +45,7 @@ function helpDialog(): HTMLDialogElement {
   return dialog;
 }
 
-/// The view, or why there is none: everything else of the page works without.
+/// The view, or a note why there is none; the rest of the page works without it.
 function makeView(container: HTMLElement, data: ReportData, clock: Clock): View | null {
   try {
     const view = new View(container, data, clock);
@@ -56,7 +56,7 @@ function makeView(container: HTMLElement, data: ReportData, clock: Clock): View 
       el(
         "p",
         { class: "no-view" },
-        `No 3D view: this browser gives no WebGL (${error instanceof Error ? error.message : String(error)}). Plots and tables work without.`,
+        `No 3D view: this browser provides no WebGL (${error instanceof Error ? error.message : String(error)}). Plots and tables work without it.`,
       ),
     );
     return null;

@@ -1,7 +1,8 @@
 import { Quaternion, Vector3 } from "three";
 import { floats, type MotionData } from "./data";
 
-/// Index i of the last sample at or before t, and how far t is to the next, 0 ... 1. Of two samples at one time, the later.
+/// Index of the last sample at or before t (the later of two at one time), and the share of the way
+/// to the next, 0 ... 1.
 export function sampleAt(time: ArrayLike<number>, t: number): { index: number; share: number } {
   let low = 0;
   let high = time.length - 1;
@@ -15,7 +16,8 @@ export function sampleAt(time: ArrayLike<number>, t: number): { index: number; s
   return { index: low, share: length > 0 ? Math.min(Math.max((t - time[low]) / length, 0), 1) : 0 };
 }
 
-/// Bodies and contact forces of a motion at any time: linear between samples, orientations along the shortest turn.
+/// Bodies and contact forces of a motion at any time: linear between samples, orientations along
+/// the shortest rotation.
 export class Motion {
   readonly end: number;
   private readonly placements: Float32Array;
@@ -51,7 +53,7 @@ export class Motion {
     force.fromArray(this.forces, at);
     if (share > 0) force.lerp(new Vector3().fromArray(this.forces, at + 3 * this.contacts), share);
   }
-  /// The centre of mass.
+  /// Centre of mass [m].
   massCentre(t: number, centre: Vector3): void {
     const { index, share } = sampleAt(this.data.time, t);
     centre.fromArray(this.centres, 3 * index);

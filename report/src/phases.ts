@@ -1,13 +1,13 @@
 import type { Phase, Scene } from "./data";
 
-/// A short name of a contact: LF for lf_foot, left for each point of the left foot.
+/// Short name of a contact: LF for lf_foot, "left" for each point of the left foot.
 export function shortContact(name: string): string {
   const parts = name.replace(/_?foot$/i, "").split("_");
   if (parts.length > 2) return parts[0];
   return parts.map((part) => (part.length <= 3 ? part.toUpperCase() : part)).join(" ") || name;
 }
 
-/// Contacts that a phase holds open although another phase closes them, by short names: "LF+RH".
+/// Short names of contacts in the air in this phase, but in stance in another: "LF+RH".
 export function inTheAir(phase: Phase, phases: Phase[], scene: Scene): string {
   const used = new Set(phases.flatMap((one) => one.contacts.map((entry) => entry.contact)));
   for (const entry of phase.contacts) used.delete(entry.contact);
@@ -15,7 +15,7 @@ export function inTheAir(phase: Phase, phases: Phase[], scene: Scene): string {
   return [...new Set(names)].join("+");
 }
 
-/// Consecutive phases under one name: those of a stride together, others by themselves.
+/// A phase, or all phases of one stride.
 export interface Part {
   name: string;
   short: string;

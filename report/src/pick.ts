@@ -9,8 +9,8 @@ interface Picked {
   contact: number | null;
 }
 
-const kNearContact = 0.08; // of the robot's size: a click as near as this is on the contact
-const kStill = 4; // a pointer that moves less has clicked [px]
+const kNearContact = 0.08; // of the robot's size: largest distance of a click on a contact
+const kStill = 4; // largest pointer motion of a click [px]
 
 function pickAt(view: View, data: ReportData, x: number, y: number): Picked | null {
   const hit = view.bodyAt(x, y);
@@ -22,7 +22,7 @@ function pickAt(view: View, data: ReportData, x: number, y: number): Picked | nu
   return { body: hit.body, contact: near[0]?.c ?? null };
 }
 
-/// A click on the robot shows the series of what is there.
+/// A click on the robot plots the series of the body or contact there.
 export function pickSeries(view: View, plots: Plots, data: ReportData): void {
   const label = el("output", { class: "picked", hidden: true });
   view.canvas.after(label);
@@ -47,7 +47,7 @@ export function pickSeries(view: View, plots: Plots, data: ReportData): void {
   let from = [0, 0];
   view.canvas.addEventListener("pointerdown", (event) => (from = [event.clientX, event.clientY]));
   view.canvas.addEventListener("click", (event) => {
-    if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > kStill) return; // it has turned the view
+    if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > kStill) return; // a drag
     show(pickAt(view, data, event.clientX, event.clientY));
   });
 }

@@ -9,19 +9,19 @@ interface Tab {
   limits: boolean;
   charts: (options: { limits: boolean; group: string }) => Chart[];
   head?: HTMLElement;
-  wide?: boolean; // charts with long titles or many values
+  wide?: boolean; // for long titles or many values
 }
 
 const kAxes = ["x", "y", "z"];
 const kAxisColours = ["axis-x", "axis-y", "axis-z"];
 
-/// The series of one joint or contact, as a tab of its own.
+/// The series of one joint or contact, in a separate tab.
 export interface Picked {
   name: string;
   isOfIt: (tab: string, chart: string) => boolean;
 }
 
-/// All plots, a tab a kind; made when they are first looked at.
+/// All plots, one tab per kind, created when first shown.
 export class Plots {
   readonly element: HTMLElement;
   private tabs: Tab[];
@@ -60,14 +60,14 @@ export class Plots {
       el(
         "p",
         { class: "hint" },
-        "Time in seconds. Click in a plot to go there, drag to zoom, double click to see all. Click a title to enlarge its plot.",
+        "Time in seconds. Click in a plot to go to that time, drag to zoom, double-click to reset. Click a title to enlarge its plot.",
       ),
     );
     clock.onChange(() => this.charts.forEach((chart) => chart.update()));
     new ResizeObserver(() => this.charts.forEach((chart) => chart.resize())).observe(this.panel);
   }
 
-  /// Name of the tab that is shown, and the way to it.
+  /// Name of the current tab.
   get tab(): string {
     return this.tabs[this.chosen].name;
   }
@@ -75,7 +75,7 @@ export class Plots {
     const index = this.tabs.findIndex((tab) => tab.name === name);
     if (index >= 0) this.choose(index);
   }
-  /// Shows a joint's or contact's series together, in a tab behind the others.
+  /// Shows the series of a joint or contact in an additional tab.
   pick(picked: Picked): void {
     this.picked = picked;
     this.tabs = this.tabsOfData();
@@ -104,7 +104,7 @@ export class Plots {
     this.draw();
     this.onChoose();
   }
-  /// Plots what the data has now: the same tabs, of another motion.
+  /// Plots the current data: the same tabs for another motion.
   setData(): void {
     const limits = this.tabs.map((tab) => tab.limits);
     this.times = this.timesOfData();
@@ -114,7 +114,7 @@ export class Plots {
     this.choose(Math.min(this.chosen, this.tabs.length - 1));
     this.charts.forEach((chart, i) => large[i] && chart.enlarge(true));
   }
-  /// Again, in the colours of the theme.
+  /// Redraws, in the colours of the theme.
   draw(): void {
     for (const chart of this.charts) chart.draw();
   }
@@ -128,7 +128,7 @@ export class Plots {
       );
       button.addEventListener("click", (event) => {
         this.choose(i);
-        if (event.detail > 0) button.blur(); // by a pointer: the arrow keys go on moving in time
+        if (event.detail > 0) button.blur(); // by a pointer: arrow keys keep moving in time
       });
       button.addEventListener("keydown", (event) => this.move(event, i));
       return button;
@@ -167,7 +167,7 @@ export class Plots {
     }
     return tabs;
   }
-  /// A chart with the series of the other plan, if that has the same chart.
+  /// Adds the series of the other plan, if it contains the same chart.
   private withOther(tab: string, chart: ChartData): ChartData {
     const same = this.data.other?.charts
       .find((one) => one.name === tab)
@@ -188,7 +188,7 @@ export class Plots {
     if (styles.has("other")) legend.push(["other plan", "second", false]);
     if (styles.has("simulation")) legend.push(["simulation", "simulation", false]);
     if (styles.has("limit")) legend.push(["limit", "limit", true]);
-    // In this order one lies over the other, and values stand side by side: the plan is a broad line below the rest.
+    // Drawing order, and order of values: the plan is a broad line below the others.
     const order = { limit: 0, plan: 1, other: 2, simulation: 3 };
     const isAlone = !styles.has("other") && !styles.has("simulation");
     const widths = { limit: 1, plan: isAlone ? 1.5 : 3, other: 1.5, simulation: 1.2 };
@@ -221,7 +221,7 @@ export class Plots {
     };
   }
 
-  /// Rows of K(t), of the joint that is chosen.
+  /// Rows of K(t) of the chosen joint.
   private gains(gains: NonNullable<ReportData["gains"]>): Tab {
     const values = floats(gains.values);
     const { joints } = this.data;

@@ -2,10 +2,11 @@ import type { Clock } from "./clock";
 import { el } from "./dom";
 
 const kTypes = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
-const kRate = 30; // pictures a second
-const kBits = 8e6; // a second
+const kRate = 30; // frames per second
+const kBits = 8e6; // bits per second
 
-/// A button that plays the motion once, from its start, and saves the view as a video. Null where the browser cannot.
+/// A button that plays the motion once from its start and saves the view as a video. Null if the
+/// browser cannot.
 export function recordButton(canvas: HTMLCanvasElement, clock: Clock, name: string): HTMLButtonElement | null {
   if (typeof MediaRecorder === "undefined" || !("captureStream" in canvas)) return null;
   const type = kTypes.find((one) => MediaRecorder.isTypeSupported(one));

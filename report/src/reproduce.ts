@@ -1,7 +1,7 @@
 import type { ReportData, SimulationError, SimulationJson, TextFile } from "./data";
 import { el, short } from "./dom";
 
-/// How the simulation went, in words and figures; nothing if there was none.
+/// Results of the simulation; null without one.
 export function simulation(data: ReportData): HTMLElement | null {
   const found = data.simulation_json;
   if (!found) return null;
@@ -13,7 +13,7 @@ export function simulation(data: ReportData): HTMLElement | null {
       : Object.entries(found.versions ?? {})
           .map(([name, version]) => `${name} ${version}`)
           .join(", ");
-  // A rollout's contacts hold whatever the force.
+  // Contacts of a rollout hold for any force.
   const pulling = Object.entries(found.contacts ?? {}).filter(
     ([, load]) => load.least_normal_force_N !== null && load.least_normal_force_N < 0,
   );
@@ -88,7 +88,7 @@ export function simulation(data: ReportData): HTMLElement | null {
   );
 }
 
-/// The command with what is not as it would be anyhow.
+/// The command, without options at their defaults.
 function simulateCommand(directory: string, found: SimulationJson): string {
   const { options } = found;
   const words = [
@@ -124,7 +124,7 @@ function simulateCommand(directory: string, found: SimulationJson): string {
   return words.join(" ");
 }
 
-/// Everything that it takes to make the plan again.
+/// Everything needed to reproduce the plan.
 export function reproduce(data: ReportData): HTMLElement {
   const { versions, task_file, robot_file, urdf, overrides } = data.plan_json;
   const commands = [data.command];

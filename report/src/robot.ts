@@ -19,9 +19,9 @@ import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.j
 import { floats, integers, type Scene, type Triple, type Visual } from "./data";
 import type { Motion } from "./motion";
 
-const kCrease = (40 * Math.PI) / 180; // edges sharper than this are seen as edges
+const kCrease = (40 * Math.PI) / 180; // sharper edges appear as edges
 
-/// Geometry that the robot and its ghost share.
+/// Geometry shared by the robot and its ghost.
 export class Shapes {
   private readonly meshes: BufferGeometry[];
 
@@ -34,7 +34,7 @@ export class Shapes {
     });
   }
 
-  /// The shape of a visual in its body; each part with the colour that it has.
+  /// Parts of a visual in its body, with their own colours.
   parts(visual: Visual): { geometry: BufferGeometry; colour: Triple | null; matrix: Matrix4 }[] {
     const [a, b, c] = visual.size;
     const p = visual.placement;
@@ -65,7 +65,8 @@ export class Shapes {
   }
 }
 
-/// The robot as one group a body, in world coordinates. A ghost has one colour, and is seen through.
+/// The robot with one group per body, in world coordinates. A ghost has one colour, and is
+/// transparent.
 export class Robot {
   readonly group = new Group();
   readonly bodies: Group[];
@@ -104,7 +105,7 @@ function materialOf(colour: Triple | null, made: Map<string, Material>): Materia
   let material = made.get(key);
   if (!material) {
     const own = new Color().setRGB(...(colour ?? ([0.72, 0.73, 0.75] as Triple)), SRGBColorSpace);
-    // Pure colours of CAD files hide their own shading: keep the hue, take off the edge.
+    // Pure colours of CAD files hide shading: keep the hue, soften the colour.
     const { h, s, l } = own.getHSL({ h: 0, s: 0, l: 0 }, SRGBColorSpace);
     own.setHSL(h, Math.min(s, 0.45), Math.min(Math.max(l, 0.24), 0.88), SRGBColorSpace);
     material = new MeshStandardMaterial({ color: own, roughness: 0.62, metalness: 0.08 });
@@ -113,7 +114,7 @@ function materialOf(colour: Triple | null, made: Map<string, Material>): Materia
   return material;
 }
 
-/// Seen through; where it is in the same place as the plan, the plan is seen alone.
+/// Transparent; hidden where it coincides with the plan.
 export function ghostMaterial(): MeshStandardMaterial {
   return new MeshStandardMaterial({
     transparent: true,
@@ -125,7 +126,7 @@ export function ghostMaterial(): MeshStandardMaterial {
   });
 }
 
-/// Placement of a body in the scene: x y z, quaternion x y z w; empty if there is none of that name.
+/// Placement of a body in the scene: x y z, quaternion x y z w; empty for an unknown name.
 export function placementOf(robot: Robot | null | undefined, name: string): number[] {
   const body = robot?.bodies.find((group) => group.name === name);
   if (!body) return [];

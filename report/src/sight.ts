@@ -2,10 +2,10 @@ import { Box3, type PerspectiveCamera, Vector3 } from "three";
 import type { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 const kDirection = new Vector3(0.78, -1, 0.42).normalize(); // from the target to the camera
-const kFilled = 0.84; // of the picture's width and height, for the motion
+const kFilled = 0.84; // share of the picture's width and height for the motion
 const kGlide = 350; // [ms]
 
-/// Where the camera is and what it looks at.
+/// Position and target of the camera.
 export class Sight {
   private glide: { begun: number; target: Vector3; offset: Vector3 } | null = null;
 
@@ -14,7 +14,8 @@ export class Sight {
     private readonly controls: OrbitControls,
   ) {}
 
-  /// Looks at all the boxes, as near as they allow. The share `top` of the picture stays free above them.
+  /// Looks at all boxes from as near as possible. The share `top` of the picture stays free above
+  /// them.
   frame(boxes: Box3[], top: number): void {
     this.glide = null;
     const corners = boxes.flatMap(cornersOf);
@@ -25,7 +26,7 @@ export class Sight {
     const wide = kFilled * half * this.camera.aspect;
     const target = boxes.reduce((all, box) => all.union(box), new Box3()).getCenter(new Vector3());
     let distance = 0;
-    // What is nearer looks larger: the middle of the picture is found in a few rounds.
+    // Perspective enlarges near points: iterate to centre the picture.
     for (let round = 0; round < 5; ++round) {
       const points = corners.map((corner) => {
         const offset = corner.clone().sub(target);
@@ -36,7 +37,7 @@ export class Sight {
       target.addScaledVector(right, middle(points.map(({ x, z }) => x / (distance - z))));
       target.addScaledVector(up, middle(points.map(({ y, z }) => y / (distance - z))));
     }
-    // The last shift may have pushed a corner out again.
+    // The last shift may have moved a corner outside.
     for (const corner of corners) {
       const offset = corner.clone().sub(target);
       const needed = Math.max(Math.abs(offset.dot(right)) / wide, Math.abs(offset.dot(up)) / tall);
@@ -47,14 +48,14 @@ export class Sight {
     this.controls.update();
   }
 
-  /// Moves to within `distance` of a point, and stays with it by step().
+  /// Starts a glide to within `distance` of the target; step() continues it.
   glideTo(distance: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
     if (offset.length() > distance) offset.setLength(distance);
     this.glide = { begun: performance.now(), target: this.controls.target.clone(), offset };
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) this.glide.begun -= kGlide;
   }
-  /// One step of a glide to where `target` is now; false if there is none.
+  /// One step of a glide to the current `target`; false without a glide.
   step(target: Vector3): boolean {
     if (!this.glide) return false;
     const share = Math.min((performance.now() - this.glide.begun) / kGlide, 1);

@@ -3,7 +3,7 @@ import type { Clock } from "./clock";
 import type { ReportData } from "./data";
 import { el, short } from "./dom";
 
-/// How the solver got there: a line a mesh, and its violations an iteration.
+/// History of the solver: a line per mesh, and violations per iteration.
 export function solver(data: ReportData, clock: Clock): { element: HTMLElement; draw: () => void } {
   const { solver: found, problem, status } = data.plan_json;
   const facts: [string, string][] = [

@@ -3,7 +3,7 @@ type Theme = "light" | "dark";
 const kKey = "prowl-theme";
 const system = matchMedia("(prefers-color-scheme: dark)");
 
-/// Light or dark: what the system asks for, until the reader chooses.
+/// Light or dark: the system setting, until the reader chooses.
 export class ThemeSwitch {
   readonly button = document.createElement("button");
   private chosen: Theme | null = null;
@@ -15,7 +15,7 @@ export class ThemeSwitch {
       const stored = localStorage.getItem(kKey);
       if (stored === "light" || stored === "dark") this.chosen = stored;
     } catch {
-      // Pages opened from a file may have no storage: the choice lasts as long as the page.
+      // Pages opened from a file may have no storage: then the choice is lost with the page.
     }
     this.button.addEventListener("click", () => this.choose(this.theme === "dark" ? "light" : "dark"));
     system.addEventListener("change", () => this.apply());

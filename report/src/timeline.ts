@@ -5,7 +5,7 @@ import { inTheAir, parts } from "./phases";
 import { phaseAt } from "./view";
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2];
-const kReadable = 70; // the width at which the beginning of a name still tells something [px]
+const kReadable = 70; // smallest width at which a truncated name is useful [px]
 const kStands = "stands still";
 
 const icon = (path: string): SVGSVGElement => {
@@ -20,7 +20,7 @@ const icon = (path: string): SVGSVGElement => {
 const kPlay = "M4 2.5v11l9-5.5z";
 const kPause = "M3.5 2.5h3v11h-3zM9.5 2.5h3v11h-3z";
 
-/// Play, speed, phases, contacts, and the time as a slider across all of them.
+/// Play button, speed, phases and contacts, with a time slider across all of them.
 export class Timeline {
   readonly element: HTMLElement;
   readonly speeds = kSpeeds;
@@ -73,11 +73,11 @@ export class Timeline {
     this.update();
   }
 
-  /// A button behind the others.
+  /// Appends a button.
   addTool(tool: HTMLElement): void {
     this.tools.append(tool);
   }
-  /// Phases and contacts that the data has now.
+  /// Shows phases and contacts of the current data.
   setData(): void {
     this.slider.max = String(this.clock.end);
     const rows = this.tracks();
@@ -141,7 +141,7 @@ export class Timeline {
     return el("div", { class: many }, ...rows, el("div", { class: "scrub" }, this.slider));
   }
 
-  /// Names that are wider than their bars are shortened, or left out; their tooltips keep them.
+  /// Shortens or removes names wider than their bars; tooltips keep them.
   private fitNames(): void {
     for (const bar of this.rows.querySelectorAll<HTMLElement>(".bar")) {
       const full = bar.dataset.full ?? (bar.dataset.full = bar.textContent ?? "");

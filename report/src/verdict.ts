@@ -4,21 +4,21 @@ const kLimits: Record<string, string> = {
   iteration_limit: "out of iterations",
   time_limit: "out of time",
   interrupted: "interrupted",
-  evaluation_failed: "a function has no value",
+  evaluation_failed: "an evaluation failed",
   solver_failed: "the solver failed",
   infeasible: "no motion satisfies all constraints",
 };
 
-/// What each grade is good for, with the limits of the local integration error (CertificateLimits).
+/// Purpose of each grade, with the limits of the local integration error (CertificateLimits).
 export const kGrades: Record<string, string> = {
   draft: "draft: good for simulation, integration error below 1e-4",
   certified: "certified: integration error below 1e-6",
-  failed: "failed: a check is beyond its limit",
+  failed: "failed: a check exceeds its limit",
 };
 
 export const failedChecks = (plan: PlanJson): Check[] => plan.certificate.checks.filter((check) => !check.passed);
 
-/// Why a plan is not good, in a few words; "" if it is.
+/// Short reason why a plan is not good; "" if it is good.
 export function whyNot(plan: PlanJson): string {
   if (plan.good) return "";
   const proof = plan.reasons.find((reason) => reason.includes("out of reach"));
@@ -26,8 +26,8 @@ export function whyNot(plan: PlanJson): string {
   if (plan.reasons.length > 0 && plan.status === "infeasible") return "the task cannot be done";
   const failed = failedChecks(plan);
   if (failed.some((check) => check.name.startsWith("goal"))) return "goal not reached";
-  // A doubt, not a proof: where the guess already misses its footholds.
+  // A doubt, not a proof: the guess misses its footholds.
   if (plan.hints.some((hint) => hint.startsWith("goal"))) return "goal seems out of reach";
   if (plan.status !== "converged") return kLimits[plan.status] ?? plan.status.replaceAll("_", " ");
-  return failed.length === 1 ? `${failed[0].name} beyond its limit` : `${failed.length} checks failed`;
+  return failed.length === 1 ? `${failed[0].name} exceeds its limit` : `${failed.length} checks failed`;
 }

@@ -37,15 +37,15 @@ export interface Layers {
   follow: boolean;
 }
 
-const kFramed = 40; // moments of the motion that the first view is fitted to
-const kToolbar = 50; // of the switches over the view [px]
+const kFramed = 40; // number of moments for fitting the first view
+const kToolbar = 50; // height of the switches above the view [px]
 
-/// The phase of the plan at a time: the later one at a switch, the last one after the end.
+/// Phase of the plan at a time: the later one at a phase transition, the last one after the end.
 export function phaseAt(phases: Phase[], t: number): Phase | undefined {
   return phases.findLast((phase) => phase.start <= t + 1e-9) ?? phases[0];
 }
 
-/// The robot in three dimensions.
+/// 3D view of the robot.
 export class View {
   plan: Motion;
   readonly simulation: Motion | null;
@@ -65,7 +65,7 @@ export class View {
   private readonly balance: Balance;
   private readonly sight: Sight;
   private readonly mark: BoxHelper;
-  private isMoved = false; // by the reader: then a new size leaves the camera where it is
+  private isMoved = false; // by the reader: then resizing keeps the camera
   private readonly trails = new Trails();
   private readonly sun = new DirectionalLight(0xffffff, 2.2);
   private readonly centre = new Vector3();
@@ -152,7 +152,7 @@ export class View {
     this.resetCamera();
     this.setTheme();
     clock.onChange(() => this.ask());
-    // At once: what else the page does at its start may keep it from drawing frames.
+    // Immediately: other work at start-up may delay frames.
     this.render();
     performance.mark("prowl-first-picture");
   }
@@ -174,7 +174,7 @@ export class View {
   get hasOwnCamera(): boolean {
     return this.isMoved;
   }
-  /// The part of the picture that the robot takes now, from -1 to 1 to the right and up.
+  /// Extent of the robot in the picture, from -1 to 1, right and up.
   screenBox(): { left: number; right: number; bottom: number; top: number } {
     this.robot.group.updateMatrixWorld(true);
     this.camera.updateMatrixWorld(true);
@@ -182,7 +182,7 @@ export class View {
     const [x, y] = [seen.map((point) => point.x), seen.map((point) => point.y)];
     return { left: Math.min(...x), right: Math.max(...x), bottom: Math.min(...y), top: Math.max(...y) };
   }
-  /// Where a point of the world is in the window [px].
+  /// Position of a world point in the window [px].
   screenPoint(point: Vector3): { x: number; y: number } {
     this.camera.updateMatrixWorld(true);
     const { x, y } = point.clone().project(this.camera);
@@ -190,15 +190,15 @@ export class View {
     return { x: box.left + (0.5 + 0.5 * x) * box.width, y: box.top + (0.5 - 0.5 * y) * box.height };
   }
 
-  /// Placement of a body in the scene as it is now: x y z, quaternion x y z w.
+  /// Current placement of a body in the scene: x y z, quaternion x y z w.
   bodyPlacement(name: string, ghost = false): number[] {
     return placementOf(ghost ? this.ghost : this.robot, name);
   }
-  /// The same of the other plan.
+  /// The same for the other plan.
   otherPlacement(name: string): number[] {
     return placementOf(this.other?.robot, name);
   }
-  /// Where a contact of the robot is in the scene now.
+  /// Current position of a contact in the scene.
   contactPoint(contact: number, robot = this.robot): Vector3 {
     const { body, point } = this.data.scene.contacts[contact];
     const group = robot.bodies[body];
@@ -206,14 +206,14 @@ export class View {
     return new Vector3(...point).applyMatrix4(group.matrixWorld);
   }
 
-  /// Arrows and cones of the contacts as they are drawn.
+  /// Arrows and cones of the contacts, as drawn.
   arrows(): DrawnForce[] {
     return this.forces.drawn();
   }
   simulatedArrows(): DrawnForce[] {
     return this.simulatedForces?.drawn() ?? [];
   }
-  /// Centre of mass, corners of the support polygon, zero-moment point (null if there is none), as they are drawn.
+  /// Centre of mass, corners of the support polygon, zero-moment point or null, as drawn.
   balanceNow(): { mass: number[]; corners: number[][]; zmp: number[] | null } {
     const centre = new Vector3();
     this.plan.massCentre(this.clock.time, centre);
@@ -223,7 +223,7 @@ export class View {
       zmp: this.balance.zmp.visible ? this.balance.zmp.position.toArray() : null,
     };
   }
-  /// The body of the robot at a point of the window [px], and where the ray meets it; null for none.
+  /// Body of the robot at a point of the window [px], and the point hit; null without one.
   bodyAt(x: number, y: number): { body: number; point: Vector3 } | null {
     const box = this.canvas.getBoundingClientRect();
     const at = new Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height);
@@ -242,7 +242,7 @@ export class View {
     this.ask();
   }
 
-  /// Shows the motion that the data has now.
+  /// Shows the motion of the current data.
   setPlan(): void {
     this.plan = new Motion(this.data.plan, this.data.scene.bodies.length, this.data.scene.contacts.length);
     this.drawTrails();
@@ -261,7 +261,7 @@ export class View {
     this.mark.material.color.set(colour("head"));
     this.ask();
   }
-  /// The whole motion; the robot alone if the camera follows it.
+  /// Frames the whole motion; only the robot if the camera follows it.
   resetCamera(): void {
     this.isMoved = false;
     this.update();
@@ -291,13 +291,13 @@ export class View {
   }
 
   private render(): void {
-    // The ground ends in haze, wherever it is looked at from.
+    // Fades the ground into fog from every viewpoint.
     const distance = this.camera.position.distanceTo(this.controls.target);
     if (this.scene.fog instanceof Fog)
       [this.scene.fog.near, this.scene.fog.far] = [1.3 * distance, 2.8 * distance + this.reach];
     this.renderer.render(this.scene, this.camera);
   }
-  /// The space that the robot takes at moments all over the motion.
+  /// Boxes around the robot at moments throughout the motion.
   private motionBoxes(): Box3[] {
     const boxes = Array.from({ length: kFramed }, (_, i) => {
       this.robot.show(this.plan, (i / (kFramed - 1)) * this.plan.end);
@@ -313,7 +313,7 @@ export class View {
       this.trails.add(this.plan.path(contact.body, new Vector3(...contact.point)));
   }
   private reach = 0;
-  /// Sets the middle of the base's path; returns how far it is from it at most [m].
+  /// Sets the centre of the base path; returns the radius of its bounding box [m].
   private measure(path: Vector3[]): number {
     const low = path[0].clone();
     const high = path[0].clone();
@@ -367,7 +367,8 @@ export class View {
       ghost.group.visible = this.layers.ghost;
       ghost.show(this.simulation, t);
       this.simulatedForces.arrows.visible = this.layers.forces && this.layers.ghost;
-      // A simulated contact may push at any time: against the surface of the plan, or the first of all.
+      // A simulated contact may push at any time: use the surface of the plan, or the first
+      // surface.
       this.simulatedForces.show(
         this.simulation,
         t,
@@ -400,7 +401,7 @@ export class View {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
-    // What is in sight is set by the shorter side.
+    // The shorter side determines the field of view.
     this.camera.fov =
       this.camera.aspect >= 1
         ? 35

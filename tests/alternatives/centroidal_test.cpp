@@ -205,7 +205,7 @@ TEST(CentroidalNlp, SaysInWordsWhatRowsAndVariablesAre) {
               testing::IsSupersetOf({"phase 1 'four', node 1, forces, z, t = 0.175 s",
                                      "phase 1 'four', node 2, lf_foot, force before it opens, x, t = 0.350 s",
                                      "phase 1 'four', node 1, lh_foot, sliding along axis 2 of floor, t = 0.175 s",
-                                     "phase 2 'lifted', node 0, q across the phase switch, base x, t = 0.350 s"}));
+                                     "phase 2 'lifted', node 0, q across the phase transition, base x, t = 0.350 s"}));
   EXPECT_THAT(variables, testing::IsSupersetOf({"phase 1 'four', node 1, f z of rf_foot, t = 0.175 s",
                                                 "phase 1 'four', node 0, v lf_kfe_joint, t = 0.000 s",
                                                 "phase 1 'four', duration"}));

@@ -205,7 +205,7 @@ TEST(Collocation, SaysWhatRowsAndVariablesAre) {
   using testing::HasSubstr;
   for (const char* what :
        {"phase 1 'four', node 0, t = 0.000 s, lf_foot, acceleration x", "friction cone in the interval",
-        "phase 2 'lifted', node 1", "base x, position across the phase switch", "lh_foot, friction cone"}) {
+        "phase 2 'lifted', node 1", "base x, position across the phase transition", "lh_foot, friction cone"}) {
     EXPECT_THAT(rows, Contains(HasSubstr(what)));
   }
   for (const char* what : {"phase 1 'four', duration", "place 2 of lf_foot",

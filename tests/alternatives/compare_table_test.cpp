@@ -224,7 +224,7 @@ TEST(CompareTable, ShowsUnitsThatAreReadable) {
   ASSERT_EQ(markdown.size(), 3u);
   EXPECT_EQ(cell(markdown, "drift [mm]", 2), "0.12");
   EXPECT_EQ(cell(markdown, "J v [mm/s]", 2), "0.33");
-  EXPECT_EQ(cell(markdown, "an iteration [ms]", 2), "42.9");
+  EXPECT_EQ(cell(markdown, "per iteration [ms]", 2), "42.9");
   EXPECT_EQ(cell(markdown, "of its limit", 2), "1.12");
   EXPECT_EQ(cell(markdown, "cost", 2), "3.141593e+07");
   EXPECT_EQ(cell(markdown, "contact velocity [mm/s]", 2), "no column contact velocity [mm/s]") << "nothing is in it";

@@ -58,7 +58,7 @@ def sizes():
     yield with_more(
         "100 goals at one time",
         "[[goal]]\ntime_s = 0.5\nbase_displacement_m = [0, 0, 0]\n" * 100,
-        "two goals at one time",
+        "two goals at the same time",
     )
     yield task(
         "9000 goals on a fine mesh",

@@ -57,7 +57,7 @@ TEST_F(Command, PrintsItsHelpAlone) {
 
 // What CLI11 says of it has the value of the option, too, and in the other order.
 TEST_F(Command, NamesTheMisspeltOptionOnly) {
-  const std::string more = "\nMore with prowl plan --help.\n";
+  const std::string more = "\nFor help: prowl plan --help\n";
   EXPECT_EQ(run("$prowl plan hold.toml --interval 3").error,
             "prowl: unknown option --interval; did you mean '--intervals'?" + more);
   EXPECT_EQ(run("$prowl plan hold.toml --interval=3 --out out").error,

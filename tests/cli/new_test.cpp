@@ -118,7 +118,7 @@ TEST_F(NewRobot, SaysWhatItGuessed) {
   ASSERT_EQ(make(kUrdfs[3].path, "solo.toml").status, 0);
   const std::string text = test::read_file(folder_.path() / "solo.toml");
   for (const char* part :
-       {"Contacts, guess", "Posture that motions start from, guess", "# guess: 0.1 to 2.6 rad from straight",
+       {"Contacts, guess", "Start posture of motions, guess", "# guess: 0.1 to 2.6 rad from straight",
         "1000 N m or more is no limit", "package://example-robot-data/robots/solo_description/robots/solo12.urdf"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
@@ -146,7 +146,7 @@ TEST_F(NewRobot, TakesNoNameForText) {
   ASSERT_EQ(made.status, 0) << made.error;
   EXPECT_EQ(inspected("new.toml").at("name"), "robot");
   const std::string text = test::read_file(folder_.path() / "new.toml");
-  EXPECT_THAT(text, HasSubstr("A mesh that was not read"));
+  EXPECT_THAT(text, HasSubstr("Unreadable mesh: "));
   EXPECT_THAT(text, Not(HasSubstr("\n[[such]]")));
 }
 

@@ -137,7 +137,7 @@ TEST_F(Simulate, RefusesOptionsOfTheOtherEngine) {
   }
   for (const char* option : {"--base-offset-m 0 0 0.01", "--base-offset-rad 0 0 0.01"}) {
     EXPECT_EQ(simulate(option).status, 2) << option;
-    EXPECT_THAT(simulate(option).error, HasSubstr("for --engine rollout"));
+    EXPECT_THAT(simulate(option).error, HasSubstr("use --engine rollout"));
   }
   for (const char* option : {"--control-rate 1", "--control-rate nan", "--base-offset-m 0 0 1",
                              "--base-offset-m nan 0 0", "--base-offset-rad 0 0"}) {

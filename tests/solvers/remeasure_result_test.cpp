@@ -42,7 +42,7 @@ TEST(RemeasureResult, TakesNoViolatedPointForConverged) {
   SolveResult result = claimed(SolveStatus::converged, 2e-6);
   remeasure_result(nlp, kTolerance, "Solver", result);
   EXPECT_EQ(result.status, SolveStatus::solver_failed);
-  EXPECT_THAT(result.message, HasSubstr("Solver says it is done, but a constraint is not within tolerance"));
+  EXPECT_THAT(result.message, HasSubstr("Solver reports convergence, but a constraint is not within tolerance"));
   EXPECT_NEAR(result.constraint_violation, 2e-6, 1e-12);
 }
 

@@ -67,7 +67,7 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
   EXPECT_THAT(message_of(test::replaced(with_steps, "intervals = 5", "intervals = 201")),
               HasSubstr("phase[0].steps: 201 free steps are not allowed; need at most 200"));
   EXPECT_THAT(message("duration_s = 2.0", "duration_s = 2.0\nsteps = \"free\""),
-              HasSubstr("steps: the steps of a fixed duration are not free; need duration_s = [min, max]"));
+              HasSubstr("steps: a fixed duration has no free steps; need duration_s = [min, max]"));
 }
 
 TEST_F(TaskFile, StartIsFixedAndGoalBindsWhatIsNamed) {
@@ -309,20 +309,20 @@ TEST_F(TaskFile, DurationMayBeFreeWithinBounds) {
 
 TEST_F(TaskFile, RefusesGoalsThatTheRobotCannotDo) {
   EXPECT_EQ(message("[start]", "joints = { lf_kfe_joint = -3.0 }\n[start]"),
-            "task.toml:11:27: goal[0].joints.lf_kfe_joint: outside the joint's position limits; need something from "
+            "task.toml:11:27: goal[0].joints.lf_kfe_joint: outside the joint's position limits; need a value from "
             "-2.4435 to -0.34907");
   EXPECT_EQ(message("[start]", "joint_velocity_radps = { lf_kfe_joint = [13, 14] }\n[start]"),
-            "task.toml:11:41: goal[0].joint_velocity_radps.lf_kfe_joint: outside the joint's velocity limits; need "
-            "something from -12 to 12");
+            "task.toml:11:41: goal[0].joint_velocity_radps.lf_kfe_joint: outside the joint's velocity limits; need a "
+            "value from -12 to 12");
   EXPECT_THAT(message("[start]", "torque_Nm = { lf_kfe_joint = -151 }\n[start]"),
-              HasSubstr("outside the joint's torque limits; need something from -150 to 150"));
+              HasSubstr("outside the joint's torque limits; need a value from -150 to 150"));
   EXPECT_EQ(message("[start]", "joint_velocity_radps = { lf_kfe_joint = [11, 14] }\n[start]"), "") << "leaves 11 to 12";
 }
 
 TEST_F(TaskFile, RefusesAGoalThatBindsNothing) {
   EXPECT_EQ(message("base_displacement_m = [0.05, \"free\", -0.05]\n", ""),
-            "task.toml:8:1: goal[0]: binds nothing; need one key that prescribes or bounds something");
-  EXPECT_THAT(message("[0.05, \"free\", -0.05]", "[\"free\", \"free\", \"free\"]"), HasSubstr("binds nothing"));
+            "task.toml:8:1: goal[0]: constrains nothing; need at least one key that prescribes or bounds a value");
+  EXPECT_THAT(message("[0.05, \"free\", -0.05]", "[\"free\", \"free\", \"free\"]"), HasSubstr("constrains nothing"));
 }
 
 TEST_F(TaskFile, RefusesNumbersBeyondAllSense) {

@@ -147,8 +147,8 @@ TEST_F(TaskGait, RefusesPhasesBesideIt) {
 TEST_F(TaskGait, RefusesAGoalOfItsOwnBesideGoals) {
   const std::string goal = "[[goal]]\nphase = \"settle\"\nbase_displacement_m = [0, 0, 0]\n[cost]";
   EXPECT_EQ(message("[cost]", goal),
-            "task.toml:6:19: gait.stride_length_m: has no use beside [[goal]], which says where "
-            "to go; need one of the two");
+            "task.toml:6:19: gait.stride_length_m: has no effect beside [[goal]], which sets the "
+            "target; need one of the two");
   EXPECT_EQ(
       message("stride_length_m = 0.2\n", ""),
       "task.toml:2:1: gait.stride_length_m: missing; need number >= 0 [m]: distance that the base moves along the "
@@ -164,7 +164,7 @@ TEST_F(TaskGait, RefusesWhatIsNoGait) {
   EXPECT_THAT(message("stride_s = 0.8", "stride_s = 0"), HasSubstr("need a number from 0.001 to 600 [s]"));
   EXPECT_EQ(message("strides = 3", "strides = 3\nduty_factor = 0.4"),
             "task.toml:5:15: gait.duty_factor: 0.4 is not allowed; need a number from 0.5 to 0.99; with less, swings "
-            "overlap: write the phases out as [[phase]]");
+            "overlap: write the phases as [[phase]]");
   EXPECT_THAT(message("strides = 3", "strides = 3\nstrids = 1"), HasSubstr("did you mean 'strides'?"));
   EXPECT_THAT(message("stride_length_m = 0.2", "stride_length_m = -0.2"), StartsWith("task.toml:6:19: "));
 }
@@ -183,10 +183,9 @@ TEST_F(TaskGait, RefusesAWall) {
 TEST_F(TaskGait, RefusesARobotWithoutFourFeet) {
   folder_.write("one.toml", test::replaced(test::kHyqFile,
                                            "  { name = \"rh_foot\", frame = \"rh_foot\", radius_m = 0.02175 },\n", ""));
-  EXPECT_EQ(
-      message("hyq.toml", "one.toml"),
-      "task.toml:2:1: gait: a gait needs four contacts, one fore left, fore right, hind left and hind right in the "
-      "nominal posture; the 3 of HyQ are not that: write the phases out as [[phase]]");
+  EXPECT_EQ(message("hyq.toml", "one.toml"),
+            "task.toml:2:1: gait: a gait needs four contacts: fore left, fore right, hind left and hind right in the "
+            "nominal posture; the 3 of HyQ differ: write the phases as [[phase]]");
 }
 
 TEST_F(TaskGait, IsNamedWhereItsStartIsOffTheSurface) {

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// x moved by whole turns next to `near`.
+/// x plus whole turns, closest to `near`.
 double next_to(double x, double near) {
   constexpr double kTurn = 2.0 * std::numbers::pi;
   return x + kTurn * std::round((near - x) / kTurn);
@@ -32,9 +32,9 @@ class EulerChart : public BaseChart {
 
   Vector3d coordinates(const Matrix3d& R, const Vector3d& near) const override {
     const double cosine = std::hypot(R(1, 2), R(2, 2));
-    // Nearer to the singularity than that roll and yaw are rounding.
+    // Closer to the singularity roll and yaw are rounding.
     constexpr double kLeast = 1e-6;
-    if (cosine < kLeast) throw InputError("orientation: at 90 degrees of pitch Euler angles are not unique");
+    if (cosine < kLeast) throw InputError("orientation: Euler angles are not unique at 90 degrees of pitch");
     const Vector3d e(std::atan2(-R(1, 2), R(2, 2)), std::atan2(R(0, 2), cosine), std::atan2(-R(0, 1), R(0, 0)));
     return {next_to(e.x(), near.x()), e.y(), next_to(e.z(), near.z())};
   }

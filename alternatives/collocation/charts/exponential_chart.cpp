@@ -14,8 +14,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// g(s), s = |e|², and its first two derivatives, of  Jr⁻¹ ω = ω + 1/2 e × ω + g e × (e × ω).
-/// g = 1/s − (1 + cos t) / (2 t sin t) with t = √s; as a power series Σ 2 ζ(2n) / (2π)²ⁿ sⁿ⁻¹, which has no
+/// g(s), s = |e|², and its first two derivatives, of  Jr⁻¹ ω = ω + 1/2 e × ω + g e × (e × ω). g =
+/// 1/s − (1 + cos t) / (2 t sin t) with t = √s; as a power series Σ 2 ζ(2n) / (2π)²ⁿ sⁿ⁻¹, without
 /// cancellation at 0.
 constexpr double kLongest = 4.4;  // [rad]
 constexpr int kTerms = 48;        // (t / 2π)²ⁿ is below rounding for t up to kLongest
@@ -59,7 +59,8 @@ class ExponentialChart : public BaseChart {
     const Vector3d other = (1.0 - 2.0 * std::numbers::pi / angle) * e;
     const Vector3d chosen = (other - near).norm() < (e - near).norm() ? other : e;
     if (chosen.norm() > kLongest)
-      throw InputError("orientation: the base turns further than a rotation vector from the start reaches, 4.4 rad");
+      throw InputError(
+          "orientation: the base turns further than 4.4 rad from the start, the range of a rotation vector");
     return chosen;
   }
 

@@ -7,17 +7,16 @@
 
 namespace prowl {
 
-/// Which quantities of the dynamics are decision variables of a collocation program, and how the others follow from
-/// them.
+/// Form of the dynamics: which quantities are decision variables, and how the others follow.
 class DynamicsForm {
  public:
   virtual ~DynamicsForm() = default;
 
-  /// a is a function of the others; else a variable, with the dynamics as rows.
+  /// True: a is a function of the others. False: a variable, with the dynamics as rows.
   virtual bool eliminates_acceleration() const { return false; }
-  /// Contact forces are variables, with J a + J̇ v = 0 as rows; else recovered.
+  /// True: contact forces are variables, with J a + J̇ v = 0 as rows. False: recovered.
   virtual bool has_forces() const { return false; }
-  /// The dynamics at one instant, with these rows of the node. Where a is eliminated, none of them is of the dynamics.
+  /// The dynamics at one instant, with these rows of the node; no dynamics rows if a is eliminated.
   virtual std::unique_ptr<PointFunction> at(ChartedNode& node, const Instant& instant, std::vector<int> rows) const {
     return std::make_unique<PointFunction>(node, instant, std::move(rows));
   }

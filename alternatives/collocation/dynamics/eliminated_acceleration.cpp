@@ -10,10 +10,10 @@ using Eigen::VectorXd;
 
 /// The dynamics with the acceleration eliminated:  (x, v, tau, w, shared)  ->  (a, rows, cost)
 ///
-/// a is what solves the dynamics c(q, v, a, tau) = 0, which is linear in a: that of Pardo et al. 2016, with the missing
-/// P restored. Its derivatives follow from those of c: da = -c_a^-1 dc, and the Hessian of ν · a + μ · (rows, cost) is
-/// Tᵀ H T, with T the derivative of all columns in the inputs and H the Hessian of μ · (rows, cost) + λ · c, where λ is
-/// such that the gradient in a vanishes.
+/// a solves the dynamics c(q, v, a, tau) = 0, which are linear in a: Pardo et al. 2016, with the
+/// missing P restored. Derivatives: da = -c_a^-1 dc; the Hessian of ν · a + μ · (rows, cost) is Tᵀ
+/// H T, T the derivative of all columns in the inputs, H the Hessian of μ · (rows, cost) + λ · c,
+/// with λ such that the gradient in a vanishes.
 class EliminatingPoint : public PointFunction {
  public:
   EliminatingPoint(ChartedNode& node, const Instant& instant, std::vector<int> rows)
@@ -58,7 +58,7 @@ class EliminatingPoint : public PointFunction {
   }
 
  private:
-  /// The dynamics are linear in a: one step of Newton's method from a = 0.
+  /// The dynamics are linear in a: one Newton step from a = 0.
   void solve(const VectorXd& x) {
     if (last_inputs_.size() == x.size() && last_inputs_ == x) return;
     last_inputs_.resize(0);
@@ -86,7 +86,7 @@ class EliminatingPoint : public PointFunction {
   MatrixXd acceleration_slope_;             ///< of a in the inputs
 };
 
-/// tau only is a variable, a = Mc⁻¹ (P (S' tau − h) + M C v): as Pardo et al. 2016 have it.
+/// Only tau is a variable, a = Mc⁻¹ (P (S' tau − h) + M C v): Pardo et al. 2016.
 class ForwardForm : public DynamicsForm {
  public:
   bool eliminates_acceleration() const override { return true; }

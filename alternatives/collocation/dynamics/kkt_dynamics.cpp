@@ -3,8 +3,9 @@
 namespace prowl {
 namespace {
 
-/// a, tau and f are variables, M a + h − S' tau − J' f = 0 and J a + J̇ v = 0 rows. With all forces variables, no row of
-/// J is left for the projection, and the rows of the node are those of the whole robot.
+/// a, tau and f are variables, M a + h − S' tau − J' f = 0 and J a + J̇ v = 0 rows. With all forces
+/// as variables no row of J remains for the projection: the rows of the node are the unprojected
+/// dynamics.
 class KktForm : public DynamicsForm {
  public:
   bool has_forces() const override { return true; }

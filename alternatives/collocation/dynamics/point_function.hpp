@@ -11,15 +11,16 @@ namespace prowl {
 ///
 ///   (x, v, a, tau, w, shared)  ->  (rows, cost)
 ///
-/// Where the dynamics give the acceleration, it is no input but the first of the outputs (forward_dynamics.cpp).
+/// If the acceleration is eliminated, it is the first output instead of an input
+/// (eliminated_acceleration.cpp).
 class PointFunction : public Function {
  public:
-  /// `rows`: which of ChartedNode's come out. Keeps a reference to the node.
+  /// `rows`: rows of ChartedNode to output. Keeps a reference to the node.
   PointFunction(ChartedNode& node, const Instant& instant, std::vector<int> rows);
 
   int num_inputs() const override { return node_.num_columns(); }
   int num_outputs() const override { return acceleration_size() + static_cast<int>(rows_.size()) + 1; }
-  /// Of the acceleration among the outputs.
+  /// Size of the acceleration among the outputs.
   virtual int acceleration_size() const { return 0; }
   const std::vector<int>& rows() const { return rows_; }
 
@@ -27,14 +28,14 @@ class PointFunction : public Function {
   void evaluate_with_derivatives(const Eigen::VectorXd& x, Eigen::VectorXd& y, Eigen::MatrixXd& dy) override;
   void hessian(const Eigen::VectorXd& x, const Eigen::VectorXd& weights, Eigen::MatrixXd& result) override;
 
-  /// All columns of ChartedNode at the inputs of the last evaluation, the acceleration among them.
+  /// All columns of ChartedNode of the last evaluation, including the acceleration.
   const Eigen::VectorXd& columns() const { return columns_; }
   const Eigen::VectorXd& forces() const { return values_.forces; }  ///< 3 per contact of the phase, world frame [N]
 
  protected:
-  /// All that the node has, at the columns of the last evaluation.
+  /// Values of the node at the columns of the last evaluation.
   const ChartedNode::Values& values() const { return values_; }
-  /// For all rows of the node, from weights of (rows, cost).
+  /// Multipliers of all rows of the node, from weights of (rows, cost).
   Eigen::VectorXd multipliers_of_rows(const Eigen::VectorXd& weights) const;
   void hessian_of_columns(double cost_factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
 

@@ -13,15 +13,15 @@ class Function {
 
   virtual int num_inputs() const = 0;
   virtual int num_outputs() const = 0;
-  /// dy_i/dx_j may differ from zero. All of them, if not said otherwise.
+  /// True if dy_i/dx_j may be non-zero; default: all.
   virtual bool depends(int /*i*/, int /*j*/) const { return true; }
-  /// A second derivative of y in x_i and x_j may differ from zero.
+  /// True if a second derivative of y in x_i and x_j may be non-zero; default: all.
   virtual bool bends(int /*i*/, int /*j*/) const { return true; }
 
   virtual void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& y) = 0;
   /// y and dy/dx, num_outputs() x num_inputs().
   virtual void evaluate_with_derivatives(const Eigen::VectorXd& x, Eigen::VectorXd& y, Eigen::MatrixXd& dy) = 0;
-  /// Second derivative of weights . y, num_inputs() square, symmetric. At the x of the last
+  /// Hessian of weights . y, num_inputs() square, symmetric; x of the last
   /// evaluate_with_derivatives().
   virtual void hessian(const Eigen::VectorXd& x, const Eigen::VectorXd& weights, Eigen::MatrixXd& result) = 0;
 };

@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// A graph as a part of a nonlinear program: which decision variables its locals are, which of its vectors are rows and
-/// which are costs.
+/// A graph as part of a nonlinear program: maps locals to decision variables, and vectors to rows
+/// and costs.
 class ProgramPiece {
  public:
   /// `columns`: decision variable of each local.
@@ -22,11 +22,11 @@ class ProgramPiece {
     ProgramGraph::Vector vector;
     Eigen::VectorXd lower, upper;
     std::vector<std::string> names;
-    int first = 0;  ///< in the program, once it is known
+    int first = 0;  ///< row in the program, set later
   };
   void add_rows(Rows rows) { rows_.push_back(std::move(rows)); }
   void add_cost(ProgramGraph::Vector scalar) { costs_.push_back(scalar); }
-  /// Keeps a function alive as long as the graph.
+  /// Takes ownership of a function of the graph.
   template <class F>
   F& own(std::unique_ptr<F> function) {
     F& kept = *function;
@@ -39,7 +39,7 @@ class ProgramPiece {
   const std::vector<Rows>& rows() const { return rows_; }
   const std::vector<ProgramGraph::Vector>& costs() const { return costs_; }
 
-  /// Calls emit(row, col, value) for each place of the Jacobian, always in the same order.
+  /// Calls emit(row, col, value) for each entry of the Jacobian, in a fixed order.
   template <class Emit>
   void visit_jacobian(bool pattern_only, Emit emit) const {
     for (const Rows& rows : rows_) {

@@ -10,25 +10,25 @@
 
 namespace prowl {
 
-/// How the motion gets over an interval: which variables there are in the middle, and which equations.
+/// An integration rule over one interval: variables in its middle, and equations.
 class CollocationRule {
  public:
   virtual ~CollocationRule() = default;
 
   virtual std::string name() const = 0;
-  /// What has variables of its own in the middle of an interval.
+  /// Quantities with own variables in the middle of an interval.
   struct Middle {
-    bool inputs = false;  ///< torques, and accelerations and forces where they are variables
+    bool inputs = false;  ///< torques; accelerations and forces, if variables
     bool state = false;   ///< x and v
   };
   virtual Middle middle() const { return {}; }
-  /// Evaluates accelerations in the course of an interval, so that they have to be functions.
+  /// True if it evaluates accelerations within an interval, so they must be functions.
   virtual bool is_explicit() const { return false; }
-  // Of the step, in the integral of the running cost: of the node before an interval and of that after it.
+  // Quadrature weights of the running cost over the step: of the left and the right node.
   virtual double left_share() const = 0;
   virtual double right_share() const = 0;
   virtual StabilisationOfStep stabilisation() const = 0;
-  /// With steps longer than this the gains above make errors of contacts grow [s].
+  /// Longer steps make contact errors grow with these gains [s].
   virtual double longest_stabilised_step() const { return std::numeric_limits<double>::infinity(); }
   virtual void add_to(IntervalProgram& interval) const = 0;
 };

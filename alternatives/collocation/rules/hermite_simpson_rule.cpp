@@ -4,8 +4,8 @@ namespace prowl {
 
 namespace {
 
-/// Simpson's rule over a cubic through both ends, whose middle is a function of them (compressed) or variables of its
-/// own (separated). Hargraves, Paris 1987; Betts 2010, sec. 4.5 and 4.10.4:
+/// Simpson's rule over a cubic through both ends. Its middle is a function of them (compressed) or
+/// has its own variables (separated). Hargraves, Paris 1987; Betts 2010, sec. 4.5 and 4.10.4:
 ///
 ///   x_m = (x₀ + x₁)/2 + h/8 (ẋ₀ − ẋ₁),   x₁ − x₀ = h/6 (ẋ₀ + 4 ẋ_m + ẋ₁),   v with its rate likewise
 class HermiteSimpsonRule : public CollocationRule {
@@ -16,7 +16,7 @@ class HermiteSimpsonRule : public CollocationRule {
   Middle middle() const override { return {.inputs = true, .state = separated_}; }
   double left_share() const override { return 1.0 / 6.0; }
   double right_share() const override { return 1.0 / 6.0; }
-  /// A double root at −2/h: the rule takes an error down by (1 − 1 + 1/3)/(1 + 1 + 1/3) = 1/7.
+  /// Double root at −2/h: the rule reduces an error by (1 − 1 + 1/3)/(1 + 1 + 1/3) = 1/7.
   StabilisationOfStep stabilisation() const override { return {.rate = 4.0, .stiffness = 4.0}; }
 
   void add_to(IntervalProgram& interval) const override {

@@ -7,18 +7,18 @@
 
 namespace prowl {
 
-/// One interval of the mesh, for a rule to write its equations into.
+/// One mesh interval, to which a rule adds its equations.
 class IntervalProgram {
  public:
   using Vector = ProgramGraph::Vector;
   using Term = ProgramGraph::Term;
 
-  /// State, its rates ẋ and v̇, and torques at an end; w: forces that are variables.
+  /// State, rates ẋ and v̇, and torques at a point; w: forces, if variables.
   struct Point {
     Vector x, v, rate, acceleration, tau, w;
   };
   Point left, right;
-  /// The variables in the middle, those that the rule has asked for.
+  /// Variables in the middle, as requested by the rule.
   Point middle;
 
   IntervalProgram(ProgramPiece& piece, ChartedNode& node, const DynamicsForm& dynamics, Vector shared)
@@ -26,8 +26,9 @@ class IntervalProgram {
 
   Vector sum(std::vector<Term> terms) { return piece_.graph.sum(std::move(terms)); }
 
-  /// Rates at a point inside, whose x, v, tau, w (and acceleration, where it is a variable) are given. The running cost
-  /// there counts with `cost_share` of the step; what holds at every instant holds there too, if `with_rows`.
+  /// Evaluates rates at an inner point with given x, v, tau, w (and acceleration, if a variable).
+  /// `cost_share`: quadrature weight of the running cost there; `with_rows`: add
+  /// rows_of_every_instant().
   Point evaluated(Point point, double cost_share, bool with_rows);
 
   /// vector = 0; `what` for messages, e.g. "position".
@@ -40,8 +41,8 @@ class IntervalProgram {
   Vector shared_;
 };
 
-/// Rows of ChartedNode that hold at every instant, not at nodes only: dynamics (where they are rows), friction, torque
-/// limits, and accelerations of contacts.
+/// Rows of ChartedNode that hold at every instant, not only at nodes: dynamics (if rows), friction,
+/// torque limits, and accelerations of contacts.
 std::vector<int> rows_of_every_instant(const ChartedNode& node, bool eliminates_acceleration);
 
 }  // namespace prowl

@@ -4,25 +4,26 @@ namespace prowl {
 
 namespace {
 
-/// Multiple shooting by the classical explicit rule of Runge and Kutta, of order four, with torques linear over the
-/// interval; the running cost is integrated along.
+/// Multiple shooting by the classical explicit Runge-Kutta rule of order four, with linear torques;
+/// integrates the running cost, too.
 class RungeKuttaRule : public CollocationRule {
  public:
   std::string name() const override { return "rk4"; }
   bool is_explicit() const override { return true; }
   double left_share() const override { return 1.0 / 6.0; }
   double right_share() const override { return 0.0; }
-  /// A double root at −10/s, whatever the step. Gains that grow with 1/h would take the order away: stages are off
-  /// their contacts by O(h²), and 2/h of that in an acceleration leaves order one in v (seen in a test).
+  /// Double root at −10/s for any step. Gains proportional to 1/h would lower the order: stages
+  /// violate contacts by O(h²), and 2/h times that in an acceleration leaves order one in v (seen
+  /// in a test).
   StabilisationOfStep stabilisation() const override { return {0.0, 0.0, 20.0, 100.0}; }
-  double longest_stabilised_step() const override { return 0.278; }  // the rule is stable to −2.78/h
+  double longest_stabilised_step() const override { return 0.278; }  // stability limit −2.78/h
 
   void add_to(IntervalProgram& interval) const override {
     using Point = IntervalProgram::Point;
     using Vector = IntervalProgram::Vector;
     const Point left = interval.left;  // k1
     const Vector halfway = interval.sum({{0.5, 0, left.tau}, {0.5, 0, interval.right.tau}});
-    // The state on from the left end, with the rates of `from` for a part of the step.
+    // State after a part of the step from the left end, with the rates of `from`.
     const auto on = [&](double part, const Point& from, Vector tau) {
       return Point{.x = interval.sum({{1.0, 0, left.x}, {part, 1, from.rate}}),
                    .v = interval.sum({{1.0, 0, left.v}, {part, 1, from.acceleration}}),

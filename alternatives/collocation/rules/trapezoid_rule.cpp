@@ -4,8 +4,8 @@ namespace prowl {
 
 namespace {
 
-/// x₁ − x₀ = h/2 (ẋ₀ + ẋ₁), and v with its rate likewise. In coordinates: Transcription's own takes the rotation on
-/// SO(3).
+/// x₁ − x₀ = h/2 (ẋ₀ + ẋ₁), and v likewise. In chart coordinates; Transcription integrates
+/// rotations on SO(3).
 class TrapezoidRule : public CollocationRule {
  public:
   std::string name() const override { return "trapezoid"; }

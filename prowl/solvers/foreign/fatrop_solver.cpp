@@ -11,7 +11,7 @@
 #include <limits>
 #include <utility>
 
-extern "C" {  // the header does not say so itself
+extern "C" {  // the header lacks this
 #include <blasfeo_processor_features.h>
 }
 
@@ -38,7 +38,7 @@ using Dims = fatrop::ProblemDims<Type>;
 constexpr double kNearlyFeasible = 1e-2;  // as recalc_y_feas_tol in IpoptSolver
 constexpr double kLargestMultiplier = 1e6;
 
-/// Thrown through Fatrop, which has no other way to be stopped.
+/// Thrown through Fatrop, the only way to stop it.
 struct Stopped {
   SolveStatus status;
   std::string message;
@@ -71,7 +71,8 @@ fatrop::NlpDims totals(const Dims& dims) {
   return sum;
 }
 
-/// Fatrop's matrices have a row a variable and a column a function, and a further row that is its own.
+/// Fatrop's matrices have one row per variable, one column per function, and one extra row for its
+/// own use.
 void copy_transposed(const MatrixXd& from, blasfeo_dmat& to) {
   if (from.size() == 0) return;
   blasfeo_pack_tran_dmat(static_cast<int>(from.rows()), static_cast<int>(from.cols()), const_cast<double*>(from.data()),
@@ -82,8 +83,8 @@ Eigen::Map<VectorXd> segment(const VecRealView& vector, Index first, Eigen::Inde
   return {size > 0 ? const_cast<Scalar*>(vector.data()) + first : nullptr, size};
 }
 
-/// What Fatrop asks, passed on to the stages. Its variables are (u_0, x_0, u_1, x_1 ...), its multipliers those of the
-/// dynamics, then of the equalities, then of the inequalities.
+/// Adapter from Fatrop to the stages. Variables: (u_0, x_0, u_1, x_1 ...); multipliers: of
+/// dynamics, equalities, inequalities, in this order.
 class FatropProblem : public fatrop::Nlp<Type> {
  public:
   FatropProblem(StagewiseNlp& nlp, std::vector<VectorXd> start, const SolverOptions& options, double began)
@@ -110,7 +111,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
       return std::isfinite(result);
     });
     need(good || has_begun());
-    if (!good) result = std::numeric_limits<double>::quiet_NaN();  // which makes Fatrop shorten its step
+    if (!good) result = std::numeric_limits<double>::quiet_NaN();  // makes Fatrop shorten its step
     return 0;
   }
 
@@ -199,12 +200,13 @@ class FatropProblem : public fatrop::Nlp<Type> {
         multipliers.block(info.number_of_slack_variables, info.offset_g_eq_slack);
   }
 
-  /// Fresh multipliers of the equalities at the current iterate: those of least squares.
+  /// Callback that sets the equality multipliers of the current iterate to their least-squares
+  /// estimate.
   void set_multiplier_estimate(std::function<void()> estimate) { estimate_multipliers_ = std::move(estimate); }
 
-  /// Once an iteration, but not while Fatrop restores feasibility.
+  /// Called once per iteration, except while Fatrop restores feasibility.
   void callback(const fatrop::IpData<Type>& data) override {
-    // Its iterate evaluates when asked; all of this is evaluated by now.
+    // The iterate evaluates lazily; these values exist already.
     auto& iterate = const_cast<fatrop::IpData<Type>&>(data).current_iterate();
     iterations_ = data.iteration_number();
     note(iterate);
@@ -216,14 +218,15 @@ class FatropProblem : public fatrop::Nlp<Type> {
     if (iterations_ >= options_.max_iterations) throw Stopped{SolveStatus::iteration_limit, "iteration limit reached"};
     if (!std::isfinite(last_.cost) || !std::isfinite(last_.violation) || !std::isfinite(last_.dual_violation)) {
       const std::string reason = failure_.empty() ? "the iterate is not finite" : failure_;
-      throw Stopped{SolveStatus::evaluation_failed, reason};  // its linear solver would never end
+      throw Stopped{SolveStatus::evaluation_failed, reason};  // Fatrop's linear solver would loop forever
     }
-    failure_.clear();  // a shorter step got away from it
+    failure_.clear();  // resolved by a shorter step
     refresh_multipliers(iterate);
   }
 
-  /// Fatrop starts with bound multipliers of one, which near a solution are far too large for its barrier. And as in
-  /// IpoptSolver: a regularised step that removes a violation leaves multipliers in proportion to the regularisation.
+  /// Fatrop starts with bound multipliers of one, far too large for its barrier near a solution. As
+  /// in IpoptSolver, a regularised step that removes a violation leaves multipliers proportional to
+  /// the regularisation.
   void refresh_multipliers(fatrop::IpIterate<Type>& iterate) {
     const bool begins_near = iterations_ == 0 && options_.start_is_near;
     if (begins_near) {
@@ -254,7 +257,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
     if (wall_seconds() - began_ > options_.max_seconds) throw Stopped{SolveStatus::time_limit, "time limit reached"};
   }
 
-  /// Whether a stage's evaluation is of use; else failure_ says why not.
+  /// True if the evaluation of a stage is usable; otherwise sets failure_.
   template <typename Evaluate>
   bool try_stage(const char* what, int k, Evaluate& evaluate) {
     try {
@@ -277,7 +280,8 @@ class FatropProblem : public fatrop::Nlp<Type> {
     return good;
   }
 
-  /// For what Fatrop cannot step away from: derivatives, which it does not look at, and all that is at the start.
+  /// For failures that Fatrop cannot recover from: derivatives, which it does not check, and values
+  /// at the start.
   void need(bool good) const {
     if (!good) throw Stopped{SolveStatus::evaluation_failed, failure_};
   }
@@ -304,7 +308,7 @@ Stopped outcome(fatrop::IpSolverReturnFlag flag) {
     case Flag::Success: return {converged, "optimal within tolerance"};
     case Flag::MaxIterExceeded: return {iteration_limit, "iteration limit reached"};
     case Flag::StopAtAcceptablePoint: return {solver_failed, "stopped at a point that is not within tolerance"};
-    case Flag::LocalInfeasibility: return {infeasible, "converged to a point of locally least violation"};
+    case Flag::LocalInfeasibility: return {infeasible, "converged to a local minimum of the constraint violation"};
     case Flag::LineSearchFailed: return {solver_failed, "line search failed and feasibility could not be restored"};
     case Flag::ErrorInStepComputation: return {solver_failed, "no search direction could be computed"};
     case Flag::Unknown: break;
@@ -316,17 +320,19 @@ void set_options(fatrop::OptionRegistry& registry, const SolverOptions& options)
   registry.set_option("print_level", 0);
   registry.set_option("tolerance", options.tolerance);
   registry.set_option("constr_viol_tol", options.tolerance);
-  registry.set_option("max_iter", options.max_iterations + 1);  // one more than it is let, see callback()
+  registry.set_option("max_iter", options.max_iterations + 1);  // callback() stops one earlier
   registry.set_option("acceptable_iter", std::numeric_limits<int>::max());
-  // Fatrop takes a reduced Hessian for indefinite if a diagonal entry of its Cholesky factor is below this part of the
-  // largest. Near the end the barrier's curvature is 1e12 times the cost's, and its own 1e-6 finds every step
-  // indefinite (HyQ step, 41 intervals: 301 iterations and no end where the least eigenvalue was 4e-3; with this 13).
+  // Fatrop treats a reduced Hessian as indefinite if a diagonal entry of its Cholesky factor is
+  // below this fraction of the largest. Near the solution the barrier's curvature is 1e12 times the
+  // cost's, so the default 1e-6 rejects every step (HyQ step, 41 intervals, smallest eigenvalue
+  // 4e-3: not solved in 301 iterations, with this value solved in 13).
   registry.set_option("linsol_pivot_tol", 1e-12);
-  // The first regularisation that is tried, and by how much it grows until one has done. Fatrop's 1e-4 and 100
-  // overshoot (Talos weight shift, 4 and 12 intervals: no end in 292 and 123 iterations, with these 66 and 27).
+  // First regularisation and its growth factor. The defaults 1e-4 and 100 overshoot (Talos weight
+  // shift, 4 and 12 intervals: not solved in 292 and 123 iterations, with these values solved in 66
+  // and 27).
   registry.set_option("delta_w0", 1.0);
   registry.set_option("kappa_wplusem", 8.0);
-  // As for Ipopt, see there.
+  // See IpoptSolver.
   registry.set_option("mu_init", options.start_is_near ? 1e-5 : 1e-3);
   if (options.start_is_near) {
     registry.set_option("bound_push", 1e-4);
@@ -344,7 +350,7 @@ std::string FatropSolver::version() const {
 }
 
 std::string FatropSolver::linear_algebra() {
-  char text[256] = {};  // the longest of its strings is far below that
+  char text[256] = {};  // its longest string is far shorter
   blasfeo_processor_library_string(text);
   std::string features = text;
   while (!features.empty() && features.back() == ' ') features.pop_back();
@@ -361,7 +367,7 @@ std::string FatropSolver::processor() {
 
 std::optional<std::string> FatropSolver::why_unsupported(Nlp& nlp) const {
   if (const auto reason = why_missing_instructions("libblasfeo.so", linear_algebra(), processor())) {
-    return *reason + ": install the one of the pinned casadi wheel (scripts/setup), or take another --solver";
+    return *reason + ": install the one of the pinned casadi wheel (scripts/setup), or use another --solver";
   }
   return why_no_chain(nlp, "Fatrop");
 }
@@ -381,7 +387,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
   SolveResult result;
   result.z = z_start;
   Stopped stopped{SolveStatus::solver_failed, ""};
-  bool gave_up = true;  // by itself: then an evaluation that failed may be why
+  bool gave_up = true;  // without an exception: a failed evaluation may be the reason
   Iterate chosen;
   try {
     fatrop::Banner::set_suppress(true);
@@ -389,7 +395,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
     fatrop::IpAlgBuilder<Type> builder(problem);
     const auto algorithm = builder.with_options_registry(&registry).build();
     set_options(registry, options);
-    // As for Ipopt; no option in Fatrop's registry.
+    // See IpoptSolver; not in Fatrop's option registry.
     if (const auto nlp_of_method =
             std::dynamic_pointer_cast<fatrop::IpNlpOrig<Type>>(builder.get_ipdata()->get_nlp())) {
       nlp_of_method->set_bound_relax_factor(0.01 * options.tolerance);

@@ -4,28 +4,29 @@
 
 namespace prowl {
 
-/// Fatrop 1.1 (Vanroye, Sathya, De Schutter, Decré 2023: a primal-dual interior point method with filter line search as
-/// Ipopt's, whose linear systems are solved stage by stage by a Riccati recursion) with the exact Hessian. Its time is
-/// linear in the number of stages, with no ordering and no pivoting across them.
+/// Fatrop 1.1 (Vanroye, Sathya, De Schutter, Decré 2023: a primal-dual interior point method with
+/// filter line search as Ipopt's, whose linear systems are solved stage by stage by a Riccati
+/// recursion) with the exact Hessian. Time is linear in the number of stages; no ordering or
+/// pivoting across stages.
 ///
-/// - Takes problems with a stage-wise form only (Nlp::stagewise).
-/// - `converged` means that Fatrop says so and that the point, as the Nlp sees it, is within tolerance.
-/// - A value that is not finite at a trial point shortens the step; a derivative that is not ends the solve as
-///   `evaluation_failed`. Limits and interrupts are looked at once an iteration, time at every trial point too.
-/// - Stopped early, it returns its best iterate, as IpoptSolver does. Multipliers are not given.
-/// - One thread, fixed order of operations: same problem, same start, same machine, same iterates.
+/// - Solves only problems with a stage-wise form (Nlp::stagewise).
+/// - `converged`: Fatrop reports convergence, and the point is within tolerance in the Nlp.
+/// - A non-finite value at a trial point shortens the step; a non-finite derivative ends the solve
+///   as `evaluation_failed`. Limits and interrupts are checked once per iteration, time at every
+///   trial point, too.
+/// - Stopped early, it returns its best iterate, like IpoptSolver. It returns no multipliers.
+/// - One thread, fixed order of operations: deterministic on one machine.
 class FatropSolver : public NlpSolver {
  public:
   std::string name() const override;
   std::string version() const override;
   std::optional<std::string> why_unsupported(Nlp& nlp) const override;
-  /// Throws InputError only if an option or the size of z_start makes no sense.
+  /// Throws InputError only for an invalid option or size of z_start.
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
 
-  /// What the kernels of its linear algebra (BLASFEO) were built for: "AVX2 FMA"; "" if they know of no instruction
-  /// set.
+  /// Instruction sets that BLASFEO was built for: "AVX2 FMA"; "" if generic.
   static std::string linear_algebra();
-  /// What of that this processor has, in the same words.
+  /// Instruction sets that this processor supports, in the same words.
   static std::string processor();
 };
 

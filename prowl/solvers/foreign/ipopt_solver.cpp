@@ -22,11 +22,12 @@
 #include "prowl/solvers/remeasure_result.hpp"
 #include "prowl/solvers/thrown_error.hpp"
 
-// MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: another BLAS may not have it.
+// MUMPS calls OpenBLAS, whose sums depend on the number of threads. Weak: other BLAS libraries lack
+// it.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
-// Ipopt 3.14 has the first of these, 3.14.18 both. Weak, for another libipopt.so may come first, by LD_LIBRARY_PATH: it
-// is to be named, not a symbol that it lacks.
+// Ipopt 3.14 has the first of these, 3.14.18 both. Weak: if LD_LIBRARY_PATH loads another
+// libipopt.so, the error should name that library, not a missing symbol.
 #pragma weak IpoptGetAvailableLinearSolvers
 #pragma weak GetIpoptVersion
 
@@ -43,7 +44,7 @@ struct Iterate : IterateFigures {
   VectorXd z, multipliers;
 };
 
-/// What Ipopt asks, passed on to the Nlp.
+/// Adapter from Ipopt to the Nlp.
 class IpoptProblem : public Ipopt::TNLP {
  public:
   IpoptProblem(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, double start)
@@ -71,7 +72,7 @@ class IpoptProblem : public Ipopt::TNLP {
   }
 
   bool get_starting_point(Index n, bool, Number* z, bool, Number*, Number*, Index, bool, Number*) override {
-    VectorMap(z, n) = z_start_;  // multipliers are not asked for: warm_start_init_point is off
+    VectorMap(z, n) = z_start_;  // no multipliers: warm_start_init_point is off
     return true;
   }
 
@@ -106,14 +107,14 @@ class IpoptProblem : public Ipopt::TNLP {
       options_.on_iteration({iteration, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - start_});
     }
     if (options_.on_iterate && last_.z.size() > 0) options_.on_iterate(last_.z);
-    guarded_.forget_failure();  // a shorter step got away from it
+    guarded_.forget_failure();  // resolved by a shorter step
     return !guarded_.broken() && !(options_.interrupt && options_.interrupt->load());
   }
 
   void finalize_solution(Ipopt::SolverReturn, Index n, const Number* z, const Number*, const Number*, Index m,
                          const Number*, const Number* multipliers, Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    last_.z = ConstVectorMap(z, n);  // inside the bounds, unlike the iterate: see honor_original_bounds
+    last_.z = ConstVectorMap(z, n);  // within the bounds, unlike the iterate: honor_original_bounds
     last_.multipliers = ConstVectorMap(multipliers, m);
   }
 
@@ -129,7 +130,7 @@ class IpoptProblem : public Ipopt::TNLP {
     return true;
   }
 
-  /// In the restoration phase too these are the variables and constraints of the problem itself.
+  /// Variables and constraints of the original problem, also during restoration.
   void read_iterate(Ipopt::AlgorithmMode mode, Number cost, Number inf_du, const Ipopt::IpoptData* data,
                     Ipopt::IpoptCalculatedQuantities* quantities) {
     const int n = nlp_.num_variables();
@@ -142,7 +143,7 @@ class IpoptProblem : public Ipopt::TNLP {
     }
     now.violation = constraint_violation(nlp_, now.z, g);
     now.dual_violation = inf_du;
-    if (mode == Ipopt::RestorationPhaseMode) {  // cost and inf_du are those of the restoration problem
+    if (mode == Ipopt::RestorationPhaseMode) {  // cost and inf_du belong to the restoration problem
       guarded_.cost(now.z, now.cost);
     } else {
       now.cost = cost;
@@ -176,7 +177,8 @@ Outcome outcome(Ipopt::ApplicationReturnStatus code) {
   switch (code) {
     case Ipopt::Solve_Succeeded: return {converged, "optimal within tolerance"};
     case Ipopt::Solved_To_Acceptable_Level: return {solver_failed, "stopped at a point that is not within tolerance"};
-    case Ipopt::Infeasible_Problem_Detected: return {infeasible, "converged to a point of locally least violation"};
+    case Ipopt::Infeasible_Problem_Detected:
+      return {infeasible, "converged to a local minimum of the constraint violation"};
     case Ipopt::Search_Direction_Becomes_Too_Small: return {solver_failed, "search direction became too small"};
     case Ipopt::Diverging_Iterates: return {solver_failed, "iterates diverge: the cost may have no lower bound"};
     case Ipopt::User_Requested_Stop: return {interrupted, "stopped on request"};
@@ -200,22 +202,23 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   list.SetIntegerValue("print_level", 0);
   list.SetStringValue("hessian_approximation", "exact");
   list.SetNumericValue("tol", options.tolerance);
-  // Less than what the result is measured by (remeasure_result()): Ipopt looks before it puts the variables back within
-  // the bounds that it relaxed, below.
+  // Tighter than remeasure_result(): Ipopt checks before it moves the variables back into the
+  // original bounds.
   list.SetNumericValue("constr_viol_tol", 0.9 * options.tolerance);
-  // `tol` is about the problem as Ipopt scales it; these two about the problem itself, and their defaults are loose.
+  // `tol` refers to the scaled problem, these two to the original one; their defaults are loose.
   list.SetNumericValue("dual_inf_tol", options.tolerance);
   list.SetNumericValue("compl_inf_tol", options.tolerance);
   list.SetIntegerValue("acceptable_iter", 0);
   list.SetIntegerValue("max_iter", options.max_iterations);
   list.SetNumericValue("max_wall_time", options.max_seconds);
-  // Ipopt relaxes all bounds a little, to have room inside; well below the tolerance, and the result is put back
-  // inside.
+  // Ipopt relaxes all bounds slightly to obtain an interior: here far less than the tolerance. The
+  // result is moved back.
   list.SetNumericValue("bound_relax_factor", 0.01 * options.tolerance);
   list.SetStringValue("honor_original_bounds", "yes");
-  // Prowl's rows and costs are of order one and its guesses nearly feasible. Ipopt's own start, 0.1, bends the first
-  // iterates so far that the dynamics' curvature makes the Hessian indefinite (Solo12: 300 iterations, with this 15).
-  // Near a solution each step of mu before costs iterations, and what is on a bound there may begin close to it here.
+  // Prowl's rows and costs are of order one and its guesses nearly feasible. Ipopt's default 0.1
+  // moves the first iterates so far that the curvature of the dynamics makes the Hessian indefinite
+  // (Solo12: 300 iterations, with this value 15). Near a solution a larger mu costs iterations, and
+  // active variables may start close to their bounds.
   list.SetNumericValue("mu_init", options.start_is_near ? 1e-5 : 1e-3);
   if (options.start_is_near) {
     for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
@@ -223,8 +226,9 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
     }
     list.SetStringValue("bound_mult_init_method", "mu-based");
   }
-  // Fresh multipliers once the rows nearly hold. A regularised step that removes a violation makes them grow with the
-  // regularisation, and they bend the next Hessian (HyQ trot, 83 intervals: 300 iterations and no end, with this 231).
+  // Re-estimate the multipliers when the constraints nearly hold. A regularised step that removes a
+  // violation makes them grow with the regularisation, which distorts the next Hessian (HyQ trot,
+  // 83 intervals: not solved in 300 iterations, with this option solved in 231).
   list.SetStringValue("recalc_y", "yes");
   list.SetNumericValue("recalc_y_feas_tol", 1e-2);
 }
@@ -232,23 +236,25 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
 void set_linear_solver(Ipopt::OptionsList& list, IpoptLinearSolver linear_solver) {
   if (linear_solver == IpoptLinearSolver::spral) {
     list.SetStringValue("linear_solver", "spral");
-    // Its own choice, to scale and to order by a matching that is made anew each time, takes longer than the
-    // factorisation (CPU time of HyQ stand, 40 intervals: 2.3 s in place of 0.7 s).
+    // By default SPRAL scales and orders by a new matching each time, which takes longer than the
+    // factorisation (HyQ stand, 40 intervals: 2.3 s of CPU time instead of 0.7 s).
     list.SetStringValue("spral_order", "metis");
     list.SetStringValue("spral_scaling", "ruiz");
-    // Fronts of fewer columns than its 32: stages have some 50 variables, few of which are free.
+    // Fewer columns per front than the default 32: stages have about 50 variables, few of them
+    // free.
     list.SetIntegerValue("spral_nemin", 8);
     return;
   }
   list.SetStringValue("linear_solver", "mumps");
-  // Approximate minimum fill: made by MUMPS itself. METIS' orderings differ between its builds.
+  // Approximate minimum fill, built into MUMPS. METIS orderings differ between builds.
   list.SetIntegerValue("mumps_pivot_order", 2);
-  // Scale rows and columns by iteration. MUMPS' own choice permutes by a matching first, which leaves so many delayed
-  // pivots that it finds wrong inertias (HyQ balance, 120 intervals: 57 iterations of 0.6 s, with this 23 of 0.3 s).
+  // Iterative row and column scaling. The default permutes by a matching first; the many delayed
+  // pivots then cause wrong inertias (HyQ balance, 120 intervals: 57 iterations of 0.6 s, with this
+  // option 23 of 0.3 s).
   list.SetIntegerValue("mumps_scaling", 7);
 }
 
-/// Of the library that is loaded, which need not be the one that Prowl was built with.
+/// Version of the loaded library, which may differ from the one of the build.
 std::string loaded_version() {
   if (!IpoptGetAvailableLinearSolvers) return "before 3.14";
   if (!GetIpoptVersion) return "3.14";
@@ -263,15 +269,15 @@ std::string loaded_file() {
   return is_known && info.dli_fname ? info.dli_fname : "libipopt.so";
 }
 
-/// Ipopt is built with some linear solvers and without others.
+/// Why the loaded Ipopt lacks a linear solver: builds differ.
 std::optional<std::string> why_missing(IpoptLinearSolver linear_solver) {
   if (auto reason = IpoptSolver::why_wrong_library()) return reason;
   const bool spral = linear_solver == IpoptLinearSolver::spral;
-  const unsigned built_in = IpoptGetAvailableLinearSolvers(
-      true);  // NOLINT(clang-analyzer-core.CallAndMessage): that it is there was seen above
+  const unsigned built_in =
+      IpoptGetAvailableLinearSolvers(true);  // NOLINT(clang-analyzer-core.CallAndMessage): checked above
   if (built_in & (spral ? IPOPTLINEARSOLVER_SPRAL : IPOPTLINEARSOLVER_MUMPS)) return std::nullopt;
   return fmt::format(
-      "the libipopt.so that is loaded was built without {}; that of the pinned casadi wheel has it (scripts/setup)",
+      "the loaded libipopt.so was built without {}; the pinned casadi wheel contains one with it (scripts/setup)",
       spral ? "SPRAL" : "MUMPS");
 }
 

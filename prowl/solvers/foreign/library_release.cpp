@@ -27,8 +27,8 @@ std::optional<std::string> why_other_release(const std::string& library, const s
                                              const std::string& built, const std::string& file) {
   if (release(loaded) == release(built)) return std::nullopt;
   return fmt::format(
-      "{} is {} {}, and this Prowl was built with {} {}: take the folder of the other one out of LD_LIBRARY_PATH, or "
-      "install the pinned wheels and build again (scripts/setup)",
+      "{} is {} {}, and this Prowl was built with {} {}: remove its folder from LD_LIBRARY_PATH, or install "
+      "the pinned wheels and build again (scripts/setup)",
       file, library, loaded, library, built);
 }
 

@@ -5,13 +5,13 @@
 
 namespace prowl {
 
-/// Why Prowl, built with one release of a library, must not use the one that is loaded, with the remedy; nothing if it
-/// may. Classes of C++ are laid out the same within a release ("3.14" of "3.14.19") and not between two.
+/// Why Prowl must not use a loaded library of another release than that of the build, with the
+/// remedy; nullopt if it may. The C++ ABI is stable only within a release ("3.14" of "3.14.19").
 std::optional<std::string> why_other_release(const std::string& library, const std::string& loaded,
                                              const std::string& built, const std::string& file);
 
-/// Why a library cannot run on this processor; nothing if it can. `needs` and `has`: instruction sets with blanks
-/// between, "AVX2 FMA".
+/// Why a library cannot run on this processor; nullopt if it can. `needs`, `has`: instruction sets
+/// separated by blanks, "AVX2 FMA".
 std::optional<std::string> why_missing_instructions(const std::string& library, const std::string& needs,
                                                     const std::string& has);
 

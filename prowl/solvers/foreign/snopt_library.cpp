@@ -28,8 +28,8 @@ SnoptLibrary::SnoptLibrary(const std::string& file) : handle_(::dlopen(file.c_st
   };
   const auto require = [&](auto& function, const char* name) {
     if (!resolve(function, name) && !why_unusable_) {
-      why_unusable_ = fmt::format("{}: no function {}; need SNOPT 7 with its C interface, snopt-interface 2.1 or later",
-                                  file, name);
+      why_unusable_ = fmt::format(
+          "{}: function {} is missing; need SNOPT 7 with its C interface, snopt-interface 2.1 or later", file, name);
     }
   };
   require(set, "f_snset");

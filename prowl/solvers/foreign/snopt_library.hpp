@@ -6,29 +6,29 @@
 namespace prowl {
 
 extern "C" {
-/// What SNOPT calls for values and derivatives: `status` -1 means "not defined here", -2 "stop".
+/// Callback of SNOPT for values and derivatives; `status` -1: undefined here, -2: stop.
 using SnoptFunction = void(int* status, int* n, double x[], int* need_values, int* num_rows, double values[],
                            int* need_derivatives, int* num_derivatives, double derivatives[], char cu[], int* lencu,
                            int iu[], int* leniu, double ru[], int* lenru);
 }
 
-/// The C functions of snopt-interface (github.com/snopt/snopt-interface, include/snopt.h) that SnoptSolver needs, out
-/// of a library that is loaded at run time. Those of initialisation changed their names and arguments from version to
-/// version. Of these f_sninitx (as SNOPT7.jl of the same authors calls it) or else f_sninitf will do. The older
-/// f_sninit has had three sets of arguments under one name, and libraries that have nothing newer pass all arguments by
-/// address: those are not used.
+/// The C functions of snopt-interface (github.com/snopt/snopt-interface, include/snopt.h) that
+/// SnoptSolver needs, from a library loaded at run time. Initialisation functions changed with
+/// versions: f_sninitx (called by SNOPT7.jl of the same authors) or else f_sninitf is used. The
+/// older f_sninit had three signatures under one name, and libraries without newer functions pass
+/// all arguments by address: they are not supported.
 class SnoptLibrary {
  public:
-  /// A path, or a name that the dynamic linker looks for.
+  /// A path, or a name for the dynamic linker.
   explicit SnoptLibrary(const std::string& file);
   ~SnoptLibrary();
   SnoptLibrary(const SnoptLibrary&) = delete;
   SnoptLibrary& operator=(const SnoptLibrary&) = delete;
 
-  /// What is missing; nothing if the functions below may be called.
+  /// Reason; nullopt if the functions below may be called.
   const std::optional<std::string>& why_unusable() const { return why_unusable_; }
 
-  /// Work space iw, rw of at least 500 numbers each; no print file, no summary.
+  /// Work spaces iw, rw: at least 500 numbers each. No print file, no summary.
   void initialise(int iw[], int leniw, double rw[], int lenrw) const;
   void (*set)(const char* option, int length, int* errors, int iw[], int leniw, double rw[], int lenrw) = nullptr;
   void (*needed_memory)(int* info, int num_rows, int n, int num_linear, int num_derivatives, int* miniw, int* minrw,

@@ -26,7 +26,8 @@ namespace {
 using Eigen::VectorXd;
 using std::vector;
 
-/// The Nlp as SNOPT asks for it: row 0 is the cost; derivatives are its gradient, then the Jacobian's values.
+/// Adapter from SNOPT to the Nlp. Row 0 is the cost; derivatives are its gradient, then the
+/// Jacobian's values.
 class SnoptProblem {
  public:
   SnoptProblem(GuardedNlp& guarded, const SolverOptions& options, double start)
@@ -36,13 +37,13 @@ class SnoptProblem {
   std::optional<SolveStatus> why_stopped() const { return why_stopped_; }
   const std::string& mistake() const {
     return mistake_;
-  }  ///< what an exception said that must not go through Fortran; else empty
+  }  ///< message of an exception, not passed through Fortran; else empty
 
   static void callback(int* status, int* n, double x[], int* need_values, int*, double values[], int* need_derivatives,
                        int*, double derivatives[], char[], int*, int iu[], int*, double[], int*) {
     SnoptProblem* self = nullptr;
     std::memcpy(static_cast<void*>(&self), iu,
-                sizeof(SnoptProblem*));  // the only thing that the interface hands through
+                sizeof(SnoptProblem*));  // the only data that the interface passes through
     try {
       const VectorXd z = Eigen::Map<VectorXd>(x, *n);
       if (self->should_stop())
@@ -77,7 +78,7 @@ class SnoptProblem {
   }
 
   void tell(const VectorXd& z, double cost) {
-    guarded_.forget_failure();  // a shorter step got away from it
+    guarded_.forget_failure();  // resolved by a shorter step
     const IterateFigures now{cost, constraint_violation(nlp_, z, rows_), 0.0};
     if (options_.on_iteration) {
       options_.on_iteration({evaluations_, now.cost, now.violation, 0.0, wall_seconds() - start_});
@@ -105,7 +106,7 @@ int size(const vector<T>& values) {
   return static_cast<int>(values.size());
 }
 
-/// SNOPT's own numbers, options among them; `end` is called on them.
+/// SNOPT's work space, including its options; freed by `end`.
 class Workspace {
  public:
   explicit Workspace(const SnoptLibrary& library) : library_(library), integers_(kLeast), reals_(kLeast) {
@@ -121,7 +122,7 @@ class Workspace {
     if (errors != 0) throw InputError(fmt::format("SNOPT does not know the option \"{}\"", option));
   }
 
-  /// Twice what SNOPT asks for: its estimate knows nothing of the fill of its factors.
+  /// Twice SNOPT's estimate, which ignores the fill of its factors.
   void resize_for(int num_rows, int n, int num_derivatives) {
     int info = 0, num_integers = 0, num_reals = 0;
     library_.needed_memory(&info, num_rows, n, 0, num_derivatives, &num_integers, &num_reals, iw(), leniw(), rw(),
@@ -140,7 +141,7 @@ class Workspace {
   int lenrw() const { return size(reals_); }
 
  private:
-  static constexpr int kLeast = 500;  // of each, for the options alone
+  static constexpr int kLeast = 500;  // minimum of each, enough for the options
   const SnoptLibrary& library_;
   vector<int> integers_;
   vector<double> reals_;
@@ -151,7 +152,7 @@ struct Outcome {
   const char* words;
 };
 
-/// SNOPT's INFO by its tens (User's Guide 7.4, section 8.6), and one by one where these differ.
+/// SNOPT's INFO by tens (User's Guide 7.4, section 8.6), with exceptions.
 Outcome outcome(int info) {
   using enum SolveStatus;
   if (info == 1) return {converged, "optimality conditions satisfied"};
@@ -161,7 +162,7 @@ Outcome outcome(int info) {
   if (info == 34) return {time_limit, "time limit reached"};
   switch (info / 10) {
     case 0: return {solver_failed, "stopped at a point that is not optimal within tolerance"};
-    case 1: return {infeasible, "converged to a point of locally least violation"};
+    case 1: return {infeasible, "converged to a local minimum of the constraint violation"};
     case 2: return {solver_failed, "the cost may have no lower bound"};
     case 4: return {solver_failed, "numerical difficulties"};
     case 5: return {solver_failed, "derivatives seem to be wrong"};
@@ -172,7 +173,7 @@ Outcome outcome(int info) {
   }
 }
 
-/// Bounds as SNOPT knows them: 1e20 is infinite.
+/// Bounds for SNOPT, where 1e20 is infinite.
 vector<double> bounds(const VectorXd& values, bool with_cost, double of_cost) {
   constexpr double kInfinite = 1e20;
   vector<double> all;
@@ -183,24 +184,24 @@ vector<double> bounds(const VectorXd& values, bool with_cost, double of_cost) {
 
 void set_options(Workspace& work, const VectorXd& z_start, const SolverOptions& options) {
   work.set(fmt::format("Major iterations limit {}", options.max_iterations));
-  work.set("Iterations limit 1000000");  // minor ones: the limit is on the major ones
+  work.set("Iterations limit 1000000");  // minor iterations; the user limits major ones
   work.set(fmt::format("Major optimality tolerance {:.3e}", options.tolerance));
   work.set(fmt::format("Major feasibility tolerance {:.3e}", options.tolerance / std::max(1.0, z_start.norm())));
   work.set(fmt::format("Superbasics limit {}", z_start.size() + 1));
-  constexpr int kMostForFullMemory = 500;  // why: python/prowl/snopt.py, which gives SNOPT the same options
+  constexpr int kMostForFullMemory = 500;  // reason: python/prowl/snopt.py, with the same options
   work.set(z_start.size() <= kMostForFullMemory ? "Hessian full memory" : "Hessian limited memory");
   work.set("Derivative option 1");
   work.set("Verify level -1");
 }
 
-/// What SNOPT starts from and gives back.
+/// Input and output arrays of SNOPT.
 struct Point {
   Point(const Nlp& nlp, const VectorXd& z_start)
       : x(z_start.begin(), z_start.end()), row_multipliers(1 + static_cast<std::size_t>(nlp.num_constraints()), 0.0) {}
   vector<double> x, row_multipliers;
 };
 
-/// SNOPT's INFO.
+/// Runs SNOPT and returns its INFO.
 int call(const SnoptLibrary& library, const Nlp& nlp, SnoptProblem& problem, Workspace& work, Point& point) {
   const int n = nlp.num_variables(), num_rows = 1 + nlp.num_constraints();
   vector<int> row(static_cast<std::size_t>(n), 1), col;  // counted from 1, as in Fortran

@@ -9,32 +9,33 @@ namespace prowl {
 
 class SnoptLibrary;
 
-/// SNOPT 7 (Gill, Murray, Saunders 2005: sequential quadratic programming, quasi-Newton), with exact sparse first
-/// derivatives, out of the user's own library: SNOPT is commercial. Prowl's authors have no such library; it was tested
-/// against a double with the published interface (tests/solvers/snopt_double.cpp). The tests of SNOPT itself use
-/// Drake's (python/prowl/snopt.py).
+/// SNOPT 7 (Gill, Murray, Saunders 2005: sequential quadratic programming, quasi-Newton), with
+/// exact sparse first derivatives, from the user's own library: SNOPT is commercial. Tested only
+/// against a double with the published interface (tests/solvers/snopt_double.cpp); tests of SNOPT
+/// itself use Drake's copy (python/prowl/snopt.py).
 ///
-/// - The print file and the summary are switched off. Options are SNOPT's own but for limits, tolerances and
-/// derivatives.
-/// - SNOPT takes a row for met within tolerance x |z|; it is given a tolerance that is the smaller by |z_start|.
-/// - An evaluation that fails at a trial point shortens the step.
-/// - Interrupt and time are looked at with each evaluation; on_iteration is told of evaluations.
-/// - Stopped early, it returns its best iterate: of least violation, and of least cost among those within tolerance.
-/// - One solve at a time in a process: the interface has work space of its own. Others wait.
+/// - Print file and summary are switched off. Only limits, tolerances and derivative options differ
+///   from SNOPT's defaults.
+/// - SNOPT accepts a row within tolerance x |z|, so its tolerance is divided by |z_start|.
+/// - A failed evaluation at a trial point shortens the step.
+/// - Interrupt and time are checked, and on_iteration is called, at each evaluation.
+/// - Stopped early, it returns its best iterate: smallest violation, and smallest cost among those
+///   within tolerance.
+/// - One solve at a time per process, as the interface has global work space. Others wait.
 class SnoptSolver : public NlpSolver {
  public:
-  /// `library`: a path, or a name that the dynamic linker looks for.
+  /// `library`: a path, or a name for the dynamic linker.
   explicit SnoptSolver(const std::string& library = "libsnopt7.so");
   ~SnoptSolver() override;
 
-  /// What is wrong with the library; nothing if it can be used.
+  /// Why the library cannot be used; nullopt if it can.
   const std::optional<std::string>& why_unavailable() const;
 
   std::string name() const override;
   std::string version() const override;
-  /// Also where the library is missing or lacks a function.
+  /// Includes a missing library or function.
   std::optional<std::string> why_unsupported(Nlp& nlp) const override;
-  /// Throws InputError if an option or the size of z_start makes no sense, or if the library cannot be used.
+  /// Throws InputError for an invalid option or size of z_start, or an unusable library.
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
 
  private:

@@ -29,15 +29,15 @@ struct Iterate : IterateFigures {
   VectorXd z;
 };
 
-/// Thrown through Uno, and through the Fortran of BQPD, which would otherwise try again with ever smaller trust
+/// Thrown through Uno and the Fortran of BQPD. Otherwise they would retry with ever smaller trust
 /// regions.
 struct Stopped {
   SolveStatus status;
   std::string message;
 };
 
-/// What Uno asks, passed on to the Nlp. While it restores feasibility Uno has variables of its own behind those of the
-/// Nlp.
+/// Adapter from Uno to the Nlp. During feasibility restoration Uno appends its own variables to
+/// those of the Nlp.
 class UnoProblem {
  public:
   UnoProblem(GuardedNlp& guarded, const SolverOptions& options, double start)
@@ -60,15 +60,15 @@ class UnoProblem {
     return guarded_.jacobian(point(z), VectorMap(values, nlp_.jacobian_pattern().size()));
   }
 
-  /// product = (Hessian of cost_factor f + multipliers . g at z) direction. Uno does not say when the Hessian is
-  /// another.
+  /// product = (Hessian of cost_factor f + multipliers . g at z) direction. Uno does not tell when
+  /// the Hessian changes.
   bool hessian_product(const double* z, double cost_factor, const double* multipliers, const double* direction,
                        double* product) {
     const VectorXd& z_now = point(z);
     const ConstVectorMap multipliers_now(multipliers, g_.size());
     if (hessian_z_.size() == 0 || z_now != hessian_z_ || cost_factor != hessian_factor_ ||
         multipliers_now != hessian_multipliers_) {
-      hessian_z_.resize(0);  // until there is one
+      hessian_z_.resize(0);  // invalid until evaluated
       if (!guarded_.hessian(z_now, cost_factor, multipliers_now, hessian_)) return false;
       hessian_z_ = z_now;
       hessian_factor_ = cost_factor;
@@ -83,7 +83,7 @@ class UnoProblem {
     return true;
   }
 
-  /// Multipliers are zero at the start.
+  /// Start, with zero multipliers.
   void begin(const VectorXd& z) {
     Iterate first{{}, z};
     VectorXd gradient(z.size());
@@ -94,18 +94,18 @@ class UnoProblem {
                   fmt::format("start: {}", guarded_.failure())};
   }
 
-  /// Once an iteration.
+  /// Called once per iteration.
   void iterate(const double* z, double dual_violation) {
     ++iterations_;
     Iterate now{{}, ConstVectorMap(z, nlp_.num_variables())};
     now.dual_violation = dual_violation;
     note(std::move(now));
     check_limits();
-    guarded_.forget_failure();  // a smaller trust region got away from it
+    guarded_.forget_failure();  // resolved by a smaller trust region
   }
 
  private:
-  /// All that Uno asks comes by here.
+  /// Called before every evaluation.
   const VectorXd& point(const double* z) {
     check_limits();
     z_ = ConstVectorMap(z, nlp_.num_variables());
@@ -134,7 +134,7 @@ class UnoProblem {
   const SolverOptions& options_;
   double start_;
   VectorXd z_, g_;
-  VectorXd hessian_, hessian_z_, hessian_multipliers_;  ///< values, and where they were taken
+  VectorXd hessian_, hessian_z_, hessian_multipliers_;  ///< values and their point
   double hessian_factor_ = 0.0;
   Iterate best_;
   int iterations_ = 0;
@@ -159,7 +159,7 @@ uno_int give_hessian_product(uno_int, uno_int, const double* z, bool, double cos
                              const double* direction, double* product, void* self) {
   return failed(problem_of(self).hessian_product(z, cost_factor, multipliers, direction, product));
 }
-/// Uno 2.7.2 stops where this returns 0, whatever its header says.
+/// Uno 2.7.2 stops if this returns 0, contrary to its header.
 uno_int tell_iteration(uno_int, uno_int, const double* z, const double*, const double*, const double*, double, double,
                        double stationarity, double, void* self) {
   problem_of(self).iterate(z, stationarity);
@@ -181,7 +181,8 @@ Outcome outcome(uno_int ending, uno_int point) {
   switch (point) {
     case UNO_FEASIBLE_KKT_POINT: return {converged, "optimal within tolerance"};
     case UNO_FEASIBLE_FJ_POINT: return {solver_failed, "feasible, but constraints depend on each other there"};
-    case UNO_INFEASIBLE_STATIONARY_POINT: return {infeasible, "converged to a point of locally least violation"};
+    case UNO_INFEASIBLE_STATIONARY_POINT:
+      return {infeasible, "converged to a local minimum of the constraint violation"};
     case UNO_FEASIBLE_SMALL_STEP: return {solver_failed, "feasible, and steps became too small"};
     case UNO_INFEASIBLE_SMALL_STEP: return {solver_failed, "not feasible, and steps became too small"};
     case UNO_UNBOUNDED: return {solver_failed, "iterates diverge: the cost may have no lower bound"};
@@ -212,8 +213,8 @@ Handle configured_solver(const SolverOptions& options, UnoProblem& problem) {
   uno_set_solver_preset(solver.get(), "filtersqp");
   uno_set_solver_string_option(solver.get(), "QP_solver", "BQPD");
   uno_set_solver_string_option(solver.get(), "logger", "SILENT");
-  uno_set_solver_string_option(solver.get(), "residual_norm", "INF");  // as the other solvers; filterSQP's own is L2
-  // Uno ends at the loose ones if it gets no nearer: the same, so that it does not.
+  uno_set_solver_string_option(solver.get(), "residual_norm", "INF");  // as in the other solvers
+  // Uno accepts the loose tolerances if it makes no progress; equal values prevent this.
   for (const char* name : {"primal_tolerance", "loose_primal_tolerance", "dual_tolerance", "loose_dual_tolerance"}) {
     uno_set_solver_double_option(solver.get(), name, options.tolerance);
   }
@@ -222,7 +223,7 @@ Handle configured_solver(const SolverOptions& options, UnoProblem& problem) {
   return solver;
 }
 
-/// Uno warns of fixed variables before it has read its option "logger", once in a process.
+/// Uno warns of fixed variables once per process, before it reads its option "logger".
 struct Silence {
   Silence() { uno_set_logger_stream_callback(&discard, nullptr); }
   ~Silence() { uno_reset_logger_stream(); }

@@ -4,14 +4,14 @@
 
 namespace prowl {
 
-/// Pairs (constraint violation theta, barrier function phi) that a line search may not come back to (Wächter and
-/// Biegler 2006, sec. 2.3).
+/// Pairs (constraint violation theta, barrier function phi) to which a line search must not return
+/// (Wächter and Biegler 2006, sec. 2.3).
 class Filter {
  public:
   void reset(double largest_theta) {
     largest_theta_ = largest_theta;
     pairs_.clear();
-    pairs_.reserve(100);  // more than most solves have iterations
+    pairs_.reserve(100);  // most solves take fewer iterations
   }
   bool accepts(double theta, double phi) const {
     if (theta > largest_theta_) return false;

@@ -17,24 +17,24 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Of Wächter and Biegler 2006, with the names they have there.
+// Named as in Wächter and Biegler 2006.
 constexpr double kKappaEpsilon = 10.0, kKappaMu = 0.2, kThetaMu = 1.5, kSMax = 100.0;
 constexpr double kLargestRegularisation = 1e20, kLeastRegularisation = 1e-20;
 
 constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3.0;
-constexpr double kLargestEstimate = 1e3;  ///< of an estimate that is of use
+constexpr double kLargestEstimate = 1e3;  ///< larger estimates are discarded
 constexpr double kNearlyFeasibleRows = 1e-2, kHugeMultiplier = 1e5;
 constexpr double kLargestCostSlope = 100.0;
-constexpr double kStepAccuracy = 1e-2;  ///< of Newton's equations, as a part of the tolerance: what a full step leaves
+constexpr double kStepAccuracy = 1e-2;  ///< residual of Newton's equations over the tolerance
 
-/// First mu times the number of stages: the cost is an integral, the barrier a sum over stages, and for both to weigh
-/// the same on each mesh mu has to fall as a step does (HyQ rear from the task alone on 350 intervals: with mu = 1e-3
-/// 59 iterations, with this 22; on 23 intervals 16 and 16).
-/// Near a solution whose multipliers are known slacks are placed by them, and mu can be near its end: HyQ balance with
-/// the goal moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
+/// First mu times the number of stages. The cost is an integral, the barrier a sum over stages: for
+/// equal weights on each mesh mu must scale with the step (HyQ rear, cold start, 350 intervals: 59
+/// iterations with mu = 1e-3, 22 with this; 23 intervals: 16 and 16). Near a solution with known
+/// multipliers these place the slacks, and mu can start near its final value: HyQ balance with the
+/// goal moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
 constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-4, kKnownBarrier = 3e-5;
-constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< of slacks off their bounds
-/// Where no part of a step is an improvement, shorter steps by more regularisation, so many times.
+constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< distance of slacks from their bounds
+/// If no fraction of a step is acceptable: regularise more, at most so many times.
 constexpr double kFailureGrowth = 100.0;
 constexpr int kMostFailures = 4;
 
@@ -91,7 +91,8 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options, in
   for (VectorXd* v : {&s_, &ds_, &lambda_, &beta_, &sigma_, &residual_, &step_lambda_}) v->setZero(rows_.back());
 }
 
-/// function(), and what it cannot evaluate gets its place: the functions of a stage know neither phase nor time.
+/// Calls function() and adds the stage to its NumericalError: functions of a stage know neither
+/// phase nor time.
 template <class Function>
 void InteriorPoint::at_stage(int k, Function function) const {
   try {
@@ -127,7 +128,8 @@ void InteriorPoint::evaluate_stage(int k, const StageVectors& ux, Values& values
   if (!stage.next.allFinite()) throw NumericalError("the next state is not finite");
 }
 
-/// Those of the other functions are found where they are used; these spread to all stages first.
+/// Other non-finite derivatives are found where they are used; these would spread to all stages
+/// first.
 void InteriorPoint::need_finite_slopes(int k) const {
   if (!nlp_.cost_gradient(k).allFinite()) throw NumericalError("the gradient of the cost is not finite");
   if (!nlp_.equality_slopes(k).allFinite()) throw NumericalError("the derivatives of an equality are not finite");
@@ -144,7 +146,7 @@ void InteriorPoint::linearise() {
   });
 }
 
-/// For what needs no second derivatives.
+/// Without second derivatives.
 void InteriorPoint::linearise_to_first_order() {
   const Stopwatch stopwatch(times_.derivatives);
   threads_.for_each(num_stages_, [this](int k) {
@@ -262,7 +264,7 @@ std::vector<StageMultipliers> InteriorPoint::multipliers() const {
   return result;
 }
 
-/// Least squares: those that leave the least violation of the dual equations.
+/// Least-squares estimate: minimises the violation of the dual equations.
 void InteriorPoint::estimate_multipliers() {
   for (VectorXd& weights : weights_) weights.setZero();
   if (factorise(StageKkt::Hessian::identity, 1.0) != StageKkt::Outcome::solvable) return;
@@ -291,7 +293,7 @@ void InteriorPoint::set_right_sides(const Values& values, const VectorXd& s) {
   residual_ = values.inequalities - s;
 }
 
-/// Gradient of the scaled cost and of what multipliers make of the inequalities.
+/// Gradient of cost_scale cost + lambda . inequalities.
 void InteriorPoint::set_gradient(double cost_scale, const VectorXd& lambda) {
   for (int k = 0; k < num_stages_; ++k) {
     gradient_[k] = cost_scale * nlp_.cost_gradient(k);
@@ -305,8 +307,8 @@ void InteriorPoint::set_weights() {
   for (int k = 0; k < num_stages_; ++k) weights_[k] = segment(sigma_, k);
 }
 
-/// Steps of all variables and new multipliers with the factors and weights at hand, for violations (right_links_,
-/// right_equalities_, residual).
+/// Steps of all variables and new multipliers from the current factors and weights, for the
+/// violations right_links_, right_equalities_ and `residual`.
 void InteriorPoint::solve_direction(double cost_scale, const VectorXd& residual) {
   const Stopwatch stopwatch(times_.linear_algebra);
   slacks_.pull(mu_, beta_);
@@ -338,7 +340,7 @@ bool InteriorPoint::compute_direction(double least_regularisation, std::string& 
       return false;
     }
   }
-  // What a step that failed asks for says nothing of the curvature.
+  // Regularisation after a failed step does not measure the curvature.
   if (regularisation_ > 0.0 && least_regularisation == 0.0) last_regularisation_ = regularisation_;
 
   set_right_sides(values_, slacks_.s);
@@ -395,8 +397,8 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch&
       }
       linearise();
       const bool violation_is_small = largest_violation(values_, slacks_.s) < kNearlyFeasibleRows;
-      // A regularised step that removes a violation leaves multipliers in proportion to the regularisation, and these
-      // bend the Lagrangian, which asks for more of it.
+      // A regularised step that removes a violation leaves multipliers proportional to the
+      // regularisation. They distort the Lagrangian, which then needs even more regularisation.
       if (regularisation_ > 0.0 && violation_is_small && largest_multiplier() > kHugeMultiplier) {
         estimate_multipliers();
         linearise();

@@ -16,20 +16,20 @@ namespace prowl {
 
 /// Interior point method with filter line search (Wächter and Biegler 2006) on a chain of stages:
 ///
-///   minimise  cost - mu log(distances of s from its bounds)   subject to  x_{k+1} = next, equalities = 0, inequalities
-///   = s
+///   minimise    cost - mu sum log(distances of s from its bounds)
+///   subject to  x_{k+1} = next,  equalities = 0,  inequalities = s
 ///
-/// for a sequence of mu that goes to zero, each step by StageKkt with the exact Hessian. Docs: docs/solvers.md.
+/// for mu -> 0. StageKkt computes each step with the exact Hessian. docs/solvers.md.
 class InteriorPoint {
  public:
-  /// Evaluates stages on so many threads, which `nlp` must be ready for (Nlp::use_threads).
+  /// `threads`: for the evaluation of stages; `nlp` must be prepared for them (Nlp::use_threads).
   InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options, int threads);
 
   struct Ending {
     SolveStatus status;
     std::string message;
   };
-  /// Called once an iteration; what it returns stops the solve.
+  /// Called once per iteration; a returned Ending stops the solve.
   using Watch = std::function<std::optional<Ending>(int iteration, const IterateFigures& figures)>;
   Ending run(const StageVectors& start, const Watch& watch);
 
@@ -37,7 +37,7 @@ class InteriorPoint {
   const IterateFigures& figures() const { return figures_; }
   const StageVectors& stages() const { return ux_; }
   const SolveTimes& times() const { return times_; }
-  std::vector<StageMultipliers> multipliers() const;  ///< of the program itself, cost not scaled
+  std::vector<StageMultipliers> multipliers() const;  ///< of the original program, cost not scaled
 
  private:
   /// Values of all functions at a point.
@@ -55,7 +55,7 @@ class InteriorPoint {
   void need_finite_slopes(int k) const;
   void linearise();
   void linearise_to_first_order();
-  double violation(const Values& values, const Eigen::VectorXd& s) const;          ///< sum of absolute values
+  double violation(const Values& values, const Eigen::VectorXd& s) const;          ///< sum of absolute values (L1)
   double largest_violation(const Values& values, const Eigen::VectorXd& s) const;  ///< in units of the stages
   double barrier_function(const Values& values, const Slacks& slacks) const;
   void update_dual_violation();
@@ -107,9 +107,9 @@ class InteriorPoint {
   double cost_scale_ = 1.0, mu_ = 0.0;
   double regularisation_ = 0.0, last_regularisation_ = 0.0;
   double theta_ = 0.0, phi_ = 0.0, slope_ = 0.0, largest_dual_violation_ = 0.0;
-  double least_theta_ = 0.0;  ///< below it steps are judged by the barrier function alone
+  double least_theta_ = 0.0;  ///< below it only the barrier function decides on a step
   Filter filter_;
-  /// The point that steps without a filter have begun at, while they are taken.
+  /// Point before the first step without a filter.
   struct Start {
     StageVectors ux;
     Slacks slacks;

@@ -1,4 +1,4 @@
-// How far InteriorPoint goes along a direction, and what it does where no part of it is an improvement.
+// Step length of InteriorPoint along a direction, and restoration if no length is acceptable.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,19 +14,21 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Of Wächter and Biegler 2006, with the names they have there.
+// Named as in Wächter and Biegler 2006.
 constexpr double kTauMin = 0.99, kKappaSoc = 0.99, kKappaSigma = 1e10, kGammaAlpha = 0.05;
 constexpr double kGammaTheta = 1e-5, kGammaPhi = 1e-8, kDelta = 1.0, kSTheta = 1.1, kSPhi = 2.3, kEtaPhi = 1e-8;
 constexpr int kMostCorrections = 4;
-constexpr double kShortestStep = 1e-12;  ///< part of a direction; below it is rounding
+constexpr double kShortestStep = 1e-12;  ///< fraction of a direction; smaller ones are rounding
 constexpr int kMostRestorations = 100;
-/// From a neighbour's solution with its multipliers Newton's first steps go as far as bounds allow, whatever the filter
-/// says; if they lead away from the constraints they are taken back. Such a start violates one condition (the goal that
-/// moved), and the step spreads its curvature over all stages, so that the sum of violations rises although it falls by
-/// orders with the next step. Halved steps then creep: HyQ balance, goal moved by 2 cm, worst of 50: 13 iterations,
-/// with one whole step 3; step: 72, with one 16, with two 12, with four 13.
+/// With start multipliers the first Newton steps go as far as the bounds allow, without the filter;
+/// if they leave the constraints they are undone. Such a start violates one condition (the moved
+/// goal); the step spreads its curvature over all stages, so the sum of violations first rises,
+/// then falls by orders of magnitude. Halving would stall (goal moved by 2 cm, worst of 50): HyQ
+/// balance 13 iterations, with one whole step 3; HyQ step 72, with one 16, with two 12, with four
+/// 13.
 constexpr int kWholeSteps = 2;
-constexpr double kAway = 10.0, kSmallViolation = 1e-2;  ///< times the start's violation, or this if that is less
+/// Allowed violation after them: kAway max(violation of the start, kSmallViolation).
+constexpr double kAway = 10.0, kSmallViolation = 1e-2;
 
 }  // namespace
 
@@ -39,7 +41,7 @@ bool InteriorPoint::try_step(double alpha, const StageVectors& steps, const Vect
 
 bool InteriorPoint::is_acceptable(double alpha, double theta, double phi, bool& is_phi_step) const {
   if (!std::isfinite(theta) || !std::isfinite(phi) || !filter_.accepts(theta, phi)) return false;
-  // Rounding of phi itself must not reject a step near the end.
+  // Near convergence rounding of phi must not reject a step.
   const double rounding = 10.0 * std::numeric_limits<double>::epsilon() * std::abs(phi_);
   is_phi_step = slope_ < 0.0 && alpha * std::pow(-slope_, kSPhi) > kDelta * std::pow(theta_, kSTheta);
   if (theta_ <= least_theta_ && is_phi_step) return phi - phi_ <= kEtaPhi * alpha * slope_ + rounding;
@@ -69,7 +71,7 @@ bool InteriorPoint::correct_second_order(double alpha, double theta) {
     const double now = violation(trial_, slacks_.s);
     if (is_acceptable(alpha, now, barrier_function(trial_, slacks_), is_phi_step)) {
       if (!is_phi_step) filter_.add((1.0 - kGammaTheta) * theta_, phi_ - kGammaPhi * theta_);
-      ds_ = ds;  // the steps of the multipliers are those of the direction itself
+      ds_ = ds;  // multipliers keep the step of the direction
       step_lambda_ = step_lambda;
       return true;
     }
@@ -86,8 +88,8 @@ void InteriorPoint::keep_start() {
   whole_steps_from_ = {ux_, slacks_, lambda_, on_, mu_, violation(values_, slacks_.s)};
 }
 
-/// Called once an iteration: after the whole steps goes on from where they led, or if that is far from the constraints,
-/// from where they began, as from any other start.
+/// Called once per iteration. After the whole steps it continues from their end, or from their
+/// start if the end violates the constraints too much.
 void InteriorPoint::end_whole_steps() {
   if (!whole_steps_from_ || iterations_ < kWholeSteps) return;
   if (!(violation(values_, slacks_.s) <= kAway * std::max(whole_steps_from_->theta, kSmallViolation))) {
@@ -96,7 +98,7 @@ void InteriorPoint::end_whole_steps() {
     lambda_ = whole_steps_from_->lambda;
     on_ = whole_steps_from_->on;
     mu_ = whole_steps_from_->mu;
-    if (!evaluate(ux_, values_)) throw NumericalError(failure_);  // it could be evaluated before
+    if (!evaluate(ux_, values_)) throw NumericalError(failure_);  // was evaluated before
     linearise();
   }
   whole_steps_from_.reset();
@@ -150,7 +152,8 @@ void InteriorPoint::accept(double alpha_primal, double alpha_dual) {
   slacks_.move_dual(alpha_dual, mu_, kKappaSigma);
 }
 
-/// Short steps towards the constraints, the cost left out, until the filter accepts where that leads. Else why not.
+/// Short steps towards the constraints, ignoring the cost, until the filter accepts the point;
+/// otherwise returns the failure.
 std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Watch& watch) {
   using enum SolveStatus;
   filter_.add((1.0 - kGammaTheta) * theta_, phi_ - kGammaPhi * theta_);
@@ -181,14 +184,14 @@ std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Wa
       slacks_.s = s_;
       if (!evaluated && !failure_.empty()) return Ending{evaluation_failed, failure_};
       if (figures_.violation <= options_.tolerance) {
-        return Ending{solver_failed, "no step along the search direction is an improvement"};
+        return Ending{solver_failed, "no step along the search direction improves the iterate"};
       }
-      return Ending{infeasible, "converged to a point of locally least violation"};
+      return Ending{infeasible, "converged to a local minimum of the constraint violation"};
     }
     ux_.swap(trial_ux_);
     std::swap(values_, trial_);
     linearise_to_first_order();
-    largest_dual_violation_ = std::numeric_limits<double>::infinity();  // not looked at here
+    largest_dual_violation_ = std::numeric_limits<double>::infinity();  // not evaluated here
     update_figures();
     const double now = violation(values_, slacks_.s);
     if (now <= 0.9 * theta_before && filter_.accepts(now, barrier_function(values_, slacks_))) {
@@ -199,7 +202,7 @@ std::optional<InteriorPoint::Ending> InteriorPoint::restore_feasibility(const Wa
       return std::nullopt;
     }
   }
-  return Ending{solver_failed, fmt::format("restoration of feasibility: no end in {} steps", kMostRestorations)};
+  return Ending{solver_failed, fmt::format("restoration of feasibility: not finished in {} steps", kMostRestorations)};
 }
 
 }  // namespace prowl

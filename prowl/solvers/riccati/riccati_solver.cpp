@@ -34,7 +34,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
   std::optional<InteriorPoint> made;
   try {
     made.emplace(stages, options, nlp.use_threads(options.threads));
-  } catch (...) {  // no memory, no threads
+  } catch (...) {  // out of memory or threads
     result.message = thrown_error();
     return result;
   }

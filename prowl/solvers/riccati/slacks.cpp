@@ -10,7 +10,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kSlackRounding = 1e-13;  ///< of an inequality, as a part of it or of one
+constexpr double kSlackRounding = 1e-13;  ///< relative to max(1, |inequality|)
 
 }  // namespace
 

@@ -5,11 +5,11 @@
 
 namespace prowl {
 
-/// Slacks s of all inequalities of a program, lower <= s <= upper, as a barrier method sees them:
+/// Slacks s of all inequalities of a program, lower <= s <= upper, with the barrier
 ///
-///   barrier  - mu (sum of log(s - lower) + sum of log(upper - s))
+///   - mu (sum of log(s - lower) + sum of log(upper - s))
 ///
-/// with multipliers z >= 0 of the bounds that are finite, and lambda of inequality - s = 0.
+/// multipliers z >= 0 of the finite bounds, and lambda of inequality - s = 0.
 class Slacks {
  public:
   Slacks(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper);
@@ -17,30 +17,31 @@ class Slacks {
   Eigen::Index size() const { return s.size(); }
   int num_bounds() const { return static_cast<int>(below_.size() + above_.size()); }
 
-  /// s at the values of the inequalities, but inside the bounds by `push` and by that part of their distance.
+  /// s = values of the inequalities, at least push min(max(1, |bound|), upper - lower) inside.
   void start(const Eigen::VectorXd& values, double push);
   /// z = mu / distance.
   void center(double mu);
-  /// Starts from multipliers of a neighbouring problem: z is what they say, but at least mu / distance, and slacks keep
-  /// a distance of mu / z.
+  /// Starts from the multipliers of a neighbouring problem: z from lambda, but at least mu /
+  /// distance; slacks keep a distance of mu / z.
   void start(const Eigen::VectorXd& values, const Eigen::VectorXd& lambda, double mu, double push);
 
   double log_barrier() const;  ///< without mu
-  /// beta = derivative of mu log_barrier in s: lambda is to become that.
+  /// beta = derivative of mu log_barrier in s, the target of lambda.
   void pull(double mu, Eigen::VectorXd& beta) const;
   void weights(Eigen::VectorXd& sigma) const;  ///< sum of z / distance
 
-  /// Steps of z for a step of s, to the barrier's mu.
+  /// Steps of z for a step of s, towards complementarity mu.
   void set_step(double mu, const Eigen::VectorXd& ds);
-  /// Longest part of the step that leaves each distance, or each z, at least 1 - tau of what it is; at most 1.
+  /// Largest fraction of the step, at most 1, that keeps each distance (primal) or z (dual) at 1 -
+  /// tau of its value or more.
   double longest_primal(double tau, const Eigen::VectorXd& ds) const;
   double longest_dual(double tau) const;
-  /// s = from + alpha ds. False if that is on a bound or beyond.
+  /// s = from + alpha ds. False if this reaches a bound.
   bool move(const Eigen::VectorXd& from, double alpha, const Eigen::VectorXd& ds);
-  /// s = value of the inequality where that is as far inside as the fraction to the boundary allows, seen from `from`,
-  /// and differs by more than rounding: near a bound, where s is mu / z, rounding would turn mu / s about.
+  /// s = value of the inequality where the fraction-to-the-boundary rule from `from` allows it and
+  /// the change exceeds rounding: near a bound, with s = mu / z, rounding would spoil mu / s.
   void reset(const Eigen::VectorXd& from, const Eigen::VectorXd& values, double tau);
-  /// z += alpha dz, and then as near to mu / distance as `spread` allows.
+  /// z += alpha dz, then clamped to mu / distance within the factor `spread`.
   void move_dual(double alpha, double mu, double spread);
 
   double largest_complementarity(double mu) const;                     ///< |z distance - mu|

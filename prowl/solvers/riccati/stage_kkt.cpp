@@ -12,16 +12,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What is left of an equality counts if it is above this part of the largest entry. Where a foot lands, its place and
-/// its velocity are conditions on one acceleration of a stage: what tells them apart there is of third order in the
-/// step, 1e-9 on fine meshes, and met by it they have multipliers of 1e12 (HyQ trot, 624 intervals). An honest
-/// condition on a place leaves the square of the step, 1e-5.
+/// The remainder of an equality counts above this fraction of the largest entry. At a landing,
+/// position and velocity of the foot constrain one acceleration of a stage. Their difference is of
+/// third order in the step, 1e-9 on fine meshes; using it gives multipliers of 1e12 (HyQ trot, 624
+/// intervals). An independent condition on a position leaves the square of the step, 1e-5.
 constexpr double kDependent = 1e-7;
-/// Pivots below are rounding.
+/// Smaller pivots are rounding.
 constexpr double kPivotRounding = 1e-12;
 
 constexpr int kMostRefinements = 5;
-constexpr double kRefined = 1e-12;  ///< residual, as a part of the right sides: no better than this
+constexpr double kRefined = 1e-12;  ///< residual relative to the right-hand sides; refinement stops here
 
 void add(double factor, const StageVectors& from, StageVectors& to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];
@@ -34,7 +34,8 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
   for (int k = 0; k < num_stages_; ++k) {
     Stage& s = stage(k);
     s.size = nlp.size(k);
-    if (k == 0) s.size = {s.size.variables(), 0, s.size.equalities, s.size.inequalities};  // states nothing leads to
+    if (k == 0)
+      s.size = {s.size.variables(), 0, s.size.equalities, s.size.inequalities};  // no stage leads to these states
     const int variables = s.size.variables(), next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
     for (int i = 0; i < variables; ++i) s.order.push_back(i);
     s.P.setZero(s.size.states, s.size.states);
@@ -93,7 +94,7 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
     if (s.cholesky.info() != Eigen::Success || !s.cholesky.matrixLLT().diagonal().allFinite())
       return Outcome::indefinite;
     s.G = N.bottomLeftCorner(states, free).transpose();
-    if (states > 0) {  // Eigen's triangular solve of nothing takes a reference to it
+    if (states > 0) {  // Eigen's triangular solve fails on empty matrices
       s.cholesky.matrixL().solveInPlace(s.G);
       s.P.selfadjointView<Eigen::Lower>().rankUpdate(s.G.transpose(), -1.0);
     }
@@ -102,7 +103,7 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
   return s.P.allFinite() ? Outcome::solvable : Outcome::indefinite;
 }
 
-/// The equalities with those of the next stage's state.
+/// Own equalities and those on the next stage's state.
 MatrixXd& StageKkt::gather_equalities(int k) {
   Stage& s = stage(k);
   s.carried = k + 1 < num_stages_ ? stage(k + 1).passed : 0;
@@ -135,7 +136,7 @@ void StageKkt::determine_inputs(Stage& s, const MatrixXd& equalities) {
   for (int i = 0; i < s.size.inputs; ++i) s.order[i] = s.lu.permutationQ().indices()(i);
 }
 
-/// M with the inputs in their order; states have theirs. Its lower triangle, and all of it in the inputs.
+/// M with permuted inputs. Fills the lower triangle, and the whole block of the inputs.
 void StageKkt::put_in_order(const Stage& s, const MatrixXd& condensed, MatrixXd& M) {
   const int inputs = s.size.inputs, states = s.size.states;
   for (int j = 0; j < inputs; ++j) {
@@ -146,7 +147,7 @@ void StageKkt::put_in_order(const Stage& s, const MatrixXd& condensed, MatrixXd&
   M.bottomRightCorner(states, states) = condensed.bottomRightCorner(states, states);
 }
 
-/// M in the variables that are left: N = M_rr + M_rd K + K' M_dr + K' M_dd K.
+/// M in the remaining variables: N = M_rr + M_rd K + K' M_dr + K' M_dd K.
 void StageKkt::eliminate(Stage& s, const MatrixXd& equalities, const MatrixXd& M, MatrixXd& in_states, MatrixXd& N) {
   const int rank = s.rank, rest = s.rest(), states = s.size.states;
   in_states = equalities.rightCols(states);
@@ -169,13 +170,13 @@ void StageKkt::eliminate(Stage& s, const MatrixXd& equalities, const MatrixXd& M
   MatrixXd& M_ddK = work_.M_ddK.of_size(rank, rest);
   M_ddK.noalias() = s.M_dd * s.K;
   s.T = M.bottomLeftCorner(rest, rank).transpose() + 0.5 * M_ddK;
-  if (rest == 0) return;  // Eigen's triangular product of nothing divides by zero
+  if (rest == 0) return;  // Eigen's triangular product of empty matrices divides by zero
   N.triangularView<Eigen::Lower>() += s.T.transpose() * s.K;
   N.triangularView<Eigen::Lower>() += s.K.transpose() * s.T;
   s.T += 0.5 * M_ddK;
 }
 
-/// Equalities that determine no input are conditions on the state: those that do not depend on each other.
+/// Independent conditions on the state: from equalities that determine no input.
 void StageKkt::pass_conditions(Stage& s, const MatrixXd& equalities, const MatrixXd& in_states) {
   s.passed_rows.clear();
   s.passed = 0;
@@ -193,7 +194,7 @@ void StageKkt::pass_conditions(Stage& s, const MatrixXd& equalities, const Matri
 void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
                      double accuracy) {
   solve_once(gradient, equalities, links);
-  // Beside a weight what else curves the Lagrangian keeps the digits that are left.
+  // Large weights cost digits of the other curvature.
   const bool weighs_little = largest(weights_) * std::numeric_limits<double>::epsilon() <= accuracy;
   if (is_exact_ && weighs_little) return;
   sum_.steps = steps_;
@@ -210,7 +211,7 @@ void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalitie
   };
   for (int i = 0;; ++i) {
     const double residual = find_residual(gradient, equalities, links);
-    if (!(residual < last)) add_correction(-1.0);  // the last one made it worse
+    if (!(residual < last)) add_correction(-1.0);  // undo: it increased the residual
     if (!(residual > std::max(accuracy, rounding)) || !(residual <= 0.5 * last) || i == kMostRefinements) break;
     last = residual;
     solve_once(residual_gradient_, residual_equalities_, residual_links_);
@@ -222,7 +223,7 @@ void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalitie
   along_inequalities_ = sum_.along_inequalities;
 }
 
-/// What is left of the equations at the sum of the solutions so far.
+/// Residual of the equations at the sum of the solutions so far.
 double StageKkt::find_residual(const StageVectors& gradient, const StageVectors& equalities,
                                const StageVectors& links) {
   residual_gradient_ = gradient;
@@ -324,8 +325,8 @@ void StageKkt::forward(int k, const VectorXd* link) {
   if (s.carried > 0) on_next_[k].noalias() += next.E.transpose() * next.on_carried;
 }
 
-/// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. Those of the conditions
-/// on the state are known from the stage before.
+/// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. The
+/// stage before has set the multipliers of the conditions on the state.
 void StageKkt::find_multipliers(int k) {
   Stage& s = stage(k);
   const int rank = s.rank;

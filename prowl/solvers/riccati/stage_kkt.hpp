@@ -17,17 +17,18 @@ namespace prowl {
 ///   sum of  1/2 d' M d + g' d,   M = Hessian of the Lagrangian + delta I + inequalities' diag(weights) inequalities
 ///   subject to  dx_{k+1} = next' d + b_k,   equalities' d + c_k = 0
 ///
-/// at the stages as they were linearised last, with the multipliers of both. From the last stage to the first:
+/// for the latest linearisation of the stages, with the multipliers of both. From the last stage to
+/// the first:
 ///
-///   equalities     determine as many inputs as their rank, chosen by an LU factorisation with full pivoting: those are
-///                  substituted. What is left of the equalities is a condition on the state and goes to the stage
-///                  before, as equalities of that stage: E dx + e = 0
-///   free inputs    minimise (Cholesky): what remains is the cost-to-go  1/2 dx' P dx + p' dx
+///   equalities     determine as many inputs as their rank (LU with full pivoting), which are
+///                  substituted. The remainder is a condition on the state, E dx + e = 0, and
+///                  becomes an equality of the stage before.
+///   free inputs    minimise (Cholesky), which leaves the cost-to-go  1/2 dx' P dx + p' dx
 ///
-/// The Cholesky factors exist if and only if M is positive definite on the steps that keep the equalities. Equalities
-/// that depend on others are left out, with multipliers of zero. An input that could meet an equality only by a huge
-/// step does not count: that equality goes to earlier stages, and iterative refinement makes up for what was left out.
-/// No memory is taken once the ranks have settled.
+/// The Cholesky factors exist if and only if M is positive definite on the null space of the
+/// equalities. Dependent equalities are dropped, with zero multipliers. An input that could meet an
+/// equality only by a huge step is not used: the equality goes to earlier stages, and iterative
+/// refinement corrects the neglected part. No allocation while ranks stay the same.
 class StageKkt {
  public:
   /// A view of `nlp`, which must outlive it.
@@ -36,12 +37,13 @@ class StageKkt {
   enum class Hessian { lagrangian, identity };
   enum class Outcome { solvable, indefinite, not_finite };
 
-  /// `weights`: of the inequalities. With `identity` M is delta I and the weighted inequalities.
+  /// `weights`: of the inequalities, one vector per stage. With `identity` M omits the Hessian of
+  /// the Lagrangian.
   Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
-  int last_stage() const { return last_stage_; }  ///< where the latest factorisation ended: 0 if it is solvable
+  int last_stage() const { return last_stage_; }  ///< stage where the latest factorisation ended; 0 if solvable
 
-  /// Of g, c and b, one vector a stage each; b has none after the last stage. `accuracy`: of the equations, largest
-  /// absolute value, where iterative refinement may end.
+  /// Solves for g, c and b: one vector per stage, b without one for the last. `accuracy`: largest
+  /// residual at which iterative refinement may stop.
   void solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
              double accuracy = 0.0);
 
@@ -51,23 +53,23 @@ class StageKkt {
   const StageVectors& along_inequalities() const { return along_inequalities_; }  ///< their derivatives times the step
 
  private:
-  /// Variables in the order (determined inputs, free inputs, states). r: all but the determined ones. What a solve
-  /// reads is kept small: on long chains it comes from main memory.
+  /// Variables are ordered (determined inputs, free inputs, states); r: all but the determined
+  /// ones. Kept small, as on long chains a solve reads it from main memory.
   struct Stage {
     StageSize size;
-    int carried = 0;                       ///< conditions E of the next stage, which are equalities here
+    int carried = 0;                       ///< conditions E of the next stage, equalities here
     int rank = 0;                          ///< number of determined inputs
     int passed = 0;                        ///< conditions E of this stage
-    Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of the equalities, own and carried ones, in u
-    std::vector<Eigen::Index> order;       ///< place of each variable in (u, x)
+    Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of own and carried equalities, in u
+    std::vector<Eigen::Index> order;       ///< position of each variable in (u, x)
     Eigen::MatrixXd M_dd;                  ///< M in the determined inputs
     Eigen::MatrixXd K;                     ///< determined inputs = K r + k
     Eigen::MatrixXd T;                     ///< M_dd K + M_dr
     Eigen::LLT<Eigen::MatrixXd> cholesky;
     Eigen::MatrixXd G;  ///< L^-1 N_fx of the free inputs
     Eigen::MatrixXd P, E;
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of what determines no input
-    std::vector<int> passed_rows;                            ///< which of the rows in the order of the pivots E is
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of equalities that determine no input
+    std::vector<int> passed_rows;                            ///< rows, in pivot order, that form E
 
     Eigen::VectorXd m, c, k, r, p, e, step, on_rows, on_carried;
     Eigen::VectorXd gradient, permuted, no_inequalities;
@@ -76,17 +78,17 @@ class StageKkt {
     int rest() const { return size.variables() - rank; }
   };
 
-  /// Matrices that are of use only while a stage is factorised: one of each size, shared by the stages that need it.
+  /// Temporary matrices of a factorisation: one of each size, shared by all stages.
   class Shared {
    public:
     Eigen::MatrixXd& of_size(Eigen::Index rows, Eigen::Index cols);
 
    private:
-    std::deque<Eigen::MatrixXd> matrices_;  ///< stay where they are
+    std::deque<Eigen::MatrixXd> matrices_;  ///< deque: references stay valid
   };
   struct Work {
     Shared equalities;  ///< own and carried ones, in (u, x)
-    Shared in_states;   ///< L^-1 of those in x, rows in the order of the pivots
+    Shared in_states;   ///< L^-1 times those in x, rows in pivot order
     Shared condensed;   ///< M in (u, x)
     Shared M;           ///< in the stage's order
     Shared N;           ///< M in r, lower triangle
@@ -100,7 +102,7 @@ class StageKkt {
   void eliminate(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& M, Eigen::MatrixXd& in_states,
                  Eigen::MatrixXd& N);
   void pass_conditions(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& in_states);
-  /// How many of the pivots of a stage's equalities count; notes whether others were more than rounding.
+  /// Number of significant pivots of a stage's equalities; sets is_exact_.
   template <class Pivots>
   int count_independent(const Eigen::MatrixXd& equalities, const Pivots& pivots);
   Outcome factorise_stage(int k);
@@ -116,7 +118,7 @@ class StageKkt {
   Work work_;
   StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
   int last_stage_ = 0;
-  bool is_exact_ = true;  ///< no pivot but rounding was left out
+  bool is_exact_ = true;  ///< only rounding was left out
   Hessian hessian_ = Hessian::lagrangian;
   double delta_ = 0.0;
   StageVectors weights_;

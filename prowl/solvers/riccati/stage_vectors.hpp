@@ -6,7 +6,7 @@
 
 namespace prowl {
 
-/// One vector a stage.
+/// One vector per stage.
 using StageVectors = std::vector<Eigen::VectorXd>;
 
 /// Largest absolute value of all entries; 0 if there is none.

@@ -21,12 +21,12 @@ namespace {
 
 const NumberRange kPositive = NumberRange::positive();
 const NumberRange kNonnegative = NumberRange::nonnegative();
-/// One turn either way, as larger angles are degrees by mistake.
+/// One turn either way: larger angles are degrees by mistake.
 const NumberRange kAngle = {.lower = -6.2832, .upper = 6.2832, .hint = "; 5 degrees are 0.087"};
 const NumberRange kDuration = {.lower = kShortestPhase, .upper = kLongestMotion};
-/// Deviations are squared and divided by: not so small that a weight has no meaning.
+/// Lower bound, as weights are 1 / deviation².
 const NumberRange kDeviation = {.lower = 1e-6};
-/// Strides: above that a typing mistake, and gigabytes of memory.
+/// More strides are a typing mistake, and need gigabytes of memory.
 constexpr double kMostStrides = 1000;
 
 const char* const kOneOrThree = "number or 3 numbers";
@@ -37,7 +37,7 @@ const char* const kJointBounds = "{joint = number or [min, max]}";
 
 std::string number_text(double number) { return fmt::format("{:g}", number); }
 
-/// The keys of one table.
+/// Adds keys to one table.
 class Table {
  public:
   Table(FileKeys& keys, std::string name) : keys_(keys), name_(std::move(name)) {}
@@ -85,7 +85,7 @@ void add_top(FileKeys& keys) {
            .unit = "m",
            .fallback = fmt::format("{:g} % of the standing height", 100.0 * kSwingClearanceShare),
            .meaning = "height of contacts above the surfaces that they pass, in the middle of the swing"});
-  top.add({.name = "solver", .form = "[solver]", .meaning = "when the solver stops"});
+  top.add({.name = "solver", .form = "[solver]", .meaning = "stopping criteria of the solver"});
   top.add({.name = "tracking", .form = "[tracking]", .meaning = "weights of the feedback gains"});
   top.add({.name = "simulation", .form = "[simulation]", .meaning = "conditions for success in `prowl simulate`"});
 }
@@ -106,8 +106,8 @@ void add_surface(FileKeys& keys) {
                .form = "3 or more [number, number]",
                .unit = "m",
                .fallback = "a plane without an edge",
-               .meaning = "corners of a convex patch, counterclockwise seen from outside, in surface coordinates: "
-                          "lengths from point_m along x turned into the plane, and across"});
+               .meaning = "corners of a convex patch, counterclockwise seen from outside, in surface coordinates "
+                          "from point_m: along the world's x turned into the plane, and across"});
   surface.add({.name = "friction",
                .form = "number",
                .range = kPositive,
@@ -181,7 +181,7 @@ std::vector<std::string> gait_names() {
   return names;
 }
 
-/// "0.8 (walk), 0.6 (trot)": a number of each pattern.
+/// "0.8 (walk), 0.6 (trot)": one number per pattern.
 template <typename Number>
 std::string of_each_gait(const Number& number) {
   std::vector<std::string> texts;
@@ -202,8 +202,8 @@ void add_gait(FileKeys& keys) {
             .form = kOneOrRange,
             .range = kDuration,
             .unit = "s",
-            .meaning = "duration of a stride; between two bounds the optimiser chooses for each phase, which gets its "
-                       "share of both"});
+            .meaning = "duration of a stride; between two bounds the optimiser chooses each phase within its share "
+                       "of both"});
   gait.add({.name = "stride_length_m",
             .form = "number",
             .range = kNonnegative,
@@ -214,8 +214,8 @@ void add_gait(FileKeys& keys) {
             .range = kAngle,
             .unit = "rad",
             .fallback = "where the base faces at the start",
-            .meaning = "direction seen from above, about the world's z from its x"});
-  constexpr double kLargestDutyFactor = 0.99;  // a swing takes some time
+            .meaning = "walking direction, angle about the world's z from its x"});
+  constexpr double kLargestDutyFactor = 0.99;  // a swing takes time
   const auto least = [](const GaitPattern& pattern) { return pattern.least_duty_factor(); };
   const std::vector<GaitPattern>& patterns = gait_patterns();
   const GaitPattern& loosest = *std::min_element(patterns.begin(), patterns.end(),
@@ -225,7 +225,7 @@ void add_gait(FileKeys& keys) {
        .form = "number",
        .range = {.lower = least(loosest),
                  .upper = kLargestDutyFactor,
-                 .hint = "; with less, swings overlap: write the phases out as [[phase]]"},
+                 .hint = "; with less, swings overlap: write the phases as [[phase]]"},
        .unit = "-",
        .fallback = of_each_gait([](const GaitPattern& pattern) { return pattern.duty_factor; }),
        .meaning = fmt::format("part of a stride in which a foot is in contact; at least {}", of_each_gait(least))});
@@ -250,7 +250,7 @@ void add_gait(FileKeys& keys) {
             .range = kPositive,
             .unit = "1/s",
             .fallback = number_text(kIntervalsPerSecond),
-            .meaning = "mesh of every phase; at least 2 intervals each"});
+            .meaning = "mesh intervals per second; at least 2 in each phase"});
 }
 
 void add_goal(FileKeys& keys) {
@@ -276,8 +276,8 @@ void add_goal(FileKeys& keys) {
             .form = "3 x (number or \"free\")",
             .range = kAngle,
             .unit = "rad",
-            .meaning = "orientation of the base, as in [start]; if free, it may turn about that axis of the base in "
-                       "its goal orientation"});
+            .meaning = "orientation of the base, as in [start]; a free angle lets the base turn about that axis of its "
+                       "goal orientation"});
   goal.add({.name = "base_linear_velocity_mps",
             .form = kBounds3,
             .unit = "m/s",
@@ -291,12 +291,12 @@ void add_goal(FileKeys& keys) {
   goal.add({.name = "torque_Nm", .form = kJointBounds, .unit = "N m", .meaning = "joint torques"});
 }
 
-/// A weight of a cost; 0 where the file does not have it.
+/// A cost weight; default 0.
 FileKey weight(const char* name, const char* form, const char* unit, const char* meaning) {
   return {.name = name, .form = form, .range = kNonnegative, .unit = unit, .fallback = "0", .meaning = meaning};
 }
 
-/// The weights that running and terminal cost share, under the given table.
+/// Weights common to running and terminal cost, in table `name`.
 void add_state_weights(FileKeys& keys, const std::string& name) {
   Table cost(keys, name);
   cost.add({.name = "reference",
@@ -336,12 +336,12 @@ void add_running_weights(FileKeys& keys) {
   cost.add(weight("base_angular_acceleration", kOneOrThree, "s⁴/rad²",
                   "weight on the angular acceleration of the base, base frame"));
   cost.add(weight("joint_acceleration", kOneOrJoints, "s⁴/rad²", "weight on joint accelerations"));
-  cost.add(weight("torque", kOneOrJoints, "1/(N m)²", "weight on the difference of torques to torque_reference"));
+  cost.add(weight("torque", kOneOrJoints, "1/(N m)²", "weight on torques minus torque_reference"));
   cost.add({.name = "torque_reference",
             .choices = {"static", "zero"},
             .fallback = "\"static\"",
             .meaning =
-                "torques without cost: those that hold the start posture on the contacts of the first phase, or zero"});
+                "torques at zero cost: those that hold the start posture on the contacts of the first phase, or zero"});
   cost.add(weight("time", "number", "1/s", "cost per second, for phases of free duration"));
   cost.add(weight("force", kOneOrThree, "1/N²", "weight on the force of every contact, world x y z"));
 }
@@ -406,13 +406,13 @@ void add_tracking(FileKeys& keys) {
                 .range = kNonnegative,
                 .unit = "s",
                 .fallback = number_text(defaults.landing_time),
-                .meaning = "a landing beside the foothold costs as much as that deviation during this time"});
+                .meaning = "a landing beside the foothold costs as much as that deviation for this time"});
   tracking.add({.name = "bandwidth_radps",
                 .form = "number",
                 .range = kPositive,
                 .unit = "rad/s",
                 .fallback = number_text(defaults.largest_bandwidth),
-                .meaning = "faster gains are reduced to this"});
+                .meaning = "largest bandwidth of the feedback; faster gains are reduced to it"});
 }
 
 void add_simulation(FileKeys& keys) {

@@ -7,17 +7,17 @@
 
 namespace prowl {
 
-/// One key of a robot or task file, declared once. The reader takes no other key and no number outside its range; the
-/// options that replace a key, --help, messages and the table in docs/ come from here. Defaults that are numbers are
-/// those of the structs that the reader fills.
+/// One key of a robot or task file, declared once: the reader, options that replace a key, --help,
+/// messages and the table in docs/ use it. The reader rejects other keys and numbers out of range.
+/// Numeric defaults are those of the structs that the reader fills.
 struct FileKey {
-  std::string table = {};  ///< "" for the top, else as in the file: "phase", "cost.contact_position"
+  std::string table = {};  ///< as in the file: "phase", "cost.contact_position"; "" at the top
   std::string name = {};
   std::string form = {};                  ///< "number", "3 numbers", "[min, max]", "[[surface]]"; "" if it has choices
-  std::vector<std::string> choices = {};  ///< texts that it may be, if only these
-  NumberRange range = {};                 ///< of each number in it
-  std::string unit = {};                  ///< "m", "-" where it is a ratio, "" where there is none
-  std::string fallback = {};              ///< its default, in words; "" if it is needed, or without effect where absent
+  std::vector<std::string> choices = {};  ///< all allowed texts, if restricted
+  NumberRange range = {};                 ///< of each number in the value
+  std::string unit = {};                  ///< "m", "-" for a ratio, "" for none
+  std::string fallback = {};              ///< default in words; "" if required, or without effect if absent
   std::string meaning = {};
 
   std::string type() const;   ///< form or choices, and range: "number > 0"
@@ -28,7 +28,7 @@ using FileKeys = std::vector<FileKey>;
 const FileKeys& robot_file_keys();
 const FileKeys& task_file_keys();
 
-/// The key of that name, which must be declared.
+/// The declared key of that name; it must exist.
 const FileKey& file_key(const FileKeys& keys, const std::string& table, const std::string& name);
 /// Names of the keys of one table, in order of declaration.
 std::vector<std::string> key_names(const FileKeys& keys, const std::string& table);

@@ -10,7 +10,7 @@
 namespace prowl {
 namespace {
 
-/// Behind the string that begins at `at`, or at the end of the text if it has none.
+/// Index behind the string that begins at `at`; end of the text if it is not closed.
 std::size_t after_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool escapes = quote == '"';
@@ -20,11 +20,11 @@ std::size_t after_string(std::string_view text, std::size_t at) {
     if (escapes && text[at] == '\\') {
       ++at;
     } else if (!is_long && text[at] == '\n') {
-      return at;  // a mistake
+      return at;  // unclosed
     } else if (text.substr(at, quotes) == std::string(quotes, quote)) {
       at += quotes;
       for (int more = 0; is_long && more < 2 && at < text.size() && text[at] == quote; ++more)
-        ++at;  // quotes of its own at its end
+        ++at;  // a long string may end with quotes
       return at;
     }
   }

@@ -4,7 +4,7 @@
 
 namespace prowl {
 
-/// `text` as a TOML string on one line, with its quotes, by toml++.
+/// `text` as a quoted TOML string on one line.
 std::string toml_string(const std::string& text);
 
 }  // namespace prowl

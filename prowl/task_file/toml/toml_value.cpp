@@ -21,7 +21,7 @@ std::string at(const SourceText& source, const toml::source_region& region) {
   return fmt::format("{}:{}:{}: ", source.path.string(), region.begin.line, region.begin.column);
 }
 
-/// What the user wrote, for messages.
+/// Value as the user wrote it, for messages.
 std::string describe(const toml::node& node) {
   if (const auto* text = node.as_string()) return fmt::format("\"{}\"", shown(text->get()));
   if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
@@ -40,7 +40,7 @@ std::string unknown(const std::string& what, const std::string& name, const std:
   return fmt::format("unknown {}{} Known: {}", what, did_you_mean(name, known), fmt::join(known, ", "));
 }
 
-/// " It is a key of [phase]." for a key that other tables have, else "".
+/// " It is a key of [phase]." for a key of other tables, else "".
 std::string where_else(const FileKeys& keys, const std::string& name) {
   std::vector<std::string> tables;
   for (const FileKey& key : keys) {
@@ -57,7 +57,7 @@ std::string in_words(const NumberRange& range) {
                      limits);
 }
 
-/// Where the key is (`with_key`) or its value; of the nearest table around it if it is not there.
+/// Location of a key (`with_key`) or its value; if missing, of the innermost table around it.
 std::optional<std::string> place_of(const SourceText& source, const std::string& path, bool with_key) {
   const toml::table root = toml::parse(source.text);
   for (std::string rest = path; !rest.empty();) {
@@ -75,7 +75,7 @@ std::optional<std::string> place_of(const SourceText& source, const std::string&
   return std::nullopt;
 }
 
-/// Of a key of a table: a mistake, thrown if nobody collects them.
+/// Reports a mistake at a key; throws it unless mistakes are collected.
 void refuse_key(const TomlValue& table, const toml::key& key, const std::string& message) {
   const std::string text = fmt::format("{}{}: {}", at(table.source(), key.source()),
                                        join_path(table.path(), shown(std::string(key.str()))), message);
@@ -84,7 +84,7 @@ void refuse_key(const TomlValue& table, const toml::key& key, const std::string&
   table.mistakes()->add(static_cast<int>(begin.line), static_cast<int>(begin.column), text);
 }
 
-/// Keys of the table and of those below it that are declared as tables.
+/// Checks the keys of a table and of its declared subtables.
 void check_keys(const TomlValue& value, const FileKeys& keys, const std::string& declared) {
   if (value.is_list()) {
     for (const TomlValue& entry : value.as_list()) check_keys(entry, keys, declared);
@@ -108,7 +108,7 @@ void Mistakes::add(int line, int column, const std::string& message) {
 }
 
 void Mistakes::raise() const {
-  constexpr std::size_t kMost = 10;  // that anybody mends at a time
+  constexpr std::size_t kMost = 10;  // shown at once
   std::string text;
   std::size_t count = 0;
   for (const auto& [position, messages] : found_) {
@@ -176,7 +176,7 @@ double TomlValue::as_number(const NumberRange& range) const {
 
 int TomlValue::as_integer() const {
   const auto* integer = node_->as_integer();
-  // NumberRange::kLargest is an int, too.
+  // NumberRange::kLargest fits into an int.
   if (!integer || !key().range.contains(static_cast<double>(integer->get()))) {
     refuse_type("an integer " + key().range.limits(), node_->is_floating_point() ? ", without a point" : "");
     return static_cast<int>(key().range.any_inside());
@@ -186,7 +186,7 @@ int TomlValue::as_integer() const {
 
 std::string TomlValue::as_text() const {
   const auto* text = node_->as_string();
-  if (!text || text->get().empty()) fail_type("a string in quotes, not empty");
+  if (!text || text->get().empty()) fail_type("a non-empty string in quotes");
   return text->get();
 }
 
@@ -198,8 +198,7 @@ std::string TomlValue::as_name() const {
 std::vector<TomlValue> TomlValue::as_list() const {
   const auto* list = node_->as_array();
   if (!list) fail_type("a list in [ ]");
-  constexpr std::size_t kMost =
-      10000;  // a corner, a point, a contact each: a mistake above that, and gigabytes of memory
+  constexpr std::size_t kMost = 10000;  // corners, points or contacts; more are a mistake, and need gigabytes of memory
   if (list->size() > kMost) fail(fmt::format("a list of {} is not allowed; need at most {}", list->size(), kMost));
   std::vector<TomlValue> values;
   for (std::size_t i = 0; i < list->size(); ++i) {
@@ -339,7 +338,7 @@ TomlValue TomlTable::need(const std::string& key) const {
   const FileKey& declared = file_key(*keys_, declared_, key);
   const TomlValue missing(value_.source(), value_.node(), path_of(key), &declared, value_.mistakes());
   const std::string message = fmt::format("missing; need {}: {}", declared.value(), declared.meaning);
-  if (value_.mistakes() && has_unknown_key()) missing.fail(message);  // one of those may be meant
+  if (value_.mistakes() && has_unknown_key()) missing.fail(message);  // an unknown key may be this one, misspelt
   missing.fail_mistake(message);
 }
 
@@ -391,7 +390,7 @@ void TomlDocument::check_all_keys(const FileKeys& keys) const {
 }
 
 void TomlDocument::add_mistake(const std::string& message) const {
-  mistakes_.add(std::numeric_limits<int>::max(), 0, message);  // after those of this file
+  mistakes_.add(std::numeric_limits<int>::max(), 0, message);  // sorted after those of this file
 }
 
 std::optional<std::string> find_place(const SourceText& source, const std::string& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
-// Internal to io: reading TOML strictly, with messages that a user can act on. Includes toml++: keep to .cpp files.
+// Internal: strict TOML reading with actionable messages. Includes toml++: include it only in .cpp
+// files.
 #include <toml++/toml.h>
 
 #include <Eigen/Core>
@@ -21,14 +22,14 @@ struct Bounds {
   double lower, upper;
 };
 
-/// What is wrong with a file, collected while it is read on with values that are allowed.
+/// Mistakes in a file, collected while reading goes on with allowed values.
 class Mistakes {
  public:
-  void add(int line, int column, const std::string& message);  ///< once, if it is added twice
+  void add(int line, int column, const std::string& message);  ///< ignores duplicates
   bool empty() const { return found_.empty(); }
-  /// Whether there are so many that no more are looked for: a file of 60,000 wrong keys takes no time.
+  /// True if the search stops: bounds the time for a file of 60,000 wrong keys.
   bool is_full() const { return count_ >= kMostCollected; }
-  /// All as one InputError, a line each, from the top of the file to its end; nothing if there are none.
+  /// Throws all as one InputError, one line each, in file order; does nothing if there are none.
   void raise() const;
 
  private:
@@ -37,37 +38,36 @@ class Mistakes {
   int count_ = 0;
 };
 
-/// One value of a TOML file that knows its file, the path of its key and the declaration of the key, whose range its
-/// numbers keep. A wrong type, number or name is a mistake "file:line:column: path: what it is; what is needed". Of a
-/// document that collects them a number, a vector or a choice is then one that is allowed, so that the rest can be
-/// read; else, and where there is nothing to go on with, it is thrown as InputError. The document and the declaration
-/// must outlive it.
+/// One value of a TOML file, with its file, key path and key declaration (range). A wrong type,
+/// number or name is a mistake "file:line:column: path: found; needed". If the document collects
+/// mistakes, the reader returns an allowed number, vector or choice instead and goes on; otherwise,
+/// or without a substitute, it throws InputError. Document and declaration must outlive the value.
 class TomlValue {
  public:
-  /// `key` is nullptr of a table with keys of its own.
+  /// `key`: nullptr for a table with its own keys.
   TomlValue(const SourceText& source, const toml::node& node, std::string path, const FileKey* key,
             Mistakes* mistakes = nullptr)
       : source_(&source), node_(&node), path_(std::move(path)), key_(key), mistakes_(mistakes) {}
 
   double as_number() const { return as_number(key().range); }
-  double as_number(const NumberRange& range) const;  ///< for what is narrower than the key, or not one number
+  double as_number(const NumberRange& range) const;  ///< for a narrower range, or a value of several numbers
   int as_integer() const;
-  std::string as_text() const;  ///< not empty
-  std::string as_name() const;  ///< a text that is_name (model/name_check.hpp) accepts
+  std::string as_text() const;  ///< non-empty
+  std::string as_name() const;  ///< text accepted by is_name() (text/name_check.hpp)
   std::vector<TomlValue> as_list() const;
   std::vector<TomlValue> as_list(std::size_t size) const;
   Eigen::Vector3d as_vector3() const;
   Bounds as_bounds() const;  ///< a number, "free" or [lower, upper]
   Bounds as_range() const;   ///< a number or [min, max]
-  /// One of the choices of the key, which are names of a `what`.
+  /// One of the key's choices; `what` describes them in messages.
   const std::string& as_choice(const std::string& what) const { return key().choices[as_one_of(what, key().choices)]; }
-  /// Index of a text in `known`, which are names of a `what`.
+  /// Index of the text in `known`; `what` describes these names in messages.
   std::size_t as_one_of(const std::string& what, const std::vector<std::string>& known) const;
-  /// The entries of a table with names that the user chooses from `known` (joints, contacts).
+  /// Entries of a table whose keys are among `known` (joints, contacts).
   std::vector<std::pair<std::string, TomlValue>> as_named_values(const std::vector<std::string>& known,
                                                                  const std::string& what) const;
 
-  /// The same where the reader does not know the names yet: the URDF has them.
+  /// The same with any keys, for names that only the URDF defines.
   std::vector<std::pair<std::string, TomlValue>> as_free_named_values(const std::string& what) const;
 
   bool is_text() const { return node_->is_string(); }
@@ -79,15 +79,16 @@ class TomlValue {
   const FileKey& key() const;  ///< its declaration
   Mistakes* mistakes() const { return mistakes_; }
 
-  /// Throws what is wrong between values: after a mistake it may follow from that, and is left out.
+  /// Throws an inconsistency between values; not reported after a mistake, which may have caused
+  /// it.
   [[noreturn]] void fail(const std::string& message) const;
-  /// Collects a mistake of its own and throws it: there is nothing to go on with.
+  /// Collects a mistake and throws it: reading cannot go on.
   [[noreturn]] void fail_mistake(const std::string& message) const;
   [[noreturn]] void fail_unknown_name(const std::string& what, const std::vector<std::string>& known) const;
 
  private:
   [[noreturn]] void fail_type(const std::string& needed, const std::string& hint = "") const;
-  /// Collects a mistake, or throws it if nobody does.
+  /// Collects a mistake; throws it unless mistakes are collected.
   void refuse(const std::string& message) const;
   void refuse_type(const std::string& needed, const std::string& hint = "") const;
   std::string located(const std::string& message) const;
@@ -103,7 +104,7 @@ class TomlValue {
 /// A table with exactly the keys that file_keys.hpp declares for it.
 class TomlTable {
  public:
-  /// `declared` names the table among `keys` ("phase" for phase[1]). A key that is not declared is a mistake.
+  /// `declared`: table name in `keys` ("phase" for phase[1]). An undeclared key is a mistake.
   TomlTable(const TomlValue& value, const FileKeys& keys, const std::string& declared);
 
   std::optional<TomlValue> find(const std::string& key) const;
@@ -113,11 +114,11 @@ class TomlTable {
   std::optional<TomlTable> find_table(const std::string& key) const;
   /// The tables of [[key]]; none if absent.
   std::vector<TomlTable> find_tables(const std::string& key, std::size_t most = kMostTables) const;
-  static constexpr std::size_t kMostTables = 1000;  ///< of one [[key]]; checks among them are quadratic
+  static constexpr std::size_t kMostTables = 1000;  ///< per [[key]]; checks between them are quadratic
 
  private:
   const toml::table& table() const { return *value_.node().as_table(); }
-  /// The value of the key that was misspelt, if that was this one.
+  /// Value of an unknown key that is `key`, misspelt; if any.
   std::optional<TomlValue> find_misspelt(const std::string& key) const;
   bool has_unknown_key() const;
   std::string path_of(const std::string& key) const;
@@ -127,14 +128,15 @@ class TomlTable {
   std::string declared_;
 };
 
-/// A parsed file. Throws InputError with the parser's words and the place of a syntax error or a duplicate key.
+/// A parsed file. Throws InputError with the parser's message and the location of a syntax error or
+/// duplicate key.
 class TomlDocument {
  public:
   explicit TomlDocument(const SourceText& source);
   TomlDocument(const TomlDocument&) = delete;  // values point into it
   TomlDocument& operator=(const TomlDocument&) = delete;
   TomlTable root(const FileKeys& keys) const;
-  /// What `read` returns, which reads this document: if that finds mistakes, all of them are thrown as one InputError.
+  /// Returns read(), which reads this document; throws all its mistakes as one InputError.
   template <class Read>
   auto read_with(const Read& read) const {
     try {
@@ -146,12 +148,12 @@ class TomlDocument {
       throw;
     }
   }
-  /// Looks for keys that are not declared in the whole file, also where reading may not come to.
+  /// Reports undeclared keys in the whole file, including parts that reading may not reach.
   void check_all_keys(const FileKeys& keys) const;
-  /// A mistake in another file that this one names, or one without a location.
+  /// Adds a mistake in another file, or one without a location.
   void add_mistake(const std::string& message) const;
 
-  /// Throws `message` at the key if the top has it: the sign of another kind of file.
+  /// Throws `message` at a top-level key that indicates another kind of file.
   void refuse_key(const std::string& key, const std::string& message) const;
 
  private:
@@ -160,12 +162,12 @@ class TomlDocument {
   mutable Mistakes mistakes_;
 };
 
-/// "file:line:column: " of a key path ("contact[1].frame") in a file that parses, or of the deepest part of the path
-/// that it has; "file:1:1: " if it has none. For what other layers find wrong.
+/// "file:line:column: " of a key path ("contact[1].frame") in a valid file, or of its deepest
+/// existing part; "file:1:1: " if none exists. For errors of other layers.
 std::string locate(const SourceText& source, const std::string& path);
-/// The same of the key, where not its value but its name is wrong.
+/// The same for the key itself, if its name is wrong.
 std::string locate_key(const SourceText& source, const std::string& path);
-/// locate(); none if the file has no part of the path.
+/// locate(); nullopt if no part of the path exists.
 std::optional<std::string> find_place(const SourceText& source, const std::string& path);
 
 }  // namespace prowl

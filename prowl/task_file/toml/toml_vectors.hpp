@@ -8,10 +8,12 @@
 
 namespace prowl {
 
-/// A key that is a number for all three axes or a list of three; `values` stays as it is where there is no such key.
+/// Reads a key with one number for all axes or a list of three; without the key `values` (3) is
+/// unchanged.
 void read_axes(const TomlTable& table, const std::string& key, Eigen::Ref<Eigen::VectorXd> values);
 
-/// A key that is a number for all joints or a table { joint = number }, which leaves the others as they are.
+/// Reads a key with one number for all joints or a table { joint = number }; other joints of
+/// `values` (nu) are unchanged.
 void read_joints(const TomlTable& table, const std::string& key, const RobotModel& robot,
                  Eigen::Ref<Eigen::VectorXd> values);
 

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 
 std::vector<int> independent_rows(const MatrixXd& given, const MatrixXd& candidates) {
   if (candidates.rows() == 0) return {};
-  // What of the candidates is orthogonal to the given rows.
+  // Part of the candidates orthogonal to the given rows.
   MatrixXd rest = candidates.transpose();
   double largest = candidates.rowwise().norm().maxCoeff();
   if (given.rows() > 0) {
@@ -69,8 +69,8 @@ PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const E
     if (!is_kept[row]) result.chosen_rows.push_back(row);
   }
 
-  // The same for what is asked of contacts that land, along the axes of their surfaces. Their places along the surface
-  // are variables too, unless the task gives them.
+  // The same for the landing conditions along the axes of the surfaces. Footholds along the surface
+  // are variables, too, unless prescribed.
   result.landing.resize(held.size());
   const int num_landing = static_cast<int>(landing.size());
   MatrixXd velocity(3 * num_landing, nv), place = MatrixXd::Zero(3 * num_landing, nv + 2 * num_landing);

@@ -8,7 +8,7 @@ namespace prowl {
 
 namespace {
 
-/// [1/s], of a pendulum as long as the robot is high.
+/// Frequency of a pendulum of the robot's size [1/s].
 double rate(const RobotModel& robot) { return std::sqrt(RobotModel::kGravity / robot.size()); }
 
 }  // namespace

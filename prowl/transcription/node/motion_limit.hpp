@@ -6,8 +6,7 @@
 
 namespace prowl {
 
-/// What a user asks for or what a robot can do, as opposed to what physics demands: limits that a task might have
-/// otherwise.
+/// Limits that a task or robot could change, in contrast to physics.
 enum class LimitKind { friction, torque, joint_position, joint_velocity, goal, place, clearance };
 
 inline const char* to_string(LimitKind kind) {
@@ -16,26 +15,26 @@ inline const char* to_string(LimitKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
-/// One such limit of a transcription: a row of its constraints, or the bounds of one of its variables.
+/// One such limit of a transcription: a constraint row, or bounds of a variable.
 struct MotionLimit {
   LimitKind kind = LimitKind::friction;
   bool is_row = false;  ///< else a variable
   int index = 0;        ///< row or variable
   int node = 0;         ///< of the mesh
   int phase = 0;
-  std::string subject;  ///< contact, joint, or what a goal is about: "goal 1, base z"
+  std::string subject;  ///< contact, joint, or subject of a goal: "goal 1, base z"
   std::string unit;     ///< "N", "N m", "rad", ...
-  double si = 1.0;      ///< of one of the row or variable, in that unit
-  double size = 1.0;    ///< what counts as a violation of one, in that unit: of the robot, mostly: weight, size, both
+  double si = 1.0;      ///< one unit of the row or variable, in `unit`
+  double size = 1.0;    ///< violation that counts as one, in `unit`; from weight and size of the robot
 };
 
-/// What a goal says of entry i of a configuration's tangent, or of a velocity, 0 <= i < nv: kind, subject, unit and
-/// size.
+/// Limit of a goal on entry i of the configuration tangent or the velocity, 0 <= i < nv. Sets kind,
+/// subject, unit and size.
 MotionLimit limit_of_goal(const RobotModel& robot, const std::string& goal, int i, bool is_velocity);
 
-/// A robot's limit on a joint (torque, joint_position, joint_velocity): kind, subject, unit and size. Sizes are those
-/// of the robot, not of the limit: else a joint that is by far too weak would cost more than a strong one that is
-/// overloaded in its place.
+/// Limit of a joint (torque, joint_position, joint_velocity). Sets kind, subject, unit and size.
+/// Sizes scale with the robot, not the limit; otherwise overloading a far too weak joint would cost
+/// more than overloading a strong one.
 MotionLimit limit_of_joint(const RobotModel& robot, LimitKind kind, int joint);
 
 }  // namespace prowl

@@ -8,34 +8,35 @@
 
 namespace prowl {
 
-/// Cost of one node: its share of the running cost, and the terminal cost at the last node. Contact forces count as
-/// variables of their own here; the caller knows how they follow from the others.
+/// Cost of one node: its share of the running cost, and the terminal cost at the last node. Contact
+/// forces are independent variables here; the caller applies the chain rule.
 class NodeCost {
  public:
   explicit NodeCost(const MotionProblem& problem);
 
-  /// `terms` at the configuration of the point; `forces` 3 per contact of the phase [N].
+  /// `terms`: at the configuration of the point; `forces`: 3 per contact of the phase, world frame
+  /// [N].
   double value(const NodePoint& point, const RigidBodyTerms& terms, const Eigen::VectorXd& forces);
-  /// After value(): the running part of it.
+  /// After value(): its running part.
   double running() const { return running_value_; }
 
   struct Derivatives {
     Eigen::VectorXd gradient;  ///< in (tangent of q | v | a | tau)
     Eigen::VectorXd force_gradient;
-    Eigen::VectorXd running_gradient;  ///< that part of `gradient`; all of force_gradient is running cost
+    Eigen::VectorXd running_gradient;  ///< running part of `gradient`; force_gradient is all running cost
   };
   /// After value() at the same point.
   void derivatives(const NodePoint& point, const Eigen::VectorXd& forces, Derivatives& result);
-  /// After derivatives(): adds factor times the Hessian in (tangent of q | v | a | tau) at fixed forces, which is
-  /// block diagonal, to the first rows and columns of the result.
+  /// After derivatives(): adds factor times the block-diagonal Hessian in (tangent of q | v | a |
+  /// tau) at fixed forces to the first rows and columns of the result.
   void add_hessian(const NodePoint& point, double factor, Eigen::MatrixXd& result);
-  /// Second derivative of the cost in every force vector.
+  /// Second derivative of the cost in each force, diagonal.
   Eigen::Vector3d force_curvature(const NodePoint& point) const {
     return point.cost_weight * running_.cost.force_weight;
   }
 
  private:
-  /// The cost of a state, running or terminal, and what it needs.
+  /// Running or terminal cost of a state, with work space.
   struct StateCost {
     explicit StateCost(const QuadraticCost& quadratic);
     double value(const NodePoint& point, const RigidBodyTerms& terms);
@@ -43,9 +44,9 @@ class NodeCost {
     void add_hessian(double weight, Eigen::MatrixXd& result);
 
     QuadraticCost cost;
-    ContactKinematics points;  ///< contacts whose place costs something
+    ContactKinematics points;  ///< contacts with a position cost
     ConfigurationCost configuration;
-    Eigen::VectorXd stiffness, pull;  ///< of their places
+    Eigen::VectorXd stiffness, pull;  ///< of their positions
     Eigen::MatrixXd stiff_points;
   };
 

@@ -16,13 +16,15 @@ using Eigen::VectorXd;
 
 constexpr const char* kBaseForce[] = {"force x", "force y", "force z", "moment x", "moment y", "moment z"};
 
-/// At each node of the phase, its duration / step h that the gains of contacts are for: the longest step from the start
-/// of the motion to the one after the node (other phases at the middle of their durations).
+/// At each node of the phase: its duration over the step h of the contact gains, which is the
+/// longest step from the start of the motion to the one after the node (other phases at their mean
+/// durations).
 ///
-/// Not shorter than the step after: then the explicit half of the trapezoid at most halves an error, and the implicit
-/// half makes it smaller whatever the gain. Gains for the step before let errors grow where steps do. And not shorter
-/// than the steps before: what contacts are off by after long steps would have to be gone within a short one, at a
-/// speed that the certificate sees. docs/transcription.md, "Steps of different length".
+/// Not shorter than the step after: the explicit half of the trapezoid then at most halves an
+/// error, and the implicit half shrinks it for any gain, while gains for the step before let errors
+/// grow with the steps. Not shorter than the steps before: a short step would remove the contact
+/// error of long steps too fast for the certificate. docs/transcription.md, "Steps of different
+/// length".
 std::vector<double> per_gain_step(const DiscreteProblem& discrete, int phase) {
   std::vector<double> result;
   double longest = 0.0;  // [s]
@@ -249,7 +251,7 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
   force_slope_.noalias() = forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
   values.cost_gradient = force_slope_;
   values.cost_gradient.head(3 * nv_ + nu_) += cost_derivatives_.gradient;
-  if (free_duration_) {  // the running cost is in proportion to the duration
+  if (free_duration_) {  // the running cost is proportional to the duration
     values.cost_gradient(num_variables()) += cost_.running() / point.duration;
   }
 
@@ -270,7 +272,7 @@ void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const 
   evaluate_with_derivatives(point, values);
   hessian.setZero(num_columns(), num_columns());
   add_cost_hessian(point, cost_factor, hessian);
-  Eigen::Vector3d pull = cost_factor * rotation_gradient_;  // gradient of it all in the tangent of the rotation
+  Eigen::Vector3d pull = cost_factor * rotation_gradient_;  // total gradient in the tangent of the rotation
   if (hessian_kind_ == HessianKind::exact) {
     add_force_hessian(point, cost_factor, multipliers, hessian);
     add_dynamics_hessian(point, multipliers, hessian);
@@ -284,7 +286,7 @@ void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const 
   hessian.triangularView<Eigen::StrictlyLower>() = hessian.transpose();
 }
 
-// With forces as variables of their own, but in the duration, in proportion to which the running cost is.
+// At fixed forces, plus the duration, to which the running cost is proportional.
 void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor, MatrixXd& result) {
   cost_.add_hessian(point, cost_factor, result);
   if (!free_duration_) return;
@@ -296,7 +298,7 @@ void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor,
   result(duration, duration) += 2.0 * factor * force_slope_(duration);
 }
 
-// What bends in the forces themselves: cones and force cost, through f(q, v, a, tau, w, shared).
+// Curvature in the forces: cones and force cost, through f(q, v, a, tau, w, shared).
 void NodeFunctions::add_force_hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
                                       MatrixXd& result) {
   const VectorXd& forces = dynamics_.forces();
@@ -325,7 +327,7 @@ void NodeFunctions::add_force_hessian(const NodePoint& point, double cost_factor
   result.triangularView<Eigen::Upper>() += bending_.topRows(rows).transpose() * bent_.topRows(rows);
 }
 
-// What bends in c and f.
+// Curvature of c and f.
 void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd& multipliers, MatrixXd& result) {
   mu_ = dynamics_scale_.cwiseProduct(multipliers.head(nv_));
   const PointHessian& inner = dynamics_.hessian(at_, mu_, force_pull_);
@@ -354,7 +356,7 @@ void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd&
   result(duration, duration) += on_gains.dot(gains(point, 2));
 }
 
-// Torque limits, and places of contacts.
+// Torque limits and placement of contacts.
 void NodeFunctions::add_limits_hessian(const NodePoint& point, const VectorXd& multipliers, MatrixXd& result) {
   const int k = point.node;
   joints_.setZero(nu_);

@@ -17,19 +17,20 @@
 
 namespace prowl {
 
-/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. A sharper tip costs iterations
-/// where a foot is about to lift. Each contact has to carry eps / friction, so less where friction is low or contacts
-/// are many: all together no more than a fifth of the weight.
+/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. Sharper tips
+/// cost iterations when a foot lifts. Each contact must carry eps / friction: eps is smaller for
+/// low friction or many contacts, so all together carry at most a fifth of the weight.
 double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts);
 
-/// How the contacts of a phase depend on each other, settled once: see independent_contacts.hpp.
+/// Dependence of the contacts of a phase, determined once: see independent_contacts.hpp.
 struct PhaseContacts {
-  std::vector<int> chosen_rows;      ///< rows of the contact Jacobian whose forces are variables
-  std::vector<LandingAxes> landing;  ///< one a contact of the phase
+  std::vector<int> chosen_rows;      ///< rows of the contact Jacobian with forces as variables
+  std::vector<LandingAxes> landing;  ///< per contact of the phase
 };
 
-/// Gains kd = rate / h + damping and kp = stiffness / h^2 + spring that a step h pulls contacts back with
-/// (docs/transcription.md#contacts). These of the trapezoid take an error down by three from node to node.
+/// Gains kd = rate / h + damping and kp = stiffness / h^2 + spring of the contact stabilisation,
+/// for a step h (docs/transcription.md#contacts). The defaults, for the trapezoid, reduce an error
+/// by a factor of three from node to node.
 struct StabilisationOfStep {
   double rate = 2.0;
   double stiffness = 1.0;
@@ -37,9 +38,9 @@ struct StabilisationOfStep {
   double spring = 0.0;   ///< [1/s^2]
 };
 
-/// What is evaluated at one node. Derivatives are in the variables of the node (base position, theta, joints | v | a |
-/// tau | w) and then in what its phase shares (duration, if free | two surface coordinates of each contact that
-/// landed).
+/// Values at one node. Derivatives are in the variables of the node (base position, theta, joints |
+/// v | a | tau | w), then in those shared by its phase (duration, if free | two surface coordinates
+/// per free foothold).
 struct NodeValues {
   double cost = 0.0;
   Eigen::VectorXd rows;
@@ -48,16 +49,16 @@ struct NodeValues {
   Eigen::MatrixXd rows_jacobian;
 };
 
-/// Everything that holds at a node of one phase, with exact first and second derivatives. Rows:
+/// Cost and constraints at a node of one phase, with exact first and second derivatives. Rows:
 ///
-///   dynamics, nv | contacts: friction (FrictionLimit), or at the last node of a contact that opens its force (three
-///   rows, = 0) | torque limits over position and velocity | places of contacts (PlacementRows)
+///   dynamics (nv) | per contact: friction (FrictionLimit), or its force (3 rows, = 0) at the last node
+///   if it opens | torque limits over position and velocity | placement of contacts (PlacementRows)
 ///
-/// Rows are scaled by the size of the robot, so that one tolerance means the same for 2.5 kg and for 80 kg: forces by
+/// Rows are divided by the scale of the robot, so one tolerance fits 2.5 kg and 80 kg: forces by
 /// its weight, moments by its weight times RobotModel::size().
 ///
-/// One object holds the work space of one thread. Nothing is allocated by an evaluation whose results have the sizes of
-/// the node already (the last one of their owner), unless contacts lose rank.
+/// One object holds the work space of one thread. Evaluations do not allocate if the results
+/// already have the right sizes, unless contacts lose rank.
 class NodeFunctions {
  public:
   NodeFunctions(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
@@ -67,19 +68,19 @@ class NodeFunctions {
   int num_shared() const { return (free_duration_ ? 1 : 0) + num_places(); }
   int num_columns() const { return num_variables() + num_shared(); }
   bool has_free_duration() const { return free_duration_; }
-  /// Contacts of the phase whose place is shared variables, in their order: places in the phase's list.
+  /// Contacts with a free foothold, as indices in the phase's list.
   const std::vector<int>& landed() const { return landed_; }
   const std::vector<Eigen::Matrix<double, 3, 2>>& landed_axes() const {
     return landed_axes_;
-  }  ///< of anchors in places
+  }  ///< d anchor / d foothold coordinates
 
   int num_rows(int k) const { return placement_row(k) + placement_.count(k); }
-  int placement_row(int k) const { return torque_row(k) + torques_.count(); }  ///< the first about places
+  int placement_row(int k) const { return torque_row(k) + torques_.count(); }  ///< first row of the placement
   double lower(int k, int row) const;
   double upper(int k, int row) const;
   std::string describe_row(int k, int row) const;
-  /// What a row asks that a task might have otherwise; none of dynamics, landings and forces before opening. Kind,
-  /// subject, unit, si and size are set.
+  /// The limit that a row represents; nullopt for dynamics, landings and forces before opening.
+  /// Sets kind, subject, unit, si and size.
   std::optional<MotionLimit> limit_of_row(const RobotModel& robot, int k, int row) const;
 
   const std::vector<int>& contacts() const { return dynamics_.contacts(); }
@@ -89,18 +90,18 @@ class NodeFunctions {
   void evaluate_with_derivatives(const NodePoint& point, NodeValues& values);
   /// Hessian of cost_factor * cost + multipliers . rows, in all columns, symmetric.
   void hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
-  /// Everything at once: values, first derivatives and the Hessian of cost_factor * cost + multipliers . rows; one
+  /// Values, first derivatives and the Hessian of cost_factor * cost + multipliers . rows, with one
   /// evaluation of the dynamics.
   void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values,
                  Eigen::MatrixXd& hessian);
 
-  /// Gains (kd, kp) at a node, their first and second derivatives in the duration of the phase.
+  /// Gains (kd, kp) at a node, or their derivative of order 1 or 2 in the duration of the phase.
   Eigen::Vector2d gains(const NodePoint& point, int derivative) const;
-  /// Of the last evaluation: where the dynamics were evaluated, and the kinematics there.
+  /// Last evaluation: its point, and the kinematics there.
   const DynamicsPoint& at() const { return at_; }
   const RigidBodyTerms& terms() const { return dynamics_.terms(); }
 
-  void use_hessian(HessianKind kind) { hessian_kind_ = kind; }  ///< of the above; exact, if not said otherwise
+  void use_hessian(HessianKind kind) { hessian_kind_ = kind; }  ///< of the above; default: exact
   HessianKind hessian_kind() const { return hessian_kind_; }
 
  private:
@@ -108,16 +109,16 @@ class NodeFunctions {
   int first_place() const { return num_variables() + (free_duration_ ? 1 : 0); }
   int num_contacts() const { return static_cast<int>(friction_.size()); }
   bool unloads(int k, int contact) const { return k == intervals_ && opens_[contact]; }
-  int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of them all
+  int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of all
   int torque_row(int k) const { return contact_row(k, num_contacts()); }
 
   void set_point(const NodePoint& point);
   void fill_rows(const NodePoint& point, NodeValues& values);
   void fill_derivatives(const NodePoint& point, NodeValues& values);
-  /// Columns of a block of derivatives of residual or forces in all columns.
+  /// Copies derivatives of residual or forces into all columns.
   void gather(const PointDerivatives& derivatives, const NodePoint& point, Eigen::Ref<Eigen::MatrixXd> result) const;
-  // Parts of the Hessian, after fill_derivatives(). They fill its upper triangle; what is below is of no meaning until
-  // the end.
+  // Parts of the Hessian, after fill_derivatives(). They fill the upper triangle; the lower one is
+  // set at the end.
   void add_cost_hessian(const NodePoint& point, double cost_factor, Eigen::MatrixXd& result);
   void add_force_hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers,
                          Eigen::MatrixXd& result);
@@ -129,11 +130,11 @@ class NodeFunctions {
   HessianKind hessian_kind_ = HessianKind::exact;
   bool free_duration_;
   StabilisationOfStep stabilisation_;
-  std::vector<double> per_gain_step_;  ///< at each node, duration of the phase / step that its gains are for
+  std::vector<double> per_gain_step_;  ///< at each node: duration of the phase over the step of its gains
   std::vector<std::string> contact_names_, force_names_;
   std::vector<bool> opens_;
   std::vector<int> landed_;
-  std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< of the anchor in the place, for each in landed_
+  std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< d anchor / d foothold coordinates, per entry of landed_
   std::vector<FrictionLimit> friction_;
   std::vector<double> coefficients_;  ///< of friction
   TorqueRows torques_;
@@ -146,8 +147,8 @@ class NodeFunctions {
   DynamicsPoint at_;
   NodeCost::Derivatives cost_derivatives_;
   Eigen::MatrixXd forces_jacobian_, placement_anchors_;
-  Eigen::MatrixXd bending_, bent_;                     ///< rows of forces_jacobian_ that have curvature; times that
-  Eigen::VectorXd force_slope_;                        ///< derivative of the cost through the forces
+  Eigen::MatrixXd bending_, bent_;                     ///< rows of forces_jacobian_ with curvature; times the curvature
+  Eigen::VectorXd force_slope_;                        ///< derivative of the cost with respect to the forces
   Eigen::Matrix<double, Eigen::Dynamic, 3> rotation_;  ///< of rows_jacobian, in the tangent of the rotation
   Eigen::Vector3d rotation_gradient_;                  ///< of the cost, likewise
   Eigen::VectorXd mu_, force_pull_, joints_, rates_;

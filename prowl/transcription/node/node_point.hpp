@@ -4,15 +4,16 @@
 
 namespace prowl {
 
-/// The decision variables of one node, in their own chart (R = chart exp(theta)), and what its phase shares.
+/// Decision variables of one node in its chart (R = chart exp(theta)), and those shared by its
+/// phase.
 struct NodePoint {
   int node = 0;  ///< within its phase, 0 ... intervals
   Eigen::VectorXd q, v, a, tau;
-  Eigen::VectorXd w;  ///< forces of the rows of dependent contacts that are chosen [N]
+  Eigen::VectorXd w;  ///< chosen forces of dependent contacts [N]
   Eigen::Vector3d theta;
   double duration = 0.0;         ///< of the phase [s]
-  Eigen::VectorXd anchors;       ///< place of each contact of the phase, 3 rows each, world frame [m]
-  double cost_weight = 0.0;      ///< of the running cost: the node's share of the time [s], in proportion to `duration`
+  Eigen::VectorXd anchors;       ///< of the contacts of the phase, 3 each, world frame [m]
+  double cost_weight = 0.0;      ///< of the running cost: quadrature weight of the node [s], proportional to `duration`
   double terminal_weight = 0.0;  ///< of the terminal cost: 1 at the last node
 };
 

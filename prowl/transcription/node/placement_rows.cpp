@@ -8,8 +8,8 @@ namespace prowl {
 
 namespace {
 
-/// How long these phases last together, those of free duration the middle of their range [s]: progress of a swing must
-/// not depend on the mesh.
+/// Total duration of phases, free ones at the middle of their range [s]: the progress of a swing
+/// must not depend on the mesh.
 double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
   double time = 0.0;
   for (int p = first_phase; p <= last_phase; ++p) {
@@ -19,9 +19,9 @@ double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
   return time;
 }
 
-/// Part of the clearance at progress s in [0, 1] of a swing: all of it in the middle, or at the end of one that does
-/// not land. A contact leaves and lands at rest, so that its height can only begin and end with the square of the time;
-/// one that is in the air from the start may begin as low as the start has it.
+/// Fraction of the clearance at progress s in [0, 1] of a swing: 1 in the middle, or at the end of
+/// a swing that does not land. A contact leaves and lands at rest, so its height starts and ends
+/// quadratically in time; one in the air at the start begins at its start height.
 double clearance_profile(const Swing& swing, double s) {
   if (swing.after < 0) return swing.before < 0 ? 0.0 : s * s;
   return 16.0 * s * s * (1.0 - s) * (1.0 - s);
@@ -82,9 +82,8 @@ void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, cons
   }
 }
 
-// Surfaces without an edge are passed during the whole swing. A patch is passed while the foot is near it, and where
-// that is would be a matter of edges: the patch that it leaves counts in the first half, that on which it lands in the
-// second.
+// Unbounded surfaces count during the whole swing. To avoid edge logic, the patch that the foot
+// leaves counts in the first half, the patch on which it lands in the second.
 void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, const Swing& swing,
                                   int intervals_at_rest) {
   const MotionProblem& problem = discrete.problem;
@@ -102,14 +101,15 @@ void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, co
   const auto surface_of = [&](int stance) { return stance < 0 ? -1 : discrete.schedule.stances()[stance].surface; };
   const ContactPoint& contact = problem.robot.contacts()[swing.contact];
   for (int k = 0; k <= intervals; ++k) {
-    // The first node of a swing is where it left, the last where it lands; of a switch in between one node is enough.
+    // The swing leaves at its first node and lands at its last; a phase transition in between needs
+    // one node.
     if (k == 0 && phase == swing.first_phase) continue;
     if (k == intervals && !is_last_phase) continue;
     const double progress = before + mesh.node_time(k, part);
     const double risen = std::min(progress / moving, 1.0);
     for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
       const Surface& surface = problem.surfaces[s];
-      constexpr double kRounding = 1e-9;  // of a swing: a node in its middle is in both halves
+      constexpr double kRounding = 1e-9;  // a node in the middle belongs to both halves
       const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5 + kRounding) ||
                           (s == surface_of(swing.after) && progress >= 0.5 - kRounding);
       if (!passes) continue;

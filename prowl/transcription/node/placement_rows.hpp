@@ -9,27 +9,29 @@
 
 namespace prowl {
 
-/// Along which axes of its surface (0 and 1 along it, 2 the normal) a contact that lands is put to its place and
-/// stopped. All three, unless other contacts already settle some of them.
+/// Surface axes (0 and 1 tangential, 2 normal) along which a landing contact is positioned and
+/// stopped. All three, unless other contacts determine some of them.
 struct LandingAxes {
   std::vector<int> place = {0, 1, 2};
   std::vector<int> velocity = {0, 1, 2};
 };
 
-/// Constraints of one phase on where contacts are, at node k = 0 ... intervals of it:
-/// - a contact that lands at its first node is at its anchor and at rest:  axis . (p - anchor) = 0,  axis . J v = 0;
-///   its anchor is inside the patch that it lands on:  inward . (anchor - corner) >= 0 for each edge;
-/// - a contact in the air keeps its clearance of the surfaces that it passes:  normal . (p - point) - radius >=
-/// height(k). Lengths are divided by the size l of the robot, velocities by sqrt(g l).
+/// Constraints of one phase on contact positions, at its node k = 0 ... intervals:
+/// - A contact that lands at the first node is at its anchor and at rest:
+///     axis . (p - anchor) = 0,  axis . J v = 0,
+///   and its anchor is inside the patch:  inward . (anchor - corner) >= 0 for each edge.
+/// - A contact in the air keeps its clearance of the surfaces that it passes:
+///     normal . (p - point) - radius >= height(k).
+/// Lengths are divided by the size l of the robot, velocities by sqrt(g l).
 class PlacementRows {
  public:
-  /// `landing`: one for each contact of the phase; of no meaning for those that do not land. `intervals_at_rest`: in
-  /// which a contact that lands is down already; backward Euler, where the velocity at a node is that of the interval
-  /// before it, needs one.
+  /// `landing`: per contact of the phase; ignored unless it lands. `intervals_at_rest`: number of
+  /// intervals before landing in which the contact is already down. Backward Euler needs one: its
+  /// velocity at a node is that of the interval before.
   PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
                 int intervals_at_rest = 0);
 
-  int most_rows() const;  ///< over all nodes
+  int most_rows() const;  ///< largest over all nodes
   int count(int k) const { return static_cast<int>(rows_[k].size()); }
   double lower(int k, int row) const { return at(k, row).lower; }
   double upper(int k, int row) const;
@@ -38,21 +40,24 @@ class PlacementRows {
   Kind kind(int k, int row) const { return at(k, row).kind; }
   int contact(int k, int row) const { return points_[at(k, row).point]; }  ///< of the robot
 
-  /// Values at the configuration of `terms` and velocity v; anchors of the phase's contacts, 3 rows each, world.
+  /// Values at the configuration of `terms` and velocity v. `anchors`: of the phase's contacts, 3
+  /// each, world frame [m].
   void evaluate(int k, const RigidBodyTerms& terms, const Eigen::VectorXd& v, const Eigen::VectorXd& anchors,
                 Eigen::Ref<Eigen::VectorXd> values);
-  /// After evaluate(): derivatives in the tangent of q, in v and in the anchors. Set whole.
+  /// After evaluate(): derivatives in the tangent of q, in v and in the anchors; overwrites all
+  /// entries.
   void derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv,
                    Eigen::Ref<Eigen::MatrixXd> danchors);
-  /// After derivatives() or evaluate(): adds the second derivatives of multipliers . rows; qv is the mixed block.
+  /// After derivatives() or evaluate(): adds the second derivatives of multipliers . rows; qv:
+  /// mixed block.
   void add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
                    Eigen::Ref<Eigen::MatrixXd> qv);
 
  private:
   struct Row {
     Kind kind;
-    int point;             ///< place of the contact among the points of kinematics_
-    int held;              ///< place among the contacts of the phase, if it lands
+    int point;             ///< index of the contact among the points of kinematics_
+    int held;              ///< index among the contacts of the phase, if it lands
     Eigen::Vector3d axis;  ///< world
     double offset;         ///< clearance: normal . point + radius; inside: inward . corner
     double lower, scale;
@@ -68,8 +73,8 @@ class PlacementRows {
   std::vector<std::vector<Row>> rows_;
   ContactKinematics kinematics_;
   Eigen::MatrixXd velocity_dq_;
-  Eigen::VectorXd v_, at_rest_;                ///< of the last evaluate(), and zeros
-  Eigen::VectorXd on_position_, on_velocity_;  ///< multipliers, one a row of kinematics_
+  Eigen::VectorXd v_, at_rest_;                ///< of the last evaluate(); zeros
+  Eigen::VectorXd on_position_, on_velocity_;  ///< multipliers, per row of kinematics_
   SecondDerivatives second_;
 };
 

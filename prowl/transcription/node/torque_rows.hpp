@@ -10,7 +10,7 @@ namespace prowl {
 /// Torque limits that depend on the state, at one node: two rows >= 0 for each curve phi of the robot,
 ///   over the position   phi(q) - tau,   phi(q) + tau
 ///   over the velocity   phi(v) - tau,   phi(-v) + tau
-/// (Pardo et al. 2016 print one side), divided by the largest torque that the curve's table has.
+/// (Pardo et al. 2016 print one side), divided by the largest torque of the curve's table.
 class TorqueRows {
  public:
   using Vector = Eigen::Ref<const Eigen::VectorXd>;
@@ -20,13 +20,11 @@ class TorqueRows {
   int count() const { return 2 * static_cast<int>(curves_.size()); }
   std::string describe(int row) const;
   int joint(int row) const { return curves_[row / 2].joint; }
-  double largest(int row) const {
-    return 1.0 / scale_(row / 2);
-  }  ///< torque of the curve's table, which rows are divided by [N m]
+  double largest(int row) const { return 1.0 / scale_(row / 2); }  ///< largest torque of the curve's table [N m]
 
-  /// joints, rates, tau: nu each.
+  /// joints, rates, tau: nu each; values: count().
   void evaluate(const Vector& joints, const Vector& rates, const Vector& tau, Eigen::Ref<Eigen::VectorXd> values) const;
-  /// Derivatives in (joints, rates, tau). Set whole.
+  /// Derivatives in (joints, rates, tau); overwrites all entries.
   void derivatives(const Vector& joints, const Vector& rates, Eigen::Ref<Eigen::MatrixXd> d_joints,
                    Eigen::Ref<Eigen::MatrixXd> d_rates, Eigen::Ref<Eigen::MatrixXd> d_tau) const;
   /// Adds the second derivatives of multipliers . rows, which are diagonal.
@@ -34,7 +32,7 @@ class TorqueRows {
                    Eigen::Ref<Eigen::VectorXd> joints_diagonal, Eigen::Ref<Eigen::VectorXd> rates_diagonal) const;
 
  private:
-  /// Where row 0 or 1 of a curve reads it.
+  /// Argument of a curve in its row 0 or 1.
   static double argument(const RobotModel::TorqueCurve& limit, int side, const Vector& joints, const Vector& rates) {
     return limit.over_velocity ? (side == 0 ? rates(limit.joint) : -rates(limit.joint)) : joints(limit.joint);
   }

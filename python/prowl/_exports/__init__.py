@@ -1,4 +1,4 @@
-"""export(): a plan or its simulation for other programs (docs/exports.md)."""
+"""export(): writes a plan or its simulation for other programs (docs/exports.md)."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Export:
-    """What export() has written."""
+    """Result of export()."""
 
     plan: _prowl.Plan
     motion: str  #: "plan" or "simulation"
@@ -25,7 +25,7 @@ class Export:
     end: float  #: time of the last sample [s]
     has_gains: bool
     folder: str
-    files: dict[str, int]  #: names, with their sizes [bytes]
+    files: dict[str, int]  #: file name -> size [bytes]
 
 
 def export(
@@ -37,15 +37,16 @@ def export(
     simulation: bool | _prowl.Simulation = False,
     package_dirs: Folders = (),
 ) -> Export:
-    """Writes a plan for other programs, as `prowl export` does.
+    """Writes a plan for other programs, like `prowl export`.
 
-    plan: a Plan, or the folder of one. formats: one or more of "csv", "json", "npz", "mcap", "joint-trajectory" and
-    "mujoco". out: folder for the files, which may hold others; the folder exports in that of the plan if None. rate: samples
-    a second; the nodes of the plan, or all rows of the simulation, if None. simulation: the true motion in place of the
-    plan, of this Simulation, or if True of simulate.csv in the folder of the plan. package_dirs: as of read_task().
+    plan: a Plan, or a plan folder. formats: one or more of "csv", "json", "npz", "mcap", "joint-trajectory"
+    and "mujoco". out: folder for the files, which may contain others; None: exports in the plan folder. rate:
+    samples per second; None: the nodes of the plan, or all rows of the simulation. simulation: export the
+    true motion of this Simulation, or if True of simulate.csv in the plan folder, instead of the plan.
+    package_dirs: see read_task().
 
-    Needs numpy, for "mcap" also mcap and mcap-ros2-support. Warns of a plan that is not good. Raises InputError, FileError;
-    files that were there are replaced one by one, each whole or not at all.
+    Needs numpy, for "mcap" also mcap and mcap-ros2-support. Warns if the plan is not good. Raises InputError,
+    FileError; replaces existing files one by one, each atomically.
     """
     names = [formats] if isinstance(formats, str) else list(formats)
     for name in names:
@@ -55,10 +56,10 @@ def export(
     source = as_plan(plan, package_dirs)
     if simulation is not False and "csv" in names:
         simulated = os.path.join(source.path or "", "simulate.csv")
-        raise _prowl.InputError(f"format: csv is not allowed; of a simulation there is {simulated} already")
+        raise _prowl.InputError(f"format: csv is not allowed; {simulated} contains the simulation already")
     folder = output_folder(source, out, "exports")
 
-    from .samples import sample_plan  # with numpy
+    from .samples import sample_plan  # imports numpy
 
     samples = sample_plan(source, rate) if simulation is False else _simulated(source, simulation, rate)
     if not source.good:
@@ -78,7 +79,8 @@ def export(
 
 
 def _simulated(plan: _prowl.Plan, simulation: bool | _prowl.Simulation, rate: float | None) -> Samples:
-    """Samples of the simulation in the plan's folder, or of this one, which is put into a folder first."""
+    """Samples of the simulation in the plan folder, or of a Simulation, written to a temporary folder
+    first."""
     from .samples import sample_simulation
 
     if isinstance(simulation, bool):

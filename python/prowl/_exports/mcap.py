@@ -1,4 +1,4 @@
-"""motion.mcap: a motion as messages of ROS 2."""
+"""motion.mcap: a motion as ROS 2 messages."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from mcap_ros2._dynamic import serialize_dynamic
 from . import ros2_messages
 
 CHUNK = 1 << 20  # [bytes]
-# What rosbag2 needs to publish a message again for whoever comes later: reliable, transient local, the last one.
+# QoS with which rosbag2 republishes the last message to late subscribers: reliable, transient
+# local.
 LATCHED = """- history: 1
   depth: 1
   reliability: 1
@@ -25,7 +26,7 @@ LATCHED = """- history: 1
 
 
 class Topics:
-    """An MCAP file with one channel a topic. mcap_ros2.writer has no way to give a channel its metadata."""
+    """An MCAP file with one channel per topic. mcap_ros2.writer cannot set metadata of channels."""
 
     def __init__(self, file: io.BytesIO):
         self._writer = Writer(file, chunk_size=CHUNK, compression=CompressionType.ZSTD)
@@ -82,7 +83,7 @@ def transform(nanoseconds: int, parent: str, child: str, position, rotation=(0.0
 
 
 def contact_frame(contact: str, links: list[str]) -> str:
-    """A frame of its own: no link's, whose parent is another."""
+    """Frame name of a contact, different from all links."""
     name = f"contact_{contact}"
     while name in links:
         name += "_"
@@ -90,7 +91,7 @@ def contact_frame(contact: str, links: list[str]) -> str:
 
 
 def contact_topics(contacts: list[str]) -> dict[str, str]:
-    """ROS allows letters, digits and underscores in the names of topics, no digit first."""
+    """Topic of each contact. ROS allows letters, digits and underscores in topic names, no digit first."""
     topics: dict[str, str] = {}
     for contact in contacts:
         name = "".join(c if c.isascii() and c.isalnum() else "_" for c in contact)
@@ -118,7 +119,8 @@ def write_start(topics: Topics, motion: dict, in_parent: list, urdf: str) -> Non
 def write_sample(
     topics: Topics, motion: dict, in_parent: list, world: str, contacts: dict[str, tuple[str, str]], i: int
 ) -> None:
-    """`in_parent`: placements of the links in their parents. `contacts`: of each its frame and its topic."""
+    """Writes sample i. `in_parent`: placements of the links in their parents. `contacts`: frame and topic of
+    each."""
     samples = motion["samples"]
     q, v = samples["q"][i], samples["v"][i]
     now = round(1e9 * samples["time_s"][i])
@@ -160,8 +162,8 @@ def write_sample(
 
 
 def write(motion: dict, in_parent: list, indices: list[int], urdf: str) -> bytes:
-    """`motion` is motion.json, as a dict. `in_parent`: of each sample the placements of the links in their parents.
-    `indices`: of samples, one a time."""
+    """Content of the MCAP file. `motion`: motion.json as a dict. `in_parent`: per sample, placements of the
+    links in their parents. `indices`: of samples, one per time."""
     links = [link["name"] for link in motion["links"]]
     contacts = {
         contact: (contact_frame(contact, links), topic) for contact, topic in contact_topics(motion["contacts"]).items()

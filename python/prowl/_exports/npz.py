@@ -48,7 +48,7 @@ def arrays(motion: dict) -> dict[str, np.ndarray]:
 
 
 def write(motion: dict) -> bytes:
-    """Of motion.json, as a dict."""
+    """Content of the file. `motion`: motion.json as a dict."""
     file = io.BytesIO()
     np.savez_compressed(file, allow_pickle=False, **arrays(motion))
     return file.getvalue()

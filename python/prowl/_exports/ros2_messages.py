@@ -1,4 +1,4 @@
-"""Definitions of the ROS 2 messages that an MCAP file of Prowl holds, each with those that it consists of."""
+"""Definitions of the ROS 2 messages in an MCAP file of Prowl, including nested messages."""
 
 _PARTS = {
     "builtin_interfaces/Time": "int32 sec\nuint32 nanosec\n",
@@ -29,7 +29,7 @@ def _types_in(definition: str) -> list[str]:
 
 
 def definition(name: str) -> str:
-    """Text of a message, "package/Name", followed by all the messages inside it, as MCAP's encoding ros2msg wants it."""
+    """Definition of a message "package/Name" and all nested messages, for MCAP's encoding ros2msg."""
     inside: list[str] = []
     open_types = _types_in(_PARTS[name])
     while open_types:

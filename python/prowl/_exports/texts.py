@@ -1,4 +1,4 @@
-"""The exports that are text. Frames, units and keys are in docs/exports.md."""
+"""Text exports. Frames, units and keys: docs/exports.md."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ FORMAT = 1
 
 
 def _compact(document: dict) -> str:
-    """On one line: an indented array of numbers would have one a line."""
+    """JSON on one line: indented arrays would have one number per line."""
     return json.dumps(document, separators=(",", ":"), ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def gains_csv(plan: _prowl.Plan, samples: Samples) -> str:
-    """One row a sample: time_s, phase, and K row by row, JOINT:COLUMN."""
+    """One row per sample: time_s, phase, and K row by row, JOINT:COLUMN."""
     joints = plan.robot.joint_names
     names = [f"{joint}:{column}" for joint in joints for column in gain_columns(joints)]
     table = np.column_stack([samples.motion.t, samples.motion.phase, samples.gains.reshape(len(samples.gains), -1)])
@@ -28,7 +28,7 @@ def gains_csv(plan: _prowl.Plan, samples: Samples) -> str:
 
 
 def _components(plan: _prowl.Plan) -> dict[str, list[str]]:
-    """The columns of trajectory.csv, by quantity: their names have the units."""
+    """Columns of trajectory.csv by quantity; names contain units."""
     columns, nu = plan.to_csv().partition("\n")[0].split(",")[2:], plan.robot.nu  # without time and phase
     base, joints = columns[:19], columns[19:]
     return {
@@ -41,7 +41,7 @@ def _components(plan: _prowl.Plan) -> dict[str, list[str]]:
 
 
 def _phases(plan: _prowl.Plan) -> list[dict]:
-    """As planned, with their times."""
+    """Planned phases with their times."""
     return [
         {
             "name": phase.name,
@@ -55,7 +55,7 @@ def _phases(plan: _prowl.Plan) -> list[dict]:
 
 
 def motion_document(plan: _prowl.Plan, samples: Samples) -> dict:
-    """motion.json: everything, with placements of links and contacts by forward kinematics."""
+    """motion.json: all data, with placements of links and contacts by forward kinematics."""
     robot, motion = plan.robot, samples.motion
     return {
         "format": FORMAT,
@@ -100,7 +100,7 @@ def motion_json(document: dict) -> str:
 
 
 def joint_trajectory_json(plan: _prowl.Plan, samples: Samples) -> str:
-    """trajectory_msgs/JointTrajectory of ROS, its fields as keys."""
+    """trajectory_msgs/JointTrajectory of ROS as JSON."""
     motion = samples.motion
     points = []
     for i in samples.one_a_time():

@@ -1,4 +1,4 @@
-"""figures(): a plan, its gains and its simulation as pictures (docs/figures.md)."""
+"""figures(): draws a plan, its gains and its simulation (docs/figures.md)."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from .._plans import Folders, PlanOrFolder, as_plan, folder_with, output_folder
 
 @dataclass(frozen=True)
 class Figures:
-    """What figures() has drawn."""
+    """Result of figures()."""
 
     plan: _prowl.Plan
     folder: str
-    names: list[str]  #: of the figures, such as "torques"
-    files: list[str]  #: their names
+    names: list[str]  #: of figures, such as "torques"
+    files: list[str]  #: file names
 
 
 def figures(
@@ -31,17 +31,18 @@ def figures(
     package_dirs: Folders = (),
     on_progress: Callable[[int, int], object] | None = None,
 ) -> Figures:
-    """Draws a plan, its gains and its simulation, as `prowl figures` does: SVG, PNG and CSV.
+    """Draws a plan, its gains and its simulation, like `prowl figures`: SVG, PNG and CSV.
 
-    plan: a Plan, or the folder of one. simulation: of the plan; that in the folder of the plan if None. out: folder for the
-    figures, which holds nothing else; the folder figures in that of the plan if None. joint: whose gains to draw; the first
-    knee, or else the last joint of the first leg, if None. package_dirs: as of read_task(). on_progress: called with the
-    number of figures that are drawn, and of all.
+    plan: a Plan, or a plan folder. simulation: of the plan; None: that in the plan folder. out: folder for
+    the figures, which contains nothing else; None: figures in the plan folder. joint: for the plot of gains;
+    None: the first knee, or else the last joint of the first leg. package_dirs: see read_task(). on_progress:
+    called with the number of finished and of all figures.
 
-    Needs numpy, scipy and matplotlib. What cannot be drawn, without gains or simulation, is left out with a warning. Raises
-    InputError for a wrong plan or joint, FileError if `out` cannot be replaced; then nothing is written.
+    Needs numpy, scipy and matplotlib. Omits figures without data (no gains or simulation), with a warning.
+    Raises InputError for an invalid plan or joint, FileError if `out` cannot be replaced; then it writes
+    nothing.
     """
-    from . import draw, tables  # with Matplotlib, which takes a second to load
+    from . import draw, tables  # imports Matplotlib, which takes a second
 
     drawn = as_plan(plan, package_dirs)
     folder = output_folder(drawn, out, "figures")
@@ -58,7 +59,7 @@ def figures(
 
 
 def _warnings(plan: _prowl.Plan, source: Path) -> Iterator[str]:
-    """Which figures are left out, and why."""
+    """Warnings about omitted figures, with the reason."""
     where = f" in {plan.path}" if plan.path is not None else ""
     if plan.tracker is None:
         yield f"no gains{where}: without figure gains; prowl plan writes them (tracker.bin)"

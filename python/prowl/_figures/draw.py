@@ -1,4 +1,4 @@
-"""Draws the figures of a plan: each function gives the files of one figure, by name."""
+"""Draws the figures of a plan: each function returns the files of one figure, by name."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ Files = dict[str, bytes]
 
 
 def by_leg(shown: tables.Shown, row_height: float):
-    """Small multiples: a row a leg, a panel a joint. What is longer than MOST_COLUMNS (arms and head) takes several rows. Joints
-    of a column share their scale if all rows are alike."""
+    """Small multiples: a row per leg, a panel per joint. Longer chains than MOST_COLUMNS (arms and head) take
+    several rows. Joints of a column share their scale if all rows have the same length."""
     rows = [leg[i : i + MOST_COLUMNS] for leg in shown.legs for i in range(0, len(leg), MOST_COLUMNS)]
     columns = max(len(row) for row in rows)
     alike = all(len(row) == columns for row in rows)
@@ -62,7 +62,7 @@ def draw_torques(shown: tables.Shown) -> Files:
     limit_seen = False
     for axes, joint in panels:
         style.at_least(axes, 1.0)
-        low, high = axes.get_ylim()  # limits are drawn where torques come near; they do not decide the scale
+        low, high = axes.get_ylim()  # limits appear only near torques; they do not set the scale
         for side in ("lower", "upper"):
             limit = shown.nodes[f"{side}_{joint}_Nm"]
             axes.plot(shown.nodes["time_s"], limit, color="black", lw=0.9, ls=style.DASHES[2])
@@ -267,7 +267,8 @@ def draw_torque_over_position(shown: tables.Shown) -> Files:
 
 
 def draw(shown: tables.Shown, on_progress: Callable[[int, int], object] | None) -> Files:
-    """All figures, each by a process of its own: they take a second or more each, and Matplotlib's settings are theirs."""
+    """All figures, each in its own process: each takes a second or more, and changes Matplotlib's
+    settings."""
     drawn: list[Callable[[tables.Shown], Files]] = [draw_torques, draw_contact_acceleration]
     if shown.simulated is not None:
         drawn += [draw_base_error, draw_joint_error]

@@ -1,4 +1,4 @@
-"""How the figures look: one palette that the colour-blind can tell apart, light grids, phases behind the lines."""
+"""Style of the figures: a palette safe for colour blindness, light grids, phases behind the lines."""
 
 from __future__ import annotations
 
@@ -53,13 +53,15 @@ def grid(rows: int, columns: int, width: float, height: float, **sharing):
 
 
 def at_least(axes, half: float) -> None:
-    """No axis shows less than ± half: rounding is not to look like a motion. Only when all is drawn: it ends autoscaling."""
+    """Shows at least ± half, so that rounding does not look like a motion. Call it last: it ends
+    autoscaling."""
     low, high = axes.get_ylim()
     axes.set_ylim(min(low, -half), max(high, half))
 
 
 def mark_phases(grid, phases, end: float) -> None:
-    """Every other phase is shaded, a line marks the end of the plan; above the first row the names that fit."""
+    """Shades every other phase, marks the end of the plan with a line, and writes names that fit above the
+    first row."""
     start, stop = phases[0][1], phases[-1][2]
     rests = end > stop * (1 + 1e-9)
     for axes in grid.flat:
@@ -91,8 +93,8 @@ def mark_phases(grid, phases, end: float) -> None:
 def finish(
     figure, title: str, subtitle: str, handles, name: str, table: str | None = None, bottom: float = 0.0
 ) -> dict[str, bytes]:
-    """Title and legend of the whole figure; its files by name: pictures, and the table if there is one. Sizes in inches,
-    so that tall figures look as flat ones do; `bottom` is left free."""
+    """Adds title and legend; returns the files by name: pictures, and the table if given. Sizes in inches, so
+    tall and flat figures look alike; `bottom` [in] stays free."""
     height = figure.get_figheight()
     figure.text(0.012, 1 - 0.08 / height, title, ha="left", va="top", fontweight="bold", fontsize=12)
     figure.text(0.012, 1 - 0.33 / height, subtitle, ha="left", va="top", color="0.35")
@@ -121,5 +123,5 @@ def finish(
 
 
 def largest(values: np.ndarray) -> float:
-    """Of the finite ones, in size; 0 if there are none."""
+    """Largest absolute finite value; 0 if there is none."""
     return float(np.max(np.abs(values[np.isfinite(values)]), initial=0.0))

@@ -1,4 +1,4 @@
-"""What the figures show, as tables: of a plan, its gains and its simulation."""
+"""Data of the figures as tables: of a plan, its gains and its simulation."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ CURVE_POINTS = 200
 
 
 def _read(path: Path) -> Table:
-    """A CSV of numbers with a heading."""
+    """Reads a CSV file of numbers with a header."""
     with open(path, newline="", encoding="utf-8") as file:
         names = next(csv.reader(file))
         values = np.loadtxt(file, delimiter=",", ndmin=2)
@@ -43,19 +43,19 @@ def exact(table: Table) -> str:
 
 
 def legs(robot: _prowl.Robot) -> list[list[str]]:
-    """Joints by leg. A leg is what moves contacts, from its first joint at the base on; legs are in the order of their
-    contacts, joints that move none (arms, head) come last."""
+    """Joints by leg: the joints that move contacts, grouped by their first joint at the base, in the order of
+    the contacts. Other joints (arms, head) come last."""
     by_first: dict[str, set[str]] = {}
     for joints in _prowl.Dynamics(robot).contact_joints:
-        if joints:  # else the contact is on the base itself
+        if joints:  # else the contact is on the base
             by_first.setdefault(joints[0], set()).update(joints)
     groups = [*by_first.values(), set(robot.joint_names).difference(*by_first.values())]
     return [[joint for joint in robot.joint_names if joint in group] for group in groups if group]
 
 
 def gains_joint(robot: _prowl.Robot, name: str | None) -> str:
-    """A joint by name; without one the first with a limit over its position (a knee of HyQ), or else the last of the
-    first leg. Raises InputError that names the nearest."""
+    """A joint by name; None: the first with a torque limit over position (a knee of HyQ), or else the last of
+    the first leg. Raises InputError with the nearest name."""
     if name is None:
         first_leg = next(iter(_prowl.Dynamics(robot).contact_joints), [])
         return next(iter(robot.torque_over_position), first_leg[-1] if first_leg else robot.joint_names[0])
@@ -66,8 +66,8 @@ def gains_joint(robot: _prowl.Robot, name: str | None) -> str:
 
 
 def limit_curves(robot: _prowl.Robot) -> dict[str, np.ndarray]:
-    """By joint with a torque limit over its position: positions and limits at rest, 2 rows, from end to end of its
-    table."""
+    """Per joint with a torque limit over position: positions and limits at rest (2 rows) over the range of
+    its table."""
     curves = {}
     for joint, (first, last) in robot.torque_over_position.items():
         j = robot.joint_names.index(joint)
@@ -87,8 +87,8 @@ def limit_curves_text(curves: dict[str, np.ndarray]) -> str:
 
 
 def gains(plan: _prowl.Plan, joint: str) -> Table | None:
-    """One row of K(t): the 2 nv gains that act on the torque of a joint, at every sample of the tracker. A switch of
-    contacts has two samples at one time. None if there are no gains."""
+    """One row of K(t): the 2 nv gains of the torque of a joint, at every sample of the tracker, two at a
+    phase transition. None without gains."""
     if plan.tracker is None:
         return None
     t, K = plan.tracker.t, plan.tracker.K[:, plan.robot.joint_names.index(joint)]
@@ -97,8 +97,8 @@ def gains(plan: _prowl.Plan, joint: str) -> Table | None:
 
 
 def contact_acceleration(plan: _prowl.Plan) -> Table:
-    """J a and −J̇v of every contact [m/s²], world axes, at the nodes and between them no more than STEP apart; nan while
-    it is open. Where a contact holds, both are the same but for what the transcription leaves."""
+    """J a and −J̇v of every contact, world axes [m/s²], at the nodes and between them at most STEP apart; nan
+    in the air. In stance both are equal, except for errors of the transcription."""
     places, times = [*range(len(plan))], []
     for k in np.flatnonzero(np.diff(plan.phase) == 0):
         length = plan.t[k + 1] - plan.t[k]
@@ -126,7 +126,7 @@ def contact_acceleration(plan: _prowl.Plan) -> Table:
 
 
 class Shown:
-    """A plan with its gains and its simulation, as arrays by name."""
+    """A plan with its gains and simulation, as arrays by name."""
 
     def __init__(self, plan: _prowl.Plan, directory: Path, joint: str):
         self.title = f"{plan.robot.name}, {plan.task.name}"
@@ -151,7 +151,7 @@ class Shown:
             self.simulation = json.loads((directory / "simulate.json").read_text(encoding="utf-8"))
 
     def settings(self) -> str:
-        """What the simulation was, on one line."""
+        """Settings of the simulation on one line."""
         if not self.simulated:
             return "planned motion only: not simulated yet"
         options = self.simulation["options"]
@@ -188,8 +188,8 @@ class Shown:
 
 
 def torques(shown: Shown) -> Table:
-    """Of each joint [N m]: planned (nan after the plan's end) with its limits, and as simulated: feedforward and feedback,
-    at the time at which they act, and what the joint gave. Without a simulation, the plan at its nodes."""
+    """Per joint [N m]: planned (nan after the plan's end) with limits, and simulated: feedforward and
+    feedback, at the time at which they act, and joint torque. Without a simulation, the plan at its nodes."""
     nodes, sim = shown.nodes, shown.simulated
     planned = {"plan": "tau", "lower": "lower", "upper": "upper"}
     if sim is None:
@@ -199,7 +199,7 @@ def torques(shown: Shown) -> Table:
             for name, column in planned.items()
         }
     time = sim["time_s"]
-    delay = shown.simulation["options"].get("delay_s", 0.0)  # a rollout has none
+    delay = shown.simulation["options"].get("delay_s", 0.0)  # absent in a rollout
     table = {"time_s": time}
     for joint in shown.joints:
         for name, column in planned.items():
@@ -211,8 +211,9 @@ def torques(shown: Shown) -> Table:
 
 
 def base_error(shown: Shown) -> Table:
-    """Simulated against planned base and estimate against truth: difference of positions in the world [m], and the
-    rotation from the first to the second as a vector in the base frame of the first [rad]: plan to truth, truth to estimate."""
+    """Errors of the simulated base from the plan, and of the estimate from the truth: difference of positions
+    in the world [m], and rotation vector from the first to the second, in the base frame of the first
+    [rad]."""
     sim = shown.simulated
     table = {"time_s": sim["time_s"]}
     for name, before, after in (("error", "ref", "true"), ("estimate_error", "true", "seen")):
@@ -228,7 +229,7 @@ def base_error(shown: Shown) -> Table:
 
 
 def joint_error(shown: Shown) -> Table:
-    """Of each joint [rad]: simulated less planned position, and estimate less truth."""
+    """Per joint [rad]: simulated minus planned position, and estimate minus truth."""
     sim = shown.simulated
     table = {"time_s": sim["time_s"]}
     for joint in shown.joints:
@@ -238,7 +239,8 @@ def joint_error(shown: Shown) -> Table:
 
 
 def torque_over_position(shown: Shown) -> dict[str, dict[str, np.ndarray]]:
-    """By joint with a limit over its position, by series: time [s], position [rad], torque [N m], 3 rows."""
+    """Per joint with a torque limit over position, per series: time [s], position [rad], torque [N m], 3
+    rows."""
     table = {}
     for joint in shown.limit_curves:
         columns = {"plan": (shown.nodes, "")} | ({"simulation": (shown.simulated, "true_")} if shown.simulated else {})

@@ -1,1 +1,1 @@
-"""What computes: solve(), diagnose(), sweep(), with bars of their progress."""
+"""solve(), diagnose() and sweep(), with progress bars."""

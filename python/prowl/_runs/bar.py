@@ -1,4 +1,4 @@
-"""Bars of progress by tqdm, in a terminal or in a notebook."""
+"""Progress bars by tqdm, in a terminal or a notebook."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from .. import _prowl
 
 
 def can_show() -> bool:
-    """Somebody is looking, and tqdm is there."""
+    """True in a terminal or a notebook with tqdm."""
     if not (sys.stderr.isatty() or "ipykernel" in sys.modules):
         return False
     return _tqdm() is not None
 
 
 def _tqdm() -> Any:
-    """The bar for a terminal or a notebook; None if it is not installed."""
+    """The bar class for a terminal or a notebook; None without tqdm."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # a notebook without ipywidgets gets a bar of text, and needs no warning
+            warnings.simplefilter("ignore")  # no warning that a notebook without ipywidgets gets a text bar
             from tqdm.auto import tqdm
     except ImportError:
         return None
@@ -38,7 +38,7 @@ def _bar(**options: Any) -> Any:
 
 @contextmanager
 def solve_bar(name: str) -> Iterator[Callable[[_prowl.Progress], None]]:
-    """Iterations as they come. How many there will be nobody knows."""
+    """Bar of iterations, whose total is unknown."""
     bar = _bar(desc=name, unit=" iterations")
 
     def show(progress: _prowl.Progress) -> None:
@@ -54,7 +54,7 @@ def solve_bar(name: str) -> Iterator[Callable[[_prowl.Progress], None]]:
 
 @contextmanager
 def sweep_bar() -> Iterator[Callable[[int, int], None]]:
-    """Simulations that are done, with the time left."""
+    """Bar of finished simulations, with the remaining time."""
     bar = _bar(desc="simulations", unit=" simulations")
 
     def show(done: int, total: int) -> None:
@@ -75,7 +75,8 @@ def run_with_bar(
     run: Callable[[Callable[..., object] | None], Any],
     tell: Callable[..., object] | None,
 ) -> Any:
-    """What `run` returns, which reports to `tell`, and to the bar if progress is true, or None and somebody is looking."""
+    """Returns run(callback). The callback calls `tell`, and shows the bar if `progress` is true, or None and
+    can_show()."""
     if not (can_show() if progress is None else progress):
         return run(tell)
     with bar as show:

@@ -1,4 +1,4 @@
-"""solve(), with a display of progress."""
+"""solve(), with a progress bar."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ AnyTask = _prowl.Task | str | os.PathLike[str] | Mapping[str, Any]
 
 
 def as_task(task: AnyTask) -> _prowl.Task:
-    """The task itself; read if it is a name or a path, parsed if it is a dict."""
+    """The task; read if it is a name or a path, parsed if it is a dict."""
     if isinstance(task, _prowl.Task):
         return task
     if isinstance(task, str | os.PathLike):
@@ -39,15 +39,17 @@ def solve(
 ) -> _prowl.Plan:
     """Plans the motion of a task and checks it.
 
-    task: a Task, the name of one that comes with Prowl ("hyq/crouch"), the path of a task file, or a dict of its keys as
-    for parse_task(). solver: one of solver_names(). threads: that evaluate the problem; the result is the same.
-    coarse_first: coarser meshes first. start_from: an earlier plan of the same robot and phases. gains: also design
-    feedback gains, for a plan that is good. progress: show iterations with tqdm; None does so in a terminal and in a
-    notebook if tqdm is installed. on_iteration: called with a Progress after each iteration; what it raises ends the solve
-    and is raised here. on_iterate: the same with an Iterate, which also has the motion; that takes time at each iteration.
+    task: a Task, the name of a shipped one ("hyq/crouch"), the path of a task file, or a dict for
+    parse_task(). solver: one of solver_names(). threads: for evaluations; the result does not depend on it.
+    coarse_first: solve on coarser meshes first. start_from: an earlier plan with the same robot and phases.
+    gains: also design feedback gains if the plan is good. progress: show iterations with tqdm; None: in a
+    terminal or notebook with tqdm. on_iteration: called with a Progress after each iteration; its exceptions
+    end the solve and are raised here. on_iterate: the same with an Iterate, which also contains the motion;
+    this costs time at each iteration.
 
-    A problem that is too hard is no exception: look at plan.good, plan.status and plan.hints. Ctrl-C raises Interrupted, a
-    KeyboardInterrupt, within an iteration; its `plan` is the best motion so far. Other threads run meanwhile.
+    A hard problem raises no exception: check plan.good, plan.status and plan.hints. Ctrl-C raises
+    Interrupted, a KeyboardInterrupt, within an iteration; its `plan` is the best motion so far. Other threads
+    run meanwhile.
     """
     asked = as_task(task)
 

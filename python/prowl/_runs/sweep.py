@@ -1,4 +1,4 @@
-"""sweep(), with a display of progress."""
+"""sweep(), with a progress bar."""
 
 from __future__ import annotations
 
@@ -23,15 +23,17 @@ def sweep(
     progress: bool | None = None,
     on_progress: Callable[[int, int], object] | None = None,
 ) -> _prowl.Sweep:
-    """Runs a plan in MuJoCo n times, each with other masses, friction, pushes and sensor noise, as `prowl sweep` does.
+    """Runs a plan in MuJoCo n times with different masses, friction, pushes and sensor noise, like `prowl
+    sweep`.
 
-    plan: a Plan with gains, or the folder of one. seed: of the first simulation, the others count on. mass_spread: masses
-    are off by up to this share. push_impulse, push_impulse_on_two_feet: on the base [N s]. breakdown: simulations for each
-    size of one perturbation alone; 0 leaves that out, 20 takes about a thousand simulations. open_loop: feedforward torques
-    only. package_dirs: as of read_task(). progress: show a bar with tqdm; None does so in a terminal and in a notebook.
-    on_progress: called with the number of simulations that are done, and of all.
+    plan: a Plan with gains, or its folder. seed: of the first simulation; the others count up. mass_spread:
+    largest error of the masses, as a share. push_impulse, push_impulse_on_two_feet: on the base [N s].
+    breakdown: simulations per size of each perturbation alone; 0: none; 20 takes about a thousand
+    simulations. open_loop: feedforward torques only. package_dirs: see read_task(). progress: show a bar with
+    tqdm; None: in a terminal or notebook. on_progress: called with the number of finished and of all
+    simulations.
 
-    The same arguments give the same result. Ctrl-C raises KeyboardInterrupt.
+    Deterministic. Ctrl-C raises KeyboardInterrupt.
     """
     found = as_plan(plan, package_dirs)
 

@@ -1,1 +1,1 @@
-"""How plans are looked at: the page, the plot, and what a notebook shows of them."""
+"""Views of plans: the page, the plot, and HTML for notebooks."""

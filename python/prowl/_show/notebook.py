@@ -1,4 +1,4 @@
-"""HTML that a notebook shows for what Prowl's functions return."""
+"""HTML of Prowl's objects for notebooks."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ GOOD, BAD = "#1a7f37", "#cf222e"
 
 
 def certificate_html(certificate: _prowl.Certificate) -> str:
-    """A table of the checks, failed ones first."""
+    """Table of the checks, failed ones first."""
     checks = sorted(certificate.checks, key=lambda check: check.passed)
     rows = [
         [
@@ -30,7 +30,7 @@ def certificate_html(certificate: _prowl.Certificate) -> str:
 
 
 def plan_html(plan: _prowl.Plan) -> str:
-    """Result, cost by term and, folded, the certificate."""
+    """Result, cost terms, and the folded certificate."""
     certificate = plan.certificate
     good, style = _verdict(plan.good, "good", "not good")
     failed = [check.name for check in certificate.checks if not check.passed]
@@ -52,7 +52,7 @@ def plan_html(plan: _prowl.Plan) -> str:
 
 
 def _cost_html(plan: _prowl.Plan) -> str:
-    """The terms of the cost, the largest first, with bars."""
+    """Cost terms with bars, the largest first."""
     terms = sorted(plan.cost_terms.items(), key=lambda term: -term[1])
     largest = max((cost for _, cost in terms), default=0.0)
     total = sum(cost for _, cost in terms)

@@ -1,4 +1,4 @@
-"""report(): the page of `prowl report`; Plan.show(): the same page in a notebook or a browser."""
+"""report(): writes the page of `prowl report`; Plan.show(): shows it in a notebook or a browser."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from .. import _prowl
 from .._files import SHARE
 from .._plans import Folders, PlanOrFolder, as_plan
 
-# Of an installation beside robots and tasks; of a build in build/share.
+# Installed: beside robots and tasks; build: in build/share.
 _PAGES = (SHARE / "report.html", Path(_prowl.__file__).resolve().parents[2] / "share/prowl/report.html")
 
 
 @dataclass(frozen=True)
 class Report:
-    """The page that report() has written."""
+    """Result of report()."""
 
     plan: _prowl.Plan
     file: str
     size: int  #: [bytes]
     has_simulation: bool
-    warnings: list[str]  #: what the page shows in another way than the robot's files say
+    warnings: list[str]  #: replaced content, e.g. unreadable meshes
 
 
 def report(
@@ -37,12 +37,12 @@ def report(
     simulation: _prowl.Simulation | None = None,
     package_dirs: Folders = (),
 ) -> Report:
-    """Writes the page that replays a plan in a browser, as `prowl report` does: one file, needs no network.
+    """Writes a page that replays a plan in a browser, like `prowl report`: one file, needs no network.
 
-    plan: a Plan, or the folder of one. out: the file to write; report.html in the folder of the plan if None. simulation:
-    shown beside the plan; that in the folder of the plan if None. package_dirs: as of read_task().
+    plan: a Plan, or a plan folder. out: file to write; None: report.html in the plan folder. simulation:
+    shown with the plan; None: that in the plan folder. package_dirs: see read_task().
 
-    Warns of a mesh that cannot be read. Raises InputError, FileError.
+    Warns of unreadable meshes. Raises InputError, FileError.
     """
     found = as_plan(plan, package_dirs)
     if out is None and found.path is None:
@@ -67,14 +67,14 @@ def show(plan: _prowl.Plan, simulation: _prowl.Simulation | None, height: int) -
         display(_Frame(text, height))
         return
     with tempfile.NamedTemporaryFile("w", prefix="prowl_", suffix=".html", encoding="utf-8", delete=False) as file:
-        file.write(text)  # kept: the browser reads it after this process may have ended
+        file.write(text)  # not deleted: the browser may read it after this process ends
     if not webbrowser.open(Path(file.name).as_uri()):
         warnings.warn(f"no browser here; open {file.name} in one", stacklevel=2)
 
 
 class _Frame:
-    """A whole page below the cell of a notebook. It is in the notebook's file, so that it is there when that is opened
-    again, and in what nbconvert makes of it."""
+    """A page below the cell of a notebook. The notebook file contains it, so it survives reopening and
+    nbconvert."""
 
     def __init__(self, page: str, height: int) -> None:
         self._page, self._height = page, height
@@ -92,7 +92,7 @@ class _Frame:
 def _page(
     plan: _prowl.Plan, simulation: _prowl.Simulation | None, package_dirs: Folders
 ) -> tuple[str, list[str], bool]:
-    """The page, its warnings, and whether a simulation is in it."""
+    """The page, its warnings, and True if it contains a simulation."""
     csv, json = (simulation.to_csv(), simulation.to_json()) if simulation is not None else _simulation_files(plan)
     folder = "" if plan.path is None else os.fspath(plan.path)
     text, told = _prowl.report_page(
@@ -114,7 +114,7 @@ def _template() -> str:
 
 
 def _simulation_files(plan: _prowl.Plan) -> tuple[str | None, str | None]:
-    """simulate.csv and simulate.json in the folder of the plan."""
+    """simulate.csv and simulate.json in the plan folder."""
 
     def read(name: str) -> str | None:
         if plan.path is None or not (plan.path / name).is_file():

@@ -1,4 +1,4 @@
-"""Plan.plot(): a plan, and a simulation over it, on one figure."""
+"""Plan.plot(): a plan and its simulation in one figure."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 
 def plot(plan: _prowl.Plan, simulation: _prowl.Simulation | None) -> Figure:
-    """Four axes over time: height of the base, normal forces, torques of the hardest worked joints, used share of all
-    torque limits. A plan is drawn as lines, a simulation as dashes of the same colours."""
+    """Four axes over time: base position, vertical contact forces, torques of the most loaded joints, largest
+    share of the torque limits. Plan: lines; simulation: dashes of the same colours."""
     try:
         import matplotlib.pyplot as plt
     except ImportError as error:
@@ -34,7 +34,7 @@ def plot(plan: _prowl.Plan, simulation: _prowl.Simulation | None) -> Figure:
         for axes in grid.flat:
             _shade_phases(axes, plan)
         figure.suptitle(_title(plan), x=0.01, ha="left", fontweight="bold")
-    if "inline" in plt.get_backend():  # the notebook shows what the cell returns; open, it would show it twice
+    if "inline" in plt.get_backend():  # close it: the notebook shows the returned figure
         plt.close(figure)
     return figure
 
@@ -74,7 +74,7 @@ def _draw_forces(axes: Axes, plan: _prowl.Plan, simulation: _prowl.Simulation | 
 
 
 def _limits(plan: _prowl.Plan, q: np.ndarray, v: np.ndarray, tau: np.ndarray) -> np.ndarray:
-    """Limit of each torque in its own direction, (rows, nu), 0 or more."""
+    """Limit of each torque in its direction, (rows, nu), >= 0."""
     lower, upper = plan.robot.torque_limits(q, v)
     return np.where(tau < 0, -lower, upper)
 
