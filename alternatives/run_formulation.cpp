@@ -18,8 +18,8 @@ const CertificateCheck* FormulationRun::worst_check() const {
   return worst == certificate.checks.end() ? nullptr : &*worst;
 }
 
-FormulationRun judge_formulation(const DiscreteProblem& discrete, const Formulation& formulation, MotionNlp& nlp,
-                                 SolveResult result, std::string solver) {
+FormulationRun measure_formulation(const DiscreteProblem& discrete, const Formulation& formulation, MotionNlp& nlp,
+                                   SolveResult result, std::string solver) {
   FormulationRun run{.formulation = formulation,
                      .solver = std::move(solver),
                      .nodes = discrete.num_nodes(),
@@ -45,8 +45,8 @@ FormulationRun run_formulation(const DiscreteProblem& discrete, const Formulatio
   const std::unique_ptr<MotionNlp> nlp = make_formulation(formulation, discrete, guess);
   nlp->use_hessian(hessian);
   if (const auto reason = solver.why_unsupported(*nlp)) throw InputError(*reason);
-  return judge_formulation(discrete, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options),
-                           solver.name() + " " + solver.version());
+  return measure_formulation(discrete, formulation, *nlp, solver.solve(*nlp, nlp->pack(guess), options),
+                             solver.name() + " " + solver.version());
 }
 
 }  // namespace prowl

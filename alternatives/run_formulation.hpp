@@ -40,7 +40,7 @@ FormulationRun run_formulation(const DiscreteProblem& discrete, const Formulatio
                                const SolverOptions& options, HessianKind hessian = HessianKind::exact,
                                const std::string& guess = guess_names().front());
 /// The same for a program solved elsewhere.
-FormulationRun judge_formulation(const DiscreteProblem& discrete, const Formulation& formulation, MotionNlp& nlp,
-                                 SolveResult result, std::string solver);
+FormulationRun measure_formulation(const DiscreteProblem& discrete, const Formulation& formulation, MotionNlp& nlp,
+                                   SolveResult result, std::string solver);
 
 }  // namespace prowl

@@ -26,17 +26,17 @@ std::vector<Posture> postures(const DiscreteProblem& discrete) {
   const MotionProblem& problem = discrete.problem;
   const PosturePath path(discrete);
   const ContactPath contacts(discrete, path);
-  std::vector<std::size_t> in_order(discrete.condition_nodes.size());
+  std::vector<std::size_t> in_order(discrete.boundary_nodes.size());
   std::iota(in_order.begin(), in_order.end(), 0);
-  std::ranges::stable_sort(in_order, {}, [&](std::size_t c) { return discrete.condition_nodes[c]; });
+  std::ranges::stable_sort(in_order, {}, [&](std::size_t c) { return discrete.boundary_nodes[c]; });
 
   std::vector<Posture> found;
   VectorXd q = problem.start_configuration();
   for (const std::size_t c : in_order) {
-    const BoundaryCondition& condition = problem.boundary_conditions[c];
-    q = inverse_kinematics(problem.robot, meet(condition, q), contacts.targets(discrete.condition_nodes[c])).q;
-    q = meet(condition, q);
-    const double time = discrete.condition_time(c);
+    const BoundaryConstraint& constraint = problem.boundary_constraints[c];
+    q = inverse_kinematics(problem.robot, meet(constraint, q), contacts.targets(discrete.boundary_nodes[c])).q;
+    q = meet(constraint, q);
+    const double time = discrete.boundary_time(c);
     if (!found.empty() && found.back().time == time) found.pop_back();  // phase transition
     found.push_back({time, q});
   }

@@ -77,17 +77,17 @@ class GoalSource {
 prowl::MotionProblem with_goal(const prowl::MotionProblem& task, const Goal& goal) {
   prowl::MotionProblem problem = task;
   const int last_phase = static_cast<int>(task.phases.size()) - 1;
-  auto condition =
-      prowl::BoundaryCondition::unbounded(problem.robot, "goal", prowl::PhaseFraction::end_of(last_phase), goal.q);
-  condition.configuration_lower.head<6>().setZero();
-  condition.configuration_upper.head<6>().setZero();
-  condition.velocity_lower.head<6>().setZero();
-  condition.velocity_upper.head<6>().setZero();
-  problem.boundary_conditions.resize(1);
-  problem.boundary_conditions.push_back(std::move(condition));
+  auto constraint =
+      prowl::BoundaryConstraint::unbounded(problem.robot, "goal", prowl::PhaseFraction::end_of(last_phase), goal.q);
+  constraint.configuration_lower.head<6>().setZero();
+  constraint.configuration_upper.head<6>().setZero();
+  constraint.velocity_lower.head<6>().setZero();
+  constraint.velocity_upper.head<6>().setZero();
+  problem.boundary_constraints.resize(1);
+  problem.boundary_constraints.push_back(std::move(constraint));
   // Costs that pull to the goal of the file must not pull away from this one.
   for (prowl::QuadraticCost* cost : {&problem.running_cost, &problem.terminal_cost}) {
-    if (task.boundary_conditions.size() > 1 && cost->q_ref == task.boundary_conditions.back().q_ref)
+    if (task.boundary_constraints.size() > 1 && cost->q_ref == task.boundary_constraints.back().q_ref)
       cost->q_ref = goal.q;
   }
   return problem;
@@ -142,7 +142,7 @@ struct Tally {
     intervals.push_back(outcome.intervals);
     if (!outcome.passed()) return;
     ++passed;
-    certified += outcome.plan.certificate.grade == prowl::Grade::certified;
+    certified += outcome.plan.certificate.grade == prowl::CertificateGrade::certified;
     passed_on_first_mesh += outcome.meshes == 1;
   }
 };

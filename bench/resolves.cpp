@@ -40,8 +40,8 @@ Vector3d random_direction(std::mt19937& random) {
 /// Every goal that says where the base is, so much further.
 MotionProblem with_goal_moved(const MotionProblem& task, const Vector3d& by) {
   MotionProblem problem = task;
-  for (std::size_t i = 1; i < problem.boundary_conditions.size(); ++i) {
-    prowl::BoundaryCondition& goal = problem.boundary_conditions[i];
+  for (std::size_t i = 1; i < problem.boundary_constraints.size(); ++i) {
+    prowl::BoundaryConstraint& goal = problem.boundary_constraints[i];
     for (int axis = 0; axis < 3; ++axis) {
       if (goal.configuration_lower(axis) == goal.configuration_upper(axis)) goal.q_ref(axis) += by(axis);
     }
@@ -60,7 +60,7 @@ MotionProblem with_start_turned(const MotionProblem& task, const Vector3d& by) {
   }
   prowl::set_base_rotation(q, prowl::base_rotation(q) * prowl::so3::exp(by));
   MotionProblem problem = task;
-  problem.boundary_conditions.front().q_ref = prowl::inverse_kinematics(task.robot, q, feet).q;
+  problem.boundary_constraints.front().q_ref = prowl::inverse_kinematics(task.robot, q, feet).q;
   return problem;
 }
 
@@ -88,7 +88,7 @@ Tally resolve(const prowl::Task& task, const prowl::Plan& plan, auto disturbed) 
   Tally tally;
   for (int i = 0; i < kDisturbances; ++i) {
     prowl::PlanOptions options{
-        .solver = task.solver, .start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers};
+        .solver = task.solver, .warm_start = plan.trajectory, .warm_start_multipliers = plan.result.stage_multipliers};
     tally.add(prowl::make_plan({disturbed(random_direction(random)), task.mesh}, prowl::RiccatiSolver(), options));
   }
   return tally;
@@ -104,8 +104,8 @@ Tally shift(const prowl::Task& task, const prowl::Plan& first) {
     discrete = std::move(next.problem);
     plan = prowl::make_plan(discrete, prowl::RiccatiSolver(),
                             {.solver = task.solver,
-                             .start_from = std::move(next.start_from),
-                             .start_multipliers = std::move(next.start_multipliers)});
+                             .warm_start = std::move(next.warm_start),
+                             .warm_start_multipliers = std::move(next.warm_start_multipliers)});
     tally.add(plan);
     if (plan.result.status != prowl::SolveStatus::converged) break;
   }

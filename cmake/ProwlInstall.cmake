@@ -3,8 +3,13 @@
 # The libraries look for Pinocchio and Ipopt where they were found at build time: the virtual environment has to stay.
 include(CMakePackageConfigHelpers)
 
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/robots ${PROJECT_SOURCE_DIR}/tasks DESTINATION ${CMAKE_INSTALL_DATADIR}/prowl
+  COMPONENT runtime FILES_MATCHING PATTERN *.toml)
+install(FILES ${PROJECT_SOURCE_DIR}/docs/third-party.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
+
 if(NOT BUILD_SHARED_LIBS)
-  message(STATUS "Static build: nothing to install, its users would need all of Prowl's own dependencies.")
+  message(STATUS "Static build: no libraries to install, their users would need all of Prowl's own dependencies.")
+  install(TARGETS prowl_ipopt prowl_fatrop prowl_uno LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
   return()
 endif()
 
@@ -21,10 +26,6 @@ foreach(header ${PROWL_INTERNAL_HEADERS})
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/prowl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
   FILES_MATCHING PATTERN *.hpp ${internal_headers})
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/robots ${PROJECT_SOURCE_DIR}/tasks DESTINATION ${CMAKE_INSTALL_DATADIR}/prowl
-  COMPONENT runtime FILES_MATCHING PATTERN *.toml)
-install(FILES ${PROJECT_SOURCE_DIR}/docs/third-party.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT runtime)
-
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/prowl)
 install(EXPORT prowlTargets NAMESPACE prowl:: DESTINATION ${package_dir} COMPONENT development)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/prowlConfig.cmake.in ${PROJECT_BINARY_DIR}/prowlConfig.cmake

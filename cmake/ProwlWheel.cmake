@@ -1,4 +1,8 @@
-# A build by `pip install .` or `pip wheel .` (pyproject.toml), whose options are few: what it needs besides a build by hand.
+# A build by scripts/wheel (pyproject.toml), whose options are few: what it needs besides a build by hand.
+if(NOT PROWL_WHEEL)
+  message(FATAL_ERROR "Run scripts/wheel: it puts the shared libraries inside the wheel, which pip alone does not. Then pip install "
+    "the file that it names.")
+endif()
 find_program(PROWL_CCACHE ccache)
 if(PROWL_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${PROWL_CCACHE})

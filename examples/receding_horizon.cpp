@@ -19,12 +19,12 @@ int main(int count, char** arguments) try {
   for (int cycle = 1; cycle <= 20; ++cycle) {
     prowl::ShiftedHorizon next = prowl::shift_horizon(problem, plan.trajectory, plan.result.stage_multipliers);
     prowl::MotionProblem later = std::move(next.problem.problem);
-    later.boundary_conditions.back().q_ref(0) += 0.001;  // the goal moves on by 1 mm along x
+    later.boundary_constraints.back().q_ref(0) += 0.001;  // the goal moves on by 1 mm along x
     problem = {std::move(later), std::move(next.problem.mesh)};
     plan = prowl::make_plan(problem, solver,
                             {.solver = task.solver,
-                             .start_from = std::move(next.start_from),
-                             .start_multipliers = std::move(next.start_multipliers)});
+                             .warm_start = std::move(next.warm_start),
+                             .warm_start_multipliers = std::move(next.warm_start_multipliers)});
     if (plan.result.status != prowl::SolveStatus::converged) {
       std::cerr << "cycle " << cycle << ": " << prowl::to_string(plan.result.status) << '\n';
       return 1;

@@ -22,12 +22,12 @@ using Eigen::VectorXd;
 /// The problem on the meshes to solve before its own, the coarsest first.
 std::vector<DiscreteProblem> coarser_problems(const DiscreteProblem& asked, const PlanOptions& options,
                                               bool may_have_solution) {
-  const bool from_neighbour = !options.start_from.empty() && !options.resume;
+  const bool from_neighbour = !options.warm_start.empty() && !options.resume;
   if (!options.coarse_first || from_neighbour || !may_have_solution) return {};
   std::vector<DiscreteProblem> problems;
   const std::vector<Mesh> meshes = mesh_levels(asked.problem, asked.mesh);
   for (std::size_t i = 0; i + 1 < meshes.size(); ++i) {
-    const bool is_behind = meshes[i].num_nodes() < static_cast<int>(options.start_from.nodes.size());
+    const bool is_behind = meshes[i].num_nodes() < static_cast<int>(options.warm_start.nodes.size());
     if (!is_behind) problems.emplace_back(asked.problem, meshes[i]);
   }
   return problems;
@@ -73,12 +73,12 @@ Plan interrupted_plan(const Plan& plan, const SolveResult& before, const Mesh& m
 }
 
 /// Options of the solver on this level: quality of the start, multipliers, remaining time.
-SolverOptions options_of_level(const PlanOptions& options, const Plan& plan, bool starts_from_task) {
+SolverOptions options_of_level(const PlanOptions& options, const Plan& plan, bool is_cold_start) {
   SolverOptions of_level = options.solver;
   const bool from_elsewhere = plan.levels.empty();  // --warm-start
-  of_level.start_is_near =
-      !starts_from_task && (from_elsewhere ? !options.resume : plan.result.status == SolveStatus::converged);
-  of_level.start_multipliers = from_elsewhere ? options.start_multipliers : std::vector<StageMultipliers>{};
+  of_level.is_warm_start =
+      !is_cold_start && (from_elsewhere ? !options.resume : plan.result.status == SolveStatus::converged);
+  of_level.warm_start_multipliers = from_elsewhere ? options.warm_start_multipliers : std::vector<StageMultipliers>{};
   constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level ends at once
   of_level.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
   return of_level;
@@ -102,8 +102,8 @@ void solve(Transcription& nlp, const Trajectory& guess, const Mesh& mesh, const 
       }
     };
   }
-  const VectorXd start = nlp.pack(guess);
-  plan.result = plan.reasons.empty() ? solver.solve(nlp, start, of_level) : not_solved(nlp, start);
+  const VectorXd z_guess = nlp.pack(guess);
+  plan.result = plan.reasons.empty() ? solver.solve(nlp, z_guess, of_level) : not_solved(nlp, z_guess);
   plan.mesh = mesh;
   plan.levels.push_back(
       {mesh.num_intervals(), plan.result.status, plan.result.iterations, plan.result.seconds, plan.result.times.cpu});
@@ -137,7 +137,7 @@ bool is_worth_going_on_from(SolveStatus status) {
 
 Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
   Plan plan;
-  plan.trajectory = options.start_from;
+  plan.trajectory = options.warm_start;
   plan.solver = solver.name();
   plan.hessian = options.hessian;
   plan.reasons = proofs_of_infeasibility(asked.problem, asked.schedule);

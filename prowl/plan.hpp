@@ -49,13 +49,13 @@ inline bool is_good(const Plan& plan) {
 struct PlanOptions {
   SolverOptions solver;  ///< max_iterations is for each level, max_seconds for all together
   /// Motion to start from (see resample()); empty: start from the task alone, on a coarse mesh first.
-  Trajectory start_from = {};
-  /// True: start_from is an iterate of a stopped solve of this problem (Checkpoint). Continue on its mesh, then on
+  Trajectory warm_start = {};
+  /// True: warm_start is an iterate of a stopped solve of this problem (Checkpoint). Continue on its mesh, then on
   /// finer ones, as from any guess. False: it solves a neighbouring problem, and the solution is near it.
   bool resume = false;
   /// Multipliers of the plan with that motion (Plan::result.stage_multipliers), if known and on the same mesh. Sizes
   /// that do not fit are left out.
-  std::vector<StageMultipliers> start_multipliers = {};
+  std::vector<StageMultipliers> warm_start_multipliers = {};
   /// Returns the solver for the small programs behind the hints, which are not chains of stages. Called only after a
   /// failure, because it may load a library. Empty, or nullptr returned: the solver of the plan.
   std::function<const NlpSolver*()> hint_solver = {};
@@ -70,7 +70,7 @@ struct PlanOptions {
 /// True if a finer mesh may start from the result of this solve; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status);
 
-/// Plans a motion and certifies it. Throws InputError if bounds contradict each other or start_from does not fit,
+/// Plans a motion and certifies it. Throws InputError if bounds contradict each other or warm_start does not fit,
 /// NumericalError if the model cannot be evaluated at the initial guess. A hard problem gives a status in the result.
 Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options);
 

@@ -74,14 +74,14 @@ class Meshes {
   }
   /// From the motion on a coarser mesh, solved or stopped.
   Candidate solve_from(const Plan& plan, const Mesh& mesh) {
-    options_.start_from = plan.trajectory;
+    options_.warm_start = plan.trajectory;
     options_.resume = plan.result.status != SolveStatus::converged;
-    options_.start_multipliers.clear();
+    options_.warm_start_multipliers.clear();
     return solve(mesh);
   }
   /// The first mesh that converges, from the coarsest on; each starts from the one before, as in make_plan().
   Candidate begin(const Mesh& mesh) {
-    const bool from_coarse = coarse_first_ && options_.start_from.empty();
+    const bool from_coarse = coarse_first_ && options_.warm_start.empty();
     std::optional<Candidate> first;
     for (const Mesh& level : from_coarse ? mesh_levels(asked_.problem, mesh) : std::vector{mesh}) {
       const bool goes_on = first && is_worth_going_on_from(first->plan.result.status);
@@ -89,7 +89,7 @@ class Meshes {
       const SolveStatus status = first->plan.result.status;
       const bool is_end = status == SolveStatus::converged || status == SolveStatus::interrupted;
       if (is_end || status == SolveStatus::time_limit || !first->plan.reasons.empty()) break;
-      options_.start_from = {};
+      options_.warm_start = {};
     }
     return std::move(*first);
   }

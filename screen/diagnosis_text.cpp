@@ -40,7 +40,7 @@ std::string in_words(const Breach& breach, const MotionProblem& problem) {
 }
 
 /// What a change turns: "friction of floor", "duration of phase 1", "goal 1, base z".
-std::string what_it_turns(const Change& change, const MotionProblem& problem) {
+std::string what_it_turns(const ProposedChange& change, const MotionProblem& problem) {
   if (change.kind == "friction") return "friction of " + change.subject;
   if (change.kind == "duration") {
     return change.phase < 0 ? "duration of all phases together"
@@ -57,7 +57,7 @@ std::string what_it_turns(const Change& change, const MotionProblem& problem) {
 }
 
 /// "friction of floor 0.61 instead of 0.52"; of several joints, whose limits may differ, the factor.
-std::string in_words(const Change& change, const MotionProblem& problem) {
+std::string in_words(const ProposedChange& change, const MotionProblem& problem) {
   const std::string besides = change.besides.empty() ? "" : ", " + change.besides;
   if (change.is_factor) return fmt::format("{} times {:.3g}{}", what_it_turns(change, problem), change.to, besides);
   const auto words = [&](const std::string& own, double value) {
@@ -95,7 +95,7 @@ std::string what_would_help(const Diagnosis& diagnosis, const MotionProblem& pro
   constexpr std::size_t kMostPerhaps = 2;
   std::vector<std::string> proved, perhaps;
   bool is_fine = true;
-  for (const Change& change : diagnosis.changes) {
+  for (const ProposedChange& change : diagnosis.changes) {
     if (change.is_proved || !change.was_tried)
       (change.is_proved ? proved : perhaps).push_back(in_words(change, problem));
     is_fine = is_fine && (change.passes || !change.is_proved);
@@ -135,7 +135,7 @@ Json to_json(const Breach& breach, const MotionProblem& problem) {
 
 Json phase_to_json(int phase) { return phase < 0 ? Json(nullptr) : Json(phase + 1); }
 
-Json to_json(const Change& change, const MotionProblem& problem) {
+Json to_json(const ProposedChange& change, const MotionProblem& problem) {
   return {{"kind", change.kind},
           {"phase", phase_to_json(change.phase)},
           {"subject", change.subject},
@@ -177,7 +177,7 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   if (diagnosis.breaches.size() > kMostBreaches) {
     text += fmt::format("  gives way    and {} more limits\n", diagnosis.breaches.size() - kMostBreaches);
   }
-  for (const Change& change : diagnosis.changes) {
+  for (const ProposedChange& change : diagnosis.changes) {
     const std::string proof =
         change.passes      ? "this plan passes its certificate"
         : change.is_proved ? "on the mesh of the task, which is too coarse for the certificate: --refine"
@@ -224,7 +224,7 @@ std::string diagnosis_json(const Diagnosis& diagnosis, const MotionProblem& prob
         {"kind", diagnosis.kind}, {"phase", phase_to_json(diagnosis.phase)}, {"subject", diagnosis.subject}};
   }
   for (const Breach& breach : diagnosis.breaches) json["breaches"].push_back(to_json(breach, problem));
-  for (const Change& change : diagnosis.changes) json["changes"].push_back(to_json(change, problem));
+  for (const ProposedChange& change : diagnosis.changes) json["changes"].push_back(to_json(change, problem));
   return json_text(json);
 }
 

@@ -56,7 +56,7 @@ using FootEvents = std::set<std::pair<std::string, int>>;
 
 FootEvents landings(const MotionProblem& problem, const ContactSchedule& schedule) {
   FootEvents events;
-  for (const Stance& stance : schedule.stances()) {
+  for (const ContactStance& stance : schedule.stances()) {
     if (stance.lands()) events.emplace(problem.robot.contacts()[stance.contact].frame, stance.first_phase);
   }
   return events;
@@ -65,7 +65,7 @@ FootEvents landings(const MotionProblem& problem, const ContactSchedule& schedul
 /// Feet that lift and stay in the air.
 std::set<std::string> lifted(const MotionProblem& problem, const ContactSchedule& schedule) {
   std::set<std::string> feet;
-  for (const Swing& swing : schedule.swings()) {
+  for (const ContactSwing& swing : schedule.swings()) {
     if (swing.before >= 0 && swing.after < 0) feet.insert(problem.robot.contacts()[swing.contact].frame);
   }
   return feet;

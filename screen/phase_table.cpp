@@ -85,7 +85,7 @@ std::string phases_json(const DiscreteProblem& discrete) {
                           {"surface", problem.surfaces[held.surface].name},
                           {"lands", discrete.schedule.lands(p, i)},
                           {"opens", discrete.schedule.opens(p, i)}});
-      if (held.place) contacts.back()["place_m"] = std::vector<double>(held.place->begin(), held.place->end());
+      if (held.foothold) contacts.back()["place_m"] = std::vector<double>(held.foothold->begin(), held.foothold->end());
     }
     phases.push_back({{"name", phase.name},
                       {"duration_s", {phase.duration.min, phase.duration.max}},

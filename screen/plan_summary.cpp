@@ -32,12 +32,12 @@ std::string short_power(double value) {
 }
 
 /// What a grade is good for, in a clause behind it.
-std::string meaning(Grade grade) {
+std::string meaning(CertificateGrade grade) {
   const std::string error = short_power(CertificateLimits::integration_error_certified);
   switch (grade) {
-    case Grade::failed: return "";
-    case Grade::draft: return fmt::format(" (good for simulation; certified: error < {})", error);
-    case Grade::certified: return fmt::format(" (error < {})", error);
+    case CertificateGrade::failed: return "";
+    case CertificateGrade::draft: return fmt::format(" (good for simulation; certified: error < {})", error);
+    case CertificateGrade::certified: return fmt::format(" (error < {})", error);
   }
   return "";
 }

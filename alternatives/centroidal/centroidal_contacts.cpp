@@ -59,10 +59,10 @@ CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phas
       }
     }
     if (!schedule.lands(phase, i)) continue;
-    for (const int axis : landing[i].place) {
-      if (axis != kNormal && !contact.place) continue;
-      const double place = axis == kNormal ? on_surface : axes.col(axis).dot(*contact.place);
-      result.landing.push_back({i, axes.col(axis), place,
+    for (const int axis : landing[i].foothold) {
+      if (axis != kNormal && !contact.foothold) continue;
+      const double position = axis == kNormal ? on_surface : axes.col(axis).dot(*contact.foothold);
+      result.landing.push_back({i, axes.col(axis), position,
                                 fmt::format("{}, landing along axis {} of {}", point.name, axis + 1, surface.name)});
     }
   }

@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-WorldInertia in_world(const Body& body, const Eigen::Isometry3d& placement) {
+WorldInertia in_world(const RigidBody& body, const Eigen::Isometry3d& placement) {
   const Vector3d center = placement * body.center, moment = body.mass * center;
   const Matrix3d of_mass = moment.dot(center) * Matrix3d::Identity() - moment * center.transpose();
   return {body.mass, moment, placement.linear() * body.inertia * placement.linear().transpose() + of_mass};
@@ -65,7 +65,7 @@ void CentroidalKinematics::set_motion(const Eigen::VectorXd& q, const Eigen::Vec
   for (std::size_t b = 0; b < links_.size(); ++b) {
     Eigen::Isometry3d placement = placements[b];
     placement.translation() -= q.head<3>();
-    const Body& body = tree_.bodies[b];
+    const RigidBody& body = tree_.bodies[b];
     Link& link = links_[b];
     link.inertia = in_world(body, placement);
     if (b == 0) {

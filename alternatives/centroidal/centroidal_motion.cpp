@@ -21,20 +21,20 @@ using Eigen::Index;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-bool binds_base_velocity(const BoundaryCondition& condition) {
-  return condition.velocity_lower.head<6>().array().isFinite().any() ||
-         condition.velocity_upper.head<6>().array().isFinite().any();
+bool binds_base_velocity(const BoundaryConstraint& constraint) {
+  return constraint.velocity_lower.head<6>().array().isFinite().any() ||
+         constraint.velocity_upper.head<6>().array().isFinite().any();
 }
 
 void refuse_torques(const MotionProblem& problem) {
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    const bool binds = (condition.torque_lower.array() > -problem.robot.torque_limit().array()).any() ||
-                       (condition.torque_upper.array() < problem.robot.torque_limit().array()).any();
+  for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
+    const bool binds = (constraint.torque_lower.array() > -problem.robot.torque_limit().array()).any() ||
+                       (constraint.torque_upper.array() < problem.robot.torque_limit().array()).any();
     if (!binds) continue;
     throw InputError(
         fmt::format("{}, torque: bounds are not allowed with dynamics \"centroidal\", which contain no "
                     "torques; need a goal without torques or other dynamics",
-                    condition.name));
+                    constraint.name));
   }
 }
 
@@ -44,9 +44,9 @@ std::deque<CentroidalNode> nodes_of_phases(const DiscreteProblem& discrete, cons
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const VectorXd& q = guess.nodes[discrete.mesh.first_node(p)].q;
     std::vector<bool> ties(discrete.mesh.phases[p].intervals() + 1, false);
-    for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-      const MeshNode& node = discrete.nodes[discrete.condition_nodes[c]];
-      if (node.phase == p && binds_base_velocity(problem.boundary_conditions[c])) ties[node.node] = true;
+    for (std::size_t c = 0; c < problem.boundary_constraints.size(); ++c) {
+      const MeshNode& node = discrete.nodes[discrete.boundary_nodes[c]];
+      if (node.phase == p && binds_base_velocity(problem.boundary_constraints[c])) ties[node.node] = true;
     }
     const std::vector<LandingAxes> landing = phase_contacts(discrete, p, q).landing;
     phases.emplace_back(discrete, p, landing, centroidal_contacts(discrete, p, q, landing), ties);

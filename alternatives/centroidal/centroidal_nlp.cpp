@@ -125,7 +125,7 @@ template <class Emit>
 void CentroidalNlp::visit_hessian(const HessianBlocks& blocks, Emit emit) const {
   for (int k = 0; k < layout_.num_nodes(); ++k) {
     const int first = layout_.node(k), size = layout_.columns(k).size, duration = layout_.duration(phase_of(k));
-    for (const auto& [i, j] : node_places_[k]) {
+    for (const auto& [i, j] : node_entries_[k]) {
       emit(i < size ? first + i : duration, first + j, blocks.nodes[k](i, j));
     }
   }
@@ -190,14 +190,15 @@ void CentroidalNlp::set_patterns(const Trajectory& guess) {
     const CentroidalColumns& at = layout_.columns(k);
     blocks.nodes.push_back(MatrixXd::Zero(at.size + 1, at.size + 1));
     node(k).mark_hessian(mesh_node(k).node, marks);
-    std::vector<std::pair<int, int>>& places = node_places_.emplace_back();
+    std::vector<std::pair<int, int>>& entries = node_entries_.emplace_back();
     for (int j = 0; j < at.size; ++j) {
       for (int i = j; i < at.size; ++i) {
-        if (marks(i, j)) places.emplace_back(i, j);
+        if (marks(i, j)) entries.emplace_back(i, j);
       }
       const bool is_com = j >= at.com && j < at.com_velocity;
-      const bool is_place = j >= at.momentum && j < (at.ends_interval() ? at.com_acceleration : at.size);  // h and c
-      if (layout_.duration(phase_of(k)) >= 0 && !is_com && !is_place) places.emplace_back(at.size, j);
+      const bool is_momentum_or_contact =
+          j >= at.momentum && j < (at.ends_interval() ? at.com_acceleration : at.size);  // h and c
+      if (layout_.duration(phase_of(k)) >= 0 && !is_com && !is_momentum_or_contact) entries.emplace_back(at.size, j);
     }
   }
   visit_hessian(blocks, [&](int row, int col, double) { add(hessian_pattern_, row, col); });

@@ -79,7 +79,7 @@ class CentroidalNlp : public MotionNlp {
   Eigen::VectorXd acceleration_weight_;  ///< all but the base's linear one
   HessianKind hessian_kind_ = HessianKind::exact;
   /// Lower-triangle entries of each node's Hessian, duration last.
-  std::vector<std::vector<std::pair<int, int>>> node_places_;
+  std::vector<std::vector<std::pair<int, int>>> node_entries_;
 
   std::vector<CentroidalValues> values_;  ///< per node, of the last evaluate()
   SparseEntries jacobian_;

@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 /// node earlier.
 constexpr int kIntervalsAtRest = 1;
 
-std::vector<LandingAxes> without_places(std::vector<LandingAxes> landing) {
-  for (LandingAxes& axes : landing) axes.place.clear();
+std::vector<LandingAxes> without_footholds(std::vector<LandingAxes> landing) {
+  for (LandingAxes& axes : landing) axes.foothold.clear();
   return landing;
 }
 
@@ -44,14 +44,14 @@ CentroidalNode::CentroidalNode(const DiscreteProblem& discrete, int phase, std::
       contact_indices_(contact_indices(discrete.problem.phases[phase].contacts)),
       ties_(std::move(ties)),
       held_(std::move(contacts)),
-      placement_(discrete, phase, without_places(std::move(landing)), kIntervalsAtRest),
+      placement_(discrete, phase, without_footholds(std::move(landing)), kIntervalsAtRest),
       cost_(discrete.problem),
       kinematics_(discrete.problem.robot),
       terms_(discrete.problem.robot),
       points_(contact_indices_),
       tau_ref_(discrete.problem.running_cost.tau_ref),
-      places_cost_(!discrete.problem.running_cost.contact_positions.empty() ||
-                   !discrete.problem.terminal_cost.contact_positions.empty()) {
+      positions_cost_(!discrete.problem.running_cost.contact_positions.empty() ||
+                      !discrete.problem.terminal_cost.contact_positions.empty()) {
   const MotionProblem& problem = discrete.problem;
   const auto& held = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {

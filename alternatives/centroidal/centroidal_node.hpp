@@ -116,7 +116,7 @@ class CentroidalNode {
   ContactKinematics points_;
   std::vector<std::array<int, kinds + 1>> first_rows_;
   Eigen::VectorXd tau_ref_;
-  bool places_cost_;  ///< positions of contacts have a cost
+  bool positions_cost_;  ///< positions of contacts have a cost
   // Of the last evaluate() and add_derivatives().
   NodePoint cost_point_;
   Eigen::VectorXd forces_;

@@ -182,7 +182,7 @@ void CentroidalNode::mark_hessian(int k, Eigen::Matrix<bool, Eigen::Dynamic, Eig
   const CentroidalColumns& at = columns(k);
   marks.setConstant(at.size, at.size, false);
   marks.block(3, 3, nv_ - 3, nv_ - 3).setConstant(true);
-  if (places_cost_) marks.topLeftCorner(nv_, nv_).setConstant(true);
+  if (positions_cost_) marks.topLeftCorner(nv_, nv_).setConstant(true);
   marks.diagonal().head(2 * nv_).setConstant(true);
   marks.block(3, at.v + 3, nv_ - 3, nv_ - 3).setConstant(true);
   marks.block<3, 3>(3, at.v).setConstant(true);

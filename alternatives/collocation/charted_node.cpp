@@ -67,10 +67,10 @@ NodePoint ChartedNode::point(const Instant& at, const VectorXd& columns) const {
   point.w = columns.segment(3 * nv + nu, static_cast<Index>(functions_.chosen_rows().size()));
   point.duration = duration(columns);
   point.anchors = anchor_origin_;
-  Index place = first_place();
+  Index column = first_foothold_variable();
   for (std::size_t l = 0; l < functions_.landed().size(); ++l) {
-    point.anchors.segment<3>(3 * functions_.landed()[l]) += functions_.landed_axes()[l] * columns.segment<2>(place);
-    place += 2;
+    point.anchors.segment<3>(3 * functions_.landed()[l]) += functions_.landed_axes()[l] * columns.segment<2>(column);
+    column += 2;
   }
   point.cost_weight = at.cost_share * point.duration / discrete_.mesh.phases[phase_].intervals();
   point.terminal_weight = at.terminal_weight;
@@ -98,7 +98,7 @@ void ChartedNode::gather(const ContactRows::Derivatives& derivatives, const Node
     rows.col(functions_.num_variables()) = derivatives.gains * functions_.gains(where, 1);
   }
   for (std::size_t l = 0; l < functions_.landed().size(); ++l) {
-    rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)) =
+    rows.middleCols<2>(first_foothold_variable() + static_cast<Index>(2 * l)) =
         derivatives.anchors.middleCols<3>(3 * functions_.landed()[l]) * functions_.landed_axes()[l];
   }
 }
@@ -140,9 +140,9 @@ void ChartedNode::add_contact_hessian(const NodePoint& where, const VectorXd& mu
   add_both(0, duration, h.qgains * slope);
   add_both(nv, duration, h.vgains * slope);
   for (std::size_t l = 0; l < functions_.landed().size(); ++l) {
-    const Eigen::Vector2d on_place =
+    const Eigen::Vector2d on_foothold =
         functions_.landed_axes()[l].transpose() * h.de.segment<3>(3 * functions_.landed()[l]);
-    add_both(first_place() + static_cast<Index>(2 * l), duration, -slope(1) * on_place);
+    add_both(first_foothold_variable() + static_cast<Index>(2 * l), duration, -slope(1) * on_foothold);
   }
   result(duration, duration) += contact_rows_.on_gains(functions_.at()).dot(functions_.gains(where, 2));
 }

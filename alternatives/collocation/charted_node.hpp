@@ -62,7 +62,7 @@ class ChartedNode {
 
   const Phase& phase() const { return discrete_.problem.phases[phase_]; }
   const RobotModel& robot() const { return discrete_.problem.robot; }
-  int first_place() const { return functions_.num_variables() + (functions_.has_free_duration() ? 1 : 0); }
+  int first_foothold_variable() const { return functions_.num_variables() + (functions_.has_free_duration() ? 1 : 0); }
 
   const DiscreteProblem& discrete_;
   int phase_;

@@ -90,8 +90,8 @@ void Collocation::make_layout() {
     if (has_middle) next += point_size(k, middle.state);
   }
   for (const Phase& phase : problem().phases) durations_.push_back(phase.duration.is_fixed() ? -1 : next++);
-  for (const Stance& stance : discrete_.schedule.stances()) {
-    places_.push_back(stance.lands() ? next : -1);
+  for (const ContactStance& stance : discrete_.schedule.stances()) {
+    footholds_.push_back(stance.lands() ? next : -1);
     if (stance.lands()) next += 2;
   }
   variable_lower_.setConstant(next, -std::numeric_limits<double>::infinity());
@@ -109,8 +109,8 @@ std::vector<int> Collocation::shared_columns(int k) const {
   std::vector<int> columns;
   if (durations_[phase] >= 0) columns.push_back(durations_[phase]);
   for (const int contact : charted(k).functions().landed()) {
-    const int place = places_[discrete_.schedule.stance(phase, contact)];
-    columns.insert(columns.end(), {place, place + 1});
+    const int foothold = footholds_[discrete_.schedule.stance(phase, contact)];
+    columns.insert(columns.end(), {foothold, foothold + 1});
   }
   return columns;
 }
@@ -295,7 +295,7 @@ void Collocation::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
       g.segment(rows.first, rows.lower.size()) = piece.graph.value(rows.vector);
   });
   const int state = 2 * problem().robot.nv();
-  int row = first_switch_row_;
+  int row = first_transition_row_;
   for (int k = 0; k + 1 < num_nodes(); ++k) {
     if (is_interval(k)) continue;
     g.segment(row, state) = z.segment(node_first_[k + 1], state) - z.segment(node_first_[k], state);
@@ -344,12 +344,12 @@ void Collocation::hessian(const VectorXd& z, double cost_factor, const VectorXd&
     graph.add_hessian(node->hessian);
   }
   values.setZero();
-  const auto add = [&values](const std::vector<HessianPlace>& places, const Eigen::MatrixXd& from) {
-    for (const auto& [row, col, place] : places) values(place) += from(row, col);
+  const auto add = [&values](const std::vector<HessianEntry>& entries, const Eigen::MatrixXd& from) {
+    for (const auto& [row, col, index] : entries) values(index) += from(row, col);
   };
-  for (const auto& node : nodes_) add(node->places, node->hessian);
+  for (const auto& node : nodes_) add(node->entries, node->hessian);
   for (const auto& interval : intervals_) {
-    if (interval) add(interval->places, interval->hessian);
+    if (interval) add(interval->entries, interval->hessian);
   }
 }
 

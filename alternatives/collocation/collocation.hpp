@@ -54,8 +54,8 @@ class Collocation : public MotionNlp {
   struct NodePiece;
   struct IntervalPiece;
   /// An entry of a piece's Hessian and its index among the values of the whole Hessian.
-  struct HessianPlace {
-    int row, col, place;
+  struct HessianEntry {
+    int row, col, index;
   };
 
   ChartedNode& charted(int k) const { return *charted_[phase_of(k)]; }
@@ -82,10 +82,10 @@ class Collocation : public MotionNlp {
   CollocationForm form_;
   std::vector<std::unique_ptr<ChartedNode>> charted_;  ///< per phase
   std::vector<int> node_first_, middle_first_;         ///< first variable of a node; of the middle after it, -1 without
-  std::vector<int> durations_, places_;                ///< per phase, per stance; -1 without
+  std::vector<int> durations_, footholds_;             ///< per phase, per stance; -1 without
   std::vector<std::unique_ptr<NodePiece>> nodes_;
   std::vector<std::unique_ptr<IntervalPiece>> intervals_;  ///< null at a phase transition
-  int first_switch_row_ = 0;
+  int first_transition_row_ = 0;
   HessianKind hessian_kind_ = HessianKind::exact;
 };
 

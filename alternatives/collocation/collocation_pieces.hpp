@@ -11,7 +11,7 @@ struct Collocation::NodePiece {
   PointFunction* dynamics = nullptr;
   ProgramGraph::Vector acceleration = {};
   Eigen::MatrixXd hessian = {};
-  std::vector<HessianPlace> places = {};
+  std::vector<HessianEntry> entries = {};
 };
 
 /// Functions of one interval. Accelerations at its ends, if functions, come from the node pieces.
@@ -24,7 +24,7 @@ struct Collocation::IntervalPiece {
   };
   std::vector<Link> links = {};
   Eigen::MatrixXd hessian = {};
-  std::vector<HessianPlace> places = {};
+  std::vector<HessianEntry> entries = {};
 };
 
 }  // namespace prowl

@@ -75,7 +75,7 @@ void Collocation::set_rows() {
   for (const auto& interval : intervals_) {
     if (interval) add(interval->piece);
   }
-  first_switch_row_ = static_cast<int>(lower.size());
+  first_transition_row_ = static_cast<int>(lower.size());
   const auto continuity = 2 * static_cast<std::size_t>(problem().robot.nv()) * (problem().phases.size() - 1);
   lower.insert(lower.end(), continuity, 0.0);
   upper.insert(upper.end(), continuity, 0.0);
@@ -84,8 +84,8 @@ void Collocation::set_rows() {
 }
 
 void Collocation::set_patterns() {
-  std::map<std::pair<int, int>, int> places;
-  const auto add = [&](ProgramPiece& piece, std::vector<HessianPlace>& own) {
+  std::map<std::pair<int, int>, int> indices;
+  const auto add = [&](ProgramPiece& piece, std::vector<HessianEntry>& own) {
     piece.visit_jacobian(true, [&](int row, int col, double) {
       jacobian_pattern_.rows.push_back(row);
       jacobian_pattern_.cols.push_back(col);
@@ -95,7 +95,7 @@ void Collocation::set_patterns() {
       for (int j = 0; j < pattern.cols(); ++j) {
         const int row = piece.columns()[i], col = piece.columns()[j];
         if (pattern(i, j) == 0.0F || row < col) continue;
-        const auto [found, is_new] = places.insert({{row, col}, hessian_pattern_.size()});
+        const auto [found, is_new] = indices.insert({{row, col}, hessian_pattern_.size()});
         if (is_new) {
           hessian_pattern_.rows.push_back(row);
           hessian_pattern_.cols.push_back(col);
@@ -104,13 +104,13 @@ void Collocation::set_patterns() {
       }
     }
   };
-  for (const auto& node : nodes_) add(node->piece, node->places);
+  for (const auto& node : nodes_) add(node->piece, node->entries);
   for (const auto& interval : intervals_) {
     if (!interval) continue;
     // Second derivatives of accelerations at the ends are in the node's pieces.
-    add(interval->piece, interval->places);
+    add(interval->piece, interval->entries);
   }
-  int row = first_switch_row_;
+  int row = first_transition_row_;
   for (int k = 0; k + 1 < num_nodes(); ++k) {
     if (is_interval(k)) continue;
     for (int i = 0; i < 2 * problem().robot.nv(); ++i, ++row) {
@@ -158,9 +158,9 @@ VectorXd Collocation::pack(const Trajectory& trajectory) const {
   for (std::size_t p = 0; p < durations_.size(); ++p) {
     if (durations_[p] >= 0) z(durations_[p]) = planned_duration(trajectory, static_cast<int>(p));
   }
-  const std::vector<Eigen::Vector2d> places = landing_places(trajectory);
-  for (std::size_t s = 0; s < places.size(); ++s) {
-    if (places_[s] >= 0) z.segment<2>(places_[s]) = places[s];
+  const std::vector<Eigen::Vector2d> footholds = landing_footholds(trajectory);
+  for (std::size_t s = 0; s < footholds.size(); ++s) {
+    if (footholds_[s] >= 0) z.segment<2>(footholds_[s]) = footholds[s];
   }
   return z;
 }
@@ -206,8 +206,8 @@ std::string Collocation::describe_constraint(int row) const {
     if (!name && k < intervals_.size() && intervals_[k]) name = name_in(intervals_[k]->piece);
     if (name) return discrete_.describe_moment(static_cast<int>(k)) + ", " + *name;
   }
-  const int nv = problem().robot.nv(), i = (row - first_switch_row_) % (2 * nv);
-  int to_go = (row - first_switch_row_) / (2 * nv), k = 0;
+  const int nv = problem().robot.nv(), i = (row - first_transition_row_) % (2 * nv);
+  int to_go = (row - first_transition_row_) / (2 * nv), k = 0;
   while (is_interval(k) || to_go-- > 0) ++k;
   return fmt::format("{}, {}, {} across the phase transition", discrete_.describe_moment(k),
                      charted(k).describe_coordinate(i % nv), i < nv ? "position" : "velocity");
@@ -218,10 +218,10 @@ std::string Collocation::describe_variable(int index) const {
   for (std::size_t p = 0; p < durations_.size(); ++p) {
     if (durations_[p] == index) return fmt::format("phase {} '{}', duration", p + 1, problem().phases[p].name);
   }
-  for (std::size_t s = 0; s < places_.size(); ++s) {
-    if (places_[s] < 0 || (index != places_[s] && index != places_[s] + 1)) continue;
+  for (std::size_t s = 0; s < footholds_.size(); ++s) {
+    if (footholds_[s] < 0 || (index != footholds_[s] && index != footholds_[s] + 1)) continue;
     const int contact = discrete_.schedule.stances()[s].contact;
-    return fmt::format("foothold coordinate {} of {}", index - places_[s] + 1,
+    return fmt::format("foothold coordinate {} of {}", index - footholds_[s] + 1,
                        problem().robot.contacts()[contact].name);
   }
   int k = num_nodes() - 1;

@@ -72,8 +72,11 @@ std::unique_ptr<Checkpoint> write_checkpoints(const CheckpointArguments& argumen
     throw InputError(fmt::format("--checkpoint {}: holds a plan that passed; need another folder", arguments.folder));
   }
   const bool is_resumed = !arguments.resume.empty() && real_path(arguments.resume) == folder;
-  PlanRecord so_far{.task = task, .plan = {}, .versions = versions_with(solver_name(request)), .warm_start = request.start.folder};
-  if (is_resumed) so_far.plan = request.start.record->plan;
+  PlanRecord so_far{.task = task,
+                    .plan = {},
+                    .versions = versions_with(solver_name(request)),
+                    .warm_start = request.warm_start.folder};
+  if (is_resumed) so_far.plan = request.warm_start.record->plan;
   if (!is_resumed && fs::exists(folder / "plan.json")) {
     print_note(fmt::format("this replaces the checkpoint in {}; --resume would continue from it", arguments.folder));
   }

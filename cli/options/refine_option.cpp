@@ -11,7 +11,7 @@ namespace {
 
 /// Nullopt for invalid text.
 std::optional<MeshTolerance> tolerance_of(const std::string& text) {
-  for (const Grade grade : {Grade::draft, Grade::certified}) {
+  for (const CertificateGrade grade : {CertificateGrade::draft, CertificateGrade::certified}) {
     if (text == to_string(grade)) return mesh_tolerance(grade);
   }
   double reintegration = 0.0;
@@ -33,7 +33,7 @@ void add_refine(CLI::App& verb, std::optional<MeshTolerance>& tolerance) {
           "--refine", [&tolerance](const std::string& text) { tolerance = tolerance_of(text); },
           "Refine the mesh until its measured errors meet draft (default), certified, or this re-integration error")
       ->expected(0, 1)
-      ->default_str(to_string(Grade::draft))
+      ->default_str(to_string(CertificateGrade::draft))
       ->check(is_tolerance)
       ->type_name("TOL")
       ->group(kMeshOptions);

@@ -8,10 +8,18 @@
 #include <cstdint>
 #include <limits>
 
+#include "cli/process/program_files.hpp"
 #include "cli/screen/output.hpp"
 #include "prowl/task_file/toml/file_keys.hpp"
 
 namespace prowl::cli {
+CLI::Option* add_task(CLI::App& verb, std::string& task) {
+  return verb.add_option("task", task, "Task file (docs/task-file.md), or a shipped task such as hyq/crouch")
+      ->required()
+      ->type_name("TASK.toml")
+      ->transform(CLI::Validator([](std::string& name) { return name = find_task(name), std::string(); }, ""));
+}
+
 void add_plan_directory(CLI::App& verb, std::string& directory) {
   verb.add_option("directory", directory, "Plan folder, written by prowl plan")->required()->type_name("DIR");
 }

@@ -27,19 +27,19 @@ const char* kind_of(int exit_status) {
 Json error_to_json(int exit_status, const std::string& message) {
   Json error = {{"kind", kind_of(exit_status)}, {"message", message}};
   // "robots/hyq.toml:12:3: ...", as in InputError.
-  const std::string place = message.substr(0, std::min(message.find(": "), message.find('\n')));
-  const std::size_t before_column = place.rfind(':'),
-                    before_line = place.rfind(':', before_column == 0 ? 0 : before_column - 1);
+  const std::string location = message.substr(0, std::min(message.find(": "), message.find('\n')));
+  const std::size_t before_column = location.rfind(':'),
+                    before_line = location.rfind(':', before_column == 0 ? 0 : before_column - 1);
   if (before_column == std::string::npos || before_line == std::string::npos || before_line == before_column)
     return error;
-  const auto number = [&place](std::size_t begin, std::size_t end) {
+  const auto number = [&location](std::size_t begin, std::size_t end) {
     int value = -1;
-    const auto [last, problem] = std::from_chars(place.data() + begin, place.data() + end, value);
-    return problem == std::errc() && last == place.data() + end ? value : -1;
+    const auto [last, problem] = std::from_chars(location.data() + begin, location.data() + end, value);
+    return problem == std::errc() && last == location.data() + end ? value : -1;
   };
-  const int line = number(before_line + 1, before_column), column = number(before_column + 1, place.size());
+  const int line = number(before_line + 1, before_column), column = number(before_column + 1, location.size());
   if (line < 1 || column < 1) return error;
-  error["file"] = place.substr(0, before_line);
+  error["file"] = location.substr(0, before_line);
   error["line"] = line;
   error["column"] = column;
   return error;

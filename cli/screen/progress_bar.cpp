@@ -36,9 +36,9 @@ std::string clock(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string what, int total, Start start)
-    : what_(std::move(what)), total_(total), start_(wall_seconds()) {
-  if (start == Start::at_once) open();
+ProgressBar::ProgressBar(std::string what, int total, Opening opening)
+    : what_(std::move(what)), total_(total), began_(wall_seconds()) {
+  if (opening == Opening::at_once) open();
 }
 
 void ProgressBar::open() {
@@ -88,7 +88,7 @@ void ProgressBar::show_line(int done) {
   print_message(fmt::format("{} of {} {}: {}\n", done, total_, what_, times(done)));
 }
 
-double ProgressBar::seconds() const { return wall_seconds() - start_; }
+double ProgressBar::seconds() const { return wall_seconds() - began_; }
 
 std::string ProgressBar::times(int done) const {
   const double passed = seconds();
@@ -106,7 +106,7 @@ void ProgressBar::write_behind(const std::string& text) {
 void MotionProgress::operator()(double t, double end) {
   const auto milliseconds = [](double seconds) { return static_cast<int>(std::lround(1e3 * seconds)); };
   const int total = std::max(1, milliseconds(end));
-  if (!bar_) bar_.emplace("ms of motion", total, ProgressBar::Start::if_long);
+  if (!bar_) bar_.emplace("ms of motion", total, ProgressBar::Opening::if_long);
   bar_->show(std::clamp(milliseconds(t), 0, total));
 }
 

@@ -11,10 +11,10 @@ namespace prowl::cli {
 /// tenth. Silent with --quiet.
 class ProgressBar {
  public:
-  enum class Start { at_once, if_long };  ///< if_long: when the estimated total is two seconds or more
+  enum class Opening { at_once, if_long };  ///< if_long: when the estimated total is two seconds or more
 
   /// `what`: plural name of the pieces, "simulations"; `total` > 0.
-  ProgressBar(std::string what, int total, Start start = Start::at_once);
+  ProgressBar(std::string what, int total, Opening opening = Opening::at_once);
   ~ProgressBar();  ///< closes an unfinished bar
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -33,7 +33,7 @@ class ProgressBar {
 
   std::string what_;
   int total_;
-  double start_;  ///< in wall_seconds()
+  double began_;  ///< in wall_seconds()
   std::optional<boost::timer::progress_display> bar_;
   std::size_t behind_ = 0;  ///< characters behind the bar
   int tenths_ = 0;          ///< number of tenths printed

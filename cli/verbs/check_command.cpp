@@ -22,7 +22,7 @@ struct CheckArguments {
 
 int run_check(const CheckArguments& arguments) {
   PlanRecord record = read_plan(arguments.directory, package_search(arguments.package_dirs));
-  const Grade recorded = record.plan.certificate.grade;
+  const CertificateGrade recorded = record.plan.certificate.grade;
   record.plan.certificate = certify({record.task.problem, record.plan.mesh}, record.plan.trajectory);
   const Certificate& certificate = record.plan.certificate;
   if (certificate.grade != recorded) {

@@ -97,7 +97,7 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
 
 /// A combination that cannot run becomes a table row with the reason.
 void run_comparison(const CompareArguments& arguments, const DiscreteProblem& discrete, const SolverOptions& options,
-         ComparedRun& line) {
+                    ComparedRun& line) {
   try {
     line.run = run_formulation(discrete, line.formulation, *solver_of(arguments, line.solver), options,
                                arguments.hessian, arguments.guess);
@@ -197,7 +197,7 @@ void add_names(CLI::App& verb, const char* option, Names& asked, const Names& th
 void add_compare_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App* const verb = app.add_subcommand("compare", "Solve a task in several ways and tabulate the results");
-  verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
+  add_task(*verb, arguments->task);
   add_names(*verb, "--formulation", arguments->dynamics, dynamics_names(),
             "Forms of the dynamics (docs/formulations.md)");
   add_names(*verb, "--transcription", arguments->transcriptions, transcription_names(), "Integration rules");

@@ -54,7 +54,7 @@ int run_diagnose(const DiagnoseArguments& arguments) {
 void add_diagnose_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<DiagnoseArguments>();
   CLI::App* const verb = app.add_subcommand("diagnose", "Find out why a task has no plan, and what would help");
-  verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
+  add_task(*verb, arguments->task);
   verb->add_option("--max-time", arguments->max_seconds,
                    fmt::format("Time limit in seconds; default {:g}", arguments->max_seconds))
       ->check(number_in(NumberRange::positive()))

@@ -134,6 +134,13 @@ std::vector<Finding> check_build() {
       findings.back().remedy = "prowl simulate --engine rollout does not need it";
     }
   }
+  for (const std::filesystem::path& file : foreign_libraries()) {
+    findings.push_back({.area = "build",
+                        .name = "libraries",
+                        .state = State::foreign,
+                        .text = fmt::format("{} may be loaded instead of Prowl's own", file.string()),
+                        .remedy = "take its folder out of LD_LIBRARY_PATH"});
+  }
   return findings;
 }
 

@@ -9,7 +9,7 @@ namespace prowl::cli {
 
 /// State of one requirement of Prowl on this machine.
 struct Finding {
-  enum class State { ok, slow, missing };
+  enum class State { ok, slow, missing, foreign };
   std::string area;  ///< "build", "machine", "solvers", "files"
   std::string name;  ///< "Riccati"
   State state = State::ok;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -19,6 +20,7 @@ const char* word(Finding::State state) {
     case Finding::State::ok: return "ok";
     case Finding::State::slow: return "slow";
     case Finding::State::missing: return "missing";
+    case Finding::State::foreign: return "foreign";
   }
   return "";
 }
@@ -37,13 +39,19 @@ std::string table(const std::vector<Finding>& findings) {
 }
 
 std::string verdict(const std::vector<Finding>& findings) {
-  std::string missing, slow;
-  for (const Finding& finding : findings) {
-    std::string& list = finding.state == Finding::State::missing ? missing : slow;
-    if (finding.state != Finding::State::ok) list += (list.empty() ? "" : ", ") + finding.name;
+  const auto names = [&](Finding::State state) {
+    std::vector<std::string> list;
+    for (const Finding& finding : findings) {
+      if (finding.state == state) list.push_back(finding.name);
+    }
+    return fmt::format("{}", fmt::join(list, ", "));
+  };
+  const std::string missing = names(Finding::State::missing);
+  std::string text = missing.empty() ? "nothing is missing" : "missing: " + missing;
+  for (const Finding::State state : {Finding::State::slow, Finding::State::foreign}) {
+    if (const std::string list = names(state); !list.empty()) text += fmt::format("; {}: {}", word(state), list);
   }
-  return fmt::format("{}{}\n", missing.empty() ? "nothing is missing" : "missing: " + missing,
-                     slow.empty() ? "" : "; slow: " + slow);
+  return text + "\n";
 }
 
 std::string json(const std::vector<Finding>& findings, ExitStatus status) {

@@ -84,15 +84,19 @@ Finding check_solver(const std::string& name, const Task& task) {
   try {
     solver = make_solver(name);
   } catch (const InputError& error) {
-    return {.area = "solvers", .name = name, .state = Finding::State::missing, .text = error.what(), .remedy = ""};
+    return {.area = "solvers",
+            .name = name,
+            .state = Finding::State::missing,
+            .text = error.what(),
+            .remedy = "pip install \"prowl[solvers]\"; in a clone: scripts/setup"};
   }
   Finding finding{.area = "solvers", .name = solver->name(), .text = {}, .remedy = ""};
-  const auto start = std::chrono::steady_clock::now();
+  const auto began = std::chrono::steady_clock::now();
   std::string outcome;
   try {
     const Plan plan = plan_task(task, {.solver = name, .coarse_first = false, .gains = false}).record.plan;
     if (is_good(plan)) {
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
       finding.text = fmt::format("{}: solves and passes a small task in {:.0f} ms", solver->version(), 1e3 * seconds);
       if (seconds > kLongest) {
         finding.state = Finding::State::slow;

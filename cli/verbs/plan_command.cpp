@@ -89,17 +89,17 @@ void check_options(const PlanRequest& request) {
 }
 
 /// Reads the plan of --warm-start or --resume, if any, and makes it the start of the request.
-std::optional<PlanRecord> read_start(const PlanArguments& arguments, const PackageSearch& search, Task& task,
-                                     PlanRequest& request) {
-  std::optional<PlanRecord> start;
+std::optional<PlanRecord> read_earlier_plan(const PlanArguments& arguments, const PackageSearch& search, Task& task,
+                                            PlanRequest& request) {
+  std::optional<PlanRecord> earlier_plan;
   if (!arguments.warm_start.empty()) {
-    start = read_plan(arguments.warm_start, search);
-    request.start = {.folder = arguments.warm_start, .option = "--warm-start " + arguments.warm_start};
+    earlier_plan = read_plan(arguments.warm_start, search);
+    request.warm_start = {.folder = arguments.warm_start, .option = "--warm-start " + arguments.warm_start};
   } else if (!arguments.checkpoint.resume.empty()) {
-    start = read_resumable(arguments.checkpoint.resume, search, request, task);
-    request.start = {.resume = true, .folder = arguments.checkpoint.resume};
+    earlier_plan = read_resumable(arguments.checkpoint.resume, search, request, task);
+    request.warm_start = {.resume = true, .folder = arguments.checkpoint.resume};
   }
-  return start;
+  return earlier_plan;
 }
 
 /// Hints after a plan is written.
@@ -139,12 +139,12 @@ int run_plan(const PlanArguments& arguments) {
   request.on_round = [&](const RefineRound& round) { print_progress(in_words(round, *request.refine)); };
   std::optional<ProgressBar> gains;
   request.on_gain = [&](int done, int samples) {
-    if (!gains) gains.emplace("gains", samples, ProgressBar::Start::if_long);
+    if (!gains) gains.emplace("gains", samples, ProgressBar::Opening::if_long);
     gains->show(done);
     return true;
   };
-  const std::optional<PlanRecord> start = read_start(arguments, search, task, request);
-  if (start) request.start.record = &*start;
+  const std::optional<PlanRecord> earlier_plan = read_earlier_plan(arguments, search, task, request);
+  if (earlier_plan) request.warm_start.record = &*earlier_plan;
   const auto checkpoints = write_checkpoints(arguments.checkpoint, out, task, request);
   const PlannedTask planned = plan_task(std::move(task), request);
   gains.reset();
@@ -175,7 +175,7 @@ int run_plan(const PlanArguments& arguments) {
 void add_plan_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<PlanArguments>();
   CLI::App* const verb = app.add_subcommand("plan", "Plan the motion of a task file and check it");
-  verb->add_option("task", arguments->task, "Task file (docs/task-file.md)")->required()->type_name("TASK.toml");
+  add_task(*verb, arguments->task);
   add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays the plan in a browser");
   add_package_dirs(*verb, arguments->package_dirs);

@@ -83,8 +83,9 @@ PlanRecord solve(const ViewArguments& arguments, const std::atomic<bool>& interr
 
 int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
   const PackageSearch search = package_search(arguments.package_dirs);
-  PlanRecord record{
-      .task = read_task_file(arguments.target, search, arguments.overrides), .plan = {}, .versions = versions_with(arguments.solver)};
+  PlanRecord record{.task = read_task_file(arguments.target, search, arguments.overrides),
+                    .plan = {},
+                    .versions = versions_with(arguments.solver)};
   const DiscreteProblem asked(record.task.problem, record.task.mesh);
   if (!arguments.out.empty()) check_plan_directory(arguments.out);
   record.plan.trajectory = initial_guess(asked);
@@ -115,7 +116,10 @@ int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupt
 void add_view_command(CLI::App& app, int& status) {
   const auto arguments = std::make_shared<ViewArguments>();
   CLI::App* const verb = app.add_subcommand("view", "Show a plan in a browser, or a task while it is planned");
-  verb->add_option("target", arguments->target, "Task file, or plan folder")->required()->type_name("TASK.toml|DIR");
+  verb->add_option("target", arguments->target, "Task file, shipped task or plan folder")
+      ->required()
+      ->type_name("TASK.toml|DIR")
+      ->transform(CLI::Validator([](std::string& name) { return name = find_task(name), std::string(); }, ""));
   verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any free one")->type_name("N");
   add_folder(*verb, "--out", arguments->out, "Folder for the plan of a task; default: none");
   verb->add_option("--solver", arguments->solver, "Solver to use; default " + arguments->solver)

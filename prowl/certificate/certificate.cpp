@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "prowl/certificate/contact_events.hpp"
-#include "prowl/certificate/contact_places.hpp"
+#include "prowl/certificate/contact_states.hpp"
 #include "prowl/certificate/integration_error.hpp"
 #include "prowl/certificate/mesh_interval.hpp"
 #include "prowl/certificate/node_checks.hpp"
@@ -43,10 +43,10 @@ void find_redundant_contacts(const DiscreteProblem& discrete, const Trajectory& 
   }
 }
 
-Grade grade_of(const std::vector<CertificateCheck>& checks) {
-  if (!std::ranges::all_of(checks, &CertificateCheck::passed)) return Grade::failed;
+CertificateGrade grade_of(const std::vector<CertificateCheck>& checks) {
+  if (!std::ranges::all_of(checks, &CertificateCheck::passed)) return CertificateGrade::failed;
   const auto is_certified = [](const CertificateCheck& check) { return check.worst <= check.certified_limit; };
-  return std::ranges::all_of(checks, is_certified) ? Grade::certified : Grade::draft;
+  return std::ranges::all_of(checks, is_certified) ? CertificateGrade::certified : CertificateGrade::draft;
 }
 
 }  // namespace
@@ -73,16 +73,16 @@ Certificate certify(const DiscreteProblem& discrete, const Trajectory& trajector
     certificate.interval_errors[i].reintegration = reintegrated.intervals[i];
   }
   find_redundant_contacts(discrete, trajectory, dynamics, certificate);
-  const ContactPlaces places = contact_places(discrete, trajectory, dynamics);
+  const ContactStates states = contact_states(discrete, trajectory, dynamics);
   for (const auto& group : {errors.checks,
                             {reintegrated.check},
                             node_checks(discrete, trajectory),
-                            contact_event_checks(discrete, trajectory, places, dynamics),
-                            sampled_limits(problem, trajectory, places, dynamics)}) {
+                            contact_event_checks(discrete, trajectory, states, dynamics),
+                            sampled_limits(problem, trajectory, states, dynamics)}) {
     checks.insert(checks.end(), group.begin(), group.end());
   }
   certificate.grade = grade_of(checks);
-  certificate.passed = certificate.grade != Grade::failed;
+  certificate.passed = certificate.grade != CertificateGrade::failed;
   return certificate;
 }
 

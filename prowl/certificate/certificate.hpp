@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "prowl/certificate/grade.hpp"
+#include "prowl/certificate/certificate_grade.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 
@@ -71,7 +71,8 @@ struct ContactRank {
 /// flight) are not in the list.
 struct Certificate {
   bool passed = false;
-  Grade grade = Grade::failed;  ///< failed if any check fails; certified if all are within their certified_limit
+  CertificateGrade grade =
+      CertificateGrade::failed;  ///< failed if any check fails; certified if all are within their certified_limit
   std::vector<CertificateCheck> checks;
   std::vector<IntervalError> interval_errors;  ///< one per mesh interval, in order
   /// Contacts whose forces the motion does not determine (points of a flat foot), in the robot's order. Friction and

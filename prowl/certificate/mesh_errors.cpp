@@ -22,16 +22,16 @@ double worst(const Certificate& certificate, const char* name) {
 
 }  // namespace
 
-MeshTolerance mesh_tolerance(Grade grade) {
-  if (grade == Grade::certified) {
+MeshTolerance mesh_tolerance(CertificateGrade grade) {
+  if (grade == CertificateGrade::certified) {
     return {Limits::integration_error_certified, Limits::second_error_certified, Limits::reintegration_certified};
   }
   return {Limits::integration_error_draft, Limits::second_error_draft, Limits::reintegration_draft};
 }
 
 MeshTolerance mesh_tolerance(double reintegration) {
-  const MeshTolerance of_grade =
-      mesh_tolerance(reintegration <= Limits::reintegration_certified ? Grade::certified : Grade::draft);
+  const MeshTolerance of_grade = mesh_tolerance(
+      reintegration <= Limits::reintegration_certified ? CertificateGrade::certified : CertificateGrade::draft);
   return {reintegration * of_grade.local / of_grade.reintegration, of_grade.second, reintegration};
 }
 

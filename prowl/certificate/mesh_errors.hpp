@@ -14,7 +14,7 @@ struct MeshTolerance {
 };
 
 /// Tolerance of grade draft or certified.
-MeshTolerance mesh_tolerance(Grade grade);
+MeshTolerance mesh_tolerance(CertificateGrade grade);
 /// For a given re-integration error: the local error scales with it; the error in a second is that of grade certified
 /// if the given error meets that grade, else of draft.
 MeshTolerance mesh_tolerance(double reintegration);

@@ -52,26 +52,27 @@ struct BoundaryChecks {
     if (violation > -kInfinity) worst.record(violation, time, where);
   }
 
-  void state(const RobotModel& robot, const BoundaryCondition& condition, const TrajectoryPoint& node, bool is_start) {
-    const Eigen::VectorXd offset = difference(condition.q_ref, node.q);
+  void state(const RobotModel& robot, const BoundaryConstraint& constraint, const TrajectoryPoint& node,
+             bool is_start) {
+    const Eigen::VectorXd offset = difference(constraint.q_ref, node.q);
     for (Eigen::Index i = 0; i < robot.nv(); ++i) {
       const bool is_length = i < 3 || (i >= 6 && robot.joint_is_prismatic()[i - 6]);
-      const std::string where = condition.name + ", " + coordinate_name(robot, i);
+      const std::string where = constraint.name + ", " + coordinate_name(robot, i);
       record(is_start    ? start
              : is_length ? position
                          : angle,
-             violation(offset(i), condition.configuration_lower(i), condition.configuration_upper(i)), node.time,
+             violation(offset(i), constraint.configuration_lower(i), constraint.configuration_upper(i)), node.time,
              where);
       record(is_start ? start : velocity,
-             violation(node.v(i), condition.velocity_lower(i), condition.velocity_upper(i)), node.time, where);
+             violation(node.v(i), constraint.velocity_lower(i), constraint.velocity_upper(i)), node.time, where);
     }
   }
 
-  void torques(const RobotModel& robot, const BoundaryCondition& condition, const TrajectoryPoint& node) {
+  void torques(const RobotModel& robot, const BoundaryConstraint& constraint, const TrajectoryPoint& node) {
     for (Eigen::Index i = 0; i < robot.nu(); ++i) {
       const double scale = std::isfinite(robot.torque_limit()(i)) ? robot.torque_limit()(i) : robot.weight() * 1.0;
-      record(torque, violation(node.tau(i), condition.torque_lower(i), condition.torque_upper(i)) / scale, node.time,
-             condition.name + ", " + robot.joint_names()[i]);
+      record(torque, violation(node.tau(i), constraint.torque_lower(i), constraint.torque_upper(i)) / scale, node.time,
+             constraint.name + ", " + robot.joint_names()[i]);
     }
   }
 };
@@ -80,11 +81,11 @@ void check_boundaries(const DiscreteProblem& discrete, const Trajectory& traject
                       std::vector<CertificateCheck>& checks) {
   const MotionProblem& problem = discrete.problem;
   BoundaryChecks boundary(problem.goal_tolerance);
-  for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-    const BoundaryCondition& condition = problem.boundary_conditions[c];
-    const TrajectoryPoint& node = trajectory.nodes[discrete.condition_nodes[c]];
-    boundary.state(problem.robot, condition, node, &condition == &problem.start());
-    boundary.torques(problem.robot, condition, node);
+  for (std::size_t c = 0; c < problem.boundary_constraints.size(); ++c) {
+    const BoundaryConstraint& constraint = problem.boundary_constraints[c];
+    const TrajectoryPoint& node = trajectory.nodes[discrete.boundary_nodes[c]];
+    boundary.state(problem.robot, constraint, node, &constraint == &problem.start());
+    boundary.torques(problem.robot, constraint, node);
   }
   boundary.start.append_to(checks);
   boundary.position.append_to(checks);

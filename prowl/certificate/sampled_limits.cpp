@@ -17,16 +17,16 @@ using Limits = CertificateLimits;
 /// Checks position and velocity of each contact.
 class ContactChecks {
  public:
-  ContactChecks(const MotionProblem& problem, const ContactPlaces& places) : problem_(problem), places_(places) {}
+  ContactChecks(const MotionProblem& problem, const ContactStates& states) : problem_(problem), states_(states) {}
 
   void record(const TrajectoryPoint& point, const ConstrainedDynamicsOracle::ContactPoints& points) {
     for (std::size_t c = 0; c < problem_.robot.contacts().size(); ++c) {
       const auto& [name, frame, radius, offset] = problem_.robot.contacts()[c];
-      const ContactPlace& place = places_[point.phase][c];
+      const ContactState& state = states_[point.phase][c];
       const Eigen::Vector3d position = points.position.col(c);
-      if (place.surface) {
-        penetration_.record(radius - problem_.surfaces[*place.surface].distance(position), point.time, name);
-        drift_.record((position - place.anchor).norm(), point.time, name);
+      if (state.surface) {
+        penetration_.record(radius - problem_.surfaces[*state.surface].distance(position), point.time, name);
+        drift_.record((position - state.anchor).norm(), point.time, name);
         velocity_.record(points.velocity.col(c).norm(), point.time, name);
         continue;
       }
@@ -42,7 +42,7 @@ class ContactChecks {
 
  private:
   const MotionProblem& problem_;
-  const ContactPlaces& places_;
+  const ContactStates& states_;
   WorstCase drift_{"contact drift", "m", Limits::contact_drift};
   WorstCase velocity_{"contact velocity", "m/s", Limits::contact_velocity};
   WorstCase penetration_{"penetration", "m", Limits::penetration};
@@ -51,9 +51,9 @@ class ContactChecks {
 /// Checks the clearance at the highest point of every swing, above the planes without an edge.
 class SwingChecks {
  public:
-  SwingChecks(const MotionProblem& problem, const ContactPlaces& places)
+  SwingChecks(const MotionProblem& problem, const ContactStates& states)
       : problem_(problem),
-        places_(places),
+        states_(states),
         missing_("swing clearance missing", "m", Limits::missing_clearance * problem.swing_clearance),
         highest_(problem.robot.contacts().size(), kLow) {}
 
@@ -61,7 +61,7 @@ class SwingChecks {
   void record(const TrajectoryPoint& point, const ConstrainedDynamicsOracle::ContactPoints& points) {
     for (std::size_t c = 0; c < highest_.size(); ++c) {
       const ContactPoint& contact = problem_.robot.contacts()[c];
-      if (places_[point.phase][c].swings) {
+      if (states_[point.phase][c].swings) {
         highest_[c] = std::max(highest_[c], height(points.position.col(c)) - contact.radius);
       } else if (std::isfinite(highest_[c])) {
         if (problem_.swing_clearance > 0.0) {
@@ -86,7 +86,7 @@ class SwingChecks {
   }
 
   const MotionProblem& problem_;
-  const ContactPlaces& places_;
+  const ContactStates& states_;
   WorstCase missing_;
   std::vector<double> highest_;  // height of each contact in its swing so far [m]
 };
@@ -159,9 +159,9 @@ class JointChecks {
 }  // namespace
 
 std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const Trajectory& trajectory,
-                                             const ContactPlaces& places, PhaseDynamics& dynamics) {
-  ContactChecks contacts(problem, places);
-  SwingChecks swings(problem, places);
+                                             const ContactStates& states, PhaseDynamics& dynamics) {
+  ContactChecks contacts(problem, states);
+  SwingChecks swings(problem, states);
   ForceChecks forces(problem);
   JointChecks joints(problem.robot);
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {

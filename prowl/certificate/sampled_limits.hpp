@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "prowl/certificate/certificate.hpp"
-#include "prowl/certificate/contact_places.hpp"
+#include "prowl/certificate/contact_states.hpp"
 #include "prowl/motion/motion_problem.hpp"
 
 namespace prowl {
@@ -11,6 +11,6 @@ namespace prowl {
 /// Checks contacts, forces and joint limits on a grid of at least ten pieces per mesh interval, of at most 1 ms each,
 /// with both ends of every phase. Forces come from true_motion.hpp, not from the planner.
 std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const Trajectory& trajectory,
-                                             const ContactPlaces& places, PhaseDynamics& dynamics);
+                                             const ContactStates& states, PhaseDynamics& dynamics);
 
 }  // namespace prowl

@@ -94,48 +94,50 @@ bool ChangeSearch::solves(const DiscreteProblem& discrete) const {
   return !drift || drift->worst <= kMostDrift;
 }
 
-bool ChangeSearch::solves(const Knob& knob, double amount, const Mesh& mesh) const {
+bool ChangeSearch::solves(const AdjustableParameter& parameter, double amount, const Mesh& mesh) const {
   try {
-    return solves(DiscreteProblem(knob.problem(amount), mesh));
+    return solves(DiscreteProblem(parameter.problem(amount), mesh));
   } catch (const Error&) {
     return false;
   }
 }
 
-double ChangeSearch::bisected(const Knob& knob, double too_little, double enough, const Mesh& mesh) const {
+double ChangeSearch::bisected(const AdjustableParameter& parameter, double too_little, double enough,
+                              const Mesh& mesh) const {
   while (enough - too_little > std::max(kPrecision, 0.1 * enough) && may_go_on()) {
-    const double middle = printable_amount(knob, 0.5 * (too_little + enough));
+    const double middle = printable_amount(parameter, 0.5 * (too_little + enough));
     if (middle >= enough) break;  // no printable number in between
-    (solves(knob, middle, mesh) ? enough : too_little) = middle;
+    (solves(parameter, middle, mesh) ? enough : too_little) = middle;
   }
   return enough;
 }
 
-ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const Mesh& mesh,
+ChangesFound ChangeSearch::smallest(const std::vector<AdjustableParameter>& parameters, const Mesh& mesh,
                                     const std::function<void(const std::string&)>& on_step) const {
   ChangesFound result;
   std::vector<FoundChange>& found = result.found;
-  std::vector<bool> done(knobs.size(), false);
+  std::vector<bool> done(parameters.size(), false);
   double enough = std::numeric_limits<double>::infinity();  // weighted amount of the smallest change
   double before = 0.0;
   int tries = 0;
   for (double turned = kFirst; before < kNoMatch * enough; turned *= kFurther) {
     bool any_left = false;
     int about = tries;  // up to the end of this round; another may follow
-    for (std::size_t i = 0; i < knobs.size(); ++i) about += !done[i] && before / knobs[i].weight < knobs[i].most;
-    for (std::size_t i = 0; i < knobs.size(); ++i) {
-      const Knob& knob = knobs[i];
-      const double too_little = before / knob.weight,
-                   amount = printable_amount(knob, std::min(turned / knob.weight, knob.most));
-      if (done[i] || too_little >= knob.most) continue;
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      about += !done[i] && before / parameters[i].weight < parameters[i].most;
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      const AdjustableParameter& parameter = parameters[i];
+      const double too_little = before / parameter.weight,
+                   amount = printable_amount(parameter, std::min(turned / parameter.weight, parameter.most));
+      if (done[i] || too_little >= parameter.most) continue;
       if (!may_go_on()) break;
       any_left = true;
       ++tries;
-      if (on_step) on_step(fmt::format("{} ({} of about {})", in_words(knob, amount), tries, about));
+      if (on_step) on_step(fmt::format("{} ({} of about {})", in_words(parameter, amount), tries, about));
       if (before == 0.0) ++result.tried;
-      if (!solves(knob, amount, mesh)) continue;
+      if (!solves(parameter, amount, mesh)) continue;
       done[i] = true;
-      found.push_back({knob, bisected(knob, too_little, amount, mesh)});
+      found.push_back({parameter, bisected(parameter, too_little, amount, mesh)});
       enough = std::min(enough, found.back().weighted());
     }
     if (!any_left || !may_go_on()) break;
@@ -145,7 +147,7 @@ ChangesFound ChangeSearch::smallest(const std::vector<Knob>& knobs, const Mesh& 
   std::erase_if(found, [&](const FoundChange& one) { return one.weighted() > kNoMatch * enough; });
   std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
   // Amounts within the precision of a bisection are equal; a limit then comes before a demand of the task.
-  const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return !one.knob.is_asked; });
+  const auto first = std::ranges::find_if(found, [](const FoundChange& one) { return !one.parameter.is_asked; });
   if (first != found.end() && first->weighted() <= found.front().weighted() + kPrecision) {
     std::rotate(found.begin(), first, first + 1);
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "prowl/diagnosis/change.hpp"
+#include "prowl/diagnosis/adjustable_parameter.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/nlp/stopwatch.hpp"
@@ -14,17 +14,17 @@
 
 namespace prowl {
 
-/// A knob and the smallest amount with which the problem was solved.
+/// A parameter and the smallest amount with which the problem was solved.
 struct FoundChange {
-  Knob knob;
+  AdjustableParameter parameter;
   double amount = 0.0;
-  double weighted() const { return knob.weight * amount; }
+  double weighted() const { return parameter.weight * amount; }
 };
 
 struct ChangesFound {
   std::vector<FoundChange> found;  ///< sorted by weighted amount
-  int tried = 0;                   ///< number of knobs
-  bool out_of_time = false;        ///< some knobs were not tried, or not up to their largest amount
+  int tried = 0;                   ///< number of parameters
+  bool out_of_time = false;        ///< some parameters were not tried, or not up to their largest amount
 };
 
 /// Looks for small changes that make a problem solvable: solves it on its mesh again and again until the time is up.
@@ -47,16 +47,16 @@ class ChangeSearch {
   /// True if there is a solution whose contacts hold still. On a coarse mesh they may drift by centimetres between the
   /// nodes; such a motion has no plan.
   bool solves(const DiscreteProblem& discrete) const;
-  /// The same with a knob turned, on that mesh.
-  bool solves(const Knob& knob, double amount, const Mesh& mesh) const;
+  /// The same with a parameter turned, on that mesh.
+  bool solves(const AdjustableParameter& parameter, double amount, const Mesh& mesh) const;
 
-  /// Turns all knobs a little, then further and further, each until its problem is solved; then bisects between its
-  /// last two amounts. Ends when larger amounts cannot compete with the smallest, or the time is up.
-  ChangesFound smallest(const std::vector<Knob>& knobs, const Mesh& mesh,
+  /// Turns all parameters a little, then further and further, each until its problem is solved; then bisects between
+  /// its last two amounts. Ends when larger amounts cannot compete with the smallest, or the time is up.
+  ChangesFound smallest(const std::vector<AdjustableParameter>& parameters, const Mesh& mesh,
                         const std::function<void(const std::string&)>& on_step) const;
 
  private:
-  double bisected(const Knob& knob, double too_little, double enough, const Mesh& mesh) const;
+  double bisected(const AdjustableParameter& parameter, double too_little, double enough, const Mesh& mesh) const;
 
   const NlpSolver& solver_;
   SolverOptions options_;

@@ -13,7 +13,7 @@
 namespace prowl {
 
 /// A change of one number that makes the task solvable.
-struct Change {
+struct ProposedChange {
   std::string
       kind;  ///< "friction", "torque", "joint_position", "joint_velocity", "goal", "place", "clearance", "duration"
   int phase = -1;          ///< -1 for the whole motion
@@ -24,7 +24,7 @@ struct Change {
   std::string from_words,
       to_words;         ///< the same as in a file, with unit, if these differ: "[-2.44, -0.97] rad"
   std::string besides;  ///< its side effects, "" if none: "the whole goal 0.6 times as far"
-  double amount = 0.0;  ///< |log(to / from)|, or the knob's amount if `from` is 0
+  double amount = 0.0;  ///< |log(to / from)|, or the parameter's amount if `from` is 0
   /// Solved on the task's own mesh, and its certificate passes or fails by that mesh alone. Otherwise solved on the
   /// search mesh only.
   bool is_proved = false;
@@ -54,13 +54,13 @@ struct Diagnosis {
   int phase = -1;
   std::string subject;
   SolveStatus elastic_status = SolveStatus::solver_failed;  ///< of the solve behind the breaches
-  std::vector<Breach> breaches;  ///< worst first; of limits of that kind alone if they suffice, else of all
-  int search_intervals = 0;      ///< of the mesh of breaches and changes; 0: each mesh of the task was solved
-  std::vector<Change> changes;   ///< alternatives: the proved one, then smallest first; the first one turns only the
-                                 ///< joints that gave way, if these suffice
-  int tried = 0;                 ///< numbers that were changed
-  bool out_of_time = false;      ///< before everything was tried
-  bool interrupted = false;      ///< likewise
+  std::vector<Breach> breaches;         ///< worst first; of limits of that kind alone if they suffice, else of all
+  int search_intervals = 0;             ///< of the mesh of breaches and changes; 0: each mesh of the task was solved
+  std::vector<ProposedChange> changes;  ///< alternatives: the proved one, then smallest first; the first one turns only
+                                        ///< the joints that gave way, if these suffice
+  int tried = 0;             ///< numbers that were changed
+  bool out_of_time = false;  ///< before everything was tried
+  bool interrupted = false;  ///< likewise
 };
 
 /// True if all checks pass except errors of the mesh, and these are small enough that a finer mesh keeps the motion.
@@ -75,8 +75,8 @@ struct DiagnosisOptions {
 /// Diagnoses a task:
 /// 1. Look for proofs. Solve the task on its meshes, from about 20 intervals up, until `solver` finds no motion. Plan
 ///    the unchanged task (make_plan), which may still succeed. If all meshes are solved, nothing has to change.
-/// 2. On the mesh without a motion, bisect the least amount of each knob (knobs_of) with which `solver` converges.
-///    Knobs that cannot be the smallest end after one solve.
+/// 2. On the mesh without a motion, bisect the least amount of each parameter (adjustable_parameters) with which
+///    `solver` converges. Parameters that cannot be the smallest end after one solve.
 /// 3. Solve elastically with `elastic_solver` and limits of the named kind: where, when, by how much they give way.
 /// 4. Narrow joints down to those that gave way, if these suffice.
 /// 5. Plan the task with each of the smallest changes on its own mesh, up to the first that passes its certificate or

@@ -23,7 +23,7 @@ constexpr double kOwnCost = 1e-3;
 
 /// The node's share of the motion's time; 1 for a limit at one moment.
 double share(const MotionLimit& limit, const DiscreteProblem& discrete) {
-  if (limit.kind == LimitKind::goal || limit.kind == LimitKind::place) return 1.0;
+  if (limit.kind == LimitKind::goal || limit.kind == LimitKind::foothold) return 1.0;
   const MeshNode& node = discrete.nodes[limit.node];
   return 0.5 * (node.h_in + node.h_out) / discrete.nodes.back().time;
 }
@@ -61,9 +61,9 @@ ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& so
     soft.push_back({limit.is_row, limit.index, limit.size / limit.si, std::max(share(limit, discrete), 1e-3)});
     limits.push_back(std::move(limit));
   }
-  const Eigen::VectorXd start = hard.pack(guess);
+  const Eigen::VectorXd z_guess = hard.pack(guess);
   ElasticNlp elastic(hard, soft, kOwnCost);
-  const SolveResult solved = solver.solve(elastic, elastic.start(start), options);
+  const SolveResult solved = solver.solve(elastic, elastic.with_slacks(z_guess), options);
   return {solved.status, read(limits, soft, elastic.violations(solved.z), hard.unpack(elastic.inner(solved.z)))};
 }
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "prowl/diagnosis/elastic_solve.hpp"
-#include "prowl/diagnosis/joint_knobs.hpp"
+#include "prowl/diagnosis/joint_parameters.hpp"
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
 #include "prowl/guess/initial_guess.hpp"
@@ -28,20 +28,20 @@ bool is_of_joints(LimitKind kind) {
   return kind == LimitKind::torque || kind == LimitKind::joint_velocity || kind == LimitKind::joint_position;
 }
 
-Change as_change(const FoundChange& found) {
-  const Knob& knob = found.knob;
-  const auto words = [&](double amount) { return knob.words ? knob.words(amount) : std::string(); };
-  const double from = knob.value(0.0), to = knob.value(found.amount), ratio = std::abs(std::log(to / from));
-  return {.kind = knob.kind,
-          .phase = knob.phase,
-          .subject = knob.subject,
-          .is_factor = knob.is_factor,
+ProposedChange as_change(const FoundChange& found) {
+  const AdjustableParameter& parameter = found.parameter;
+  const auto words = [&](double amount) { return parameter.words ? parameter.words(amount) : std::string(); };
+  const double from = parameter.value(0.0), to = parameter.value(found.amount), ratio = std::abs(std::log(to / from));
+  return {.kind = parameter.kind,
+          .phase = parameter.phase,
+          .subject = parameter.subject,
+          .is_factor = parameter.is_factor,
           .from = from,
           .to = to,
-          .unit = knob.unit,
+          .unit = parameter.unit,
           .from_words = words(0.0),
           .to_words = words(found.amount),
-          .besides = knob.besides ? knob.besides(found.amount) : "",
+          .besides = parameter.besides ? parameter.besides(found.amount) : "",
           .amount = std::isfinite(ratio) ? ratio : found.amount};
 }
 
@@ -62,7 +62,7 @@ class HelpfulChanges {
       run_.result.hints = doubts(run_.problem, initial_guess(run_.problem), run_.elastic);
     }
     ChangesFound changes = run_.search.within(kSearchPart)
-                               .smallest(knobs_of(run_.searched.problem), run_.searched.mesh,
+                               .smallest(adjustable_parameters(run_.searched.problem), run_.searched.mesh,
                                          [&](const std::string& what) { run_.step("trying " + what); });
     std::vector<FoundChange>& found = changes.found;
     run_.result.tried = changes.tried;
@@ -78,11 +78,11 @@ class HelpfulChanges {
   /// cause is a duration, or if that kind alone does not suffice.
   void name(const std::vector<FoundChange>& found) {
     if (!found.empty()) {
-      const Knob& knob = found.front().knob;
-      run_.result.kind = knob.kind;
-      run_.result.phase = knob.phase;
-      run_.result.subject = knob.subject;
-      if (knob.kind != "duration") read_breaches(knob.kind);
+      const AdjustableParameter& parameter = found.front().parameter;
+      run_.result.kind = parameter.kind;
+      run_.result.phase = parameter.phase;
+      run_.result.subject = parameter.subject;
+      if (parameter.kind != "duration") read_breaches(parameter.kind);
     }
     if (run_.result.breaches.empty()) read_breaches("");
     if (!found.empty() || run_.result.breaches.empty()) return;
@@ -130,7 +130,7 @@ class HelpfulChanges {
     std::vector<int> turnable;
     double needed = 0.0;  // amount that takes each of them as far as the elastic solution
     for (const Breach& breach : run_.result.breaches) {
-      if (!is_of_joints(breach.kind) || to_string(breach.kind) != smallest.knob.kind) continue;
+      if (!is_of_joints(breach.kind) || to_string(breach.kind) != smallest.parameter.kind) continue;
       kind = breach.kind;
       const int joint = static_cast<int>(std::ranges::find(names, breach.subject) - names.begin());
       if (turnable.empty()) turnable = turnable_joints(run_.searched.problem.robot, kind);
@@ -141,7 +141,7 @@ class HelpfulChanges {
           needed, std::log1p(sides * breach.amount / value_of_limit(run_.searched.problem.robot, breach.kind, joint)));
     }
     if (joints.empty() || static_cast<int>(joints.size()) == run_.searched.problem.robot.nu()) return;
-    const Knob some = joint_knob(run_.searched.problem, kind, {joints.begin(), joints.end()});
+    const AdjustableParameter some = joint_parameter(run_.searched.problem, kind, {joints.begin(), joints.end()});
     constexpr double kALittleMore = 0.1;  // an elastic solution is exactly at its limits
     run_.step("trying " + some.subject);
     double last = 0.0;
@@ -152,7 +152,7 @@ class HelpfulChanges {
       if (!run_.search.solves(some, turned, run_.searched.mesh)) continue;
       smallest = {some, turned};
       run_.result.subject = some.subject;
-      // Fewer joints may need more than another knob.
+      // Fewer joints may need more than another parameter.
       std::ranges::stable_sort(found, std::less(), &FoundChange::weighted);
       return;
     }
@@ -165,14 +165,14 @@ class HelpfulChanges {
       const Proof proof = proof_of(found[i]);
       run_.result.changes[i].was_tried = proof.was_tried;
       if (!proof.certificate) continue;
-      Change proved = as_change(found[i]);
+      ProposedChange proved = as_change(found[i]);
       proved.is_proved = proved.was_tried = true;
       proved.passes = proof.certificate->passed;
       run_.result.changes[i] = std::move(proved);
-      const auto place = static_cast<std::ptrdiff_t>(i);
-      std::rotate(found.begin(), found.begin() + place, found.begin() + place + 1);
-      std::rotate(run_.result.changes.begin(), run_.result.changes.begin() + place,
-                  run_.result.changes.begin() + place + 1);
+      const auto index = static_cast<std::ptrdiff_t>(i);
+      std::rotate(found.begin(), found.begin() + index, found.begin() + index + 1);
+      std::rotate(run_.result.changes.begin(), run_.result.changes.begin() + index,
+                  run_.result.changes.begin() + index + 1);
       if (i > 0) rename(found);
       return;
     }
@@ -183,13 +183,13 @@ class HelpfulChanges {
     double last = -1.0;
     bool was_tried = true;
     for (const double more : {0.0, 0.05, 0.15, 0.4}) {
-      const double amount = printable_amount(found.knob, std::min(found.amount + more, found.knob.most));
+      const double amount = printable_amount(found.parameter, std::min(found.amount + more, found.parameter.most));
       if (amount == last) break;
       if (!run_.search.may_go_on()) return {};
       last = amount;
-      run_.step("planning with " + in_words(found.knob, amount));
+      run_.step("planning with " + in_words(found.parameter, amount));
       try {
-        Plan plan = run_.planned({found.knob.problem(amount), run_.problem.mesh}, 1.0);
+        Plan plan = run_.planned({found.parameter.problem(amount), run_.problem.mesh}, 1.0);
         was_tried = was_tried && run_.what_stopped(plan.result).empty();
         if (plan.result.status != SolveStatus::converged || !holds_but_for_its_mesh(plan.certificate)) continue;
         found.amount = amount;

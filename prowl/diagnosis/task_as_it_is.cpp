@@ -27,7 +27,7 @@ std::optional<Trajectory> TaskAsItIs::solve_all_meshes() {
 void TaskAsItIs::plan(double part) {
   run_.step("planning the task");
   plan_ = run_.planned(run_.problem, part);
-  judge();
+  take_outcome();
 }
 
 void TaskAsItIs::go_on() {
@@ -36,7 +36,7 @@ void TaskAsItIs::go_on() {
   const double seconds_before = plan_.result.seconds;
   PlanOptions options;
   options.resume = !plan_.trajectory.empty();
-  options.start_from = std::move(plan_.trajectory);
+  options.warm_start = std::move(plan_.trajectory);
   plan_ = run_.planned(run_.problem, 1.0, std::move(options), seconds_before);
   plan_.result.seconds += seconds_before;
   // A plan makes the changes useless, unless it fails by more than its mesh.
@@ -44,7 +44,7 @@ void TaskAsItIs::go_on() {
     run_.result = {};
     run_.result.task_intervals = run_.problem.mesh.num_intervals();
   }
-  judge();
+  take_outcome();
 }
 
 void TaskAsItIs::take_from_own_mesh(const Trajectory& motion) {
@@ -62,7 +62,7 @@ void TaskAsItIs::take_from_own_mesh(const Trajectory& motion) {
   run_.result.hints = std::move(plan.hints);
 }
 
-void TaskAsItIs::judge() {
+void TaskAsItIs::take_outcome() {
   run_.result.status = plan_.result.status;
   run_.result.message = plan_.result.message;
   run_.result.solvable = run_.result.status == SolveStatus::converged;

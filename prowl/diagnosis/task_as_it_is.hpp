@@ -22,7 +22,7 @@ class TaskAsItIs {
   void go_on();
 
  private:
-  void judge();
+  void take_outcome();
 
   DiagnosisRun& run_;
   Plan plan_;

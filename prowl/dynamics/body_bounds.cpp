@@ -10,7 +10,6 @@ namespace prowl {
 
 namespace {
 
-
 /// Root of the chain from the base to a joint, and its length up to that joint's origin.
 struct Chain {
   Eigen::Vector3d root = Eigen::Vector3d::Zero();

@@ -64,7 +64,7 @@ double largest_distance(const Eigen::VectorXd& misfit) {
 
 }  // namespace
 
-InverseKinematics inverse_kinematics(const RobotModel& robot, const Eigen::VectorXd& q_start,
+InverseKinematics inverse_kinematics(const RobotModel& robot, const Eigen::VectorXd& q_guess,
                                      const std::vector<ContactTarget>& targets) {
   const Eigen::VectorXd& lower = robot.position_lower();
   const Eigen::VectorXd& upper = robot.position_upper();
@@ -73,7 +73,7 @@ InverseKinematics inverse_kinematics(const RobotModel& robot, const Eigen::Vecto
   Misfit misfit(robot, targets);
   InverseKinematics result;
   Eigen::VectorXd& q = result.q;
-  q = q_start;
+  q = q_guess;
   joints(q) = joints(q).cwiseMax(lower).cwiseMin(upper).eval();
   Eigen::VectorXd error = misfit(q);
   Eigen::MatrixXd J = misfit.jacobian();

@@ -21,14 +21,14 @@ struct InverseKinematics {
   static constexpr double kTolerance = 1e-8;  ///< [m]; near a solution one more step squares the error
 };
 
-/// Joint positions that put contact points at their targets, the base held at its pose in q_start:
+/// Joint positions that put contact points at their targets, the base held at its pose in q_guess:
 ///
 ///   minimise 1/2 sum_c |p_c(q) - target_c|^2  over the joints,  lower <= joints <= upper
 ///
-/// Levenberg-Marquardt with an active set of limits, from the joints of q_start: it finds a nearby posture (the knee
+/// Levenberg-Marquardt with an active set of limits, from the joints of q_guess: it finds a nearby posture (the knee
 /// keeps its side) and does not move joints without effect on a target. The method is local: not converged means
 /// "not found from here"; for legs of a quadruped near standing, "out of reach".
-InverseKinematics inverse_kinematics(const RobotModel& robot, const Eigen::VectorXd& q_start,
+InverseKinematics inverse_kinematics(const RobotModel& robot, const Eigen::VectorXd& q_guess,
                                      const std::vector<ContactTarget>& targets);
 
 }  // namespace prowl

@@ -39,11 +39,11 @@ void Projector::factor_full() {
     }
     for (Eigen::Index i = 0; i <= j; ++i) permuted_gram_.col(i).head(i + 1) += column(i) * column.head(i + 1);
   }
-  const auto& place = qr_.colsPermutation().indices();
+  const auto& index = qr_.colsPermutation().indices();
   for (Eigen::Index i = 0; i < rows; ++i) {
-    inverse_factor_.col(place(i)) = upper_inverse_.row(i).transpose();
+    inverse_factor_.col(index(i)) = upper_inverse_.row(i).transpose();
     for (Eigen::Index j = 0; j <= i; ++j) {
-      gram_inverse_(place(i), place(j)) = gram_inverse_(place(j), place(i)) = permuted_gram_(j, i);
+      gram_inverse_(index(i), index(j)) = gram_inverse_(index(j), index(i)) = permuted_gram_(j, i);
     }
   }
 }

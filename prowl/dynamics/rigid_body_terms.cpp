@@ -47,7 +47,7 @@ struct RigidBodyTerms::Workspace {
     }
   }
 
-  void place_bodies();
+  void update_placements();
   void fetch_tree();
 
   pinocchio::Model model;
@@ -87,12 +87,12 @@ void RigidBodyTerms::update_kinematics(const Eigen::VectorXd& q) {
 
 void RigidBodyTerms::update(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
   inverse_dynamics_ = pinocchio::rnea(workspace_->model, workspace_->data, q, v, a);
-  workspace_->place_bodies();
+  workspace_->update_placements();
   fetch_kinematics();
 }
 
 // Like computeJointJacobians, from the placements of rnea, without computing sines and cosines again.
-void RigidBodyTerms::Workspace::place_bodies() {
+void RigidBodyTerms::Workspace::update_placements() {
   for (pinocchio::JointIndex joint = 1; joint < model.joints.size(); ++joint) {
     const pinocchio::JointIndex parent = model.parents[joint];
     data.oMi[joint] = parent > 0 ? data.oMi[parent] * data.liMi[joint] : data.liMi[joint];

@@ -75,7 +75,7 @@ void BaseEstimator::predict(double dt, const Eigen::Vector3d& gyro, const Eigen:
     Foot& foot = feet_[c];
     if (!foot.stands) continue;
     const Eigen::Vector3d spin = rotation_ * (w + legs_.angular(static_cast<int>(c)) * joint_rates);
-    foot.place += dt * spin.cross(foot.radius * normals[c]);
+    foot.foothold += dt * spin.cross(foot.radius * normals[c]);
     const double wander = foot.since < noise_.landing ? noise_.landing_foot : noise_.foot;
     covariance_.diagonal().segment<3>(foot_row(c)).array() += wander * wander * dt;
     foot.since += dt;
@@ -89,7 +89,7 @@ void BaseEstimator::put_down(int contact) {
   lift(contact);
   feet_[contact].stands = true;
   feet_[contact].since = 0.0;
-  feet_[contact].place = position_ + rotation_ * legs_.position(contact);
+  feet_[contact].foothold = position_ + rotation_ * legs_.position(contact);
   // c = p + R s + R n:  δc = δp - R [s]× δθ + R n
   const Eigen::Index row = foot_row(contact);
   const Eigen::Matrix3d turn = -rotation_ * so3::skew(legs_.position(contact));
@@ -114,7 +114,7 @@ void BaseEstimator::correct() {
     Foot& foot = feet_[c];
     if (!foot.stands || foot.since == 0.0) continue;
     const int contact = static_cast<int>(c);
-    const Eigen::Vector3d expected = rotation_.transpose() * (foot.place - position_);
+    const Eigen::Vector3d expected = rotation_.transpose() * (foot.foothold - position_);
     const Eigen::Vector3d innovation = legs_.position(contact) - expected;
     // P H' with H = (-R', 0, [expected]×, 0, 0, ..., R')
     const Eigen::MatrixXd PHt =
@@ -145,7 +145,7 @@ void BaseEstimator::apply(const Eigen::VectorXd& error) {
   accelerometer_bias_ += error.segment<3>(kAccelerometer);
   gyro_bias_ += error.segment<3>(kGyro);
   for (std::size_t c = 0; c < feet_.size(); ++c) {
-    if (feet_[c].stands) feet_[c].place += error.segment<3>(foot_row(c));
+    if (feet_[c].stands) feet_[c].foothold += error.segment<3>(foot_row(c));
   }
 }
 

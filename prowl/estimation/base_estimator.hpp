@@ -61,7 +61,7 @@ class BaseEstimator {
     double since = 0.0;   ///< [s]
     int rejected = 0;     ///< measurements in a row
     double radius = 0.0;  ///< [m]
-    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    Eigen::Vector3d foothold = Eigen::Vector3d::Zero();
   };
 
   void predict(double dt, const Eigen::Vector3d& gyro, const Eigen::Vector3d& accelerometer,

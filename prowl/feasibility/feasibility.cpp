@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/feasibility/prescribed_places.hpp"
+#include "prowl/feasibility/prescribed_footholds.hpp"
 #include "prowl/feasibility/rank_check.hpp"
 #include "prowl/feasibility/reach_check.hpp"
 #include "prowl/feasibility/slide_check.hpp"
@@ -21,13 +21,13 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kAtItsPlace = 1e-3;  // [m]
-constexpr double kFull = 0.999;       // of the weight or of a torque limit; more counts as all of it
+constexpr double kAtItsFoothold = 1e-3;  // [m]
+constexpr double kFull = 0.999;          // of the weight or of a torque limit; more counts as all of it
 
 /// Contacts that a posture does not put on their footholds; several share one line, with the numbers of the worst.
-std::vector<std::string> missed_places(const MotionProblem& problem, const ContactSchedule& schedule, int p,
-                                       const VectorXd& q, const std::string& when) {
-  const auto places = prescribed_places(problem, schedule);
+std::vector<std::string> missed_footholds(const MotionProblem& problem, const ContactSchedule& schedule, int p,
+                                          const VectorXd& q, const std::string& when) {
+  const auto footholds = prescribed_footholds(problem, schedule);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
   std::vector<std::string> missed;
@@ -39,10 +39,10 @@ std::vector<std::string> missed_places(const MotionProblem& problem, const Conta
     const ContactPoint& contact = problem.robot.contacts()[phase_contact.contact];
     const Surface& surface = problem.surfaces[phase_contact.surface];
     const Vector3d is = terms.contact_position(phase_contact.contact);
-    const Vector3d should = places[schedule.stance(p, i)].value_or(
+    const Vector3d should = footholds[schedule.stance(p, i)].value_or(
         surface.at(nearest_in_patch(surface, surface.coordinates(is)), contact.radius));
     const double gap = (is - should).norm();
-    if (gap <= kAtItsPlace) continue;
+    if (gap <= kAtItsFoothold) continue;
     missed.push_back(contact.name);
     if (gap > largest) worst = contact.name;
     largest = std::max(largest, gap);
@@ -59,8 +59,8 @@ std::string name_of_node(const DiscreteProblem& discrete, int k) {
   const Phase& phase = discrete.phase_of(k);
   const MeshNode& node = discrete.nodes[k];
   std::string goals;
-  for (std::size_t c = 1; c < discrete.condition_nodes.size(); ++c) {
-    if (discrete.condition_nodes[c] == k) goals += discrete.problem.boundary_conditions[c].name + ", ";
+  for (std::size_t c = 1; c < discrete.boundary_nodes.size(); ++c) {
+    if (discrete.boundary_nodes[c] == k) goals += discrete.problem.boundary_constraints[c].name + ", ";
   }
   if (node.h_in == 0.0) return fmt::format("{}start of phase '{}'", goals, phase.name);
   if (node.h_out == 0.0) return fmt::format("{}end of phase '{}'", goals, phase.name);
@@ -106,7 +106,7 @@ std::vector<std::string> doubts(const DiscreteProblem& discrete, const Trajector
     const std::string when = name_of_node(discrete, k);
     if (when.empty()) continue;
     const std::vector<std::string> missed =
-        missed_places(problem, discrete.schedule, discrete.nodes[k].phase, guess.nodes[k].q, when);
+        missed_footholds(problem, discrete.schedule, discrete.nodes[k].phase, guess.nodes[k].q, when);
     lines.insert(lines.end(), missed.begin(), missed.end());
     if (!missed.empty()) continue;  // standing still needs all footholds
     const std::string reason = why_it_cannot_stand(problem, discrete.phase_of(k), guess.nodes[k].q, solver);

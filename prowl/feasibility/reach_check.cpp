@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "prowl/dynamics/body_bounds.hpp"
-#include "prowl/feasibility/prescribed_places.hpp"
+#include "prowl/feasibility/prescribed_footholds.hpp"
 #include "prowl/model/surface.hpp"
 
 namespace prowl {
@@ -23,11 +23,11 @@ struct Held {
   const Surface& surface;
   ContactReach leg;
   std::string first_joint;
-  std::optional<Vector3d> place;
+  std::optional<Vector3d> foothold;
 };
 
 std::vector<Held> held_in(const MotionProblem& problem, const ContactSchedule& schedule,
-                          const std::vector<std::optional<Vector3d>>& places, int p) {
+                          const std::vector<std::optional<Vector3d>>& footholds, int p) {
   std::vector<Held> held;
   const Phase& phase = problem.phases[p];
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
@@ -35,7 +35,7 @@ std::vector<Held> held_in(const MotionProblem& problem, const ContactSchedule& s
     const ContactReach leg = contact_reach(problem.robot, contact.contact);
     held.push_back({problem.robot.contacts()[contact.contact], problem.surfaces[contact.surface], leg,
                     leg.first_joint < 0 ? "the base" : problem.robot.joint_names()[leg.first_joint],
-                    places[schedule.stance(p, i)]});
+                    footholds[schedule.stance(p, i)]});
   }
   return held;
 }
@@ -48,9 +48,9 @@ struct TooFar {
 };
 
 /// Least distance from the root of the leg to the contact's foothold [m].
-double least_distance(const Held& held, const BoundaryCondition& condition) {
-  const PointBounds root = point_bounds(condition, held.leg.root);
-  if (held.place) return root.distance(*held.place);
+double least_distance(const Held& held, const BoundaryConstraint& constraint) {
+  const PointBounds root = point_bounds(constraint, held.leg.root);
+  if (held.foothold) return root.distance(*held.foothold);
   if (root.lower != root.upper) return 0.0;
   const Vector3d nearest =
       held.surface.at(nearest_in_patch(held.surface, held.surface.coordinates(root.lower)), held.contact.radius);
@@ -88,12 +88,12 @@ struct Group {
 
 /// Least distance from the mean root of the legs to the mean of the footholds [m]; if these are not all known, along
 /// the normal of their common surface.
-double least_distance(const Group& group, const BoundaryCondition& condition) {
-  const PointBounds root = point_bounds(condition, group.root);
+double least_distance(const Group& group, const BoundaryConstraint& constraint) {
+  const PointBounds root = point_bounds(constraint, group.root);
   const auto count = static_cast<double>(group.held.size());
-  if (std::ranges::all_of(group.held, [](const Held* one) { return one->place.has_value(); })) {
+  if (std::ranges::all_of(group.held, [](const Held* one) { return one->foothold.has_value(); })) {
     Vector3d mean = Vector3d::Zero();
-    for (const Held* one : group.held) mean += *one->place / count;
+    for (const Held* one : group.held) mean += *one->foothold / count;
     return root.distance(mean);
   }
   const Surface& surface = group.held.front()->surface;
@@ -108,7 +108,7 @@ double least_distance(const Group& group, const BoundaryCondition& condition) {
 ///   mean length >= mean |p_i - (p_base + R root_i)| >= |mean p_i - (p_base + R mean root_i)|
 ///
 /// The mean of roots on all sides of the base is near its origin, so the rotation hardly matters.
-std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const BoundaryCondition& condition) {
+std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const BoundaryConstraint& constraint) {
   std::vector<std::vector<const Held*>> groups(1);
   for (const Held& one : held) groups.front().push_back(&one);
   for (std::size_t i = 0; i < held.size(); ++i) {
@@ -117,7 +117,7 @@ std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const B
   for (std::vector<const Held*>& contacts : groups) {
     if (contacts.size() < 2) continue;
     const Group group(std::move(contacts));
-    const double distance = least_distance(group, condition);
+    const double distance = least_distance(group, constraint);
     if (!(distance > group.length + kReachMargin)) continue;
     std::string names;
     for (const Held* one : group.held) names += (names.empty() ? "" : ", ") + one->contact.name;
@@ -132,26 +132,26 @@ std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const B
 }  // namespace
 
 std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, const ContactSchedule& schedule) {
-  const auto places = prescribed_places(problem, schedule);
+  const auto footholds = prescribed_footholds(problem, schedule);
   std::vector<std::string> reasons;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const std::string& phase = problem.phases[p].name;
-    const std::vector<Held> held = held_in(problem, schedule, places, p);
-    for (const BoundaryCondition& condition : problem.boundary_conditions) {
-      if (!is_during(condition, p)) continue;
+    const std::vector<Held> held = held_in(problem, schedule, footholds, p);
+    for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
+      if (!is_during(constraint, p)) continue;
       std::vector<TooFar> too_far;
       for (const Held& one : held) {
-        const double distance = least_distance(one, condition);
+        const double distance = least_distance(one, constraint);
         if (distance > one.leg.length + kReachMargin) too_far.push_back({&one, distance});
       }
       const std::string reason =
-          too_far.empty() ? why_the_group_is_out_of_reach(held, condition) : too_far_in_words(too_far, held.size());
-      if (!reason.empty()) reasons.push_back(fmt::format("{}, phase '{}': {}", condition.name, phase, reason));
+          too_far.empty() ? why_the_group_is_out_of_reach(held, constraint) : too_far_in_words(too_far, held.size());
+      if (!reason.empty()) reasons.push_back(fmt::format("{}, phase '{}': {}", constraint.name, phase, reason));
     }
     for (std::size_t i = 0; i < held.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
-        if (!held[i].place || !held[j].place) continue;
-        const double distance = (*held[i].place - *held[j].place).norm();
+        if (!held[i].foothold || !held[j].foothold) continue;
+        const double distance = (*held[i].foothold - *held[j].foothold).norm();
         const double span = held[i].leg.length + held[j].leg.length + (held[i].leg.root - held[j].leg.root).norm();
         if (!(distance > span + kReachMargin)) continue;
         reasons.push_back(fmt::format("phase '{}': contacts {} and {} are {:.3g} m apart, but their legs span {:.3g} m",

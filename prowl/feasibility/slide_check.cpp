@@ -8,7 +8,7 @@
 
 #include "prowl/dynamics/body_bounds.hpp"
 #include "prowl/feasibility/friction_support.hpp"
-#include "prowl/feasibility/prescribed_places.hpp"
+#include "prowl/feasibility/prescribed_footholds.hpp"
 
 namespace prowl {
 
@@ -59,20 +59,20 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
   const RobotModel& robot = problem.robot;
   const MassReach mass = mass_reach(robot);
   std::vector<Hold> holds;
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    if (condition.at.phase != p) continue;
-    holds.push_back({condition.name, time_of(problem, condition.at),
-                     point_bounds(condition, mass.centre).least_along(d) - mass.radius});
+  for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
+    if (constraint.at.phase != p) continue;
+    holds.push_back({constraint.name, time_of(problem, constraint.at),
+                     point_bounds(constraint, mass.centre).least_along(d) - mass.radius});
   }
-  const auto places = prescribed_places(problem, schedule);
+  const auto footholds = prescribed_footholds(problem, schedule);
   const Phase& phase = problem.phases[p];
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
-    const auto& place = places[schedule.stance(p, i)];
-    if (!place) continue;
+    const auto& foothold = footholds[schedule.stance(p, i)];
+    if (!foothold) continue;
     const int contact = phase.contacts[i].contact;
     const ContactReach leg = contact_reach(robot, contact);
     holds.push_back({"contact " + robot.contacts()[contact].name, time_of(problem, PhaseFraction::end_of(p)),
-                     d.dot(*place) - (leg.length + (leg.root - mass.centre).norm() + mass.radius)});
+                     d.dot(*foothold) - (leg.length + (leg.root - mass.centre).norm() + mass.radius)});
   }
   return holds;
 }

@@ -313,21 +313,21 @@ void check_writable(const fs::path& folder) {
 }
 
 void write_files_atomically(const fs::path& folder, const std::map<std::string, std::string>& files) {
-  const fs::path place = real_path(folder);
+  const fs::path target_folder = real_path(folder);
   std::error_code error;
   for (const auto& [name, text] : files) {  // with enough rights, a rename would replace /dev/null
-    const fs::file_status old = fs::status(place / name, error);
+    const fs::file_status old = fs::status(target_folder / name, error);
     if (fs::exists(old) && !fs::is_regular_file(old))
-      throw FileError(fmt::format("{}: not a file", (place / name).string()));
+      throw FileError(fmt::format("{}: not a file", (target_folder / name).string()));
   }
-  const SiblingFolder fresh(place / "file", FolderAbove::has_to_exist, folder);
-  for (const auto& [name, text] : files) write_new(fresh.path() / name, text, place / name);
+  const SiblingFolder fresh(target_folder / "file", FolderAbove::has_to_exist, folder);
+  for (const auto& [name, text] : files) write_new(fresh.path() / name, text, target_folder / name);
   for (const auto& [name, text] : files) {
-    const fs::path target = place / name;
+    const fs::path target = target_folder / name;
     if (::rename((fresh.path() / name).c_str(), target.c_str()) != 0)
       fail(target, "cannot put the new file in place", errno);
   }
-  Descriptor(place, O_RDONLY | O_DIRECTORY).sync();
+  Descriptor(target_folder, O_RDONLY | O_DIRECTORY).sync();
 }
 
 void write_file_atomically(const fs::path& file, const std::string& text) {

@@ -46,7 +46,7 @@ Json parse_json(const SourceText& source) {
   } catch (const Json::parse_error& error) {
     const std::size_t at = std::max<std::size_t>(error.byte, 1) - 1;  // it counts from 1; 0 if unknown
     throw InputError(
-        fmt::format("{}: not JSON from here on: the file is cut short or was edited", place_in(source, at)));
+        fmt::format("{}: not JSON from here on: the file is cut short or was edited", location_in(source, at)));
   } catch (const Json::out_of_range&) {
     throw InputError(fmt::format("{}: a number exceeds 1.8e308", source.path.string()));
   }

@@ -43,7 +43,7 @@ SourceText read_text_file(const std::filesystem::path& path, std::size_t max_byt
   return {path, std::move(text)};
 }
 
-std::string place_in(const SourceText& source, std::size_t at) {
+std::string location_in(const SourceText& source, std::size_t at) {
   const std::string_view before = std::string_view(source.text).substr(0, at);
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
   return fmt::format("{}:{}:{}", source.path.string(), 1 + std::ranges::count(before, '\n'), at - line_start + 1);

@@ -15,6 +15,6 @@ struct SourceText {
 SourceText read_text_file(const std::filesystem::path& path, std::size_t max_bytes = 1u << 20);
 
 /// "file:line:column" of byte `at`, 0 to the size of the text.
-std::string place_in(const SourceText& source, std::size_t at);
+std::string location_in(const SourceText& source, std::size_t at);
 
 }  // namespace prowl

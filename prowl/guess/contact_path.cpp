@@ -14,10 +14,10 @@ ContactPath::ContactPath(const DiscreteProblem& discrete, const PosturePath& pos
   RigidBodyTerms terms(problem.robot);
   const VectorXd& start = problem.start_configuration();
   terms.update_kinematics(start);
-  for (const Stance& stance : discrete_.schedule.stances()) {
+  for (const ContactStance& stance : discrete_.schedule.stances()) {
     const Vector3d at_start = terms.contact_position(stance.contact);
     if (!stance.lands()) {
-      places_.push_back(at_start);
+      footholds_.push_back(at_start);
       continue;
     }
     const Surface& surface = problem.surfaces[stance.surface];
@@ -26,8 +26,8 @@ ContactPath::ContactPath(const DiscreteProblem& discrete, const PosturePath& pos
     const VectorXd q = posture(0.5 * (held.start + held.end));
     const Vector3d carried =
         base_position(q) + base_rotation(q) * (base_rotation(start).transpose() * (at_start - base_position(start)));
-    places_.push_back(
-        surface.at(nearest_in_patch(surface, surface.coordinates(stance.place.value_or(carried))), radius));
+    footholds_.push_back(
+        surface.at(nearest_in_patch(surface, surface.coordinates(stance.foothold.value_or(carried))), radius));
   }
 }
 
@@ -36,13 +36,13 @@ ContactPath::Span ContactPath::span(int first_phase, int last_phase) const {
           discrete_.nodes[discrete_.mesh.last_node(last_phase)].time};
 }
 
-std::vector<Vector3d> ContactPath::held_places(int phase) const {
-  std::vector<Vector3d> places;
+std::vector<Vector3d> ContactPath::held_footholds(int phase) const {
+  std::vector<Vector3d> footholds;
   const std::size_t count = discrete_.problem.phases[phase].contacts.size();
   for (int i = 0; i < static_cast<int>(count); ++i) {
-    places.push_back(places_[discrete_.schedule.stance(phase, i)]);
+    footholds.push_back(footholds_[discrete_.schedule.stance(phase, i)]);
   }
-  return places;
+  return footholds;
 }
 
 std::vector<ContactTarget> ContactPath::targets(int k) const {
@@ -50,14 +50,15 @@ std::vector<ContactTarget> ContactPath::targets(int k) const {
   const auto now = [&](const auto& time) { return time.first_phase <= node.phase && node.phase <= time.last_phase; };
   std::vector<ContactTarget> targets;
   for (std::size_t s = 0; s < discrete_.schedule.stances().size(); ++s) {
-    if (now(discrete_.schedule.stances()[s])) targets.push_back({discrete_.schedule.stances()[s].contact, places_[s]});
+    if (now(discrete_.schedule.stances()[s]))
+      targets.push_back({discrete_.schedule.stances()[s].contact, footholds_[s]});
   }
-  for (const Swing& swing : discrete_.schedule.swings()) {
+  for (const ContactSwing& swing : discrete_.schedule.swings()) {
     if (!now(swing) || swing.before < 0 || swing.after < 0) continue;
     const Span time = span(swing.first_phase, swing.last_phase);
     const double s = (node.time - time.start) / (time.end - time.start);
-    const Vector3d& from = places_[swing.before];
-    const Vector3d& to = places_[swing.after];
+    const Vector3d& from = footholds_[swing.before];
+    const Vector3d& to = footholds_[swing.after];
     const int surface = discrete_.schedule.stances()[swing.after].surface;
     const Vector3d lift = discrete_.problem.swing_clearance * discrete_.problem.surfaces[surface].normal;
     // At rest at both ends; an arc of four thirds of the clearance keeps the guess off the bound.

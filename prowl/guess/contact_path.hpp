@@ -18,7 +18,7 @@ class ContactPath {
   ContactPath(const DiscreteProblem& discrete, const PosturePath& posture);  ///< `discrete` must outlive it
 
   /// Positions of the contacts that a phase holds, in its order, world frame [m].
-  std::vector<Eigen::Vector3d> held_places(int phase) const;
+  std::vector<Eigen::Vector3d> held_footholds(int phase) const;
 
   std::vector<ContactTarget> targets(int k) const;  ///< at node k of the mesh
 
@@ -29,7 +29,7 @@ class ContactPath {
   Span span(int first_phase, int last_phase) const;
 
   const DiscreteProblem& discrete_;
-  std::vector<Eigen::Vector3d> places_;  ///< of the contact point in each stance: its radius above the surface
+  std::vector<Eigen::Vector3d> footholds_;  ///< of the contact point in each stance: its radius above the surface
 };
 
 }  // namespace prowl

@@ -40,9 +40,9 @@ void set_configurations(const DiscreteProblem& discrete, Trajectory& guess) {
     VectorXd q = on_path;
     q.tail(nu) = previous.tail(nu) + on_path.tail(nu) - previous_on_path.tail(nu);
     q = inverse_kinematics(problem.robot, q, contacts.targets(k)).q;
-    for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-      const bool is_now = discrete.condition_time(c) == node.time;  // on both sides of a phase transition
-      if (is_now) q = meet(problem.boundary_conditions[c], q);
+    for (std::size_t c = 0; c < problem.boundary_constraints.size(); ++c) {
+      const bool is_now = discrete.boundary_time(c) == node.time;  // on both sides of a phase transition
+      if (is_now) q = meet(problem.boundary_constraints[c], q);
     }
     q.tail(nu) = clamp(q.tail(nu), problem.robot.position_lower(), problem.robot.position_upper());
     guess.nodes[k].q = q;
@@ -102,7 +102,7 @@ VectorXd rate(const DiscreteProblem& discrete, int before, int k, int after, con
   return (change(after) * (h0 / h1) - change(before) * (h1 / h0)) / (h0 + h1);
 }
 
-/// Velocities and accelerations by differences, consistent with the contacts, within limits and boundary conditions.
+/// Velocities and accelerations by differences, consistent with the contacts, within limits and boundary constraints.
 void set_rates(const DiscreteProblem& discrete, Trajectory& guess) {
   const MotionProblem& problem = discrete.problem;
   const auto at = [&](int i) -> TrajectoryPoint& { return guess.nodes[i]; };
@@ -123,11 +123,11 @@ void set_rates(const DiscreteProblem& discrete, Trajectory& guess) {
     ContactConsistency(problem.robot, at(k).q, contacts_around(discrete, k)).correct_velocity(at(k).v);
     at(k).v.tail(problem.robot.nu()) = clamp(at(k).v.tail(problem.robot.nu()), -limit, limit);
   }
-  for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-    const BoundaryCondition& condition = problem.boundary_conditions[c];
+  for (std::size_t c = 0; c < problem.boundary_constraints.size(); ++c) {
+    const BoundaryConstraint& constraint = problem.boundary_constraints[c];
     for (TrajectoryPoint& point : guess.nodes) {
-      if (point.time != discrete.condition_time(c)) continue;
-      point.v = clamp(point.v, condition.velocity_lower, condition.velocity_upper);
+      if (point.time != discrete.boundary_time(c)) continue;
+      point.v = clamp(point.v, constraint.velocity_lower, constraint.velocity_upper);
     }
   }
   for (int k = 0; k < discrete.num_nodes(); ++k) {
@@ -156,10 +156,10 @@ void set_torques(const DiscreteProblem& discrete, Trajectory& guess) {
     point.tau = clamp(moving.tau, -limit, limit);
     point.force = moving.force;
   }
-  for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-    const BoundaryCondition& condition = problem.boundary_conditions[c];
-    VectorXd& tau = guess.nodes[discrete.condition_nodes[c]].tau;
-    tau = clamp(tau, condition.torque_lower, condition.torque_upper);
+  for (std::size_t c = 0; c < problem.boundary_constraints.size(); ++c) {
+    const BoundaryConstraint& constraint = problem.boundary_constraints[c];
+    VectorXd& tau = guess.nodes[discrete.boundary_nodes[c]].tau;
+    tau = clamp(tau, constraint.torque_lower, constraint.torque_upper);
   }
 }
 

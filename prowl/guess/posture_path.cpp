@@ -13,36 +13,36 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// World velocity of the base where a boundary condition prescribes it.
-std::optional<Eigen::Vector3d> prescribed_base_velocity(const BoundaryCondition& condition, const VectorXd& q) {
-  const Eigen::Vector3d v = condition.velocity_lower.head<3>();
-  if (v != condition.velocity_upper.head<3>()) return std::nullopt;
+/// World velocity of the base where a boundary constraint prescribes it.
+std::optional<Eigen::Vector3d> prescribed_base_velocity(const BoundaryConstraint& constraint, const VectorXd& q) {
+  const Eigen::Vector3d v = constraint.velocity_lower.head<3>();
+  if (v != constraint.velocity_upper.head<3>()) return std::nullopt;
   return base_rotation(q) * v;
 }
 
-bool binds(const BoundaryCondition& condition, Eigen::Index i) {
-  return std::isfinite(condition.configuration_lower(i)) || std::isfinite(condition.configuration_upper(i));
+bool binds(const BoundaryConstraint& constraint, Eigen::Index i) {
+  return std::isfinite(constraint.configuration_lower(i)) || std::isfinite(constraint.configuration_upper(i));
 }
 
 }  // namespace
 
-VectorXd meet(const BoundaryCondition& condition, const VectorXd& q) {
-  return integrate(
-      condition.q_ref,
-      difference(condition.q_ref, q).cwiseMax(condition.configuration_lower).cwiseMin(condition.configuration_upper));
+VectorXd meet(const BoundaryConstraint& constraint, const VectorXd& q) {
+  return integrate(constraint.q_ref, difference(constraint.q_ref, q)
+                                         .cwiseMax(constraint.configuration_lower)
+                                         .cwiseMin(constraint.configuration_upper));
 }
 
 PosturePath::PosturePath(const DiscreteProblem& discrete) {
-  std::vector<std::size_t> in_order(discrete.condition_nodes.size());
+  std::vector<std::size_t> in_order(discrete.boundary_nodes.size());
   std::iota(in_order.begin(), in_order.end(), 0);
-  std::ranges::stable_sort(in_order, {}, [&](std::size_t c) { return discrete.condition_nodes[c]; });
+  std::ranges::stable_sort(in_order, {}, [&](std::size_t c) { return discrete.boundary_nodes[c]; });
 
   VectorXd q = discrete.problem.start_configuration();
   std::vector<std::vector<Waypoint>> waypoints(static_cast<std::size_t>(q.size() - 4));
   for (const std::size_t c : in_order) {
-    const BoundaryCondition& condition = discrete.problem.boundary_conditions[c];
-    q = meet(condition, q);
-    add(condition, q, discrete.condition_time(c), waypoints);
+    const BoundaryConstraint& constraint = discrete.problem.boundary_constraints[c];
+    q = meet(constraint, q);
+    add(constraint, q, discrete.boundary_time(c), waypoints);
   }
   for (const auto& points : waypoints) curves_.emplace_back(points);
 }
@@ -54,21 +54,21 @@ VectorXd PosturePath::operator()(double time) const {
   return q;
 }
 
-void PosturePath::add(const BoundaryCondition& condition, const VectorXd& q, double time,
+void PosturePath::add(const BoundaryConstraint& constraint, const VectorXd& q, double time,
                       std::vector<std::vector<Waypoint>>& waypoints) {
-  const auto base_velocity = prescribed_base_velocity(condition, q);
+  const auto base_velocity = prescribed_base_velocity(constraint, q);
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const auto coordinate = static_cast<Eigen::Index>(i);  // 0 ... 2 base position, then joints
-    const Eigen::Index place = i < 3 ? coordinate : coordinate + 4;
+    const Eigen::Index index = i < 3 ? coordinate : coordinate + 4;
     const Eigen::Index tangent = i < 3 ? coordinate : coordinate + 3;
-    if (!binds(condition, tangent)) continue;
+    if (!binds(constraint, tangent)) continue;
     // Two conditions at one time (a phase transition): the later one includes the earlier.
     auto& points = waypoints[i];
     if (!points.empty() && points.back().time >= time) points.pop_back();
-    points.push_back({time, q(place), std::nullopt});
+    points.push_back({time, q(index), std::nullopt});
     if (i < 3 && base_velocity) points.back().slope = (*base_velocity)(coordinate);
   }
-  if (binds(condition, 3) || binds(condition, 4) || binds(condition, 5)) {
+  if (binds(constraint, 3) || binds(constraint, 4) || binds(constraint, 5)) {
     if (!turns_.empty() && turns_.back().time >= time) turns_.pop_back();
     Eigen::Quaterniond rotation = base_quaternion(q);
     // The sign that continues without a jump.

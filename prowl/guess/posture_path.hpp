@@ -9,11 +9,11 @@
 
 namespace prowl {
 
-/// The configuration nearest to q that a boundary condition allows.
-Eigen::VectorXd meet(const BoundaryCondition& condition, const Eigen::VectorXd& q);
+/// The configuration nearest to q that a boundary constraint allows.
+Eigen::VectorXd meet(const BoundaryConstraint& constraint, const Eigen::VectorXd& q);
 
-/// Motion of base and joints from the boundary conditions alone, without contacts. Each coordinate of base position and
-/// joints has its own waypoints; one that is free at a condition continues to the next. The base turns from one
+/// Motion of base and joints from the boundary constraints alone, without contacts. Each coordinate of base position
+/// and joints has its own waypoints; one that is free at a condition continues to the next. The base turns from one
 /// prescribed rotation to the next about a fixed axis, at rest at both.
 class PosturePath {
  public:
@@ -28,7 +28,7 @@ class PosturePath {
     Eigen::Quaterniond rotation;
   };
 
-  void add(const BoundaryCondition& condition, const Eigen::VectorXd& q, double time,
+  void add(const BoundaryConstraint& constraint, const Eigen::VectorXd& q, double time,
            std::vector<std::vector<Waypoint>>& waypoints);
   Eigen::Quaterniond rotation(double time) const;
 

@@ -31,17 +31,17 @@ Vector2d nearest_in_hull(const std::vector<Vector2d>& corners, const Vector2d& p
   return x;
 }
 
-bool binds_base(const BoundaryCondition& condition) {
-  return (condition.configuration_upper - condition.configuration_lower).head<2>().maxCoeff() < 1e-3;
+bool binds_base(const BoundaryConstraint& constraint) {
+  return (constraint.configuration_upper - constraint.configuration_lower).head<2>().maxCoeff() < 1e-3;
 }
 
 /// Corners of the inner part of the support polygon.
-std::vector<Vector2d> inner_corners(const std::vector<Vector3d>& places) {
+std::vector<Vector2d> inner_corners(const std::vector<Vector3d>& footholds) {
   std::vector<Vector2d> corners;
   Vector2d centre = Vector2d::Zero();
-  for (const Vector3d& place : places) {
-    corners.push_back(place.head<2>());
-    centre += place.head<2>() / static_cast<double>(places.size());
+  for (const Vector3d& foothold : footholds) {
+    corners.push_back(foothold.head<2>());
+    centre += foothold.head<2>() / static_cast<double>(footholds.size());
   }
   for (Vector2d& corner : corners) corner = centre + kInnerPart * (corner - centre);
   return corners;
@@ -115,7 +115,7 @@ SupportPath::SupportPath(const DiscreteProblem& discrete, const PosturePath& pos
 
   std::vector<std::vector<Vector2d>> polygons;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p)
-    polygons.push_back(inner_corners(contacts.held_places(p)));
+    polygons.push_back(inner_corners(contacts.held_footholds(p)));
   ShiftProblem shifts(last + 1, step, pendulum);
   Eigen::MatrixX2d com(last + 1, 2);
   const VectorXd rest = VectorXd::Zero(problem.robot.nv());
@@ -132,9 +132,9 @@ SupportPath::SupportPath(const DiscreteProblem& discrete, const PosturePath& pos
   }
   shifts.rest(0, 1);
   shifts.rest(last, last - 1);
-  for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-    if (!binds_base(problem.boundary_conditions[c])) continue;
-    shifts.pin(static_cast<int>(std::lround(discrete.condition_time(c) / step)));
+  for (std::size_t c = 0; c < problem.boundary_constraints.size(); ++c) {
+    if (!binds_base(problem.boundary_constraints[c])) continue;
+    shifts.pin(static_cast<int>(std::lround(discrete.boundary_time(c) / step)));
   }
   shifts.factorise();
 

@@ -7,7 +7,7 @@
 
 namespace prowl {
 
-/// Sideways shift of the base in an initial guess, within the boundary conditions, with which its contacts can carry
+/// Sideways shift of the base in an initial guess, within the boundary constraints, with which its contacts can carry
 /// the motion: a robot leans away from a foot before lifting it.
 ///
 /// Linear inverted pendulum of the nominal height z: the zero moment point  p = c - (z / g) c̈  of the centre of mass c

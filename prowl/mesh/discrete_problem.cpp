@@ -43,13 +43,13 @@ std::vector<MeshNode> mesh_nodes(const std::vector<Phase>& phases, const Mesh& m
 
 }  // namespace
 
-std::vector<int> nodes_of_conditions(const MotionProblem& problem, const Mesh& mesh) {
+std::vector<int> find_boundary_nodes(const MotionProblem& problem, const Mesh& mesh) {
   std::vector<int> nodes;
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    const auto [phase, fraction] = condition.at;
+  for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
+    const auto [phase, fraction] = constraint.at;
     const auto node = mesh.phases[phase].node_at(fraction);
     if (!node) {
-      throw InputError(fmt::format("{}: no node of the mesh is at {:.6g} of phase '{}'", condition.name, fraction,
+      throw InputError(fmt::format("{}: no node of the mesh is at {:.6g} of phase '{}'", constraint.name, fraction,
                                    problem.phases[phase].name));
     }
     nodes.push_back(mesh.node(phase, *node));
@@ -62,7 +62,7 @@ DiscreteProblem::DiscreteProblem(MotionProblem motion_problem, Mesh problem_mesh
       mesh(std::move(problem_mesh)),
       schedule(valid(problem, mesh)),
       nodes(mesh_nodes(problem.phases, mesh)),
-      condition_nodes(nodes_of_conditions(problem, mesh)) {}
+      boundary_nodes(find_boundary_nodes(problem, mesh)) {}
 
 std::string DiscreteProblem::describe_node(int k) const {
   return fmt::format("phase {} '{}', node {}", nodes[k].phase + 1, phase_of(k).name, nodes[k].node);

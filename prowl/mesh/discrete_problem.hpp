@@ -23,14 +23,14 @@ struct MeshNode {
 /// nonlinear programs and the certificate. Immutable after construction.
 struct DiscreteProblem {
   /// Throws InputError as validate() does, and if the mesh does not fit the problem: another number of phases, or a
-  /// boundary condition without a node.
+  /// boundary constraint without a node.
   DiscreteProblem(MotionProblem motion_problem, Mesh problem_mesh);
 
   MotionProblem problem;
   Mesh mesh;
   ContactSchedule schedule;
-  std::vector<MeshNode> nodes;       ///< all nodes in the order of time, Mesh::num_nodes() of them
-  std::vector<int> condition_nodes;  ///< index in `nodes` of each boundary condition
+  std::vector<MeshNode> nodes;      ///< all nodes in the order of time, Mesh::num_nodes() of them
+  std::vector<int> boundary_nodes;  ///< index in `nodes` of each boundary constraint
 
   int num_nodes() const { return static_cast<int>(nodes.size()); }
   const Phase& phase_of(int k) const { return problem.phases[nodes[k].phase]; }
@@ -39,11 +39,11 @@ struct DiscreteProblem {
   bool is_interval(int k) const { return nodes[k].h_out > 0.0; }
   std::string describe_node(int k) const;    ///< "phase 1 'stand', node 3"
   std::string describe_moment(int k) const;  ///< "phase 1 'stand', node 3, t = 0.600 s"
-  /// Time of a boundary condition [s].
-  double condition_time(std::size_t condition) const { return nodes[condition_nodes[condition]].time; }
+  /// Time of a boundary constraint [s].
+  double boundary_time(std::size_t constraint) const { return nodes[boundary_nodes[constraint]].time; }
 };
 
-/// Node index of each boundary condition. Throws InputError if a condition is not at a node.
-std::vector<int> nodes_of_conditions(const MotionProblem& problem, const Mesh& mesh);
+/// Node index of each boundary constraint. Throws InputError if a condition is not at a node.
+std::vector<int> find_boundary_nodes(const MotionProblem& problem, const Mesh& mesh);
 
 }  // namespace prowl

@@ -54,13 +54,13 @@ std::optional<int> PhaseMesh::node_at(double fraction) const {
 
 PhaseMesh PhaseMesh::with_intervals(int count) const {
   if (is_even()) return PhaseMesh(count);
-  const auto place = [&](int j) {  // of node j, as a part of the phase
+  const auto fraction_at = [&](int j) {  // of node j, as a part of the phase
     const int before = static_cast<int>(static_cast<long>(j) * intervals_ / count);
     const double rest = static_cast<double>(j) * intervals_ / count - before;
     return node_time(before, 1.0) + (before < intervals_ ? rest * step(before, 1.0) : 0.0);
   };
   std::vector<double> lengths;
-  for (int j = 0; j < count; ++j) lengths.push_back(place(j + 1) - place(j));
+  for (int j = 0; j < count; ++j) lengths.push_back(fraction_at(j + 1) - fraction_at(j));
   return PhaseMesh(lengths);
 }
 

@@ -18,11 +18,11 @@ constexpr int kSmallMesh = 48;
 
 std::vector<int> interval_divisors(const MotionProblem& problem, const Mesh& mesh) {
   std::vector<int> divisors(mesh.phases.size(), 1);
-  for (const BoundaryCondition& condition : problem.boundary_conditions) {
-    const PhaseMesh& phase = mesh.phases[condition.at.phase];
-    const auto node = phase.node_at(condition.at.fraction);
+  for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
+    const PhaseMesh& phase = mesh.phases[constraint.at.phase];
+    const auto node = phase.node_at(constraint.at.fraction);
     assert(node);
-    int& divisor = divisors[condition.at.phase];
+    int& divisor = divisors[constraint.at.phase];
     divisor = std::lcm(divisor, phase.intervals() / std::gcd(phase.intervals(), *node));
   }
   return divisors;

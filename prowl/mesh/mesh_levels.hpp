@@ -8,7 +8,7 @@
 
 namespace prowl {
 
-/// For each phase: its number of intervals must be a multiple of this to keep a node for every boundary condition.
+/// For each phase: its number of intervals must be a multiple of this to keep a node for every boundary constraint.
 std::vector<int> interval_divisors(const MotionProblem& problem, const Mesh& mesh);
 
 /// Coarsens each phase to wanted(intervals) intervals: at least four, more if goals need them for their nodes, and

@@ -13,7 +13,7 @@ constexpr double kMargin = 1.5;  // on an error: the next motion differs, with e
 constexpr int kMost = 4;  // pieces of an interval, or intervals in one: an error predicts little far from its step
 /// Part of the tolerance: merged intervals should not be split again in the next round.
 constexpr double kMergeBelow = 0.25;
-constexpr double kLongest = 0.25;   // of a phase, for merged intervals: a swing must lift off, pass and land
+constexpr double kLongest = 0.25;         // of a phase, for merged intervals: a swing must lift off, pass and land
 constexpr double kLengthRounding = 1e-9;  // of a phase
 /// Ratio of a step to the one before: the gains of contacts allow no more (node_functions.cpp).
 constexpr double kMostGrowth = 4.0;
@@ -77,8 +77,8 @@ Mesh refined(const MotionProblem& problem, const Mesh& mesh, const std::vector<d
   for (int p = 0; p < static_cast<int>(mesh.phases.size()); ++p) {
     const PhaseMesh& phase = mesh.phases[p];
     std::set<int> goals;
-    for (const BoundaryCondition& condition : problem.boundary_conditions) {
-      if (condition.at.phase == p) goals.insert(phase.node_at(condition.at.fraction).value());
+    for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
+      if (constraint.at.phase == p) goals.insert(phase.node_at(constraint.at.fraction).value());
     }
     finer.phases.push_back(PhaseIntervals(phase, of_phase, std::move(goals)).refined());
     of_phase += phase.intervals();

@@ -55,25 +55,26 @@ Mesh shifted(Mesh mesh) {
 }
 
 /// Goals of the first phase move one node earlier; those at the end of the last phase stay there.
-std::vector<BoundaryCondition> shifted_conditions(const DiscreteProblem& before, const TrajectoryPoint& start,
-                                                  const Mesh& mesh) {
+std::vector<BoundaryConstraint> shifted_constraints(const DiscreteProblem& before, const TrajectoryPoint& start,
+                                                    const Mesh& mesh) {
   const MotionProblem& problem = before.problem;
   const int last = static_cast<int>(problem.phases.size()) - 1;
-  std::vector<BoundaryCondition> conditions;
-  conditions.push_back(BoundaryCondition::unbounded(problem.robot, problem.start().name, problem.start().at, start.q));
-  conditions.back().configuration_lower.setZero();
-  conditions.back().configuration_upper.setZero();
-  conditions.back().velocity_lower = conditions.back().velocity_upper = start.v;
-  for (std::size_t c = 1; c < problem.boundary_conditions.size(); ++c) {
-    const BoundaryCondition& goal = problem.boundary_conditions[c];
-    const int phase = goal.at.phase, node = before.nodes[before.condition_nodes[c]].node;
+  std::vector<BoundaryConstraint> constraints;
+  constraints.push_back(
+      BoundaryConstraint::unbounded(problem.robot, problem.start().name, problem.start().at, start.q));
+  constraints.back().configuration_lower.setZero();
+  constraints.back().configuration_upper.setZero();
+  constraints.back().velocity_lower = constraints.back().velocity_upper = start.v;
+  for (std::size_t c = 1; c < problem.boundary_constraints.size(); ++c) {
+    const BoundaryConstraint& goal = problem.boundary_constraints[c];
+    const int phase = goal.at.phase, node = before.nodes[before.boundary_nodes[c]].node;
     const int shifted_node = phase == 0 ? node - 1 : node;
     if (phase == 0 && shifted_node <= 0) continue;  // it is over
-    conditions.push_back(goal);
+    constraints.push_back(goal);
     if (goal.at == PhaseFraction::end_of(last)) continue;
-    conditions.back().at.fraction = mesh.phases[phase].node_time(shifted_node, 1.0);
+    constraints.back().at.fraction = mesh.phases[phase].node_time(shifted_node, 1.0);
   }
-  return conditions;
+  return constraints;
 }
 
 /// The first stage has no states, so it has no multipliers for their bounds. Its other multipliers come from the second
@@ -106,16 +107,16 @@ ShiftedHorizon shift_horizon(const DiscreteProblem& problem, const Trajectory& m
     first_duration = longer(first_duration, -first_step, planned(0));
     last_duration = longer(last_duration, last_step, planned(last));
   }
-  next.boundary_conditions = shifted_conditions(problem, nodes[1], mesh);
+  next.boundary_constraints = shifted_constraints(problem, nodes[1], mesh);
   ShiftedHorizon result{DiscreteProblem(std::move(next), std::move(mesh)), {}, {}};
 
-  result.start_from.nodes.assign(nodes.begin() + 1, nodes.end());
-  result.start_from.nodes.push_back(nodes.back());
-  result.start_from.nodes.back().time += last_step;
-  for (TrajectoryPoint& node : result.start_from.nodes) node.time -= first_step;
+  result.warm_start.nodes.assign(nodes.begin() + 1, nodes.end());
+  result.warm_start.nodes.push_back(nodes.back());
+  result.warm_start.nodes.back().time += last_step;
+  for (TrajectoryPoint& node : result.warm_start.nodes) node.time -= first_step;
 
   if (multipliers.size() == nodes.size()) {
-    std::vector<StageMultipliers>& shifted_multipliers = result.start_multipliers;
+    std::vector<StageMultipliers>& shifted_multipliers = result.warm_start_multipliers;
     shifted_multipliers.push_back(first_stage(multipliers[0], multipliers[1]));
     shifted_multipliers.insert(shifted_multipliers.end(), multipliers.begin() + 2, multipliers.end() - 1);
     shifted_multipliers.push_back(multipliers[multipliers.size() - 2]);

@@ -8,16 +8,16 @@
 
 namespace prowl {
 
-/// Next problem of a receding horizon, with values for PlanOptions::start_from and start_multipliers.
+/// Next problem of a receding horizon, with values for PlanOptions::warm_start and warm_start_multipliers.
 struct ShiftedHorizon {
   DiscreteProblem problem;
-  Trajectory start_from;
-  std::vector<StageMultipliers> start_multipliers;  ///< empty if there were none
+  Trajectory warm_start;
+  std::vector<StageMultipliers> warm_start_multipliers;  ///< empty if there were none
 };
 
 /// The problem one mesh interval later. It starts at the second node of `motion`, which solves `problem` on its mesh.
 /// The first phase loses an interval, the last phase gains one, with their lengths in the motion; goals at the end stay
-/// at the end. All else keeps its time. `start_from` is the motion without its first node and with its last node
+/// at the end. All else keeps its time. `warm_start` is the motion without its first node and with its last node
 /// repeated for the new interval. `multipliers` (SolveResult::stage_multipliers, may be empty) shift with their stages.
 ///
 /// Throws InputError if the first phase has only one interval (its contacts would change before the new start), or if

@@ -3,17 +3,14 @@
 #include "prowl/model/pinocchio_model.hpp"
 
 namespace prowl {
-namespace {
-
-
-}  // namespace
+namespace {}  // namespace
 
 BodyTree body_tree(const RobotModel& robot) {
   const PinocchioModel& pin = robot.pinocchio();
   const pinocchio::Model& model = pin.model;
   BodyTree tree;
   for (pinocchio::JointIndex j = kBaseJoint; j < model.joints.size(); ++j) {
-    Body& body = tree.bodies.emplace_back();
+    RigidBody& body = tree.bodies.emplace_back();
     body.name = j == kBaseJoint ? "base" : model.names[j];
     body.parent = static_cast<int>(model.parents[j]) - static_cast<int>(kBaseJoint);
     const pinocchio::SE3& placement = model.jointPlacements[j];

@@ -11,7 +11,7 @@ namespace prowl {
 
 /// A rigid body of the robot (links joined by fixed joints are one) and the joint that moves it, as plain data for
 /// programs that rebuild the robot by other means.
-struct Body {
+struct RigidBody {
   std::string name;                                             ///< of its joint; "base" for the first
   int parent = -1;                                              ///< index into BodyTree::bodies; -1 for the base
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();  ///< of the body in its parent with the joint at 0
@@ -28,8 +28,8 @@ struct BodyTree {
     int body = 0;
     Eigen::Vector3d position;  ///< in the body [m]
   };
-  std::vector<Body> bodies;   ///< the base, then one for each joint of the robot, in its order; parents first
-  std::vector<Point> points;  ///< one for each contact of the robot, in its order
+  std::vector<RigidBody> bodies;  ///< the base, then one for each joint of the robot, in its order; parents first
+  std::vector<Point> points;      ///< one for each contact of the robot, in its order
 };
 
 BodyTree body_tree(const RobotModel& robot);

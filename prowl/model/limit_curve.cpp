@@ -37,13 +37,13 @@ void check(const LimitCurve::Table& table) {
 }
 
 Eigen::Spline<double, 1, 3> interpolate(const LimitCurve::Table& table) {
-  Eigen::RowVectorXd limits(static_cast<Eigen::Index>(table.size())), places(limits.size());
+  Eigen::RowVectorXd limits(static_cast<Eigen::Index>(table.size())), parameters(limits.size());
   for (std::size_t i = 0; i < table.size(); ++i) {
     limits(static_cast<Eigen::Index>(i)) = table[i].second;
-    places(static_cast<Eigen::Index>(i)) =
+    parameters(static_cast<Eigen::Index>(i)) =
         (table[i].first - table.front().first) / (table.back().first - table.front().first);
   }
-  return Eigen::SplineFitting<Eigen::Spline<double, 1, 3>>::Interpolate(limits, 3, places);
+  return Eigen::SplineFitting<Eigen::Spline<double, 1, 3>>::Interpolate(limits, 3, parameters);
 }
 
 }  // namespace

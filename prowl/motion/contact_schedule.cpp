@@ -23,7 +23,8 @@ ContactSchedule::ContactSchedule(const MotionProblem& problem)
       }
       if (open_stance < 0) {
         open_stance = static_cast<int>(stances_.size());
-        stances_.push_back({.contact = contact, .surface = held->surface, .first_phase = p, .place = held->place});
+        stances_.push_back(
+            {.contact = contact, .surface = held->surface, .first_phase = p, .foothold = held->foothold});
         if (open_swing >= 0) swings_[open_swing].after = open_stance;
       }
       stances_[open_stance].last_phase = p;
@@ -34,7 +35,7 @@ ContactSchedule::ContactSchedule(const MotionProblem& problem)
 }
 
 bool ContactSchedule::lands(int phase, int i) const {
-  const Stance& held = stances_[stance(phase, i)];
+  const ContactStance& held = stances_[stance(phase, i)];
   return held.lands() && held.first_phase == phase;
 }
 

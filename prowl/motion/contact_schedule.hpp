@@ -8,18 +8,18 @@
 namespace prowl {
 
 /// A contact on one foothold over consecutive phases.
-struct Stance {
+struct ContactStance {
   int contact = 0;
   int surface = 0;
   int first_phase = 0, last_phase = 0;
-  std::optional<Eigen::Vector3d> place;  ///< given foothold, world frame [m]; otherwise the optimiser chooses
+  std::optional<Eigen::Vector3d> foothold;  ///< given foothold, world frame [m]; otherwise the optimiser chooses
 
   /// True if the contact lands during the motion; otherwise it stands from the start, at its position there.
   bool lands() const { return first_phase > 0; }
 };
 
 /// A contact in the air over consecutive phases.
-struct Swing {
+struct ContactSwing {
   int contact = 0;
   int first_phase = 0, last_phase = 0;
   int before = -1, after = -1;  ///< stances on either side; -1 at the start and at the end of the motion
@@ -30,8 +30,10 @@ class ContactSchedule {
  public:
   explicit ContactSchedule(const MotionProblem& problem);
 
-  const std::vector<Stance>& stances() const { return stances_; }
-  const std::vector<Swing>& swings() const { return swings_; }  ///< every contact of the robot, also those never held
+  const std::vector<ContactStance>& stances() const { return stances_; }
+  const std::vector<ContactSwing>& swings() const {
+    return swings_;
+  }  ///< every contact of the robot, also those never held
 
   /// Stance of the i-th contact of a phase; index into stances().
   int stance(int phase, int i) const { return held_[phase][i]; }
@@ -42,8 +44,8 @@ class ContactSchedule {
 
  private:
   int num_phases_;
-  std::vector<Stance> stances_;
-  std::vector<Swing> swings_;
+  std::vector<ContactStance> stances_;
+  std::vector<ContactSwing> swings_;
   std::vector<std::vector<int>> held_;
 };
 

@@ -60,20 +60,20 @@ std::optional<Feet> find_feet(const RobotModel& robot) {
   terms.update_kinematics(robot.nominal_configuration());
   // Axes of the base, not of the world: the nominal posture may have any yaw.
   const Eigen::Matrix3d to_base = base_rotation(robot.nominal_configuration()).transpose();
-  std::array<Vector3d, 4> places;
+  std::array<Vector3d, 4> positions;
   Vector3d middle = Vector3d::Zero();
   for (int contact = 0; contact < 4; ++contact) {
-    places[contact] = to_base * terms.contact_position(contact);
-    middle += places[contact] / 4.0;
+    positions[contact] = to_base * terms.contact_position(contact);
+    middle += positions[contact] / 4.0;
   }
   Feet feet = {-1, -1, -1, -1};
   for (int contact = 0; contact < 4; ++contact) {
-    const Vector3d from_middle = places[contact] - middle;
+    const Vector3d from_middle = positions[contact] - middle;
     const bool fore = from_middle.x() > 0.0, left = from_middle.y() > 0.0;
     const Foot foot = fore ? (left ? Foot::lf : Foot::rf) : (left ? Foot::lh : Foot::rh);
-    int& place = feet[static_cast<std::size_t>(foot)];
-    if (place >= 0) return std::nullopt;
-    place = contact;
+    int& index = feet[static_cast<std::size_t>(foot)];
+    if (index >= 0) return std::nullopt;
+    index = contact;
   }
   return feet;
 }

@@ -67,15 +67,15 @@ void check_surface(const std::string& field, const Surface& surface) {
     refuse("{}.patch: {}", field, fault);
 }
 
-void check_place(const MotionProblem& problem, const std::string& field, const PhaseContact& contact) {
+void check_foothold(const MotionProblem& problem, const std::string& field, const PhaseContact& contact) {
   const Surface& surface = problem.surfaces[contact.surface];
-  check_finite(field, *contact.place, 3);
-  const double gap = surface.distance(*contact.place);
+  check_finite(field, *contact.foothold, 3);
+  const double gap = surface.distance(*contact.foothold);
   if (std::abs(gap) > kOnSurface) {
     refuse("{}: {:.1f} mm {} surface '{}' is not allowed; need a place on it", field, 1e3 * std::abs(gap),
            gap > 0.0 ? "above" : "below", surface.name);
   }
-  if (!surface.contains(surface.coordinates(*contact.place))) {
+  if (!surface.contains(surface.coordinates(*contact.foothold))) {
     refuse("{}: outside the patch of surface '{}'", field, surface.name);
   }
 }
@@ -94,7 +94,7 @@ void check_phase(const MotionProblem& problem, const std::string& field, const P
       refuse("{}: '{}' is listed twice; need each contact once", contact,
              problem.robot.contacts()[phase.contacts[i].contact].name);
     }
-    if (phase.contacts[i].place) check_place(problem, contact + ".place", phase.contacts[i]);
+    if (phase.contacts[i].foothold) check_foothold(problem, contact + ".foothold", phase.contacts[i]);
   }
 }
 
@@ -135,29 +135,29 @@ void check_within_robot(const std::string& field, const RobotModel& robot, const
   }
 }
 
-void check_condition(const MotionProblem& problem, const std::string& field, const BoundaryCondition& condition) {
+void check_constraint(const MotionProblem& problem, const std::string& field, const BoundaryConstraint& constraint) {
   const RobotModel& robot = problem.robot;
-  check_index(field + ".at.phase", condition.at.phase, problem.phases.size());
-  if (!(condition.at.fraction >= 0.0 && condition.at.fraction <= 1.0)) {
-    refuse("{}.at.fraction: {} is not allowed; need 0 to 1", field, condition.at.fraction);
+  check_index(field + ".at.phase", constraint.at.phase, problem.phases.size());
+  if (!(constraint.at.fraction >= 0.0 && constraint.at.fraction <= 1.0)) {
+    refuse("{}.at.fraction: {} is not allowed; need 0 to 1", field, constraint.at.fraction);
   }
-  check_configuration(field + ".q_ref", condition.q_ref, robot.nq());
-  check_bounds(field + ".configuration", condition.configuration_lower, condition.configuration_upper, robot.nv());
-  check_bounds(field + ".velocity", condition.velocity_lower, condition.velocity_upper, robot.nv());
-  check_bounds(field + ".torque", condition.torque_lower, condition.torque_upper, robot.nu());
+  check_configuration(field + ".q_ref", constraint.q_ref, robot.nq());
+  check_bounds(field + ".configuration", constraint.configuration_lower, constraint.configuration_upper, robot.nv());
+  check_bounds(field + ".velocity", constraint.velocity_lower, constraint.velocity_upper, robot.nv());
+  check_bounds(field + ".torque", constraint.torque_lower, constraint.torque_upper, robot.nu());
 
   const int nu = robot.nu();
-  const VectorXd joints = condition.q_ref.tail(nu);
-  check_within_robot(field + ".configuration", robot, joints + condition.configuration_lower.tail(nu),
-                     joints + condition.configuration_upper.tail(nu), robot.position_lower(), robot.position_upper());
-  check_within_robot(field + ".velocity", robot, condition.velocity_lower.tail(nu), condition.velocity_upper.tail(nu),
+  const VectorXd joints = constraint.q_ref.tail(nu);
+  check_within_robot(field + ".configuration", robot, joints + constraint.configuration_lower.tail(nu),
+                     joints + constraint.configuration_upper.tail(nu), robot.position_lower(), robot.position_upper());
+  check_within_robot(field + ".velocity", robot, constraint.velocity_lower.tail(nu), constraint.velocity_upper.tail(nu),
                      -robot.velocity_limit(), robot.velocity_limit());
-  check_within_robot(field + ".torque", robot, condition.torque_lower, condition.torque_upper, -robot.torque_limit(),
+  check_within_robot(field + ".torque", robot, constraint.torque_lower, constraint.torque_upper, -robot.torque_limit(),
                      robot.torque_limit());
 }
 
 /// Only a contact that lands may have a foothold.
-void check_places(const MotionProblem& problem) {
+void check_footholds(const MotionProblem& problem) {
   const auto holds = [&](std::size_t p, int contact) {
     const auto& contacts = problem.phases[p].contacts;
     return std::ranges::find(contacts, contact, &PhaseContact::contact) != contacts.end();
@@ -166,9 +166,10 @@ void check_places(const MotionProblem& problem) {
     const auto& contacts = problem.phases[p].contacts;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const bool lands = p > 0 && !holds(p - 1, contacts[i].contact);
-      if (!contacts[i].place || lands) continue;
+      if (!contacts[i].foothold || lands) continue;
       refuse(
-          "phases[{}].contacts[{}].place: contact '{}' does not land in this phase: it {}; need no place, or the phase "
+          "phases[{}].contacts[{}].foothold: contact '{}' does not land in this phase: it {}; need no place, or the "
+          "phase "
           "in which it lands",
           p, i, problem.robot.contacts()[contacts[i].contact].name,
           p == 0 ? "starts at its position in the start posture" : "already stands in the phase before");
@@ -184,7 +185,7 @@ void check_start_outside(const MotionProblem& problem, const RigidBodyTerms& ter
       const double gap = surface.distance(terms.contact_position(c)) - contact.radius;
       if (!surface.patch.empty() || gap >= -kOnSurface) continue;
       refuse(
-          "boundary_conditions[0].q_ref: contact '{}' starts {:.1f} mm inside surface '{}'; need another start, or "
+          "boundary_constraints[0].q_ref: contact '{}' starts {:.1f} mm inside surface '{}'; need another start, or "
           "a normal that points towards the robot",
           contact.name, -1e3 * gap, surface.name);
     }
@@ -205,7 +206,7 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
     const double gap = surface.distance(kinematics.positions().segment<3>(row)) - contact.radius;
     if (!(std::abs(gap) <= kOnSurface)) {
       refuse(
-          "boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm {} surface '{}'; need at most "
+          "boundary_constraints[0].q_ref: contact '{}' of the first phase is {:.1f} mm {} surface '{}'; need at most "
           "{} mm",
           contact.name, 1e3 * std::abs(gap), gap > 0.0 ? "above" : "inside", surface.name, 1e3 * kOnSurface);
     }
@@ -213,7 +214,7 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
     const double outside = (on_surface - nearest_in_patch(surface, on_surface)).norm();
     if (outside > kOnSurface) {
       refuse(
-          "boundary_conditions[0].q_ref: contact '{}' of the first phase is {:.1f} mm outside the patch of surface "
+          "boundary_constraints[0].q_ref: contact '{}' of the first phase is {:.1f} mm outside the patch of surface "
           "'{}'; need "
           "at most {} mm",
           contact.name, 1e3 * outside, surface.name, 1e3 * kOnSurface);
@@ -221,7 +222,7 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
     const double speed = velocities.segment<3>(row).norm();
     if (!(speed <= kAtRest)) {
       refuse(
-          "boundary_conditions[0].velocity: contact '{}' of the first phase moves at {:.4g} m/s; need at most {} m/s",
+          "boundary_constraints[0].velocity: contact '{}' of the first phase moves at {:.4g} m/s; need at most {} m/s",
           contact.name, speed, kAtRest);
     }
   }
@@ -231,17 +232,17 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
 void check_rotations(const MotionProblem& problem) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::map<double, std::size_t> binding;  // by elapsed phases: both sides of a phase transition are one time
-  for (std::size_t i = 0; i < problem.boundary_conditions.size(); ++i) {
-    const BoundaryCondition& condition = problem.boundary_conditions[i];
-    if (condition.configuration_lower.segment<3>(3).maxCoeff() == -kInfinity &&
-        condition.configuration_upper.segment<3>(3).minCoeff() == kInfinity) {
+  for (std::size_t i = 0; i < problem.boundary_constraints.size(); ++i) {
+    const BoundaryConstraint& constraint = problem.boundary_constraints[i];
+    if (constraint.configuration_lower.segment<3>(3).maxCoeff() == -kInfinity &&
+        constraint.configuration_upper.segment<3>(3).minCoeff() == kInfinity) {
       continue;
     }
-    const auto [other, is_first] = binding.insert({condition.at.phase + condition.at.fraction, i});
+    const auto [other, is_first] = binding.insert({constraint.at.phase + constraint.at.fraction, i});
     if (is_first) continue;
     refuse(
-        "boundary_conditions[{}].configuration: it binds the base's rotation at the same time as "
-        "boundary_conditions[{}]; need one condition there",
+        "boundary_constraints[{}].configuration: it binds the base's rotation at the same time as "
+        "boundary_constraints[{}]; need one condition there",
         i, other->second);
   }
 }
@@ -251,17 +252,17 @@ void check_weightless(const std::string& field, const VectorXd& weights) {
 }
 
 void check_start(const MotionProblem& problem) {
-  const BoundaryCondition& start = problem.start();
+  const BoundaryConstraint& start = problem.start();
   if (!(start.at == PhaseFraction::start_of(0))) {
     refuse(
-        "boundary_conditions[0].at: phase {}, fraction {} is not allowed; the first condition is the start, need 0, 0",
+        "boundary_constraints[0].at: phase {}, fraction {} is not allowed; the first condition is the start, need 0, 0",
         start.at.phase, start.at.fraction);
   }
   if (!start.configuration_lower.isZero(0.0) || !start.configuration_upper.isZero(0.0)) {
-    refuse("boundary_conditions[0].configuration: the start must be fixed at its q_ref; need bounds of 0");
+    refuse("boundary_constraints[0].configuration: the start must be fixed at its q_ref; need bounds of 0");
   }
   if (start.velocity_lower != start.velocity_upper) {
-    refuse("boundary_conditions[0].velocity: the start must be fixed; need equal bounds");
+    refuse("boundary_constraints[0].velocity: the start must be fixed; need equal bounds");
   }
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(problem.start_configuration());
@@ -286,10 +287,10 @@ void check_cost(const std::string& field, const RobotModel& robot, const Quadrat
   check_weights(field + ".force_weight", cost.force_weight, 3);
   check_weights(field + ".time_weight", VectorXd::Constant(1, cost.time_weight), 1);
   for (std::size_t i = 0; i < cost.contact_positions.size(); ++i) {
-    const std::string place = fmt::format("{}.contact_positions[{}]", field, i);
-    check_index(place + ".contact", cost.contact_positions[i].contact, robot.contacts().size());
-    check_finite(place + ".reference", cost.contact_positions[i].reference, 3);
-    check_weights(place + ".weight", cost.contact_positions[i].weight, 3);
+    const std::string entry = fmt::format("{}.contact_positions[{}]", field, i);
+    check_index(entry + ".contact", cost.contact_positions[i].contact, robot.contacts().size());
+    check_finite(entry + ".reference", cost.contact_positions[i].reference, 3);
+    check_weights(entry + ".weight", cost.contact_positions[i].weight, 3);
   }
 }
 
@@ -301,18 +302,18 @@ void check_tolerance(const std::string& field, double tolerance) {
 
 }  // namespace
 
-BoundaryCondition BoundaryCondition::unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
-                                               const Eigen::VectorXd& q_ref) {
+BoundaryConstraint BoundaryConstraint::unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
+                                                 const Eigen::VectorXd& q_ref) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  BoundaryCondition condition;
-  condition.name = std::move(name);
-  condition.at = at;
-  condition.q_ref = q_ref;
-  condition.configuration_lower = condition.velocity_lower = VectorXd::Constant(robot.nv(), -kInfinity);
-  condition.configuration_upper = condition.velocity_upper = VectorXd::Constant(robot.nv(), kInfinity);
-  condition.torque_lower = VectorXd::Constant(robot.nu(), -kInfinity);
-  condition.torque_upper = VectorXd::Constant(robot.nu(), kInfinity);
-  return condition;
+  BoundaryConstraint constraint;
+  constraint.name = std::move(name);
+  constraint.at = at;
+  constraint.q_ref = q_ref;
+  constraint.configuration_lower = constraint.velocity_lower = VectorXd::Constant(robot.nv(), -kInfinity);
+  constraint.configuration_upper = constraint.velocity_upper = VectorXd::Constant(robot.nv(), kInfinity);
+  constraint.torque_lower = VectorXd::Constant(robot.nu(), -kInfinity);
+  constraint.torque_upper = VectorXd::Constant(robot.nu(), kInfinity);
+  return constraint;
 }
 
 void validate(const MotionProblem& problem) {
@@ -324,15 +325,15 @@ void validate(const MotionProblem& problem) {
     check_phase(problem, fmt::format("phases[{}]", i), problem.phases[i]);
   }
   check_surfaces_of_contacts(problem);
-  check_places(problem);
+  check_footholds(problem);
   if (!(problem.swing_clearance >= 0.0) || !std::isfinite(problem.swing_clearance)) {
     refuse("swing_clearance: {} is not allowed; need a length >= 0 [m]", problem.swing_clearance);
   }
-  if (problem.boundary_conditions.empty()) {
-    refuse("boundary_conditions: an empty list is not allowed; need the start as the first");
+  if (problem.boundary_constraints.empty()) {
+    refuse("boundary_constraints: an empty list is not allowed; need the start as the first");
   }
-  for (std::size_t i = 0; i < problem.boundary_conditions.size(); ++i) {
-    check_condition(problem, fmt::format("boundary_conditions[{}]", i), problem.boundary_conditions[i]);
+  for (std::size_t i = 0; i < problem.boundary_constraints.size(); ++i) {
+    check_constraint(problem, fmt::format("boundary_constraints[{}]", i), problem.boundary_constraints[i]);
   }
   check_rotations(problem);
   check_start(problem);

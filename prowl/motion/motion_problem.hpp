@@ -19,7 +19,7 @@ namespace prowl {
 ///   velocity_lower <= v <= velocity_upper (nv),   torque_lower <= tau <= torque_upper (nu)
 ///
 /// The start of a motion is one of these at the start of the first phase; a goal is one at any moment.
-struct BoundaryCondition {
+struct BoundaryConstraint {
   std::string name;  ///< "start", "goal 1", ... for messages
   PhaseFraction at;
   Eigen::VectorXd q_ref;  ///< nq
@@ -28,8 +28,8 @@ struct BoundaryCondition {
   Eigen::VectorXd torque_lower, torque_upper;
 
   /// A condition without bounds, about q_ref.
-  static BoundaryCondition unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
-                                     const Eigen::VectorXd& q_ref);
+  static BoundaryConstraint unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
+                                      const Eigen::VectorXd& q_ref);
 };
 
 /// Tolerances of the certificate on goals [m, rad, m/s and rad/s].
@@ -50,14 +50,14 @@ struct MotionProblem {
   RobotModel robot;
   std::vector<Surface> surfaces;
   std::vector<Phase> phases;
-  std::vector<BoundaryCondition> boundary_conditions;  ///< the first is the start and fixes all of q and v
+  std::vector<BoundaryConstraint> boundary_constraints;  ///< the first is the start and fixes all of q and v
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
   FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
   GoalTolerance goal_tolerance;
 
-  const BoundaryCondition& start() const { return boundary_conditions.front(); }
+  const BoundaryConstraint& start() const { return boundary_constraints.front(); }
   const Eigen::VectorXd& start_configuration() const { return start().q_ref; }
 };
 

@@ -12,7 +12,7 @@ struct PhaseContact {
   int contact = 0;  ///< index into RobotModel::contacts()
   int surface = 0;  ///< index into MotionProblem::surfaces
   /// Foothold of a contact that lands in this phase: on the surface, world frame [m]. Free if not given.
-  std::optional<Eigen::Vector3d> place = {};
+  std::optional<Eigen::Vector3d> foothold = {};
 };
 
 /// Indices into RobotModel::contacts().

@@ -61,7 +61,7 @@ ElasticNlp::ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_fact
   constraint_upper_ = Eigen::Map<const VectorXd>(upper.data(), static_cast<Index>(upper.size()));
 }
 
-VectorXd ElasticNlp::start(const VectorXd& z) {
+VectorXd ElasticNlp::with_slacks(const VectorXd& z) {
   VectorXd result(num_variables()), g(num_constraints());
   result << z, VectorXd::Zero(price_.size());
   constraints(result, g);

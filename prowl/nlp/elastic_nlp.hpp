@@ -33,7 +33,7 @@ class ElasticNlp : public StoredNlp {
   ElasticNlp(Nlp& inner, std::vector<SoftBound> soft, double cost_factor);
 
   /// Start from variables of the inner program, with slacks slightly larger than needed.
-  Eigen::VectorXd start(const Eigen::VectorXd& z);
+  Eigen::VectorXd with_slacks(const Eigen::VectorXd& z);
   Eigen::VectorXd inner(const Eigen::VectorXd& z) const { return z.head(inner_.num_variables()); }
   /// Violation of each soft bound, in the unit of the row or variable: > 0 below its lower bound, < 0 above its upper.
   Eigen::VectorXd violations(const Eigen::VectorXd& z) const;

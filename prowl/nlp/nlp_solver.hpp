@@ -36,10 +36,10 @@ struct SolverOptions {
   int max_iterations = 300;
   double max_seconds = 300.0;
   int threads = 1;             ///< for evaluations; results do not depend on it
-  bool start_is_near = false;  ///< it solves a neighbouring problem: stay near it
+  bool is_warm_start = false;  ///< it solves a neighbouring problem: stay near it
   /// Multipliers of that solution (SolveResult::stage_multipliers) with equal sizes of stages, for solvers that use
   /// stages; may be empty. Riccati then takes full first steps without its filter, and undoes them if they lead away.
-  std::vector<StageMultipliers> start_multipliers = {};
+  std::vector<StageMultipliers> warm_start_multipliers = {};
   std::function<void(const SolveProgress&)> on_iteration;  ///< may be empty
   /// Variables of the iterate of the last on_iteration; may be empty, which saves gathering them.
   std::function<void(const Eigen::VectorXd& z)> on_iterate;
@@ -82,7 +82,7 @@ class NlpSolver {
   /// Reason, for the user, why this solver cannot solve the problem; none if it can.
   virtual std::optional<std::string> why_unsupported(Nlp& nlp) const = 0;
   /// A hard problem gives a status and never throws.
-  virtual SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const = 0;
+  virtual SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const = 0;
 };
 
 }  // namespace prowl

@@ -15,14 +15,14 @@ inline double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_
 /// Adds its lifetime to a sum [s].
 class Stopwatch {
  public:
-  explicit Stopwatch(double& sum) : sum_(sum), start_(wall_seconds()) {}
-  ~Stopwatch() { sum_ += wall_seconds() - start_; }
+  explicit Stopwatch(double& sum) : sum_(sum), began_(wall_seconds()) {}
+  ~Stopwatch() { sum_ += wall_seconds() - began_; }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 
  private:
   double& sum_;
-  double start_;
+  double began_;
 };
 
 }  // namespace prowl

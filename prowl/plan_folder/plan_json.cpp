@@ -214,9 +214,10 @@ SolveStatus read_status(const Reader& json) {
   json.fail("status", "one of " + known);
 }
 
-Grade read_grade(const Reader& certificate) {
+CertificateGrade read_grade(const Reader& certificate) {
   const std::string name = certificate.text("grade");
-  for (const Grade grade : {Grade::failed, Grade::draft, Grade::certified}) {
+  for (const CertificateGrade grade :
+       {CertificateGrade::failed, CertificateGrade::draft, CertificateGrade::certified}) {
     if (name == to_string(grade)) return grade;
   }
   certificate.fail("grade", "failed, draft or certified");
@@ -279,7 +280,7 @@ Mesh read_mesh(const Reader& plan, const MotionProblem& problem) {
     mesh.phases.emplace_back(shares);
   }
   try {
-    nodes_of_conditions(problem, mesh);
+    find_boundary_nodes(problem, mesh);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}.problem.phases: {}", plan.where(), error.what()));
   }

@@ -128,7 +128,8 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
 std::string simulation_json(const PlanRecord& plan, const SimulationRecord& record) {
   const SimulationResult& result = record.result;
   const RobotModel& robot = plan.task.problem.robot;
-  Json json = verdict_json(plan, {kSimulationEngine, result.failures, to_text(result.end), result.end_time, result.phase});
+  Json json =
+      verdict_json(plan, {kSimulationEngine, result.failures, to_text(result.end), result.end_time, result.phase});
   json["criteria"]["slip_m"] = plan.task.success.slip;
   json.update({{"base_position_m", error_json(result.base_position)},
                {"base_angle_rad", error_json(result.base_angle)},

@@ -83,22 +83,22 @@ Json parse_simulation(const ReportInputs& inputs) {
 /// `page` with `data` in place of the placeholder. In JSON '<' occurs only inside strings; written
 /// as \u003c it cannot close the script element or open another.
 std::string filled(const std::string& page, const std::string& data) {
-  const std::size_t place = page.find(kPlaceholder);
-  if (place == std::string::npos || page.find(kPlaceholder, place + 1) != std::string::npos) {
+  const std::size_t index = page.find(kPlaceholder);
+  if (index == std::string::npos || page.find(kPlaceholder, index + 1) != std::string::npos) {
     throw FileError(fmt::format("the template of the report is invalid: need {} in it exactly once", kPlaceholder));
   }
   std::string safe;
   safe.reserve(data.size());
   for (const char c : data) c == '<' ? safe += "\\u003c" : safe += c;
-  return page.substr(0, place) + safe + page.substr(place + std::string_view(kPlaceholder).size());
+  return page.substr(0, index) + safe + page.substr(index + std::string_view(kPlaceholder).size());
 }
 
 /// The page with a content security policy that allows connections to its server.
 std::string served(std::string page) {
-  const std::size_t place = page.find(kPolicy);
-  if (place == std::string::npos)
+  const std::size_t index = page.find(kPolicy);
+  if (index == std::string::npos)
     throw FileError(fmt::format("the template of the report is invalid: need {} in it", kPolicy));
-  return page.replace(place, std::string_view(kPolicy).size(), kServedPolicy);
+  return page.replace(index, std::string_view(kPolicy).size(), kServedPolicy);
 }
 
 /// Data of one plan and its simulation.

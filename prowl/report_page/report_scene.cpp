@@ -57,7 +57,7 @@ class Meshes {
     for (auto& [uri, parts] : parts_) {
       for (VisualMesh& part : parts) {
         simplify(part, kMostTriangles / triangles);
-        places_[uri].push_back(meshes.size());
+        indices_[uri].push_back(meshes.size());
         Json colour = nullptr;
         if (part.colour) colour = to_json(*part.colour);
         meshes.push_back(
@@ -67,13 +67,13 @@ class Meshes {
     return meshes;
   }
 
-  Json places(const std::string& uri) const { return places_.at(uri); }
+  Json indices(const std::string& uri) const { return indices_.at(uri); }
 
  private:
   const std::filesystem::path& urdf_;
   const PackageSearch& search_;
   std::map<std::string, std::vector<VisualMesh>> parts_;
-  std::map<std::string, std::vector<std::size_t>> places_;
+  std::map<std::string, std::vector<std::size_t>> indices_;
 };
 
 /// The robot's visuals with readable meshes; a body that loses one gets a box of its inertia.
@@ -141,7 +141,7 @@ Json report_scene(const MotionProblem& problem, const PackageSearch& search, std
   for (const RobotVisual& visual : visuals) {
     Json colour = nullptr, parts = Json::array();
     if (visual.colour) colour = to_json(*visual.colour);
-    if (visual.kind == RobotVisual::Kind::mesh) parts = meshes.places(visual.mesh);
+    if (visual.kind == RobotVisual::Kind::mesh) parts = meshes.indices(visual.mesh);
     json["visuals"].push_back({{"link", visual.link},
                                {"body", visual.body},
                                {"placement", to_json(visual.placement)},
@@ -150,7 +150,7 @@ Json report_scene(const MotionProblem& problem, const PackageSearch& search, std
                                {"meshes", parts},
                                {"colour", colour}});
   }
-  for (const Body& body : tree.bodies) json["bodies"].push_back(body.name);
+  for (const RigidBody& body : tree.bodies) json["bodies"].push_back(body.name);
   for (std::size_t c = 0; c < tree.points.size(); ++c) {
     const ContactPoint& contact = robot.contacts()[c];
     json["contacts"].push_back({{"name", contact.name},

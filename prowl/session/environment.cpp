@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <sstream>
@@ -70,13 +71,25 @@ void check_mujoco() {
     throw InputError(*reason + ": prowl simulate --engine rollout does not need it");
 }
 
+std::vector<std::filesystem::path> foreign_libraries() {
+  std::vector<std::filesystem::path> found;
+  for (const std::filesystem::path& folder : path_list("LD_LIBRARY_PATH")) {
+    std::error_code ignored;
+    for (const std::filesystem::directory_entry& file : std::filesystem::directory_iterator(folder, ignored)) {
+      const std::string name = file.path().filename().string();
+      if (name.starts_with("libpinocchio") || name.starts_with("libmujoco")) found.push_back(file.path());
+    }
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
 std::map<std::string, std::string> versions() {
-  return {
-      {"prowl", PROWL_VERSION},
-      {"MuJoCo", Physics::version()},
-      {"Pinocchio", PROWL_PINOCCHIO_VERSION},
-      {"vector instructions", PROWL_SIMD},
-      {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
+  return {{"prowl", PROWL_VERSION},
+          {"MuJoCo", Physics::version()},
+          {"Pinocchio", PROWL_PINOCCHIO_VERSION},
+          {"vector instructions", PROWL_SIMD},
+          {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 
 std::map<std::string, std::string> versions_with(const std::string& solver) {

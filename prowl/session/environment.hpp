@@ -30,6 +30,10 @@ void check_mujoco();
 /// The reason; nullopt if MuJoCo can run.
 std::optional<std::string> why_no_mujoco();
 
+/// Files of Pinocchio and MuJoCo in folders of LD_LIBRARY_PATH: the dynamic linker may take them instead of those that
+/// Prowl was built with.
+std::vector<std::filesystem::path> foreign_libraries();
+
 /// Versions by name: "prowl", "vector instructions", "Pinocchio", "MuJoCo", "Eigen".
 std::map<std::string, std::string> versions();
 /// The same and the named solver (make_solver.hpp). Throws InputError if it is unknown or not installed.

@@ -15,13 +15,13 @@ namespace prowl {
 
 namespace {
 
-Trajectory start_from(const PlanStart& start, const DiscreteProblem& asked) {
-  if (!start.record) return {};
+Trajectory warm_start_motion(const WarmStart& from, const DiscreteProblem& asked) {
+  if (!from.record) return {};
   try {
-    return warm_start(*start.record, asked);
+    return warm_start(*from.record, asked);
   } catch (const InputError& error) {
-    if (start.option.empty()) throw;
-    throw InputError(fmt::format("{}: {}", start.option, error.what()));
+    if (from.option.empty()) throw;
+    throw InputError(fmt::format("{}: {}", from.option, error.what()));
   }
 }
 
@@ -99,8 +99,8 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
   const std::unique_ptr<NlpSolver> solver = make_solver(solver_name(request));
   std::unique_ptr<NlpSolver> hint_solver;
   PlanOptions options{.solver = task.solver,
-                      .start_from = start_from(request.start, asked),
-                      .resume = request.start.resume,
+                      .warm_start = warm_start_motion(request.warm_start, asked),
+                      .resume = request.warm_start.resume,
                       .hint_solver =
                           [&hint_solver] {
                             hint_solver = make_solver_if_installed("ipopt");
@@ -113,9 +113,11 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
   options.solver.interrupt = request.interrupt;
   Watch watch(request, options);
 
-  PlannedTask planned{
-      .record = {.task = std::move(task), .plan = {}, .versions = versions_with(solver_name(request)), .warm_start = request.start.folder},
-      .why_no_gains = {}};
+  PlannedTask planned{.record = {.task = std::move(task),
+                                 .plan = {},
+                                 .versions = versions_with(solver_name(request)),
+                                 .warm_start = request.warm_start.folder},
+                      .why_no_gains = {}};
   Plan& plan = planned.record.plan;
   if (request.refine) {
     RefinedPlan refined =

@@ -10,8 +10,8 @@
 
 namespace prowl {
 
-/// A warm start (see PlanOptions::start_from) and its name in messages and in the record.
-struct PlanStart {
+/// A warm start (see PlanOptions::warm_start) and its name in messages and in the record.
+struct WarmStart {
   const PlanRecord* record = nullptr;  ///< null: no warm start
   bool resume = false;                 ///< continue this unfinished solve of the same task
   std::string folder = {};             ///< written into the new record; "" if there is none
@@ -25,7 +25,7 @@ struct PlanRequest {
   HessianKind hessian = HessianKind::exact;
   bool coarse_first = true;                  ///< false: solve on the mesh of the task only
   std::optional<MeshTolerance> refine = {};  ///< refine the mesh until its errors meet this
-  PlanStart start = {};
+  WarmStart warm_start = {};
   bool gains = true;  ///< design feedback gains for a plan that is good
 
   // Callbacks during the solve; each may be empty, none may throw.

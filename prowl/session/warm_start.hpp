@@ -5,7 +5,7 @@
 
 namespace prowl {
 
-/// Trajectory of a plan as a warm start (PlanOptions::start_from). Throws InputError unless robot,
+/// Trajectory of a plan as a warm start (PlanOptions::warm_start). Throws InputError unless robot,
 /// number of phases and their contacts agree; goals, durations, mesh and limits may differ.
 Trajectory warm_start(const PlanRecord& record, const DiscreteProblem& asked);
 

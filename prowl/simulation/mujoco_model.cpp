@@ -27,7 +27,7 @@ constexpr double kFrictionToNormal = 10.0;  // impedance ratio: sticking feet cr
 std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const BodyTree& tree) {
   std::vector<Eigen::Matrix3d> rotations;
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
-    const Body& body = tree.bodies[b];
+    const RigidBody& body = tree.bodies[b];
     if (b == 0) {
       rotations.push_back(base_rotation(robot.nominal_configuration()));
       continue;
@@ -53,7 +53,7 @@ void copy_rotation(const Eigen::Matrix3d& R, double* quaternion) {
   Eigen::Map<Eigen::Vector4d>(quaternion) << r.w(), r.x(), r.y(), r.z();
 }
 
-void set_inertia(const Body& from, double scale, mjsBody* to) {
+void set_inertia(const RigidBody& from, double scale, mjsBody* to) {
   // Principal axes by Eigen: MuJoCo's own have fewer correct digits.
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(from.inertia);
   Eigen::Matrix3d axes = principal.eigenvectors();
@@ -140,7 +140,7 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
   mjsBody* const world = mjs_findBody(spec.get(), "world");
   std::vector<mjsBody*> bodies;
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
-    const Body& from = tree.bodies[b];
+    const RigidBody& from = tree.bodies[b];
     mjsBody* const body = mjs_addBody(b == 0 ? world : bodies[from.parent], nullptr);
     bodies.push_back(body);
     mjs_setName(body->element, from.name.c_str());

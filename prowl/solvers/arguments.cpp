@@ -6,10 +6,10 @@
 
 namespace prowl {
 
-void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) {
+void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) {
   validate(options);
-  if (z_start.size() == nlp.num_variables()) return;
-  throw InputError(fmt::format("start has {} variables, the problem has {}", z_start.size(), nlp.num_variables()));
+  if (z_guess.size() == nlp.num_variables()) return;
+  throw InputError(fmt::format("start has {} variables, the problem has {}", z_guess.size(), nlp.num_variables()));
 }
 
 std::optional<std::string> why_nothing_left(const Nlp& nlp) {

@@ -9,7 +9,7 @@
 namespace prowl {
 
 /// Throws InputError for an invalid option or a start of the wrong size.
-void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options);
+void check_arguments(const Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options);
 
 /// For solvers of general programs: the first variable or constraint with empty bounds; nullopt if
 /// none.

@@ -33,15 +33,15 @@ bool GuardedNlp::evaluate(const char* what, double& seconds, Evaluate&& evaluate
 }
 
 template <typename Describe>
-bool GuardedNlp::finite(const char* what, const Eigen::Ref<const Eigen::VectorXd>& values, Describe&& place) {
+bool GuardedNlp::finite(const char* what, const Eigen::Ref<const Eigen::VectorXd>& values, Describe&& describe) {
   if (values.allFinite()) return true;
   int i = 0;
   while (std::isfinite(values[i])) ++i;
-  failure_ = fmt::format("{} is {} at {}", what, values[i], place(i));
+  failure_ = fmt::format("{} is {} at {}", what, values[i], describe(i));
   return false;
 }
 
-std::string GuardedNlp::place(const SparsityPattern& pattern, int entry, bool rows_are_constraints) const {
+std::string GuardedNlp::describe_entry(const SparsityPattern& pattern, int entry, bool rows_are_constraints) const {
   const int row = pattern.rows[entry];
   return fmt::format("{}, by {}", rows_are_constraints ? nlp_.describe_constraint(row) : nlp_.describe_variable(row),
                      nlp_.describe_variable(pattern.cols[entry]));
@@ -70,13 +70,14 @@ bool GuardedNlp::constraints(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorX
 
 bool GuardedNlp::jacobian(const Eigen::VectorXd& z, Eigen::Ref<Eigen::VectorXd> values) {
   return evaluate("constraint Jacobian", times_.derivatives, [&] { nlp_.jacobian(z, values); }) &&
-         finite("constraint Jacobian", values, [this](int i) { return place(nlp_.jacobian_pattern(), i, true); });
+         finite("constraint Jacobian", values,
+                [this](int i) { return describe_entry(nlp_.jacobian_pattern(), i, true); });
 }
 
 bool GuardedNlp::hessian(const Eigen::VectorXd& z, double cost_factor, const Eigen::VectorXd& multipliers,
                          Eigen::Ref<Eigen::VectorXd> values) {
   return evaluate("Hessian", times_.derivatives, [&] { nlp_.hessian(z, cost_factor, multipliers, values); }) &&
-         finite("Hessian", values, [this](int i) { return place(nlp_.hessian_pattern(), i, false); });
+         finite("Hessian", values, [this](int i) { return describe_entry(nlp_.hessian_pattern(), i, false); });
 }
 
 }  // namespace prowl

@@ -38,8 +38,8 @@ class GuardedNlp {
   template <typename Evaluate>
   bool evaluate(const char* what, double& seconds, Evaluate&& evaluate);
   template <typename Describe>
-  bool finite(const char* what, const Eigen::Ref<const Eigen::VectorXd>& values, Describe&& place);
-  std::string place(const SparsityPattern& pattern, int entry, bool rows_are_constraints) const;
+  bool finite(const char* what, const Eigen::Ref<const Eigen::VectorXd>& values, Describe&& describe);
+  std::string describe_entry(const SparsityPattern& pattern, int entry, bool rows_are_constraints) const;
 
   Nlp& nlp_;
   std::string failure_;

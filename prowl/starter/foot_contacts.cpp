@@ -12,11 +12,11 @@
 namespace prowl {
 namespace {
 
-constexpr std::size_t kSoleJoints = 5;  // a leg with fewer cannot keep a sole level
-constexpr double kSnap = 0.35;          // [rad]: largest tilt of an axis taken for down
-constexpr double kSameHeight = 5e-3;    // [m]: spheres that touch the ground together
-constexpr double kLargestBall = 0.25;   // of the leg's length; wheels are the largest
-constexpr double kPointRounding = 1e-5;      // [m]
+constexpr std::size_t kSoleJoints = 5;   // a leg with fewer cannot keep a sole level
+constexpr double kSnap = 0.35;           // [rad]: largest tilt of an axis taken for down
+constexpr double kSameHeight = 5e-3;     // [m]: spheres that touch the ground together
+constexpr double kLargestBall = 0.25;    // of the leg's length; wheels are the largest
+constexpr double kPointRounding = 1e-5;  // [m]
 
 double rounded(double x) { return kPointRounding * std::round(x / kPointRounding) + 0.0; }
 

@@ -28,7 +28,7 @@ struct Limb {
 
 std::vector<Limb> find_limbs(const BodyTree& tree) {
   std::vector<bool> is_leaf(tree.bodies.size(), true);
-  for (const Body& body : tree.bodies) {
+  for (const RigidBody& body : tree.bodies) {
     if (body.parent >= 0) is_leaf[body.parent] = false;
   }
   std::vector<Limb> limbs;

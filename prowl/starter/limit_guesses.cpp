@@ -13,10 +13,10 @@
 namespace prowl {
 namespace {
 
-constexpr double kFullTurn = 2.0 * std::numbers::pi;    // [rad]; a range beyond this limits nothing
-constexpr double kStraight = 0.1, kMostBent = 2.6;  // [rad], of a knee
-constexpr double kSwing = 1.5;                      // [rad], of other joints of legs, either way
-constexpr double kVelocity = 10.0;                  // [rad/s]
+constexpr double kFullTurn = 2.0 * std::numbers::pi;  // [rad]; a range beyond this limits nothing
+constexpr double kStraight = 0.1, kMostBent = 2.6;    // [rad], of a knee
+constexpr double kSwing = 1.5;                        // [rad], of other joints of legs, either way
+constexpr double kVelocity = 10.0;                    // [rad/s]
 constexpr double kTorqueOfStanding = 5.0;
 
 double two_digits(double x) {

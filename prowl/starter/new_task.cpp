@@ -46,12 +46,13 @@ std::vector<int> all_contacts(const RobotModel& robot) {
 }
 
 /// Contacts at their positions in the nominal posture.
-std::vector<ContactTarget> standing_places(const RobotModel& robot) {
+std::vector<ContactTarget> standing_targets(const RobotModel& robot) {
   const LegKinematics legs(robot);
   const Eigen::VectorXd& q = robot.nominal_configuration();
-  std::vector<ContactTarget> places;
-  for (const int c : all_contacts(robot)) places.push_back({c, base_position(q) + base_rotation(q) * legs.position(c)});
-  return places;
+  std::vector<ContactTarget> targets;
+  for (const int c : all_contacts(robot))
+    targets.push_back({c, base_position(q) + base_rotation(q) * legs.position(c)});
+  return targets;
 }
 
 /// True if the robot can rest with its base shifted and turned and its contacts in place.
@@ -59,7 +60,7 @@ bool can_rest(const RobotModel& robot, bool soles, const Eigen::Vector3d& shift,
   Eigen::VectorXd q = robot.nominal_configuration();
   q.head<3>() += shift;
   set_base_rotation(q, rotation_from_rpy(turn) * base_rotation(q));
-  const InverseKinematics ik = inverse_kinematics(robot, q, standing_places(robot));
+  const InverseKinematics ik = inverse_kinematics(robot, q, standing_targets(robot));
   if (ik.residual > (soles ? kFittedSoles : kFitted)) return false;
   const Eigen::VectorXd joints = ik.q.tail(robot.nu());
   const Eigen::VectorXd torque = static_equilibrium(robot, ik.q, all_contacts(robot)).tau;
@@ -155,20 +156,22 @@ void choose_shift(const RobotModel& robot, NewTask& task) {
 
 /// Steps with the left foot; on four legs or more the left fore foot.
 void choose_step(const RobotModel& robot, NewTask& task) {
-  const std::vector<ContactTarget> places = standing_places(robot);
+  const std::vector<ContactTarget> targets = standing_targets(robot);
   std::size_t first = 0;
-  const auto rank = [&](std::size_t c) { return places[c].position.y() + (task.soles ? 0.0 : places[c].position.x()); };
-  for (std::size_t c = 1; c < places.size(); ++c) {
+  const auto rank = [&](std::size_t c) {
+    return targets[c].position.y() + (task.soles ? 0.0 : targets[c].position.x());
+  };
+  for (std::size_t c = 1; c < targets.size(); ++c) {
     if (rank(c) > rank(first)) first = c;
   }
   while (first > 0 && is_same_foot(robot, first, first - 1)) --first;
-  for (std::size_t c = 0; c < places.size(); ++c) {
+  for (std::size_t c = 0; c < targets.size(); ++c) {
     (is_same_foot(robot, c, first) ? task.swing : task.stay).push_back(robot.contacts()[c].name);
   }
   check_that_it_can_step(robot, task, static_cast<int>(first));
   task.length = hundredths((task.soles ? kStepOnSoles : kStep) * task.height);
-  task.place = places[first].position + Eigen::Vector3d(task.length, 0.0, 0.0);
-  task.place.z() = 0.0;
+  task.foothold = targets[first].position + Eigen::Vector3d(task.length, 0.0, 0.0);
+  task.foothold.z() = 0.0;
 }
 
 /// Strides scale with the height h of the base, times with sqrt(h) (equal Froude numbers). These

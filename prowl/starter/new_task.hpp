@@ -12,20 +12,20 @@ enum class NewTaskKind { hold, stand, crouch, step, gait };
 /// A motion sized for one robot. Lengths in [m].
 struct NewTask {
   NewTaskKind kind = NewTaskKind::crouch;
-  bool soles = false;                               ///< feet have several contacts
-  double height = 0.0;                              ///< of the base above the ground, nominal posture
-  double depth = 0.0;                               ///< crouch: depth
-  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  ///< stand: of the base
-  Eigen::Vector3d turn = Eigen::Vector3d::Zero();   ///< stand: base_rpy_rad
-  std::vector<std::string> swing;                   ///< step: contacts of the stepping foot
-  std::vector<std::string> stay;                    ///< step: the others
-  Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< step: foothold of the first of `swing`, world frame
-  double length = 0.0;                              ///< step: length
-  std::string pattern;                              ///< gait: its name, as in gait_patterns()
-  double stride_duration = 0.0;                     ///< gait [s]
-  double stride_length = 0.0;                       ///< gait
-  double duty_factor = 0.0;                         ///< gait; 0: default of the pattern
-  double intervals_per_second = 0.0;                ///< gait
+  bool soles = false;                                  ///< feet have several contacts
+  double height = 0.0;                                 ///< of the base above the ground, nominal posture
+  double depth = 0.0;                                  ///< crouch: depth
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();     ///< stand: of the base
+  Eigen::Vector3d turn = Eigen::Vector3d::Zero();      ///< stand: base_rpy_rad
+  std::vector<std::string> swing;                      ///< step: contacts of the stepping foot
+  std::vector<std::string> stay;                       ///< step: the others
+  Eigen::Vector3d foothold = Eigen::Vector3d::Zero();  ///< step: foothold of the first of `swing`, world frame
+  double length = 0.0;                                 ///< step: length
+  std::string pattern;                                 ///< gait: its name, as in gait_patterns()
+  double stride_duration = 0.0;                        ///< gait [s]
+  double stride_length = 0.0;                          ///< gait
+  double duty_factor = 0.0;                            ///< gait; 0: default of the pattern
+  double intervals_per_second = 0.0;                   ///< gait
   double torque_weight = 0.0;
 };
 

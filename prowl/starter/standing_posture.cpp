@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kSweep = 0.01;           // [rad]
 constexpr double kHipApart = 0.1;         // of the leg: joints closer to the knee are at the knee
-constexpr double kPostureFitted = 1e-4;          // [m]
-constexpr double kJointRounding = 1e-4;        // [rad]
+constexpr double kPostureFitted = 1e-4;   // [m]
+constexpr double kJointRounding = 1e-4;   // [rad]
 constexpr std::size_t kSoleContacts = 3;  // feet with this many contacts keep a level orientation
 // Stretch of the legs, in order of trial. 0.93 bends a humanoid knee by 45 degrees.
 constexpr double kStretchOfPoints[] = {0.8, 0.75, 0.85, 0.7, 0.65, 0.9, 0.95};
@@ -163,9 +163,9 @@ class PostureSearch {
 
   std::vector<ContactTarget> targets(std::size_t leg, double ground, const Eigen::Vector2d& shift) const {
     std::vector<ContactTarget> result;
-    const Eigen::Vector3d place(hips_[leg].x() + shift.x(), hips_[leg].y() + shift.y(), ground);
+    const Eigen::Vector3d foothold(hips_[leg].x() + shift.x(), hips_[leg].y() + shift.y(), ground);
     for (std::size_t i = 0; i < contacts_[leg].size(); ++i)
-      result.push_back({contacts_[leg][i], place + soles_[leg][i]});
+      result.push_back({contacts_[leg][i], foothold + soles_[leg][i]});
     return result;
   }
 
@@ -191,9 +191,9 @@ class PostureSearch {
   }
 
   bool is_inside(std::size_t leg, const Eigen::VectorXd& joints) const {
-    constexpr double kInside = 0.02;  // [rad]
+    constexpr double kClearance = 0.02;  // [rad]
     return std::all_of(legs_[leg].joints.begin(), legs_[leg].joints.end(), [&](int j) {
-      return joints(j) > robot_.position_lower()(j) + kInside && joints(j) < robot_.position_upper()(j) - kInside;
+      return joints(j) > robot_.position_lower()(j) + kClearance && joints(j) < robot_.position_upper()(j) - kClearance;
     });
   }
 

@@ -158,7 +158,7 @@ int intervals_of(const NewTask& task, std::size_t contacts) {
 
 std::string step_phases(const NewTask& task) {
   // Only the first corner of a sole gets a foothold: the foot fixes the others.
-  std::string landed = fmt::format("{{ contact = \"{}\", place_m = {} }}", task.swing.front(), vector(task.place));
+  std::string landed = fmt::format("{{ contact = \"{}\", place_m = {} }}", task.swing.front(), vector(task.foothold));
   for (std::size_t i = 1; i < task.swing.size(); ++i) landed += ", \"" + task.swing[i] + '"';
   const auto phases = [&](const char* shift, int i, const char* swing, int j, const char* settle, int k) {
     return fmt::format(fmt::runtime(kStepsText), fmt::arg("stay", quoted(task.stay)), fmt::arg("landed", landed),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <vector>
 
 #include "prowl/task_file/toml/toml_value.hpp"
@@ -11,21 +12,21 @@ namespace {
 
 /// Keys that may set a field of MotionProblem, likeliest first.
 std::vector<std::string> keys_of(const std::string& field) {
-  const auto rest_after = [&field](const std::string& start) { return field.substr(start.size()); };
-  if (field.starts_with("boundary_conditions[0]")) return {"start", "phase[0].contacts", "gait"};
-  if (const std::string start = "boundary_conditions["; field.starts_with(start)) {
-    return {fmt::format("goal[{}]", std::stoi(rest_after(start)) - 1), "gait"};
+  const auto rest_after = [&field](const std::string& prefix) { return field.substr(prefix.size()); };
+  if (field.starts_with("boundary_constraints[0]")) return {"start", "phase[0].contacts", "gait"};
+  if (const std::string prefix = "boundary_constraints["; field.starts_with(prefix)) {
+    return {fmt::format("goal[{}]", std::stoi(rest_after(prefix)) - 1), "gait"};
   }
-  const std::pair<const char*, const char*> kStarts[] = {
+  const std::pair<const char*, const char*> kPrefixes[] = {
       {"phases[", "phase["}, {"surfaces[", "surface["}, {"running_cost", "cost"}};
-  const std::pair<const char*, const char*> kEnds[] = {
-      {".place", "_m"}, {".duration", "_s"}, {".point", "_m"}, {".patch", "_m"}};
+  const std::pair<std::string_view, const char*> kSuffixes[] = {
+      {".foothold", ".place_m"}, {".duration", ".duration_s"}, {".point", ".point_m"}, {".patch", ".patch_m"}};
   std::string key = field;
-  for (const auto& [start, in_file] : kStarts) {
-    if (field.starts_with(start)) key = in_file + rest_after(start);
+  for (const auto& [prefix, in_file] : kPrefixes) {
+    if (field.starts_with(prefix)) key = in_file + rest_after(prefix);
   }
-  for (const auto& [end, unit] : kEnds) {
-    if (field.ends_with(end)) key += unit;
+  for (const auto& [suffix, in_file] : kSuffixes) {
+    if (field.ends_with(suffix)) key.replace(key.size() - suffix.size(), suffix.size(), in_file);
   }
   if (field.starts_with("phases[")) return {key, "gait"};
   return {key};
@@ -40,7 +41,7 @@ std::string in_terms_of_the_file(const SourceText& task_file, const std::string&
   const std::string message = complaint.substr(colon);
   const std::vector<std::string> keys = keys_of(complaint.substr(0, colon));
   for (const std::string& key : keys) {
-    if (const auto place = find_place(task_file, key)) return *place + key + message;
+    if (const auto location = find_location(task_file, key)) return *location + key + message;
   }
   return nowhere + keys.front() + message;
 }

@@ -7,7 +7,7 @@
 namespace prowl {
 
 /// Translates a complaint of validate() about a MotionProblem into the words of its task file:
-/// "task.toml:12:1: start: contact 'lf_foot' ..." for "boundary_conditions[0].q_ref: contact
+/// "task.toml:12:1: start: contact 'lf_foot' ..." for "boundary_constraints[0].q_ref: contact
 /// 'lf_foot' ...".
 std::string in_terms_of_the_file(const SourceText& task_file, const std::string& complaint);
 

@@ -84,12 +84,12 @@ std::string location_of_key(const SourceText& source, const std::string& key) {
 namespace {
 
 RobotDescription read_robot(const TomlDocument& document, const SourceText& source, const PackageSearch& search,
-                            const RobotReading& reading) {
+                            const RobotFileOptions& options) {
   document.refuse_key("phase", "this looks like a task file; need the robot file that it names");
   const TomlTable root = document.root(robot_file_keys());
   RobotDescription robot;
   robot.name = root.need("name").as_name();
-  robot.contacts = read_contacts(root, reading.needs_contacts);
+  robot.contacts = read_contacts(root, options.needs_contacts);
   if (const auto nominal = root.find_table("nominal")) read_nominal(*nominal, robot);
   if (const auto limits = root.find("limits")) {
     for (const auto& [joint, value] : limits->as_free_named_values("joint")) {
@@ -105,26 +105,27 @@ RobotDescription read_robot(const TomlDocument& document, const SourceText& sour
   try {
     robot.urdf = resolve_uri(uri, source.path, package_dirs, search);
   } catch (const InputError& error) {
-    if (!reading.urdf_copy) urdf.fail(error.what());
-    robot.urdf = reading.urdf_copy->path;
-    robot.urdf_text = reading.urdf_copy->text;
+    if (!options.urdf_copy) urdf.fail(error.what());
+    robot.urdf = options.urdf_copy->path;
+    robot.urdf_text = options.urdf_copy->text;
   }
   return robot;
 }
 
 }  // namespace
 
-RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search, const RobotReading& reading) {
+RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search,
+                                  const RobotFileOptions& options) {
   const TomlDocument document(source);
-  return document.read_with([&] { return read_robot(document, source, search, reading); });
+  return document.read_with([&] { return read_robot(document, source, search, options); });
 }
 
 RobotDescription read_robot_file(const std::filesystem::path& path, const PackageSearch& search) {
   return parse_robot_file(read_text_file(path), search);
 }
 
-RobotModel load_robot(const SourceText& source, const PackageSearch& search, const RobotReading& reading) {
-  const RobotDescription description = parse_robot_file(source, search, reading);
+RobotModel load_robot(const SourceText& source, const PackageSearch& search, const RobotFileOptions& options) {
+  const RobotDescription description = parse_robot_file(source, search, options);
   try {
     return RobotModel(description);
   } catch (const DescriptionError& error) {

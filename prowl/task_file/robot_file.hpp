@@ -10,7 +10,7 @@
 namespace prowl {
 
 /// Options of reading a robot file.
-struct RobotReading {
+struct RobotFileOptions {
   bool needs_contacts = true;                          ///< false: accept a robot without contacts, to inspect it
   std::optional<SourceText> urdf_copy = std::nullopt;  ///< used if the URDF file does not exist
 };
@@ -19,10 +19,10 @@ struct RobotReading {
 /// errors in it. Only load_robot() checks names of frames and joints, as only the URDF defines
 /// them.
 RobotDescription parse_robot_file(const SourceText& source, const PackageSearch& search,
-                                  const RobotReading& reading = {});
+                                  const RobotFileOptions& options = {});
 RobotDescription read_robot_file(const std::filesystem::path& path, const PackageSearch& search);
 
 /// Builds the robot; adds file and line to errors of RobotModel.
-RobotModel load_robot(const SourceText& source, const PackageSearch& search, const RobotReading& reading = {});
+RobotModel load_robot(const SourceText& source, const PackageSearch& search, const RobotFileOptions& options = {});
 
 }  // namespace prowl

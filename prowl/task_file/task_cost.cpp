@@ -42,8 +42,8 @@ void read_state_cost(const TomlTable& table, const MotionProblem& problem, Quadr
   if (const auto reference = table.find("reference")) {
     const bool is_goal = reference->as_choice("reference") == "goal";
     if (is_goal) {
-      if (problem.boundary_conditions.size() < 2) reference->fail("\"goal\" needs a [[goal]]");
-      cost.q_ref = problem.boundary_conditions.back().q_ref;
+      if (problem.boundary_constraints.size() < 2) reference->fail("\"goal\" needs a [[goal]]");
+      cost.q_ref = problem.boundary_constraints.back().q_ref;
     }
   }
   read_axes(table, "base_position", cost.configuration_weight.segment(0, 3));
@@ -52,8 +52,8 @@ void read_state_cost(const TomlTable& table, const MotionProblem& problem, Quadr
   read_axes(table, "base_linear_velocity", cost.velocity_weight.segment(0, 3));
   read_axes(table, "base_angular_velocity", cost.velocity_weight.segment(3, 3));
   read_joints(table, "joint_velocity", robot, cost.velocity_weight.tail(robot.nu()));
-  for (const TomlTable& place : table.find_tables("contact_position")) {
-    cost.contact_positions.push_back(read_contact_position(place, robot));
+  for (const TomlTable& entry : table.find_tables("contact_position")) {
+    cost.contact_positions.push_back(read_contact_position(entry, robot));
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace prowl {
 
-/// Sets running_cost and terminal_cost; needs robot, phases and boundary conditions of `problem`.
+/// Sets running_cost and terminal_cost; needs robot, phases and boundary constraints of `problem`.
 void read_costs(const TomlTable& root, MotionProblem& problem);
 
 }  // namespace prowl

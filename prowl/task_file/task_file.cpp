@@ -144,7 +144,7 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
       if (const auto surface = table.find("surface")) {
         contact.surface = static_cast<int>(surface->as_one_of("surface", names.surfaces));
       }
-      if (const auto place = table.find("place_m")) contact.place = place->as_vector3();
+      if (const auto point = table.find("place_m")) contact.foothold = point->as_vector3();
     } else {
       contact.contact = static_cast<int>(entry.as_one_of("contact", names.contacts));
     }
@@ -174,7 +174,7 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
       if (other.name == phase.name) table.value().fail("\"" + phase.name + "\" is already another phase");
     }
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
-    const Bounds duration = table.need("duration_s").as_range();
+    const TomlBounds duration = table.need("duration_s").as_range();
     phase.duration = {duration.lower, duration.upper};
     read.mesh.phases.emplace_back(table.need("intervals").as_integer());
     auto steps = table.find("steps");
@@ -198,7 +198,7 @@ Mesh mesh_of(const std::vector<int>& intervals) {
 
 /// Splits a phase with free steps into phases of one interval: each step is a duration between the
 /// phase's bounds / intervals. Conditions stay at their nodes.
-void split_free_steps(FilePhases& read, std::vector<BoundaryCondition>& conditions) {
+void split_free_steps(FilePhases& read, std::vector<BoundaryConstraint>& constraints) {
   std::vector<Phase> pieces;
   Mesh mesh;
   std::vector<int> first;
@@ -221,14 +221,14 @@ void split_free_steps(FilePhases& read, std::vector<BoundaryCondition>& conditio
       step.duration = {phase.duration.min / n, phase.duration.max / n};
       mesh.phases.emplace_back(1);
       if (i == 0) continue;
-      for (PhaseContact& contact : step.contacts) contact.place.reset();  // landed in the first step
+      for (PhaseContact& contact : step.contacts) contact.foothold.reset();  // landed in the first step
     }
   }
-  for (BoundaryCondition& condition : conditions) {
-    const auto p = static_cast<std::size_t>(condition.at.phase);
-    const int node = read.free_steps[p] ? read.mesh.phases[p].node_at(condition.at.fraction).value() : 0;
-    condition.at =
-        node == 0 ? PhaseFraction{first[p], condition.at.fraction} : PhaseFraction::end_of(first[p] + node - 1);
+  for (BoundaryConstraint& constraint : constraints) {
+    const auto p = static_cast<std::size_t>(constraint.at.phase);
+    const int node = read.free_steps[p] ? read.mesh.phases[p].node_at(constraint.at.fraction).value() : 0;
+    constraint.at =
+        node == 0 ? PhaseFraction{first[p], constraint.at.fraction} : PhaseFraction::end_of(first[p] + node - 1);
   }
   read.phases = std::move(pieces);
   read.mesh = std::move(mesh);
@@ -295,19 +295,19 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   if (overrides.intervals) read.mesh = mesh_of(share_intervals(file_intervals, *overrides.intervals));
   check_lengths(root, read);
 
-  std::vector<BoundaryCondition> conditions = {start_condition(robot, start.q)};
-  for (BoundaryCondition& goal : read_goals(root, robot, start, read.phases, read.mesh))
-    conditions.push_back(std::move(goal));
+  std::vector<BoundaryConstraint> constraints = {start_constraint(robot, start.q)};
+  for (BoundaryConstraint& goal : read_goals(root, robot, start, read.phases, read.mesh))
+    constraints.push_back(std::move(goal));
   if (gait && gait->displacement) {
-    conditions.push_back(arrival(robot, start, *gait->displacement, static_cast<int>(read.phases.size())));
+    constraints.push_back(arrival(robot, start, *gait->displacement, static_cast<int>(read.phases.size())));
   }
-  split_free_steps(read, conditions);
+  split_free_steps(read, constraints);
 
   MotionProblem problem{.name = "",
                         .robot = std::move(robot),
                         .surfaces = std::move(surfaces),
                         .phases = std::move(read.phases),
-                        .boundary_conditions = std::move(conditions),
+                        .boundary_constraints = std::move(constraints),
                         .running_cost = {},
                         .terminal_cost = {},
                         .friction_model = {},

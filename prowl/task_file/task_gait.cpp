@@ -41,7 +41,7 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
   Gait gait;
   gait.pattern = read_pattern(table);
   gait.strides = table.need("strides").as_integer();
-  const Bounds stride = table.need("stride_s").as_range();
+  const TomlBounds stride = table.need("stride_s").as_range();
   gait.stride = {stride.lower, stride.upper};
   gait.duty_factor = gait.pattern.duty_factor;
   if (const auto value = table.find("duty_factor")) {

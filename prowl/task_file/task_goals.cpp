@@ -85,7 +85,7 @@ void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int fir
                   Eigen::VectorXd& upper) {
   const std::vector<TomlValue> entries = value.as_list(3);
   for (int i = 0; i < 3; ++i) {
-    const Bounds bounds = entries[i].as_bounds();
+    const TomlBounds bounds = entries[i].as_bounds();
     lower(first + i) = bounds.lower - origin(i);
     upper(first + i) = bounds.upper - origin(i);
   }
@@ -105,7 +105,7 @@ void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const Jo
   const Eigen::Index first = lower.size() - robot.nu();
   for (const auto& [name, entry] : value.as_named_values(names, "joint")) {
     const Eigen::Index joint = std::find(names.begin(), names.end(), name) - names.begin();
-    const Bounds bounds = entry.as_bounds();
+    const TomlBounds bounds = entry.as_bounds();
     if (bounds.lower > range.upper(joint) + kRounding || bounds.upper < range.lower(joint) - kRounding) {
       entry.fail(fmt::format("outside the joint's {} limits; need a value from {:.5g} to {:.5g}", range.name,
                              range.lower(joint), range.upper(joint)));
@@ -115,7 +115,7 @@ void read_joint_bounds(const TomlValue& value, const RobotModel& robot, const Jo
   }
 }
 
-void read_base_position(const TomlTable& goal, const TaskStart& start, BoundaryCondition& condition) {
+void read_base_position(const TomlTable& goal, const TaskStart& start, BoundaryConstraint& constraint) {
   const auto position = goal.find("base_position_m");
   const auto displacement = goal.find("base_displacement_m");
   if (position && displacement) displacement->fail("need either base_position_m or base_displacement_m, not both");
@@ -126,13 +126,13 @@ void read_base_position(const TomlTable& goal, const TaskStart& start, BoundaryC
   for (int i = 0; i < 3; ++i) {
     // A prescribed component becomes part of q_ref, the pose that the initial guess goes to.
     const double shift = lower(i) == upper(i) ? lower(i) : 0.0;
-    condition.q_ref(i) += shift;
-    condition.configuration_lower(i) = lower(i) - shift;
-    condition.configuration_upper(i) = upper(i) - shift;
+    constraint.q_ref(i) += shift;
+    constraint.configuration_lower(i) = lower(i) - shift;
+    constraint.configuration_upper(i) = upper(i) - shift;
   }
 }
 
-void read_base_orientation(const TomlValue& value, const TaskStart& start, BoundaryCondition& condition) {
+void read_base_orientation(const TomlValue& value, const TaskStart& start, BoundaryConstraint& constraint) {
   const std::vector<TomlValue> entries = value.as_list(3);
   Eigen::Vector3d rpy = start.rpy;
   for (int i = 0; i < 3; ++i) {
@@ -140,52 +140,54 @@ void read_base_orientation(const TomlValue& value, const TaskStart& start, Bound
     if (entry.is_text() && entry.as_text() == "free") continue;
     if (!entry.node().is_number()) entry.fail("need a finite number [rad] or \"free\"");
     rpy(i) = entry.as_number();
-    condition.configuration_lower(3 + i) = condition.configuration_upper(3 + i) = 0.0;
+    constraint.configuration_lower(3 + i) = constraint.configuration_upper(3 + i) = 0.0;
   }
-  set_base_rotation(condition.q_ref, rotation_from_rpy(rpy));
+  set_base_rotation(constraint.q_ref, rotation_from_rpy(rpy));
 }
 
-bool binds(const BoundaryCondition& condition) {
-  for (const auto* bounds : {&condition.configuration_lower, &condition.configuration_upper, &condition.velocity_lower,
-                             &condition.velocity_upper, &condition.torque_lower, &condition.torque_upper}) {
+bool binds(const BoundaryConstraint& constraint) {
+  for (const auto* bounds :
+       {&constraint.configuration_lower, &constraint.configuration_upper, &constraint.velocity_lower,
+        &constraint.velocity_upper, &constraint.torque_lower, &constraint.torque_upper}) {
     if (bounds->array().isFinite().any()) return true;
   }
   return false;
 }
 
-BoundaryCondition read_goal(const TomlTable& goal, const std::string& name, const RobotModel& robot,
-                            const TaskStart& start, PhaseFraction at) {
-  BoundaryCondition condition = BoundaryCondition::unbounded(robot, name, at, start.q);
-  read_base_position(goal, start, condition);
-  if (const auto rpy = goal.find("base_rpy_rad")) read_base_orientation(*rpy, start, condition);
+BoundaryConstraint read_goal(const TomlTable& goal, const std::string& name, const RobotModel& robot,
+                             const TaskStart& start, PhaseFraction at) {
+  BoundaryConstraint constraint = BoundaryConstraint::unbounded(robot, name, at, start.q);
+  read_base_position(goal, start, constraint);
+  if (const auto rpy = goal.find("base_rpy_rad")) read_base_orientation(*rpy, start, constraint);
   if (const auto joints = goal.find("joints")) {
     read_joint_bounds(*joints, robot, {robot.position_lower(), robot.position_upper(), "position"},
-                      condition.q_ref.tail(robot.nu()), condition.configuration_lower, condition.configuration_upper);
+                      constraint.q_ref.tail(robot.nu()), constraint.configuration_lower,
+                      constraint.configuration_upper);
   }
   if (const auto linear = goal.find("base_linear_velocity_mps")) {
-    read_bounds3(*linear, Eigen::Vector3d::Zero(), 0, condition.velocity_lower, condition.velocity_upper);
+    read_bounds3(*linear, Eigen::Vector3d::Zero(), 0, constraint.velocity_lower, constraint.velocity_upper);
   }
   if (const auto angular = goal.find("base_angular_velocity_radps")) {
-    read_bounds3(*angular, Eigen::Vector3d::Zero(), 3, condition.velocity_lower, condition.velocity_upper);
+    read_bounds3(*angular, Eigen::Vector3d::Zero(), 3, constraint.velocity_lower, constraint.velocity_upper);
   }
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(robot.nu());
   if (const auto rates = goal.find("joint_velocity_radps")) {
     read_joint_bounds(*rates, robot, {-robot.velocity_limit(), robot.velocity_limit(), "velocity"}, zero,
-                      condition.velocity_lower, condition.velocity_upper);
+                      constraint.velocity_lower, constraint.velocity_upper);
   }
   if (const auto torques = goal.find("torque_Nm")) {
     read_joint_bounds(*torques, robot, {-robot.torque_limit(), robot.torque_limit(), "torque"}, zero,
-                      condition.torque_lower, condition.torque_upper);
+                      constraint.torque_lower, constraint.torque_upper);
   }
-  if (!binds(condition))
+  if (!binds(constraint))
     goal.value().fail("constrains nothing; need at least one key that prescribes or bounds a value");
-  return condition;
+  return constraint;
 }
 
 }  // namespace
 
-BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q) {
-  BoundaryCondition start = BoundaryCondition::unbounded(robot, "start", PhaseFraction::start_of(0), q);
+BoundaryConstraint start_constraint(const RobotModel& robot, const Eigen::VectorXd& q) {
+  BoundaryConstraint start = BoundaryConstraint::unbounded(robot, "start", PhaseFraction::start_of(0), q);
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
@@ -193,10 +195,10 @@ BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd
   return start;
 }
 
-BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
-                          int num_phases) {
-  BoundaryCondition goal =
-      BoundaryCondition::unbounded(robot, "goal 1", PhaseFraction::end_of(num_phases - 1), start.q);
+BoundaryConstraint arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
+                           int num_phases) {
+  BoundaryConstraint goal =
+      BoundaryConstraint::unbounded(robot, "goal 1", PhaseFraction::end_of(num_phases - 1), start.q);
   goal.q_ref.head<3>() += displacement;
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
@@ -205,9 +207,9 @@ BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const
   return goal;
 }
 
-std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
-                                          const std::vector<Phase>& phases, const Mesh& mesh) {
-  std::vector<BoundaryCondition> goals;
+std::vector<BoundaryConstraint> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
+                                           const std::vector<Phase>& phases, const Mesh& mesh) {
+  std::vector<BoundaryConstraint> goals;
   for (const TomlTable& goal : root.find_tables("goal")) {
     const std::string name = fmt::format("goal {}", goals.size() + 1);
     goals.push_back(read_goal(goal, name, robot, start, read_moment(goal, phases, mesh)));

@@ -14,15 +14,15 @@ struct TaskStart {
 };
 
 /// Boundary condition that fixes the start at q, at rest.
-BoundaryCondition start_condition(const RobotModel& robot, const Eigen::VectorXd& q);
+BoundaryConstraint start_constraint(const RobotModel& robot, const Eigen::VectorXd& q);
 
 /// Goal of a gait: at the end of the last phase the base is at rest, displaced from the start
 /// (world frame [m]), with its start orientation; legs are free.
-BoundaryCondition arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
-                          int num_phases);
+BoundaryConstraint arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
+                           int num_phases);
 
 /// One condition per [[goal]], at a node of the mesh. `mesh` has equal steps in each phase.
-std::vector<BoundaryCondition> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
-                                          const std::vector<Phase>& phases, const Mesh& mesh);
+std::vector<BoundaryConstraint> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
+                                           const std::vector<Phase>& phases, const Mesh& mesh);
 
 }  // namespace prowl

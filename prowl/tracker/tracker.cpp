@@ -29,9 +29,9 @@ Eigen::Quaterniond quaternion(const Q& q) {
 
 double value(const TrackingPlan::TorqueCurve& curve, double x) {
   const auto last = static_cast<double>(curve.values.size() - 1);
-  const double place = std::clamp((x - curve.lower) / (curve.upper - curve.lower) * last, 0.0, last);
-  const auto i = std::min(static_cast<Eigen::Index>(place), curve.values.size() - 2);
-  const double share = place - static_cast<double>(i);
+  const double position = std::clamp((x - curve.lower) / (curve.upper - curve.lower) * last, 0.0, last);
+  const auto i = std::min(static_cast<Eigen::Index>(position), curve.values.size() - 2);
+  const double share = position - static_cast<double>(i);
   return (1.0 - share) * curve.values(i) + share * curve.values(i + 1);
 }
 
@@ -51,14 +51,14 @@ const TrackingPlan::Segment& Tracker::segment(double t) const noexcept {
   return plan_.segments.back();
 }
 
-Tracker::Place Tracker::find(double t) const noexcept {
+Tracker::Bracket Tracker::find(double t) const noexcept {
   const TrackingPlan::Segment& at = segment(t);
   const double intervals = at.samples - 1;
-  double place = (t - at.start) / (at.end - at.start) * intervals;
-  if (!(place < intervals)) place = intervals;  // also NaN
-  place = std::max(place, 0.0);
-  const int i = std::min(static_cast<int>(place), at.samples - 2);
-  return {at.first_sample + i, at.first_sample + i + 1, place - i};
+  double position = (t - at.start) / (at.end - at.start) * intervals;
+  if (!(position < intervals)) position = intervals;  // also NaN
+  position = std::max(position, 0.0);
+  const int i = std::min(static_cast<int>(position), at.samples - 2);
+  return {at.first_sample + i, at.first_sample + i + 1, position - i};
 }
 
 Eigen::Map<const Eigen::MatrixXd> Tracker::gain(Eigen::Index sample) const noexcept {
@@ -67,11 +67,11 @@ Eigen::Map<const Eigen::MatrixXd> Tracker::gain(Eigen::Index sample) const noexc
 
 void Tracker::reference(double t, Vector q, Vector v) const noexcept {
   assert(q.size() == plan_.nq() && v.size() == plan_.nv());
-  const Place place = find(t);
-  q = between(place, plan_.q);
-  v = between(place, plan_.v);
+  const Bracket bracket = find(t);
+  q = between(bracket, plan_.q);
+  v = between(bracket, plan_.v);
   q.segment<4>(3) =
-      quaternion(plan_.q.col(place.first)).slerp(place.share, quaternion(plan_.q.col(place.second))).coeffs();
+      quaternion(plan_.q.col(bracket.first)).slerp(bracket.share, quaternion(plan_.q.col(bracket.second))).coeffs();
 }
 
 void Tracker::gains(double t, Eigen::Ref<Eigen::MatrixXd> K) const noexcept {

@@ -66,14 +66,14 @@ class Tracker {
 
  private:
   /// Position between two samples: (1 - share) first + share second.
-  struct Place {
+  struct Bracket {
     Eigen::Index first, second;
     double share;
   };
-  Place find(double t) const noexcept;
+  Bracket find(double t) const noexcept;
   /// Returns an Eigen expression: no copy.
-  static auto between(const Place& place, const Eigen::MatrixXd& samples) {
-    return (1.0 - place.share) * samples.col(place.first) + place.share * samples.col(place.second);
+  static auto between(const Bracket& bracket, const Eigen::MatrixXd& samples) {
+    return (1.0 - bracket.share) * samples.col(bracket.first) + bracket.share * samples.col(bracket.second);
   }
   Eigen::Map<const Eigen::MatrixXd> gain(Eigen::Index sample) const noexcept;
 

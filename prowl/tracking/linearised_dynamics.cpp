@@ -73,9 +73,9 @@ MatrixXd LinearisedDynamics::landing(const VectorXd& weight) {
   if (rank == 0) return result;
 
   const VectorXd inverse_weight = weight.head(nv).cwiseInverse();
-  const MatrixXd places = C_.topLeftCorner(rank, nv);
-  const MatrixXd spread = inverse_weight.asDiagonal() * places.transpose();
-  const MatrixXd kept = MatrixXd::Identity(nv, nv) - spread * (places * spread).ldlt().solve(places);  // of dq
+  const MatrixXd positions = C_.topLeftCorner(rank, nv);
+  const MatrixXd spread = inverse_weight.asDiagonal() * positions.transpose();
+  const MatrixXd kept = MatrixXd::Identity(nv, nv) - spread * (positions * spread).ldlt().solve(positions);  // of dq
   result.topLeftCorner(nv, nv) = kept;
 
   terms_.update_with_derivatives(q_, v_, VectorXd::Zero(nv));

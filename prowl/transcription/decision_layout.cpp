@@ -18,8 +18,8 @@ DecisionLayout::DecisionLayout(const DiscreteProblem& discrete, const std::vecto
   num_variables_ = nodes_.back();
   for (const Phase& phase : discrete.problem.phases)
     durations_.push_back(phase.duration.is_fixed() ? -1 : num_variables_++);
-  for (const Stance& stance : discrete.schedule.stances()) {
-    places_.push_back(stance.lands() ? num_variables_ : -1);
+  for (const ContactStance& stance : discrete.schedule.stances()) {
+    footholds_.push_back(stance.lands() ? num_variables_ : -1);
     if (stance.lands()) num_variables_ += 2;
   }
 }

@@ -17,7 +17,7 @@ namespace prowl {
 ///    per phase transition  (continuity of q, nv rows | of v, nv rows).
 ///
 /// Rotation of the base: R = R_chart exp(theta), one chart per node, fixed by the initial guess or
-/// by a boundary condition there. So theta stays near zero, and a goal's bounds on rotation are
+/// by a boundary constraint there. So theta stays near zero, and a goal's bounds on rotation are
 /// bounds on theta.
 class DecisionLayout {
  public:
@@ -40,8 +40,8 @@ class DecisionLayout {
   int num_w(int k) const { return node_size(k) - 3 * nv_ - nu(); }
 
   int first_shared() const { return nodes_.back(); }
-  int duration(int phase) const { return durations_[phase]; }  ///< -1 if it is fixed
-  int place(int stance) const { return places_[stance]; }      ///< -1 if it does not land
+  int duration(int phase) const { return durations_[phase]; }    ///< -1 if it is fixed
+  int foothold(int stance) const { return footholds_[stance]; }  ///< -1 if it does not land
 
   int node_row(int k) const { return node_rows_[k]; }  ///< first row of node k
   /// First row that links nodes k and k + 1: defects of an interval, or continuity at a phase
@@ -53,7 +53,7 @@ class DecisionLayout {
   int nv_;
   int num_variables_ = 0, num_constraints_ = 0, first_link_row_ = 0;
   std::vector<int> nodes_;  ///< first variable of each node; the end of the last
-  std::vector<int> node_rows_, durations_, places_;
+  std::vector<int> node_rows_, durations_, footholds_;
 };
 
 }  // namespace prowl

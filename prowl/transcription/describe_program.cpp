@@ -19,10 +19,10 @@ std::string describe_shared(const NodeProgram& program, int index) {
     }
   }
   std::size_t s = 0;
-  while (layout.place(static_cast<int>(s)) != index && layout.place(static_cast<int>(s)) + 1 != index) ++s;
-  const Stance& stance = discrete.schedule.stances()[s];
+  while (layout.foothold(static_cast<int>(s)) != index && layout.foothold(static_cast<int>(s)) + 1 != index) ++s;
+  const ContactStance& stance = discrete.schedule.stances()[s];
   return fmt::format("phase {} '{}', foothold coordinate {} of {} on {}", stance.first_phase + 1,
-                     problem.phases[stance.first_phase].name, index - layout.place(static_cast<int>(s)) + 1,
+                     problem.phases[stance.first_phase].name, index - layout.foothold(static_cast<int>(s)) + 1,
                      problem.robot.contacts()[stance.contact].name, problem.surfaces[stance.surface].name);
 }
 

@@ -19,9 +19,9 @@ std::map<int, MotionLimit> limits_of_goals(const DiscreteProblem& discrete, cons
   const MotionProblem& problem = discrete.problem;
   const RobotModel& robot = problem.robot;
   std::map<int, MotionLimit> limits;
-  for (std::size_t c = 1; c < problem.boundary_conditions.size(); ++c) {
-    const BoundaryCondition& goal = problem.boundary_conditions[c];
-    const int k = discrete.condition_nodes[c];
+  for (std::size_t c = 1; c < problem.boundary_constraints.size(); ++c) {
+    const BoundaryConstraint& goal = problem.boundary_constraints[c];
+    const int k = discrete.boundary_nodes[c];
     for (int i = 0; i < layout.nv(); ++i) {
       if (binds(goal.configuration_lower, goal.configuration_upper, i))
         limits.insert_or_assign(layout.q(k) + i, limit_of_goal(robot, goal.name, i, false));
@@ -85,15 +85,15 @@ std::vector<MotionLimit> motion_limits(const NodeProgram& program) {
       add_joint(LimitKind::torque, j, layout.tau(k) + j);
     }
   }
-  const std::vector<Stance>& stances = discrete.schedule.stances();
+  const std::vector<ContactStance>& stances = discrete.schedule.stances();
   for (int s = 0; s < static_cast<int>(stances.size()); ++s) {
-    if (!stances[s].lands() || !stances[s].place) continue;
-    const MotionLimit limit{.kind = LimitKind::place,
+    if (!stances[s].lands() || !stances[s].foothold) continue;
+    const MotionLimit limit{.kind = LimitKind::foothold,
                             .subject = robot.contacts()[stances[s].contact].name,
                             .unit = "m",
                             .size = robot.size()};
     const int k = discrete.mesh.first_node(stances[s].first_phase);
-    for (const int axis : {0, 1}) add_variable(limit, layout.place(s) + axis, k);
+    for (const int axis : {0, 1}) add_variable(limit, layout.foothold(s) + axis, k);
   }
   return result;
 }

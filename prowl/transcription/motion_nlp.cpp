@@ -28,16 +28,16 @@ double MotionNlp::planned_duration(const Trajectory& motion, int phase) const {
   return motion.nodes[mesh.last_node(phase)].time - motion.nodes[mesh.first_node(phase)].time;
 }
 
-std::vector<Eigen::Vector2d> MotionNlp::landing_places(const Trajectory& motion) const {
+std::vector<Eigen::Vector2d> MotionNlp::landing_footholds(const Trajectory& motion) const {
   RigidBodyTerms terms(problem().robot);
-  std::vector<Eigen::Vector2d> places;
-  for (const Stance& stance : discrete_.schedule.stances()) {
-    places.emplace_back(Eigen::Vector2d::Zero());
+  std::vector<Eigen::Vector2d> footholds;
+  for (const ContactStance& stance : discrete_.schedule.stances()) {
+    footholds.emplace_back(Eigen::Vector2d::Zero());
     if (!stance.lands()) continue;
     terms.update_kinematics(motion.nodes[discrete_.mesh.first_node(stance.first_phase)].q);
-    places.back() = problem().surfaces[stance.surface].coordinates(terms.contact_position(stance.contact));
+    footholds.back() = problem().surfaces[stance.surface].coordinates(terms.contact_position(stance.contact));
   }
-  return places;
+  return footholds;
 }
 
 void MotionNlp::append(TrajectoryPoint point, Trajectory& motion) {

@@ -48,7 +48,7 @@ class MotionNlp : public StoredNlp {
   /// Duration of a phase of the motion [s].
   double planned_duration(const Trajectory& motion, int phase) const;
   /// Foothold of each stance that lands, in surface coordinates [m]; zero for the others.
-  std::vector<Eigen::Vector2d> landing_places(const Trajectory& motion) const;
+  std::vector<Eigen::Vector2d> landing_footholds(const Trajectory& motion) const;
   /// Appends a point, with the sign of its quaternion chosen for continuity.
   static void append(TrajectoryPoint point, Trajectory& motion);
 

@@ -48,8 +48,8 @@ NodeProgram::NodeProgram(const DiscreteProblem& discrete, const Trajectory& gues
     std::vector<int>& shared = shared_.emplace_back();
     if (layout_.duration(p) >= 0) shared.push_back(layout_.duration(p));
     for (const int i : functions_.front()[p].landed()) {
-      const int place = layout_.place(discrete.schedule.stance(p, i));
-      shared.insert(shared.end(), {place, place + 1});
+      const int foothold = layout_.foothold(discrete.schedule.stance(p, i));
+      shared.insert(shared.end(), {foothold, foothold + 1});
     }
   }
 }

@@ -23,7 +23,7 @@ std::vector<Eigen::VectorXd> anchor_origins(const DiscreteProblem& discrete) {
     const auto& contacts = problem.phases[p].contacts;
     Eigen::VectorXd& anchors = origins.emplace_back(3 * static_cast<Eigen::Index>(contacts.size()));
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      const Stance& stance =
+      const ContactStance& stance =
           discrete.schedule.stances()[discrete.schedule.stance(static_cast<int>(p), static_cast<int>(i))];
       const double radius = problem.robot.contacts()[stance.contact].radius;
       anchors.segment<3>(static_cast<Eigen::Index>(3 * i)) =

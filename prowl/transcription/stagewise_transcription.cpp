@@ -101,9 +101,9 @@ void StagewiseTranscription::set_variables(int k) {
   stage.size.states = static_cast<int>(stage.variables.size()) - stage.size.inputs;
   stage.unit = units(k)(stage.variables);
   for (int i = 0; i < stage.size.variables(); ++i) {
-    const int place = stage.variables[i];
-    if (stage.runs.empty() || place != stage.runs.back().place + stage.runs.back().length)
-      stage.runs.push_back({i, place, 0});
+    const int variable = stage.variables[i];
+    if (stage.runs.empty() || variable != stage.runs.back().variable + stage.runs.back().length)
+      stage.runs.push_back({i, variable, 0});
     ++stage.runs.back().length;
   }
 }
@@ -192,9 +192,9 @@ void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
 void StagewiseTranscription::fill_values(int k, const NodeValues& node) {
   Stage& stage = this->stage(k);
   stage.values.cost = node.cost;
-  const auto function = [&](int place) {
-    if (place < stage.num_rows) return node.rows(place);
-    const int i = place - stage.num_rows;
+  const auto function = [&](int index) {
+    if (index < stage.num_rows) return node.rows(index);
+    const int i = index - stage.num_rows;
     return stage.node()(stage.bounded[i]) * stage.per_unit(i);
   };
   stage.values.equalities.resize(stage.size.equalities);
@@ -241,9 +241,9 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
 
   work.slopes.setZero(stage.size.equalities, size);
   for (int i = 0; i < stage.size.equalities; ++i) {
-    const int place = stage.equalities[i], bound = place - stage.num_rows;
+    const int index = stage.equalities[i], bound = index - stage.num_rows;
     if (bound < 0) {
-      work.slopes.row(i) = jacobian.row(place);
+      work.slopes.row(i) = jacobian.row(index);
     } else {
       work.slopes(i, stage.bounded[bound]) = stage.per_unit(bound);
     }
@@ -254,16 +254,16 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
     stage.equality_slopes.col(i) = stage.unit(i) * work.slopes.col(stage.variables[i]);
   }
 
-  const auto is_row = [&](int place) { return place < stage.num_rows; };
+  const auto is_row = [&](int index) { return index < stage.num_rows; };
   const Index count = std::ranges::count_if(stage.inequalities, is_row);
   InequalityRows& rows = stage.rows;
   rows.gradients.resize(size, count);
-  rows.places.resize(size, count);
+  rows.indices.resize(size, count);
   rows.counts.setZero(count);
   for (Index i = 0; i < count; ++i) {  // rows precede the bounds
     rows.gradients.col(i) = jacobian.row(stage.inequalities[i]).transpose();
     for (Index j = 0; j < size; ++j) {
-      if (rows.gradients(j, i) != 0.0) rows.places(rows.counts(i)++, i) = static_cast<int>(j);
+      if (rows.gradients(j, i) != 0.0) rows.indices(rows.counts(i)++, i) = static_cast<int>(j);
     }
   }
 }
@@ -282,9 +282,9 @@ void StagewiseTranscription::gather(const Stage& stage, const MatrixXd& form, Ma
   result.resize(size, size);
   for (Index j = 0; j < size; ++j) {
     const auto column = form.col(stage.variables[j]);
-    for (const auto& [first, place, length] : stage.runs) {
+    for (const auto& [first, variable, length] : stage.runs) {
       result.col(j).segment(first, length) =
-          stage.unit(j) * stage.unit.segment(first, length).cwiseProduct(column.segment(place, length));
+          stage.unit(j) * stage.unit.segment(first, length).cwiseProduct(column.segment(variable, length));
     }
   }
 }
@@ -297,11 +297,11 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   const bool is_exact = nodes_.functions(k).hessian_kind() == HessianKind::exact;
   work.on_rows.setZero(stage.num_rows);
   work.on_node.setZero(stage.node().size());
-  const auto distribute = [&](const std::vector<int>& places, const VectorXd& on) {
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const int bound = places[i] - stage.num_rows;
+  const auto distribute = [&](const std::vector<int>& functions, const VectorXd& on) {
+    for (std::size_t i = 0; i < functions.size(); ++i) {
+      const int bound = functions[i] - stage.num_rows;
       if (bound < 0) {
-        work.on_rows(places[i]) = on(static_cast<Index>(i));
+        work.on_rows(functions[i]) = on(static_cast<Index>(i));
       } else {
         const int variable = stage.bounded[bound];
         work.on_node(variable) += on(static_cast<Index>(i)) * stage.per_unit(bound);
@@ -353,9 +353,10 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
   work.form.setZero(size, size);
   if (stage.num_next() > 0) {
     const VectorXd& unit = stage.next_per_unit;
-    const auto place = [&](Index i) { return i < states ? i : Index{stage.carried[i - states]}; };
+    const auto on_next_node = [&](Index i) { return i < states ? i : Index{stage.carried[i - states]}; };
     for (Index j = 0; j < unit.size(); ++j) {
-      for (Index i = 0; i < unit.size(); ++i) work.form(place(i), place(j)) = unit(i) * unit(j) * next_hessian(i, j);
+      for (Index i = 0; i < unit.size(); ++i)
+        work.form(on_next_node(i), on_next_node(j)) = unit(i) * unit(j) * next_hessian(i, j);
     }
     stage.linear_departure.pull_back_form(work.form);
   }
@@ -365,15 +366,15 @@ void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const
   Index dense = 0;
   for (Index i = 0; i < rows; ++i) {
     const auto gradient = stage.rows.gradients.col(i);
-    const auto places = stage.rows.places.col(i).head(stage.rows.counts(i));
-    if (2 * places.size() > size) {
+    const auto indices = stage.rows.indices.col(i).head(stage.rows.counts(i));
+    if (2 * indices.size() > size) {
       work.dense.col(dense) = gradient;
       work.scaled.col(dense++) = weights(i) * gradient;
       continue;
     }
-    for (const int column : places) {
+    for (const int column : indices) {
       const double factor = weights(i) * gradient(column);
-      for (const int row : places) work.form(row, column) += factor * gradient(row);
+      for (const int row : indices) work.form(row, column) += factor * gradient(row);
     }
   }
   if (dense > 0) {  // Eigen's triangular product of empty matrices divides by zero

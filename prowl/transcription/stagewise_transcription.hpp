@@ -60,7 +60,7 @@ class StagewiseTranscription : public StagewiseNlp {
   /// Gradients of the inequality rows of a node, one per column, with their non-zero positions.
   struct InequalityRows {
     Eigen::MatrixXd gradients;
-    Eigen::MatrixXi places;
+    Eigen::MatrixXi indices;
     Eigen::VectorXi counts;
   };
   /// Work space in the variables of a node, one per thread. Stages of one shape share it: no
@@ -75,7 +75,7 @@ class StagewiseTranscription : public StagewiseNlp {
     std::size_t shape = 0;       ///< index of its work space
     std::vector<int> variables;  ///< of (u, x): indices into the variables of the node; z, w: those of q, v
     struct Run {
-      int first, place, length;
+      int first, variable, length;
     };
     std::vector<Run> runs;     ///< the same as contiguous ranges
     Eigen::VectorXd unit;      ///< variable of the node = unit * variable of the stage

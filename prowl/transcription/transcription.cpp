@@ -277,9 +277,9 @@ void Transcription::hessian(const VectorXd& z, double cost_factor, const VectorX
       MatrixXd& node = nodes[k + end];
       node.block<3, 3>(3, nv) += bent.theta_v[end];
       node.block<3, 3>(nv, 3) += bent.theta_v[end].transpose();
-      const auto place = [&](int i) { return i < 3 ? 3 + i : nv + i; };
+      const auto index = [&](int i) { return i < 3 ? 3 + i : nv + i; };
       for (int i = 0; i < 6; ++i) {
-        for (int j = 0; j < 6; ++j) node(place(i), place(j)) += bent.turn[end](i, j);
+        for (int j = 0; j < 6; ++j) node(index(i), index(j)) += bent.turn[end](i, j);
       }
       if (free_duration < 0) continue;
       node.row(layout_.node_size(k + end)).head(3 * nv) += per_duration * bent.step[end].transpose();
@@ -321,9 +321,9 @@ VectorXd Transcription::pack(const Trajectory& trajectory) const {
   for (int p = 0; p < static_cast<int>(problem().phases.size()); ++p) {
     if (layout_.duration(p) >= 0) z(layout_.duration(p)) = planned_duration(trajectory, p);
   }
-  const std::vector<Eigen::Vector2d> places = landing_places(trajectory);
-  for (int s = 0; s < static_cast<int>(places.size()); ++s) {
-    if (layout_.place(s) >= 0) z.segment<2>(layout_.place(s)) = places[s];
+  const std::vector<Eigen::Vector2d> footholds = landing_footholds(trajectory);
+  for (int s = 0; s < static_cast<int>(footholds.size()); ++s) {
+    if (layout_.foothold(s) >= 0) z.segment<2>(layout_.foothold(s)) = footholds[s];
   }
   return z;
 }

@@ -23,9 +23,9 @@ std::vector<int> nodes_at_time_of(const DiscreteProblem& discrete, int k) {
   return nodes;
 }
 
-bool binds_rotation(const BoundaryCondition& condition) {
-  return condition.configuration_lower.segment<3>(3).maxCoeff() > -kInfinity ||
-         condition.configuration_upper.segment<3>(3).minCoeff() < kInfinity;
+bool binds_rotation(const BoundaryConstraint& constraint) {
+  return constraint.configuration_lower.segment<3>(3).maxCoeff() > -kInfinity ||
+         constraint.configuration_upper.segment<3>(3).minCoeff() < kInfinity;
 }
 
 void tighten(VariableBounds& bounds, int first, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
@@ -56,11 +56,11 @@ std::vector<Eigen::Matrix3d> rotation_charts(const DiscreteProblem& discrete, co
     const int first = nodes_at_time_of(discrete, k).back() < k ? k - 1 : k;
     charts.push_back(base_rotation(guess.nodes[first].q));
   }
-  for (std::size_t c = 0; c < discrete.condition_nodes.size(); ++c) {
-    const BoundaryCondition& condition = discrete.problem.boundary_conditions[c];
-    if (!binds_rotation(condition)) continue;
-    for (const int k : nodes_at_time_of(discrete, discrete.condition_nodes[c])) {
-      charts[k] = base_rotation(condition.q_ref);
+  for (std::size_t c = 0; c < discrete.boundary_nodes.size(); ++c) {
+    const BoundaryConstraint& constraint = discrete.problem.boundary_constraints[c];
+    if (!binds_rotation(constraint)) continue;
+    for (const int k : nodes_at_time_of(discrete, discrete.boundary_nodes[c])) {
+      charts[k] = base_rotation(constraint.q_ref);
     }
   }
   return charts;
@@ -87,25 +87,25 @@ VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLa
     bounds.lower(layout.duration(p)) = duration.min;
     bounds.upper(layout.duration(p)) = duration.max;
   }
-  const std::vector<Stance>& stances = discrete.schedule.stances();
+  const std::vector<ContactStance>& stances = discrete.schedule.stances();
   for (std::size_t s = 0; s < stances.size(); ++s) {
-    const Stance& stance = stances[s];
-    if (!stance.lands() || !stance.place) continue;
+    const ContactStance& stance = stances[s];
+    if (!stance.lands() || !stance.foothold) continue;
     const Surface& surface = problem.surfaces[stance.surface];
-    const int first = layout.place(static_cast<int>(s));
-    bounds.lower.segment<2>(first) = bounds.upper.segment<2>(first) = surface.coordinates(*stance.place);
+    const int first = layout.foothold(static_cast<int>(s));
+    bounds.lower.segment<2>(first) = bounds.upper.segment<2>(first) = surface.coordinates(*stance.foothold);
   }
-  for (std::size_t c = 0; c < problem.boundary_conditions.size(); ++c) {
-    const BoundaryCondition& condition = problem.boundary_conditions[c];
-    const int k = discrete.condition_nodes[c];
+  for (std::size_t c = 0; c < problem.boundary_constraints.size(); ++c) {
+    const BoundaryConstraint& constraint = problem.boundary_constraints[c];
+    const int k = discrete.boundary_nodes[c];
     // The chart of the node is that of q_ref, so the variables are q_ref ⊕ tangent: add the
     // non-zero reference.
     Eigen::VectorXd reference(layout.nv());
-    reference << base_position(condition.q_ref), Eigen::Vector3d::Zero(), condition.q_ref.tail(nu);
-    tighten(bounds, layout.q(k), reference + condition.configuration_lower, reference + condition.configuration_upper,
-            condition.name + ", configuration");
-    tighten(bounds, layout.v(k), condition.velocity_lower, condition.velocity_upper, condition.name + ", velocity");
-    tighten(bounds, layout.tau(k), condition.torque_lower, condition.torque_upper, condition.name + ", torque");
+    reference << base_position(constraint.q_ref), Eigen::Vector3d::Zero(), constraint.q_ref.tail(nu);
+    tighten(bounds, layout.q(k), reference + constraint.configuration_lower, reference + constraint.configuration_upper,
+            constraint.name + ", configuration");
+    tighten(bounds, layout.v(k), constraint.velocity_lower, constraint.velocity_upper, constraint.name + ", velocity");
+    tighten(bounds, layout.tau(k), constraint.torque_lower, constraint.torque_upper, constraint.name + ", torque");
   }
   return bounds;
 }

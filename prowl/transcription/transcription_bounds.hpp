@@ -8,7 +8,7 @@
 
 namespace prowl {
 
-/// Chart R_chart of the base rotation at each node: from the boundary condition there, so its
+/// Chart R_chart of the base rotation at each node: from the boundary constraint there, so its
 /// bounds are bounds on theta, else from the guess. Both nodes of a phase transition have the same
 /// chart.
 std::vector<Eigen::Matrix3d> rotation_charts(const DiscreteProblem& discrete, const Trajectory& guess);
@@ -16,7 +16,7 @@ std::vector<Eigen::Matrix3d> rotation_charts(const DiscreteProblem& discrete, co
 struct VariableBounds {
   Eigen::VectorXd lower, upper;  ///< per decision variable
 };
-/// Bounds from robot limits at every node, boundary conditions at theirs, durations and free
+/// Bounds from robot limits at every node, boundary constraints at theirs, durations and free
 /// footholds. Throws InputError for contradictions.
 VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLayout& layout);
 

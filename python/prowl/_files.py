@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
 from pathlib import Path
 
 from . import _prowl
@@ -38,23 +37,6 @@ def _find(name: str | os.PathLike[str], shipped: list[str], folder: str) -> Path
     return SHARE / folder / f"{name}.toml"
 
 
-# Contains the URDFs of the shipped robots; that of HyQ is also in Prowl's wheel.
-_ROBOTS = "example-robot-data==6.0.0"
-
-
-@contextmanager
-def _remedy(path: Path) -> Iterator[None]:
-    """For a shipped robot without its URDF: names the package to install instead of all searched folders."""
-    try:
-        yield
-    except _prowl.InputError as error:
-        if SHARE not in path.parents or "package://example-robot-data" not in str(error):
-            raise
-        raise _prowl.InputError(
-            f"{path}: the URDF of its robot is in another package: pip install {_ROBOTS}"
-        ) from error
-
-
 def _robot_of(task: Document, folder: Path) -> tuple[Document, tuple[Path, str] | None]:
     """The task with the path of its robot file, and that file if the dict contains a Robot."""
     if isinstance(task, str) or "robot" not in task:
@@ -79,9 +61,7 @@ def read_robot(robot: str | os.PathLike[str], *, package_dirs: Sequence[str | os
 
     package_dirs: folders to search for package://, before those of ROS. Raises InputError with file, line and column.
     """
-    path = _find(robot, shipped_robots(), "robots")
-    with _remedy(path):
-        return _prowl.read_robot(path, _folders(package_dirs))
+    return _prowl.read_robot(_find(robot, shipped_robots(), "robots"), _folders(package_dirs))
 
 
 def parse_robot(
@@ -113,16 +93,14 @@ def read_task(
     together. package_dirs: folders to search for package://, before those of ROS. Raises InputError with
     file, line and column.
     """
-    path = _find(task, shipped_tasks(), "tasks")
-    with _remedy(path):
-        return _prowl.read_task(
-            path,
-            package_dirs=_folders(package_dirs),
-            intervals=intervals,
-            max_iterations=max_iterations,
-            max_time=max_time,
-            tolerance=tolerance,
-        )
+    return _prowl.read_task(
+        _find(task, shipped_tasks(), "tasks"),
+        package_dirs=_folders(package_dirs),
+        intervals=intervals,
+        max_iterations=max_iterations,
+        max_time=max_time,
+        tolerance=tolerance,
+    )
 
 
 def parse_task(

@@ -19,10 +19,10 @@ namespace prowl::python {
 namespace {
 
 using ConstVector = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Places = std::pair<Integers, Integers>;
+using IndexArrays = std::pair<Integers, Integers>;
 
 /// Quality of a point of a program: a FormulationRun without solver.
-struct JudgedPoint {
+struct MeasuredPoint {
   FormulationRun run;
   Motion motion;
 };
@@ -36,13 +36,13 @@ class Program {
     const nb::gil_scoped_release others_may_run;
     const Trajectory guess = make_guess(guess_name, discrete_);
     nlp_ = make_formulation(formulation_, discrete_, guess);
-    start_ = nlp_->pack(guess);
+    z_guess_ = nlp_->pack(guess);
   }
 
   const Task& task() const { return task_; }
   const Formulation& formulation() const { return formulation_; }
   const MotionNlp& nlp() const { return *nlp_; }
-  const Eigen::VectorXd& start() const { return start_; }
+  const Eigen::VectorXd& z_guess() const { return z_guess_; }
   int nodes() const { return discrete_.num_nodes(); }
 
   double cost(const ConstVector& z) {
@@ -76,7 +76,7 @@ class Program {
     return nlp_->describe_constraint(row);
   }
 
-  JudgedPoint judge(const ConstVector& z) {
+  MeasuredPoint measure(const ConstVector& z) {
     return locked([&] {
       SolveResult result;
       result.z = point(z);
@@ -84,9 +84,9 @@ class Program {
       nlp_->constraints(result.z, rows);
       result.cost = nlp_->cost(result.z);
       result.constraint_violation = constraint_violation(*nlp_, result.z, rows);
-      FormulationRun run = judge_formulation(discrete_, formulation_, *nlp_, std::move(result), "");
+      FormulationRun run = measure_formulation(discrete_, formulation_, *nlp_, std::move(result), "");
       Motion motion(run.motion);
-      return JudgedPoint{std::move(run), std::move(motion)};
+      return MeasuredPoint{std::move(run), std::move(motion)};
     });
   }
 
@@ -117,39 +117,39 @@ class Program {
   DiscreteProblem discrete_;
   Formulation formulation_;
   std::unique_ptr<MotionNlp> nlp_;
-  Eigen::VectorXd start_;
+  Eigen::VectorXd z_guess_;
   std::mutex busy_;
 };
 
 Vector numbers(nb::handle self, const Eigen::VectorXd& values) { return view(values, self); }
 
-Places places(nb::handle self, const SparsityPattern& pattern) {
+IndexArrays index_arrays(nb::handle self, const SparsityPattern& pattern) {
   const auto integers = [&](const std::vector<int>& values) { return Integers(values.data(), {values.size()}, self); };
   return {integers(pattern.rows), integers(pattern.cols)};
 }
 
 const Program& program(nb::handle self) { return nb::cast<const Program&>(self); }
 
-void bind_judged_point(nb::module_& module) {
-  nb::class_<JudgedPoint>(module, "JudgedPoint", "Cost, violation, motion and certificate of a point of a Program.")
-      .def_prop_ro("cost", [](const JudgedPoint& p) { return p.run.result.cost; })
+void bind_measured_point(nb::module_& module) {
+  nb::class_<MeasuredPoint>(module, "JudgedPoint", "Cost, violation, motion and certificate of a point of a Program.")
+      .def_prop_ro("cost", [](const MeasuredPoint& p) { return p.run.result.cost; })
       .def_prop_ro(
-          "constraint_violation", [](const JudgedPoint& p) { return p.run.result.constraint_violation; },
+          "constraint_violation", [](const MeasuredPoint& p) { return p.run.result.constraint_violation; },
           "Largest violation of the program's rows and bounds, unscaled.")
       .def_prop_ro(
-          "certificate", [](const JudgedPoint& p) -> const Certificate& { return p.run.certificate; },
+          "certificate", [](const MeasuredPoint& p) -> const Certificate& { return p.run.certificate; },
           nb::rv_policy::reference_internal,
           "Certificate of the motion, by code that shares neither dynamics nor transcription with the program.")
-      .def_ro("motion", &JudgedPoint::motion, nb::rv_policy::reference_internal,
+      .def_ro("motion", &MeasuredPoint::motion, nb::rv_policy::reference_internal,
               "Motion of this point at the nodes of the program.")
       .def(
-          "check", [](const JudgedPoint& p, const std::string& name) { return p.run.certificate.find(name); },
+          "check", [](const MeasuredPoint& p, const std::string& name) { return p.run.certificate.find(name); },
           nb::arg("name"), nb::rv_policy::reference_internal, nb::sig("def check(self, name: str) -> Check | None"),
           "One check of the certificate by its name, such as \"contact drift\"; None if it does not apply.")
       .def_prop_ro(
-          "worst_check", [](const JudgedPoint& p) { return p.run.worst_check(); }, nb::rv_policy::reference_internal,
+          "worst_check", [](const MeasuredPoint& p) { return p.run.worst_check(); }, nb::rv_policy::reference_internal,
           nb::sig("def worst_check(self) -> Check | None"), "The check with the largest share of its limit.")
-      .def("__repr__", [](const JudgedPoint& p) {
+      .def("__repr__", [](const MeasuredPoint& p) {
         return fmt::format("<prowl.JudgedPoint cost {:.6g}, violation {:.2e}, certificate {}>", p.run.result.cost,
                            p.run.result.constraint_violation, to_string(p.run.certificate.grade));
       });
@@ -158,7 +158,7 @@ void bind_judged_point(nb::module_& module) {
 }  // namespace
 
 void bind_program(nb::module_& module) {
-  bind_judged_point(module);
+  bind_measured_point(module);
   nb::class_<Program>(
       module, "Program",
       "A task as a nonlinear program (docs/formulations.md): minimise cost(z), variable_lower <= z <= variable_upper,\n"
@@ -185,7 +185,7 @@ void bind_program(nb::module_& module) {
       .def_prop_ro("num_variables", [](const Program& p) { return p.nlp().num_variables(); })
       .def_prop_ro("num_constraints", [](const Program& p) { return p.nlp().num_constraints(); })
       .def_prop_ro(
-          "start", [](nb::handle self) { return numbers(self, program(self).start()); }, "Initial guess z.")
+          "start", [](nb::handle self) { return numbers(self, program(self).z_guess()); }, "Initial guess z.")
       .def_prop_ro("variable_lower",
                    [](nb::handle self) { return numbers(self, program(self).nlp().variable_lower()); })
       .def_prop_ro("variable_upper",
@@ -195,10 +195,11 @@ void bind_program(nb::module_& module) {
       .def_prop_ro("constraint_upper",
                    [](nb::handle self) { return numbers(self, program(self).nlp().constraint_upper()); })
       .def_prop_ro(
-          "jacobian_pattern", [](nb::handle self) { return places(self, program(self).nlp().jacobian_pattern()); },
+          "jacobian_pattern",
+          [](nb::handle self) { return index_arrays(self, program(self).nlp().jacobian_pattern()); },
           "(rows, columns), without duplicates.")
       .def_prop_ro(
-          "hessian_pattern", [](nb::handle self) { return places(self, program(self).nlp().hessian_pattern()); },
+          "hessian_pattern", [](nb::handle self) { return index_arrays(self, program(self).nlp().hessian_pattern()); },
           "(rows, columns) of the lower triangle.")
       .def("cost", &Program::cost, nb::arg("z"))
       .def("cost_gradient", &Program::cost_gradient, nb::arg("z"), "(num_variables)")
@@ -213,7 +214,7 @@ void bind_program(nb::module_& module) {
       .def("describe_variable", &Program::describe_variable, nb::arg("index"), "Description in the words of the task.")
       .def("describe_constraint", &Program::describe_constraint, nb::arg("row"),
            "Description in the words of the task.")
-      .def("judge", &Program::judge, nb::arg("z"), "Cost, violation, motion and certificate of any point.")
+      .def("judge", &Program::measure, nb::arg("z"), "Cost, violation, motion and certificate of any point.")
       .def("__repr__", [](const Program& p) {
         return fmt::format("<prowl.Program {}: {}, {}, {}, {}: {} variables, {} constraints>", p.task().problem.name,
                            p.formulation().dynamics, p.formulation().transcription, p.formulation().contact,

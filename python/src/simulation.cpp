@@ -53,10 +53,11 @@ SimulationObject::SimulationObject(std::shared_ptr<const PlanObject> simulated, 
 
 using PushArgument = std::pair<double, std::array<double, 3>>;  ///< time [s], impulse [N s]
 
-std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject> plan, bool open_loop, bool perfect_state,
-                                      double noise, double delay, double bandwidth, double control_rate, double mass,
-                                      std::optional<double> friction, const std::vector<PushArgument>& pushes,
-                                      double push_duration, double step, std::uint64_t seed, double record_rate) {
+std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject> plan, bool open_loop,
+                                                bool perfect_state, double noise, double delay, double bandwidth,
+                                                double control_rate, double mass, std::optional<double> friction,
+                                                const std::vector<PushArgument>& pushes, double push_duration,
+                                                double step, std::uint64_t seed, double record_rate) {
   if (!plan->tracker) throw InputError("this plan contains no gains: solve(gains=True) designs them for a good plan");
   SimulationOptions options;
   options.open_loop = open_loop;
@@ -170,7 +171,8 @@ void bind_simulation(nb::module_& module) {
       .def(
           "_repr_html_", [](nb::handle self) { return call_package("prowl._show.notebook", "simulation_html", self); },
           nb::sig("def _repr_html_(self) -> str"))
-      .def("write", &save_simulation, nb::arg("directory"), "Writes simulate.json and simulate.csv into the folder of the plan.")
+      .def("write", &save_simulation, nb::arg("directory"),
+           "Writes simulate.json and simulate.csv into the folder of the plan.")
       .def(
           "__len__", [](const SimulationObject& s) { return s.t.size(); }, "Number of samples, S.")
       .def("__repr__", [](const SimulationObject& s) {
@@ -179,8 +181,8 @@ void bind_simulation(nb::module_& module) {
       });
   const SimulationOptions defaults;
   module.def(
-      "simulate", &simulate_plan, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false, nb::arg("perfect_state") = false,
-      nb::arg("noise") = defaults.noise_scale, nb::arg("delay") = defaults.delay,
+      "simulate", &simulate_plan, nb::arg("plan"), nb::kw_only(), nb::arg("open_loop") = false,
+      nb::arg("perfect_state") = false, nb::arg("noise") = defaults.noise_scale, nb::arg("delay") = defaults.delay,
       nb::arg("bandwidth") = defaults.bandwidth, nb::arg("control_rate") = defaults.control_rate,
       nb::arg("mass") = defaults.physics.mass_scale, nb::arg("friction") = nb::none(),
       nb::arg("pushes") = std::vector<PushArgument>{}, nb::arg("push_duration") = Push{}.duration,

@@ -65,9 +65,9 @@ nb::object solve(const Task& task, const std::string& solver, int threads, bool 
   observer.watch(request);
   if (start_from) {
     const bool is_solution = start_from->record.plan.result.status == SolveStatus::converged;
-    request.start = {.record = &start_from->record,
-                     .resume = !is_solution,  // not a solution to stay close to
-                     .folder = start_from->read_from ? start_from->read_from->string() : ""};
+    request.warm_start = {.record = &start_from->record,
+                          .resume = !is_solution,  // not a solution to stay close to
+                          .folder = start_from->read_from ? start_from->read_from->string() : ""};
   }
   std::shared_ptr<PlanObject> plan;
   std::string why_no_gains;

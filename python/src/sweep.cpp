@@ -100,8 +100,8 @@ void check_arguments(const PlanObject& plan, int n, const PerturbationRanges& ra
 }
 
 SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint64_t seed, double mass_spread,
-                double push_impulse, double push_impulse_on_two_feet, int breakdown, bool open_loop,
-                const nb::object& on_progress) {
+                       double push_impulse, double push_impulse_on_two_feet, int breakdown, bool open_loop,
+                       const nb::object& on_progress) {
   PerturbationRanges ranges;
   ranges.mass = mass_spread;
   ranges.push = push_impulse;

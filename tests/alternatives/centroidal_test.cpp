@@ -65,8 +65,8 @@ TEST(CentroidalNlp, DerivativesAndPatternsAreThoseOfDifferences) {
 TEST(CentroidalNlp, DerivativesHoldForVelocitiesThatTheTaskBinds) {
   MeshedProblem of = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
   const DiscreteProblem without = of.discrete();
-  of.problem.boundary_conditions[1].velocity_lower.head<6>().setZero();
-  of.problem.boundary_conditions[1].velocity_upper.head<6>().setZero();
+  of.problem.boundary_constraints[1].velocity_lower.head<6>().setZero();
+  of.problem.boundary_constraints[1].velocity_upper.head<6>().setZero();
   const DiscreteProblem with = of.discrete();
   EXPECT_EQ(make_nlp(with).num_constraints(), make_nlp(without).num_constraints() + 3);
   expect_derivatives(of);
@@ -86,7 +86,7 @@ TEST(CentroidalNlp, DerivativesHoldForFreeDurationsAndContactsThatOpenAndLand) {
   problem.phases[2].contacts[0].surface = problem.phases[3].contacts[0].surface = 1;
   expect_derivatives({problem, mesh});
   problem.friction_model = FrictionModel::pyramid;
-  problem.phases[2].contacts[0].place = problem.surfaces[1].point;
+  problem.phases[2].contacts[0].foothold = problem.surfaces[1].point;
   expect_derivatives({problem, mesh});
 }
 
@@ -236,7 +236,7 @@ TEST(CentroidalNlp, RefusesWhatItCannotSay) {
   EXPECT_NO_THROW(make_nlp(discrete));
   const Trajectory guess = initial_guess(discrete);
   EXPECT_THROW(make_centroidal({.dynamics = "centroidal", .transcription = "rk4"}, discrete, guess), InputError);
-  problem.boundary_conditions[1].torque_upper.setConstant(10.0);
+  problem.boundary_constraints[1].torque_upper.setConstant(10.0);
   const DiscreteProblem with_torques = test::on_even_mesh(problem, 8);
   EXPECT_THROW(make_nlp(with_torques), InputError);
 }
@@ -280,13 +280,13 @@ void expect_balance(const MotionProblem& problem, const Trajectory& motion) {
 
 double drift(const MotionProblem& problem, const Trajectory& motion) {
   RigidBodyTerms terms(problem.robot);
-  std::vector<Vector3d> places;
+  std::vector<Vector3d> positions;
   double worst = 0.0;
   for (const TrajectoryPoint& point : motion.nodes) {
     terms.update_kinematics(point.q);
     for (int c = 0; c < static_cast<int>(kContacts); ++c) {
-      if (places.size() < kContacts) places.push_back(terms.contact_position(c));
-      worst = std::max(worst, (terms.contact_position(c) - places[c]).norm());
+      if (positions.size() < kContacts) positions.push_back(terms.contact_position(c));
+      worst = std::max(worst, (terms.contact_position(c) - positions[c]).norm());
     }
   }
   return worst;
@@ -348,7 +348,7 @@ TEST(CentroidalNlp, Steps) {
   terms.update_kinematics(landing.q);
   foot.set_configuration(terms);
   const double radius = problem.robot.contacts()[lf].radius;
-  EXPECT_LT((foot.positions() - *problem.phases[2].contacts[0].place - radius * Vector3d::UnitZ()).norm(), 1e-5);
+  EXPECT_LT((foot.positions() - *problem.phases[2].contacts[0].foothold - radius * Vector3d::UnitZ()).norm(), 1e-5);
   EXPECT_LT((foot.jacobian() * landing.v).norm(), 1e-5);
   EXPECT_LT(before.force.segment<3>(3 * lf).norm(), 1e-3);
   terms.update_kinematics(middle.q);

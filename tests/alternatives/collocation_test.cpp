@@ -81,7 +81,7 @@ TEST(Collocation, DerivativesHoldForEulerAngles) {
   expect_derivatives(one_phase(), {.transcription = "hermite-simpson", .orientation = "euler"});
 }
 
-TEST(Collocation, DerivativesHoldForFreeDurationsAndPlaces) {
+TEST(Collocation, DerivativesHoldForFreeDurationsAndFootholds) {
   expect_derivatives(a_step(), {.dynamics = "kkt"});
   expect_derivatives(a_step(), {.dynamics = "forward", .transcription = "hermite-simpson"});
   expect_derivatives(a_step(), {.dynamics = "forward", .transcription = "rk4"});

@@ -40,7 +40,7 @@ ComparedRun finished() {
   run.result.iterations = 7;
   run.result.seconds = 0.1 + 0.2;
   run.result.times = {.cpu = 2.0 / 3.0, .values = 0.01, .derivatives = 0.02, .linear_algebra = 0.03};
-  run.certificate.grade = Grade::draft;
+  run.certificate.grade = CertificateGrade::draft;
   run.certificate.checks = {{.name = "contact drift", .worst = 1.23e-4, .limit = 1e-3, .unit = "m"},
                             {.name = "re-integration", .worst = 4.5e-5, .limit = 5e-4, .unit = "-"},
                             {.name = "friction cone", .worst = 9.0, .limit = 8.0, .unit = "N"}};

@@ -44,12 +44,12 @@ std::vector<Sabotage> landing_sabotage() {
       {"patch 2 mm lower than the foot",
        [](Case& c) {
          patch(c).point.z() -= 2e-3;
-         c.discrete.problem.phases[2].contacts[0].place->z() -= 2e-3;
+         c.discrete.problem.phases[2].contacts[0].foothold->z() -= 2e-3;
        },
        {"contact gap at closing", "contact away from its place"}},
       {"foot 2 mm beside its patch", [](Case& c) { move_patch(c, 0.032); }, {"contact outside its patch"}},
       {"foot 2 mm from its place",
-       [](Case& c) { c.discrete.problem.phases[2].contacts[0].place->y() += 2e-3; },
+       [](Case& c) { c.discrete.problem.phases[2].contacts[0].foothold->y() += 2e-3; },
        {"contact away from its place"}},
       {"swing too low", [](Case& c) { c.discrete.problem.swing_clearance = 0.2; }, {"swing clearance missing"}},
       {"foot under a plane without an edge",
@@ -64,7 +64,7 @@ void expect_caught(const Sabotage& sabotage, Case c) {
   sabotage.commit(c);
   const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), sabotage.fails);
-  EXPECT_EQ(certificate.grade, Grade::failed);
+  EXPECT_EQ(certificate.grade, CertificateGrade::failed);
 }
 
 TEST(CertificateContacts, AStepPasses) {
@@ -111,11 +111,11 @@ TEST(CertificateContacts, AContactThatClosesWhileItMovesFails) {
   constexpr int kEarly = 20;  // intervals: the contact is said to hold before the foot is there
   const double h = SteppingMotion::kSwingTime / SteppingMotion::kSwing;
   auto& nodes = c.trajectory.nodes;
-  const int old_switch = SteppingMotion::kShift + SteppingMotion::kSwing + 1;  // last node of the swing
-  nodes.erase(nodes.begin() + old_switch + 1);
-  const int new_switch = old_switch - kEarly;
-  nodes.insert(nodes.begin() + new_switch, nodes[new_switch]);
-  for (std::size_t k = new_switch + 1; k < nodes.size(); ++k) nodes[k].phase = 2;
+  const int old_transition = SteppingMotion::kShift + SteppingMotion::kSwing + 1;  // last node of the swing
+  nodes.erase(nodes.begin() + old_transition + 1);
+  const int new_transition = old_transition - kEarly;
+  nodes.insert(nodes.begin() + new_transition, nodes[new_transition]);
+  for (std::size_t k = new_transition + 1; k < nodes.size(); ++k) nodes[k].phase = 2;
   MotionProblem problem = c.discrete.problem;
   for (auto [phase, sign] : {std::pair{1, -1}, {2, 1}}) {
     problem.phases[phase].duration.min += sign * kEarly * h;

@@ -36,7 +36,7 @@ TEST(CertificateMesh, TorquesThatAreTooSmallFailOnAFineMesh) {
   EXPECT_LT(find(certificate, "local integration error").worst, Limits::integration_error_draft);
   EXPECT_LT(find(certificate, "re-integration").worst, Limits::reintegration_draft);
   EXPECT_EQ(failed_checks(certificate), Names{"integration error in a second"});
-  EXPECT_EQ(certificate.grade, Grade::failed);
+  EXPECT_EQ(certificate.grade, CertificateGrade::failed);
 }
 
 TEST(CertificateMesh, TorquesThatAreATouchTooSmallAreNotCertified) {
@@ -45,7 +45,7 @@ TEST(CertificateMesh, TorquesThatAreATouchTooSmallAreNotCertified) {
   EXPECT_LT(find(certificate, "local integration error").worst, Limits::integration_error_certified);
   EXPECT_LT(find(certificate, "re-integration").worst, Limits::reintegration_certified);
   EXPECT_GT(find(certificate, "integration error in a second").worst, Limits::second_error_certified);
-  EXPECT_EQ(certificate.grade, Grade::draft);
+  EXPECT_EQ(certificate.grade, CertificateGrade::draft);
 }
 
 TEST(CertificateMesh, TheErrorInASecondDoesNotDependOnTheMesh) {

@@ -27,7 +27,7 @@ TEST(Certificate, StandingStillIsCertifiedForEveryRobot) {
     const Case c = standing(robot);
     const Certificate certificate = certify(c.discrete, c.trajectory);
     EXPECT_EQ(failed_checks(certificate), Names{}) << robot.name();
-    EXPECT_EQ(certificate.grade, Grade::certified) << robot.name();
+    EXPECT_EQ(certificate.grade, CertificateGrade::certified) << robot.name();
     EXPECT_GE(certificate.checks.size(), 18u);
     EXPECT_EQ(certificate.interval_errors.size(), 10u);
   }
@@ -38,7 +38,7 @@ TEST(Certificate, AMotionOnAFineMeshPasses) {
   const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{});
   EXPECT_TRUE(certificate.passed);
-  EXPECT_NE(certificate.grade, Grade::failed);
+  EXPECT_NE(certificate.grade, CertificateGrade::failed);
   EXPECT_GT(find(certificate, "joint velocity").worst, 0.01) << "it does not move, so the test checks nothing";
 }
 
@@ -46,7 +46,7 @@ TEST(Certificate, AMotionOnACoarseMeshFailsByItsIntegration) {
   const Case c = crouching(test::hyq(), 4);
   const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_FALSE(certificate.passed);
-  EXPECT_EQ(certificate.grade, Grade::failed);
+  EXPECT_EQ(certificate.grade, CertificateGrade::failed);
   EXPECT_FALSE(find(certificate, "local integration error").passed);
   EXPECT_TRUE(find(certificate, "defect").passed) << "the trapezoid meets the nodes, which says nothing";
 }
@@ -92,10 +92,10 @@ void drift(Case& c, double duration, double rate) {
   }
   MotionProblem& problem = c.discrete.problem;
   for (Phase& phase : problem.phases) phase.duration = {phase.duration.min * duration, phase.duration.max * duration};
-  problem.boundary_conditions = {
+  problem.boundary_constraints = {
       test::fixed_state(problem.robot, "start", PhaseFraction::start_of(0), c.trajectory.nodes[0].q,
                         c.trajectory.nodes[0].v),
-      test::free_condition(problem.robot, "goal", problem.boundary_conditions[1].at, c.trajectory.nodes[0].q)};
+      test::free_constraint(problem.robot, "goal", problem.boundary_constraints[1].at, c.trajectory.nodes[0].q)};
 }
 
 /// Cuts the only phase in two of the same contacts.
@@ -104,21 +104,21 @@ void split_phase(Case& c) {
   auto& phases = problem.phases;
   auto& nodes = c.trajectory.nodes;
   const int intervals = c.discrete.mesh.num_intervals(), half = intervals / 2;
-  const double switch_time = nodes[half].time;
+  const double transition_time = nodes[half].time;
   const double end = nodes.back().time;
   nodes.insert(nodes.begin() + half, nodes[half]);
   for (std::size_t k = half + 1; k < nodes.size(); ++k) nodes[k].phase = 1;
   phases.push_back(phases[0]);
-  phases[0].duration = {switch_time, switch_time};
-  phases[1].duration = {end - switch_time, end - switch_time};
-  problem.boundary_conditions[1].at = PhaseFraction::end_of(1);
+  phases[0].duration = {transition_time, transition_time};
+  phases[1].duration = {end - transition_time, end - transition_time};
+  problem.boundary_constraints[1].at = PhaseFraction::end_of(1);
   c.discrete = {std::move(problem), {{PhaseMesh(half), PhaseMesh(intervals - half)}}};
 }
 
 constexpr const char* kFinite = "finite numbers, unit quaternions";
 constexpr const char* kNodes = "nodes fit the problem";
 
-BoundaryCondition& goal(Case& c) { return c.discrete.problem.boundary_conditions[1]; }
+BoundaryConstraint& goal(Case& c) { return c.discrete.problem.boundary_constraints[1]; }
 
 std::vector<Sabotage> state_sabotage() {
   return {
@@ -130,7 +130,7 @@ std::vector<Sabotage> state_sabotage() {
       {"no nodes", [](Case& c) { c.trajectory.nodes.clear(); }, {kNodes}},
       {"time goes back", [](Case& c) { c.trajectory.nodes[4].time = 0.0; }, {kNodes}},
       {"velocity of wrong size", [](Case& c) { c.trajectory.nodes[4].v.resize(3); }, {kNodes}},
-      {"other start", [](Case& c) { c.discrete.problem.boundary_conditions[0].q_ref(9) += 1e-3; }, {"start state"}},
+      {"other start", [](Case& c) { c.discrete.problem.boundary_constraints[0].q_ref(9) += 1e-3; }, {"start state"}},
       {"goal 2 mm away", [](Case& c) { goal(c).q_ref(1) -= 2e-3; }, {"goal position"}},
       {"goal 2 mrad away", [](Case& c) { goal(c).q_ref(12) += 2e-3; }, {"goal angle"}},
       {"goal still turned",
@@ -216,7 +216,7 @@ void expect_caught(const std::vector<Sabotage>& all) {
     const Certificate certificate = certify(c.discrete, c.trajectory);
     EXPECT_EQ(failed_checks(certificate), sabotage.fails);
     EXPECT_FALSE(certificate.passed);
-    EXPECT_EQ(certificate.grade, Grade::failed);
+    EXPECT_EQ(certificate.grade, CertificateGrade::failed);
   }
 }
 
@@ -263,7 +263,7 @@ TEST(Certificate, AFlightHasNoContactChecks) {
   problem.phases[0].contacts.clear();
   const Certificate certificate = certify({problem, {{PhaseMesh(100)}}}, trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{});
-  EXPECT_EQ(certificate.grade, Grade::certified);
+  EXPECT_EQ(certificate.grade, CertificateGrade::certified);
   EXPECT_THROW(find(certificate, "contact drift"), std::out_of_range);
   EXPECT_LT(find(certificate, "penetration").worst, -4.0);
 }

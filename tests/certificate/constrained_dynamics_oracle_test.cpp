@@ -159,7 +159,7 @@ TEST(ConstrainedDynamicsOracle, PassesNaNThrough) {
   EXPECT_FALSE(motion.a.allFinite());
 }
 
-TEST(ConstrainedDynamicsOracle, VelocityOfAContactIsTheRateOfItsPlace) {
+TEST(ConstrainedDynamicsOracle, VelocityOfAContactIsTheRateOfItsPosition) {
   const RobotModel robot = test::talos();  // its contacts have offsets from their frames
   ConstrainedDynamicsOracle oracle(robot, {});
   std::mt19937 rng(14);

@@ -58,7 +58,8 @@ TEST(ErrorParts, KeepTheSumOverASecond) {
 }
 
 TEST(MeshTolerance, IsWhatTheGradesAskFor) {
-  const MeshTolerance draft = mesh_tolerance(Grade::draft), certified = mesh_tolerance(Grade::certified);
+  const MeshTolerance draft = mesh_tolerance(CertificateGrade::draft),
+                      certified = mesh_tolerance(CertificateGrade::certified);
   EXPECT_EQ(draft.local, CertificateLimits::integration_error_draft);
   EXPECT_EQ(certified.second, CertificateLimits::second_error_certified);
   for (const MeshTolerance& of_grade : {draft, certified}) {

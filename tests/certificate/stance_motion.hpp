@@ -49,7 +49,7 @@ class StanceMotion {
                  dds = 0.5 * w * w * std::cos(w * time);
     TrajectoryPoint point;
     point.time = time;
-    place_base(s);
+    move_base(s);
     point.q = q_;
     const Eigen::Matrix3d to_base = base_rotation(point.q).transpose();
     Eigen::Matrix<double, 6, 1> base_v, base_a;
@@ -105,7 +105,7 @@ class StanceMotion {
   }
 
  private:
-  void place_base(double s) {
+  void move_base(double s) {
     const Eigen::VectorXd& home = robot_.nominal_configuration();
     q_.head<3>() = home.head<3>() + s * displacement_;
     set_base_rotation(q_, base_rotation(home) * so3::exp(s * rotation_));
@@ -145,8 +145,8 @@ class StanceMotion {
   Eigen::VectorXd q_;
 };
 
-inline BoundaryCondition free_condition(const RobotModel& robot, std::string name, PhaseFraction at,
-                                        const Eigen::VectorXd& q_ref) {
+inline BoundaryConstraint free_constraint(const RobotModel& robot, std::string name, PhaseFraction at,
+                                          const Eigen::VectorXd& q_ref) {
   const double inf = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd state = Eigen::VectorXd::Constant(robot.nv(), inf);
   const Eigen::VectorXd torque = Eigen::VectorXd::Constant(robot.nu(), inf);
@@ -154,13 +154,13 @@ inline BoundaryCondition free_condition(const RobotModel& robot, std::string nam
 }
 
 /// Prescribes q = q_ref and v.
-inline BoundaryCondition fixed_state(const RobotModel& robot, std::string name, PhaseFraction at,
-                                     const Eigen::VectorXd& q_ref, const Eigen::VectorXd& v) {
-  BoundaryCondition condition = free_condition(robot, std::move(name), at, q_ref);
-  condition.configuration_lower.setZero();
-  condition.configuration_upper.setZero();
-  condition.velocity_lower = condition.velocity_upper = v;
-  return condition;
+inline BoundaryConstraint fixed_state(const RobotModel& robot, std::string name, PhaseFraction at,
+                                      const Eigen::VectorXd& q_ref, const Eigen::VectorXd& v) {
+  BoundaryConstraint constraint = free_constraint(robot, std::move(name), at, q_ref);
+  constraint.configuration_lower.setZero();
+  constraint.configuration_upper.setZero();
+  constraint.velocity_lower = constraint.velocity_upper = v;
+  return constraint;
 }
 
 /// The problem that `trajectory` (one phase, all contacts) solves: its ends are start and goal.
@@ -174,8 +174,8 @@ inline MotionProblem problem_of(const RobotModel& robot, const Trajectory& traje
           .robot = robot,
           .surfaces = {Surface{}},
           .phases = {phase},
-          .boundary_conditions = {fixed_state(robot, "start", PhaseFraction::start_of(0), first.q, first.v),
-                                  fixed_state(robot, "goal", PhaseFraction::end_of(0), last.q, last.v)},
+          .boundary_constraints = {fixed_state(robot, "start", PhaseFraction::start_of(0), first.q, first.v),
+                                   fixed_state(robot, "goal", PhaseFraction::end_of(0), last.q, last.v)},
           .running_cost = zero_cost(robot),
           .terminal_cost = zero_cost(robot),
           .goal_tolerance = {}};

@@ -30,26 +30,26 @@ class SteppingMotion {
     add_swing(trajectory);
     add_shift(trajectory, 2, 0.0, 1.0);
     MotionProblem problem = problem_of(motion_.robot(), trajectory);
-    problem.boundary_conditions[1].at = PhaseFraction::end_of(2);
+    problem.boundary_constraints[1].at = PhaseFraction::end_of(2);
     const Phase stance = problem.phases[0];
     problem.phases = {stance, stance, stance};
     problem.phases[1].contacts.erase(problem.phases[1].contacts.begin());
     problem.phases[0].duration = problem.phases[2].duration = {kShiftTime, kShiftTime};
     problem.phases[1].duration = {kSwingTime, kSwingTime};
     problem.phases[2].contacts[0].surface = 1;
-    problem.phases[2].contacts[0].place = foot_place();
-    problem.surfaces.push_back(patch_around(foot_place(), 0.03));
+    problem.phases[2].contacts[0].foothold = step_foothold();
+    problem.surfaces.push_back(patch_around(step_foothold(), 0.03));
     problem.swing_clearance = 0.05;
     Mesh mesh{{PhaseMesh(kShift), PhaseMesh(kSwing), PhaseMesh(kShift)}};
     return {{std::move(problem), std::move(mesh)}, std::move(trajectory)};
   }
 
   /// Where the foot's ball touches the floor.
-  Eigen::Vector3d foot_place() {
+  Eigen::Vector3d step_foothold() {
     ConstrainedDynamicsOracle oracle(motion_.robot(), {});
-    Eigen::Vector3d place = oracle.contact_points(posture_.q, posture_.v).position.col(kFoot);
-    place.z() -= motion_.robot().contacts()[kFoot].radius;
-    return place;
+    Eigen::Vector3d foothold = oracle.contact_points(posture_.q, posture_.v).position.col(kFoot);
+    foothold.z() -= motion_.robot().contacts()[kFoot].radius;
+    return foothold;
   }
 
   static Surface patch_around(const Eigen::Vector3d& centre, double half) {

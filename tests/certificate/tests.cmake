@@ -1,5 +1,5 @@
 prowl_test(certificate/constrained_dynamics_oracle prowl::certificate null_space_dynamics)
-prowl_test(certificate/contact_places prowl::certificate)
+prowl_test(certificate/contact_states prowl::certificate)
 prowl_test(certificate/ground_distance prowl::certificate)
 prowl_test(certificate/integration_error prowl::certificate)
 prowl_test(certificate/sampled_limits prowl::certificate)

@@ -197,8 +197,8 @@ TEST_F(Command, SaysWhatAReportNeeds) {
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.error, HasSubstr("nowhere/plan.json: no such file"));
   run("$prowl plan hold.toml $dirs --out out");
-  const Outcome place = run("$prowl report out $dirs --out no/such/folder/report.html");
-  EXPECT_EQ(place.status, 4);
+  const Outcome nowhere = run("$prowl report out $dirs --out no/such/folder/report.html");
+  EXPECT_EQ(nowhere.status, 4);
   folder_.write("out/simulate.csv", "time_s,x\n0,1\n");
   const Outcome other = run("$prowl report out $dirs");
   EXPECT_EQ(other.status, 2);

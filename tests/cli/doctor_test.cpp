@@ -32,11 +32,12 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
     ASSERT_NE(found, checks.end()) << solver;
     EXPECT_THAT(found->at("text").get<std::string>(), HasSubstr("solves and passes")) << solver;
   }
-  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "BLASFEO", "processor", "cores", "memory", "robots",
+  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "processor", "cores", "memory", "robots",
                            "figures", "export", "report"}) {
     ASSERT_FALSE(named(checks, name).is_null()) << name;
     EXPECT_FALSE(named(checks, name).at("text").get<std::string>().empty()) << name;
   }
+  EXPECT_THAT(named(checks, "Fatrop").at("text").get<std::string>(), HasSubstr("BLASFEO"));
   for (const json& check : checks) {
     EXPECT_TRUE(check.at("state") == "ok" || !check.at("remedy").get<std::string>().empty()) << check;
   }
@@ -45,7 +46,7 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
 /// As where LD_LIBRARY_PATH has another Ipopt first.
 TEST_F(Command, AnotherIpoptIsNamedBeforeItIsUsed) {
   const std::string old = "LD_PRELOAD='" PROWL_OLD_IPOPT "' $prowl ";
-  const Outcome plan = run(old + "plan hold.toml $dirs --out out");
+  const Outcome plan = run(old + "plan hold.toml $dirs --solver ipopt --out out");
   EXPECT_EQ(plan.status, 2);
   EXPECT_THAT(plan.error, HasSubstr("is Ipopt 3.11.9, and this Prowl was built with Ipopt 3.14"));
   EXPECT_THAT(plan.error, HasSubstr("LD_LIBRARY_PATH"));
@@ -56,6 +57,12 @@ TEST_F(Command, AnotherIpoptIsNamedBeforeItIsUsed) {
   EXPECT_EQ(doctor.status, 3) << doctor.out << doctor.error;
   EXPECT_THAT(doctor.out, HasSubstr("does not solve a small task: "));
   EXPECT_THAT(doctor.out, HasSubstr("is Ipopt 3.11.9, and this Prowl was built with"));
+}
+
+TEST_F(Command, DoctorNamesLibrariesThatTheLinkerMayTakeInstead) {
+  const Outcome result = run("mkdir other; touch other/libpinocchio_default.so.9; LD_LIBRARY_PATH=other $prowl doctor");
+  EXPECT_THAT(result.out, HasSubstr("other/libpinocchio_default.so.9 may be loaded instead of Prowl's own"));
+  EXPECT_THAT(result.out, HasSubstr("foreign: libraries"));
 }
 
 /// The program alone in a folder, without the files beside it and away from the .venv.

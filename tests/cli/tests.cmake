@@ -27,7 +27,7 @@ if(PROWL_BUILD_CLI)
   add_executable(cli_completion_tree ${CMAKE_CURRENT_LIST_DIR}/completion_tree.cpp ${PROJECT_SOURCE_DIR}/cli/verbs/completion_command.cpp
     ${PROJECT_SOURCE_DIR}/cli/process/interrupt.cpp ${PROJECT_SOURCE_DIR}/cli/screen/output.cpp
     ${PROJECT_SOURCE_DIR}/cli/screen/paint.cpp ${PROJECT_SOURCE_DIR}/cli/screen/terminal.cpp
-    ${PROJECT_SOURCE_DIR}/cli/options/shared_options.cpp)
+    ${PROJECT_SOURCE_DIR}/cli/process/program_files.cpp ${PROJECT_SOURCE_DIR}/cli/options/shared_options.cpp)
   target_link_libraries(cli_completion_tree PRIVATE prowl::plan_folder CLI11::CLI11 fmt::fmt)
   target_compile_definitions(cli_completion_test PRIVATE PROWL_COMPLETION_TREE="$<TARGET_FILE:cli_completion_tree>")
   add_dependencies(cli_completion_test cli_completion_tree)

@@ -94,7 +94,7 @@ TEST_F(DiagnosisTest, NamesTheJointThatMayNotBend) {
   EXPECT_EQ(breach.subject, "lh_kfe_joint");
   EXPECT_EQ(breach.time, 1.0);
   ASSERT_FALSE(found.changes.empty());
-  const Change& change = found.changes.front();
+  const ProposedChange& change = found.changes.front();
   EXPECT_NEAR(change.from, 0.15, 1e-12);
   EXPECT_TRUE(change.is_proved);
   EXPECT_NEAR(change.to, std::stod(fmt::format("{:.3g}", change.to)), 1e-9) << "what is printed is not what was proved";
@@ -145,14 +145,14 @@ TEST_F(DiagnosisTest, SaysThatASearchWasCutOff) {
   const DiscreteProblem high = prepared(test::replaced(kCrouch, "[0, 0, -0.1]", "[0, 0, 0.35]"));
   const RiccatiSolver solver;
   const ChangeSearch search(solver, {}, 1000.0);
-  const std::vector<Knob> knobs = knobs_of(high.problem);
-  const ChangesFound cut_off = search.within(0.0).smallest(knobs, high.mesh, {});
+  const std::vector<AdjustableParameter> parameters = adjustable_parameters(high.problem);
+  const ChangesFound cut_off = search.within(0.0).smallest(parameters, high.mesh, {});
   EXPECT_TRUE(cut_off.out_of_time);
   EXPECT_EQ(cut_off.tried, 0);
   EXPECT_TRUE(cut_off.found.empty());
-  const ChangesFound whole = search.smallest(knobs, high.mesh, {});
+  const ChangesFound whole = search.smallest(parameters, high.mesh, {});
   EXPECT_FALSE(whole.out_of_time);
-  EXPECT_EQ(whole.tried, static_cast<int>(knobs.size()));
+  EXPECT_EQ(whole.tried, static_cast<int>(parameters.size()));
   EXPECT_FALSE(whole.found.empty());
   EXPECT_TRUE(std::ranges::is_sorted(whole.found, std::less(), &FoundChange::weighted));
 }
@@ -216,8 +216,8 @@ TEST_F(DiagnosisTest, GoesOnWithATaskThatWasCutOff) {
   const test::FailingSolver solver(0, SolveStatus::time_limit, 2);
   const Diagnosis found = diagnose(prepared(kCrouch), solver, IpoptSolver(), {.on_step = keep});
   EXPECT_EQ(steps.back(), "planning the task, from where it stopped");
-  const auto off = [&](const Eigen::VectorXd& start) { return (start - solver.ends[1]).lpNorm<Eigen::Infinity>(); };
-  EXPECT_LT(off(solver.starts.back()), 1e-3 * off(solver.starts[1])) << "it began anew";
+  const auto off = [&](const Eigen::VectorXd& guess) { return (guess - solver.ends[1]).lpNorm<Eigen::Infinity>(); };
+  EXPECT_LT(off(solver.guesses.back()), 1e-3 * off(solver.guesses[1])) << "it began anew";
   EXPECT_TRUE(found.solvable);
   EXPECT_FALSE(found.is_undecided());
   EXPECT_TRUE(found.changes.empty()) << "found while it was thought to have no plan";
@@ -276,7 +276,7 @@ TEST_F(DiagnosisTest, SaysPerhapsOfWhatIsNotProved) {
   found.task_intervals = found.search_intervals = 8;
   found.message = "stalled";
   const auto change = [](double to, bool passes) {
-    return Change{
+    return ProposedChange{
         .kind = "clearance", .from = 1.0, .to = to, .unit = "m", .amount = 1.0, .is_proved = passes, .passes = passes};
   };
   found.changes = {change(2.0, false)};

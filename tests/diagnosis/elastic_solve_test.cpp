@@ -21,7 +21,7 @@ DiscreteProblem on_slope(double degrees, double friction) {
   MotionProblem problem =
       test::with_base_goal(test::standing_problem(test::hyq(), degrees, friction), Eigen::Vector3d::Zero());
   problem.running_cost.acceleration_weight.setOnes();
-  BoundaryCondition& goal = problem.boundary_conditions.back();
+  BoundaryConstraint& goal = problem.boundary_constraints.back();
   goal.velocity_lower.head<6>().setZero();
   goal.velocity_upper.head<6>().setZero();
   return test::on_even_mesh(std::move(problem), 8);
@@ -63,7 +63,7 @@ TEST(ElasticSolve, FindsHowFarAGoalIsOutOfReach) {
       elastic_solve(test::on_even_mesh(high, 8), IpoptSolver(), {.tolerance = 1e-6}, only(LimitKind::goal));
   ASSERT_EQ(result.status, SolveStatus::converged);
   ASSERT_EQ(result.breaches.size(), 1u);
-  EXPECT_EQ(result.breaches.front().subject, high.boundary_conditions.back().name + ", base z");
+  EXPECT_EQ(result.breaches.front().subject, high.boundary_constraints.back().name + ", base z");
   EXPECT_EQ(result.breaches.front().time, 2.0);
   EXPECT_GT(result.breaches.front().amount, 0.2) << "HyQ's base is 0.60 m high and its legs stretch to 0.75 m or so";
   EXPECT_LT(result.breaches.front().amount, 0.35);

@@ -1,5 +1,5 @@
 prowl_test(diagnosis/elastic_solve prowl::diagnosis prowl::solvers prowl::ipopt)
-prowl_test(diagnosis/change prowl::plan_folder prowl::diagnosis)
+prowl_test(diagnosis/adjustable_parameter prowl::plan_folder prowl::diagnosis)
 prowl_test(diagnosis/diagnosis prowl::plan_folder prowl::diagnosis prowl::screen prowl::solvers prowl::ipopt)
 if(PROWL_BUILD_CLI)
   # Five of bench/broken: of each part of a task, those that take seconds.

@@ -79,7 +79,7 @@ TEST(BodyBounds, NameTheFirstJointOfALeg) {
   EXPECT_EQ(robot.joint_names()[contact_reach(robot, robot.contact_index("rf_foot")).first_joint], "rf_haa_joint");
 }
 
-TEST(BodyBounds, OfAContactOnTheBaseAreItsPlace) {
+TEST(BodyBounds, OfAContactOnTheBaseAreItsPosition) {
   RobotDescription description = test::hyq_description();
   description.contacts.push_back({"belly", "trunk", 0.0, {0.1, 0.2, -0.3}});
   const RobotModel robot(description);

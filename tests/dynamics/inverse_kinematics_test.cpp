@@ -14,7 +14,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// Targets of all contacts where the posture q has them.
-std::vector<ContactTarget> places_at(const RobotModel& robot, const VectorXd& q) {
+std::vector<ContactTarget> targets_at(const RobotModel& robot, const VectorXd& q) {
   RigidBodyTerms terms(robot);
   terms.update_kinematics(q);
   std::vector<ContactTarget> targets;
@@ -23,10 +23,10 @@ std::vector<ContactTarget> places_at(const RobotModel& robot, const VectorXd& q)
 }
 
 double sum_of_squares(const RobotModel& robot, const VectorXd& q, const std::vector<ContactTarget>& targets) {
-  const std::vector<ContactTarget> places = places_at(robot, q);
+  const std::vector<ContactTarget> reached = targets_at(robot, q);
   double sum = 0.0;
   for (const ContactTarget& target : targets) {
-    sum += (places[target.contact].position - target.position).squaredNorm();
+    sum += (reached[target.contact].position - target.position).squaredNorm();
   }
   return sum;
 }
@@ -47,12 +47,12 @@ TEST_P(InverseKinematicsOf, FindsAPostureThatExists) {
     VectorXd wanted = integrate(robot.nominal_configuration(), change);
     wanted.tail(robot.nu()) =
         wanted.tail(robot.nu()).cwiseMax(robot.position_lower()).cwiseMin(robot.position_upper()).eval();
-    VectorXd start = robot.nominal_configuration();
-    start.head<7>() = wanted.head<7>();
-    const auto targets = places_at(robot, wanted);
-    ASSERT_GT(sum_of_squares(robot, start, targets), 1e-6) << "nothing to find";
+    VectorXd guess = robot.nominal_configuration();
+    guess.head<7>() = wanted.head<7>();
+    const auto targets = targets_at(robot, wanted);
+    ASSERT_GT(sum_of_squares(robot, guess, targets), 1e-6) << "nothing to find";
 
-    const InverseKinematics found = inverse_kinematics(robot, start, targets);
+    const InverseKinematics found = inverse_kinematics(robot, guess, targets);
     EXPECT_TRUE(found.converged) << "residual " << found.residual;
     EXPECT_LT(sum_of_squares(robot, found.q, targets), 1e-14);
     EXPECT_EQ(found.q.head<7>(), wanted.head<7>());
@@ -68,16 +68,16 @@ INSTANTIATE_TEST_SUITE_P(Robots, InverseKinematicsOf,
 
 TEST(InverseKinematics, StaysAtTheNearestPostureWithinLimitsWhereTargetsAreOutOfReach) {
   const RobotModel robot = test::hyq();
-  VectorXd start = robot.nominal_configuration();
-  const auto targets = places_at(robot, start);
-  start.head<3>() += Eigen::Vector3d(0.1, 0.05, -0.45);  // the base almost on the floor: knees and hips at their limits
+  VectorXd guess = robot.nominal_configuration();
+  const auto targets = targets_at(robot, guess);
+  guess.head<3>() += Eigen::Vector3d(0.1, 0.05, -0.45);  // the base almost on the floor: knees and hips at their limits
 
-  const InverseKinematics found = inverse_kinematics(robot, start, targets);
+  const InverseKinematics found = inverse_kinematics(robot, guess, targets);
   EXPECT_FALSE(found.converged);
   EXPECT_GT(found.residual, 0.01);
   expect_within_limits(robot, found.q);
   const double best = sum_of_squares(robot, found.q, targets);
-  EXPECT_LT(best, sum_of_squares(robot, start, targets));
+  EXPECT_LT(best, sum_of_squares(robot, guess, targets));
   for (int joint = 0; joint < robot.nu(); ++joint) {
     for (const double step : {-1e-4, 1e-4}) {
       VectorXd q = found.q;
@@ -89,22 +89,22 @@ TEST(InverseKinematics, StaysAtTheNearestPostureWithinLimitsWhereTargetsAreOutOf
 
 TEST(InverseKinematics, MovesOnlyTheLegThatHasATarget) {
   const RobotModel robot = test::hyq();
-  const VectorXd start = robot.nominal_configuration();
-  ContactTarget target = places_at(robot, start).front();
+  const VectorXd guess = robot.nominal_configuration();
+  ContactTarget target = targets_at(robot, guess).front();
   target.position += Eigen::Vector3d(0.05, 0.02, 0.06);
-  const InverseKinematics found = inverse_kinematics(robot, start, {target});
+  const InverseKinematics found = inverse_kinematics(robot, guess, {target});
   EXPECT_TRUE(found.converged);
-  const VectorXd change = found.q - start;
+  const VectorXd change = found.q - guess;
   EXPECT_EQ((change.array() != 0.0).count(), 3) << change.transpose();
 }
 
-TEST(InverseKinematics, PutsAStartOutsideTheLimitsInside) {
+TEST(InverseKinematics, PutsAGuessOutsideTheLimitsInside) {
   const RobotModel robot = test::hyq();
-  VectorXd start = robot.nominal_configuration();
-  const auto targets = places_at(robot, start);
-  start(7) = robot.position_upper()(0) + 0.3;
-  expect_within_limits(robot, inverse_kinematics(robot, start, {}).q);
-  const InverseKinematics found = inverse_kinematics(robot, start, targets);
+  VectorXd guess = robot.nominal_configuration();
+  const auto targets = targets_at(robot, guess);
+  guess(7) = robot.position_upper()(0) + 0.3;
+  expect_within_limits(robot, inverse_kinematics(robot, guess, {}).q);
+  const InverseKinematics found = inverse_kinematics(robot, guess, targets);
   EXPECT_TRUE(found.converged);
   expect_within_limits(robot, found.q);
 }

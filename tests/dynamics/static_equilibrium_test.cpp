@@ -34,12 +34,12 @@ double height_of_mass(const RobotModel& robot, const VectorXd& q) {
   return pinocchio::centerOfMass(robot.pinocchio().model, data, q).z();
 }
 
-VectorXd contact_places(const RobotModel& robot, const VectorXd& q) {
+VectorXd contact_positions(const RobotModel& robot, const VectorXd& q) {
   RigidBodyTerms terms(robot);
   terms.update_kinematics(q);
-  VectorXd places(3 * static_cast<Eigen::Index>(robot.contacts().size()));
-  for (const int c : all_contacts(robot)) places.segment<3>(3 * c) = terms.contact_position(c);
-  return places;
+  VectorXd positions(3 * static_cast<Eigen::Index>(robot.contacts().size()));
+  for (const int c : all_contacts(robot)) positions.segment<3>(3 * c) = terms.contact_position(c);
+  return positions;
 }
 
 class StaticEquilibriumOf : public testing::TestWithParam<RobotDescription> {};
@@ -58,7 +58,7 @@ TEST_P(StaticEquilibriumOf, DoesNoWorkInAnySmallMotion) {
     const double against_gravity =
         robot.weight() * (height_of_mass(robot, ahead) - height_of_mass(robot, behind)) / (2.0 * step);
     const double by_contacts =
-        rest.force.dot(contact_places(robot, ahead) - contact_places(robot, behind)) / (2.0 * step);
+        rest.force.dot(contact_positions(robot, ahead) - contact_positions(robot, behind)) / (2.0 * step);
     const double by_torques = rest.tau.dot(direction.tail(robot.nu()));
     EXPECT_NEAR(against_gravity, by_torques + by_contacts, 1e-6 * robot.weight()) << "direction " << i;
   }
@@ -68,7 +68,7 @@ TEST_P(StaticEquilibriumOf, HasForcesOfSmallestNorm) {
   const RobotModel robot(GetParam());
   const VectorXd q = disturbed_posture(robot);
   const VectorXd f = static_equilibrium(robot, q, all_contacts(robot)).force;
-  const VectorXd p = contact_places(robot, q);
+  const VectorXd p = contact_positions(robot, q);
 
   // Two contacts that push against each other along their line change no balance, so the forces have no share in that.
   for (const int i : all_contacts(robot)) {

@@ -106,7 +106,7 @@ TEST_F(Feasibility, OfAGoalOutOfReachNeedsNoOrientation) {
                                                  HasSubstr("for any base orientation"))));
 }
 
-TEST_F(Feasibility, OfAPlaceOutOfReachNamesTheFoot) {
+TEST_F(Feasibility, OfAFootholdOutOfReachNamesTheFoot) {
   const std::string step = R"(
 [[phase]]
 name = "swing"

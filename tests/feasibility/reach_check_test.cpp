@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
-#include "prowl/feasibility/prescribed_places.hpp"
+#include "prowl/feasibility/prescribed_footholds.hpp"
 #include "prowl/model/so3.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/standing_problem.hpp"
@@ -49,8 +49,8 @@ TEST(ReachCheck, NamesGoalPhaseContactAndLeg) {
 
 TEST(ReachCheck, NamesTheContactsThatAreOutOfReachAndTheFarthest) {
   MotionProblem problem = test::with_base_goal(stepping(), {0.0, 0.0, 0.0});
-  problem.phases[2].contacts[0].place = Eigen::Vector3d(1.5, 0.3, 0.0);
-  problem.phases[2].contacts[1].place = Eigen::Vector3d(2.5, -0.3, 0.0);
+  problem.phases[2].contacts[0].foothold = Eigen::Vector3d(1.5, 0.3, 0.0);
+  problem.phases[2].contacts[1].foothold = Eigen::Vector3d(2.5, -0.3, 0.0);
   problem.phases[1].contacts.erase(problem.phases[1].contacts.begin());
   std::vector<std::string> reasons = contacts_out_of_reach(problem);
   std::erase_if(reasons, [](const std::string& reason) { return reason.find("apart") != std::string::npos; });
@@ -60,19 +60,19 @@ TEST(ReachCheck, NamesTheContactsThatAreOutOfReachAndTheFarthest) {
 
 TEST(ReachCheck, ConcludesNothingFromWhatAGoalLeavesFree) {
   MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.5});
-  problem.boundary_conditions[1].configuration_lower(2) = -0.6;  // anything from below the start up to there
+  problem.boundary_constraints[1].configuration_lower(2) = -0.6;  // anything from below the start up to there
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
   problem = test::with_base_goal(test::standing_problem(), {0.6, 0.0, 0.0});
   EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(1));
-  problem.boundary_conditions[1].configuration_lower(0) = -std::numeric_limits<double>::infinity();
+  problem.boundary_constraints[1].configuration_lower(0) = -std::numeric_limits<double>::infinity();
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
 }
 
 /// A standing robot whose base is to be so much higher at the end, however it is turned.
 MotionProblem raised(double height) {
   MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, height});
-  problem.boundary_conditions[1].configuration_lower.segment<3>(3).setConstant(-4.0);
-  problem.boundary_conditions[1].configuration_upper.segment<3>(3).setConstant(4.0);
+  problem.boundary_constraints[1].configuration_lower.segment<3>(3).setConstant(-4.0);
+  problem.boundary_constraints[1].configuration_upper.segment<3>(3).setConstant(4.0);
   return problem;
 }
 
@@ -92,8 +92,8 @@ TEST(ReachCheck, ProvesAHeightOutOfReachHoweverTheBaseIsTurned) {
                                 HasSubstr("for any base orientation"), HasSubstr("1.08 m")));
   MotionProblem aside = raised(0.5);
   const double infinity = std::numeric_limits<double>::infinity();
-  aside.boundary_conditions[1].configuration_lower.head<2>().setConstant(-infinity);
-  aside.boundary_conditions[1].configuration_upper.head<2>().setConstant(infinity);
+  aside.boundary_constraints[1].configuration_lower.head<2>().setConstant(-infinity);
+  aside.boundary_constraints[1].configuration_upper.head<2>().setConstant(infinity);
   EXPECT_THAT(contacts_out_of_reach(aside), SizeIs(1)) << "wherever it stands";
 }
 
@@ -105,28 +105,28 @@ TEST(ReachCheck, ProvesAHeightOutOfReachForFootholdsThatTheOptimiserChooses) {
   problem.phases.push_back(flight);
   problem.phases.push_back(problem.phases[0]);
   problem.phases[2].name = "landed";
-  problem.boundary_conditions[1].at = PhaseFraction::end_of(2);
+  problem.boundary_constraints[1].at = PhaseFraction::end_of(2);
   EXPECT_THAT(contacts_out_of_reach(problem),
               testing::ElementsAre(AllOf(HasSubstr("phase 'landed'"), HasSubstr("for any base orientation"))));
-  problem.boundary_conditions[1].at = PhaseFraction{1, 0.5};
+  problem.boundary_constraints[1].at = PhaseFraction{1, 0.5};
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "in the air it may be anywhere";
-  problem.boundary_conditions[1].at = PhaseFraction::end_of(2);
+  problem.boundary_constraints[1].at = PhaseFraction::end_of(2);
   problem.surfaces.push_back({.name = "platform", .point = {0.0, 0.0, 0.5}});
   for (PhaseContact& held : problem.phases[2].contacts) held.surface = 1;
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
 }
 
-TEST(ReachCheck, TakesThePlacesOfLandings) {
+TEST(ReachCheck, TakesTheFootholdsOfLandings) {
   MotionProblem problem = stepping();
-  problem.phases[2].contacts[0].place = Eigen::Vector3d(0.5, 0.3, 0.0);
+  problem.phases[2].contacts[0].foothold = Eigen::Vector3d(0.5, 0.3, 0.0);
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
-  problem.phases[2].contacts[0].place = Eigen::Vector3d(1.5, 0.3, 0.0);
+  problem.phases[2].contacts[0].foothold = Eigen::Vector3d(1.5, 0.3, 0.0);
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty()) << "the base may come along";
   const auto reasons = contacts_out_of_reach(test::with_base_goal(problem, {0.1, 0.0, 0.0}));
   ASSERT_THAT(reasons, SizeIs(1));
   EXPECT_THAT(reasons[0], AllOf(HasSubstr("goal 1, phase 'landed'"), HasSubstr("lf_foot")));
 
-  problem.phases[2].contacts[0].place = Eigen::Vector3d(3.5, 0.3, 0.0);
+  problem.phases[2].contacts[0].foothold = Eigen::Vector3d(3.5, 0.3, 0.0);
   const auto apart = contacts_out_of_reach(problem);
   ASSERT_THAT(apart, testing::Not(IsEmpty())) << "not even by splits";
   EXPECT_THAT(apart, Each(AllOf(HasSubstr("phase 'landed'"), HasSubstr("lf_foot"), HasSubstr("apart"))));
@@ -140,7 +140,7 @@ TEST(ReachCheck, TakesTheNearestOfAPatchWhereTheOptimiserChooses) {
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
   problem.surfaces[1].point = {1.5, 0.4, 0.1};
   EXPECT_THAT(contacts_out_of_reach(problem), SizeIs(1));
-  problem.boundary_conditions[1].configuration_upper(0) = 1.0;  // the base may come along
+  problem.boundary_constraints[1].configuration_upper(0) = 1.0;  // the base may come along
   EXPECT_THAT(contacts_out_of_reach(problem), IsEmpty());
 }
 
@@ -152,16 +152,16 @@ TEST(ReachCheck, NeverForbidsAPostureThatExists) {
     const MotionProblem standing = test::standing_problem(robot);
     const double height = robot.nominal_configuration()(2);
     std::vector<ContactTarget> targets;
-    const auto places = prescribed_places(standing, ContactSchedule(standing));
-    for (int c = 0; c < 4; ++c) targets.push_back({c, *places[c]});
+    const auto footholds = prescribed_footholds(standing, ContactSchedule(standing));
+    for (int c = 0; c < 4; ++c) targets.push_back({c, *footholds[c]});
     for (int i = 0; i < 100; ++i) {
       MotionProblem problem = test::with_base_goal(standing, test::random_vector(rng, 3, 0.5 * height));
-      Eigen::VectorXd& q = problem.boundary_conditions[1].q_ref;
+      Eigen::VectorXd& q = problem.boundary_constraints[1].q_ref;
       set_base_rotation(q, base_rotation(q) * so3::exp(test::random_vector(rng, 3, 0.3)));
       const bool is_forbidden = !contacts_out_of_reach(problem).empty();
       forbidden += is_forbidden;
-      problem.boundary_conditions[1].configuration_lower.segment<3>(3).setConstant(-4.0);
-      problem.boundary_conditions[1].configuration_upper.segment<3>(3).setConstant(4.0);
+      problem.boundary_constraints[1].configuration_lower.segment<3>(3).setConstant(-4.0);
+      problem.boundary_constraints[1].configuration_upper.segment<3>(3).setConstant(4.0);
       const bool is_forbidden_however_turned = !contacts_out_of_reach(problem).empty();
       forbidden_however_turned += is_forbidden_however_turned;
       if (!inverse_kinematics(robot, q, targets).converged) continue;

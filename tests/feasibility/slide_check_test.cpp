@@ -53,7 +53,7 @@ TEST(SlideCheck, KnowsThatARobotInTheAirFalls) {
   ASSERT_TRUE(reason);
   EXPECT_THAT(*reason, HasSubstr("no contact holds the robot"));
   // Thrown up fast enough to be back at that time, it is where the goal wants it.
-  problem.boundary_conditions[0].velocity_lower(2) = problem.boundary_conditions[0].velocity_upper(2) =
+  problem.boundary_constraints[0].velocity_lower(2) = problem.boundary_constraints[0].velocity_upper(2) =
       0.5 * 0.5 * 9.81;
   EXPECT_FALSE(why_it_slides(problem));
 }

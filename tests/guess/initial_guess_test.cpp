@@ -27,25 +27,25 @@ MotionProblem standing(const RobotDescription& description) {
   for (int c = 0; c < static_cast<int>(problem.robot.contacts().size()); ++c) phase.contacts.push_back({c, 0});
   problem.phases = {phase};
   const VectorXd turn = 1.2 * VectorXd::Unit(problem.robot.nv(), 5);
-  auto start = BoundaryCondition::unbounded(problem.robot, "start", PhaseFraction::start_of(0),
-                                            integrate(problem.robot.nominal_configuration(), turn));
+  auto start = BoundaryConstraint::unbounded(problem.robot, "start", PhaseFraction::start_of(0),
+                                             integrate(problem.robot.nominal_configuration(), turn));
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
   start.velocity_upper.setZero();
-  problem.boundary_conditions = {start};
+  problem.boundary_constraints = {start};
   problem.running_cost = problem.terminal_cost = test::zero_cost(problem.robot);
   return problem;
 }
 
 /// Asks the base to be displaced from the start by (world displacement, rotation vector) and at rest at a moment.
-BoundaryCondition base_goal(const MotionProblem& problem, PhaseFraction at, const Vector3d& shift,
-                            const Vector3d& turn) {
+BoundaryConstraint base_goal(const MotionProblem& problem, PhaseFraction at, const Vector3d& shift,
+                             const Vector3d& turn) {
   VectorXd displacement = VectorXd::Zero(problem.robot.nv());
   displacement.head<3>() = shift;
   displacement.segment<3>(3) = turn;
   auto goal =
-      BoundaryCondition::unbounded(problem.robot, "goal", at, integrate(problem.start_configuration(), displacement));
+      BoundaryConstraint::unbounded(problem.robot, "goal", at, integrate(problem.start_configuration(), displacement));
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
   goal.velocity_lower.head<6>().setZero();
@@ -57,7 +57,7 @@ BoundaryCondition base_goal(const MotionProblem& problem, PhaseFraction at, cons
 MotionProblem reaching(const RobotDescription& description) {
   MotionProblem problem = standing(description);
   const double height = problem.start_configuration()(2);
-  problem.boundary_conditions.push_back(
+  problem.boundary_constraints.push_back(
       base_goal(problem, PhaseFraction::end_of(0), height * Vector3d(0.07, 0.05, -0.1), Vector3d(0.05, 0.1, 0.1)));
   return problem;
 }
@@ -66,25 +66,26 @@ Trajectory guess_of(const MotionProblem& problem, int intervals = kIntervals) {
   return initial_guess(test::on_even_mesh(problem, intervals));
 }
 
-Vector3d place(const RobotModel& robot, const VectorXd& q, int contact) {
+Vector3d contact_position(const RobotModel& robot, const VectorXd& q, int contact) {
   RigidBodyTerms terms(robot);
   terms.update_kinematics(q);
   return terms.contact_position(contact);
 }
 
-void expect_meets_conditions(const MotionProblem& problem, const Trajectory& guess, int intervals = kIntervals) {
+void expect_meets_constraints(const MotionProblem& problem, const Trajectory& guess, int intervals = kIntervals) {
   const auto expect_between = [](const VectorXd& x, const VectorXd& lower, const VectorXd& upper) {
     EXPECT_GE((x - lower).minCoeff(), -1e-12);
     EXPECT_GE((upper - x).minCoeff(), -1e-12);
   };
-  const std::vector<int> nodes = nodes_of_conditions(problem, test::even_mesh(problem, intervals));
+  const std::vector<int> nodes = find_boundary_nodes(problem, test::even_mesh(problem, intervals));
   for (std::size_t c = 0; c < nodes.size(); ++c) {
-    const BoundaryCondition& condition = problem.boundary_conditions[c];
+    const BoundaryConstraint& constraint = problem.boundary_constraints[c];
     const TrajectoryPoint& point = guess.nodes[nodes[c]];
-    SCOPED_TRACE(condition.name);
-    expect_between(difference(condition.q_ref, point.q), condition.configuration_lower, condition.configuration_upper);
-    expect_between(point.v, condition.velocity_lower, condition.velocity_upper);
-    expect_between(point.tau, condition.torque_lower, condition.torque_upper);
+    SCOPED_TRACE(constraint.name);
+    expect_between(difference(constraint.q_ref, point.q), constraint.configuration_lower,
+                   constraint.configuration_upper);
+    expect_between(point.v, constraint.velocity_lower, constraint.velocity_upper);
+    expect_between(point.tau, constraint.torque_lower, constraint.torque_upper);
   }
 }
 
@@ -122,12 +123,12 @@ TEST_P(InitialGuessOf, GoesToTheGoalWithItsFeetInPlace) {
   const MotionProblem problem = reaching(GetParam());
   const Trajectory guess = guess_of(problem);
   expect_finite_and_within_limits(problem, guess);
-  expect_meets_conditions(problem, guess);
+  expect_meets_constraints(problem, guess);
 
   for (const TrajectoryPoint& point : guess.nodes) {
     for (const PhaseContact& c : problem.phases[0].contacts) {
-      const Vector3d drift =
-          place(problem.robot, point.q, c.contact) - place(problem.robot, problem.start_configuration(), c.contact);
+      const Vector3d drift = contact_position(problem.robot, point.q, c.contact) -
+                             contact_position(problem.robot, problem.start_configuration(), c.contact);
       EXPECT_LT(drift.norm(), 1e-3) << problem.robot.contacts()[c.contact].name;
     }
     EXPECT_LT(equations_of_motion(problem.robot, point).norm(), 1e-9 * problem.robot.weight());
@@ -159,11 +160,11 @@ TEST_P(InitialGuessOf, IsFiniteAndWithinLimitsForAGoalOutOfReach) {
   for (const double rise : {1.5, -0.9}) {
     MotionProblem problem = standing(GetParam());
     const double height = problem.start_configuration()(2);
-    problem.boundary_conditions.push_back(
+    problem.boundary_constraints.push_back(
         base_goal(problem, PhaseFraction::end_of(0), Vector3d(0.0, 0.0, rise * height), Vector3d(3.0, 0.0, 0.0)));
     const Trajectory guess = guess_of(problem);
     expect_finite_and_within_limits(problem, guess);
-    expect_meets_conditions(problem, guess);
+    expect_meets_constraints(problem, guess);
   }
 }
 
@@ -175,11 +176,11 @@ INSTANTIATE_TEST_SUITE_P(Robots, InitialGuessOf,
 
 TEST(InitialGuess, GoesDownAndUpAgainForACrouchWithoutOvershoot) {
   MotionProblem problem = standing(test::hyq_description());
-  problem.boundary_conditions.push_back(base_goal(problem, {0, 0.5}, Vector3d(0.0, 0.0, -0.17), Vector3d::Zero()));
-  problem.boundary_conditions.push_back(
+  problem.boundary_constraints.push_back(base_goal(problem, {0, 0.5}, Vector3d(0.0, 0.0, -0.17), Vector3d::Zero()));
+  problem.boundary_constraints.push_back(
       base_goal(problem, PhaseFraction::end_of(0), Vector3d::Zero(), Vector3d::Zero()));
   const Trajectory guess = guess_of(problem);
-  expect_meets_conditions(problem, guess);
+  expect_meets_constraints(problem, guess);
   const double top = problem.start_configuration()(2);
   for (std::size_t k = 0; k < 40; ++k) {
     const double z = guess.nodes[k].q(2), next = guess.nodes[k + 1].q(2);
@@ -191,28 +192,28 @@ TEST(InitialGuess, GoesDownAndUpAgainForACrouchWithoutOvershoot) {
 
 TEST(InitialGuess, LetsFreeCoordinatesPassAWaypoint) {
   MotionProblem problem = standing(test::hyq_description());
-  auto halfway = BoundaryCondition::unbounded(
+  auto halfway = BoundaryConstraint::unbounded(
       problem.robot, "height only", {0, 0.5},
       integrate(problem.start_configuration(), VectorXd::Unit(problem.robot.nv(), 2) * -0.1));
   halfway.configuration_lower(2) = halfway.configuration_upper(2) = 0.0;
-  problem.boundary_conditions.push_back(halfway);
-  problem.boundary_conditions.push_back(
+  problem.boundary_constraints.push_back(halfway);
+  problem.boundary_constraints.push_back(
       base_goal(problem, PhaseFraction::end_of(0), Vector3d(0.08, 0.0, -0.1), Vector3d::Zero()));
   const Trajectory guess = guess_of(problem);
-  expect_meets_conditions(problem, guess);
+  expect_meets_constraints(problem, guess);
   EXPECT_NEAR(guess.nodes[20].q(0), problem.start_configuration()(0) + 0.04, 1e-9) << "forward is halfway at half time";
 }
 
 TEST(InitialGuess, PassesAWaypointAtThePrescribedVelocity) {
   MotionProblem problem = standing(test::hyq_description());
-  BoundaryCondition passing = base_goal(problem, {0, 0.5}, Vector3d(0.02, 0.03, -0.03), Vector3d::Zero());
+  BoundaryConstraint passing = base_goal(problem, {0, 0.5}, Vector3d(0.02, 0.03, -0.03), Vector3d::Zero());
   const Vector3d velocity(0.06, -0.02, -0.03);  // in the base frame
   passing.velocity_lower.head<3>() = passing.velocity_upper.head<3>() = velocity;
-  problem.boundary_conditions.push_back(passing);
-  problem.boundary_conditions.push_back(
+  problem.boundary_constraints.push_back(passing);
+  problem.boundary_constraints.push_back(
       base_goal(problem, PhaseFraction::end_of(0), Vector3d(0.04, 0.06, -0.06), Vector3d::Zero()));
   const Trajectory guess = guess_of(problem);
-  expect_meets_conditions(problem, guess);
+  expect_meets_constraints(problem, guess);
   const Vector3d moved = guess.nodes[21].q.head<3>() - guess.nodes[19].q.head<3>();
   EXPECT_LT((moved / 0.1 - base_rotation(guess.nodes[20].q) * velocity).norm(), 0.1 * velocity.norm());
 }
@@ -223,11 +224,11 @@ TEST(InitialGuess, KeepsThePostureOfLegsInTheAir) {
   Phase lifted = problem.phases[0];
   std::erase_if(lifted.contacts, [&](const PhaseContact& c) { return c.contact == lf; });
   problem.phases.push_back(lifted);
-  problem.boundary_conditions.push_back(
+  problem.boundary_constraints.push_back(
       base_goal(problem, PhaseFraction::end_of(1), Vector3d(-0.04, -0.04, 0.02), {0.0, -0.05, 0.0}));
   const Trajectory guess = guess_of(problem, 20);
   expect_finite_and_within_limits(problem, guess, 20);
-  expect_meets_conditions(problem, guess, 20);
+  expect_meets_constraints(problem, guess, 20);
 
   const TrajectoryPoint &before = guess.nodes[20], &after = guess.nodes[21];  // both sides of the phase switch
   EXPECT_LT(difference(before.q, after.q).norm(), 1e-12);
@@ -245,24 +246,24 @@ TEST(InitialGuess, BringsJointsToAPrescribedPosture) {
   MotionProblem problem = standing(test::hyq_description());
   problem.phases[0].contacts.clear();
   const VectorXd change = VectorXd::Unit(problem.robot.nv(), 7) * 0.3;
-  auto posture = BoundaryCondition::unbounded(problem.robot, "posture", PhaseFraction::end_of(0),
-                                              integrate(problem.start_configuration(), change));
+  auto posture = BoundaryConstraint::unbounded(problem.robot, "posture", PhaseFraction::end_of(0),
+                                               integrate(problem.start_configuration(), change));
   posture.configuration_lower.tail(problem.robot.nu()).setZero();
   posture.configuration_upper.tail(problem.robot.nu()).setZero();
-  problem.boundary_conditions.push_back(posture);
+  problem.boundary_constraints.push_back(posture);
   const Trajectory guess = guess_of(problem);
-  expect_meets_conditions(problem, guess);
+  expect_meets_constraints(problem, guess);
   EXPECT_NEAR(guess.nodes[20].q(8), problem.start_configuration()(8) + 0.15, 1e-9);
 }
 
 TEST(InitialGuess, PutsAPrescribedJointBeforeTheFeet) {
   MotionProblem problem = standing(test::hyq_description());
   const VectorXd change = VectorXd::Unit(problem.robot.nv(), 7) * 0.3;
-  auto posture = BoundaryCondition::unbounded(problem.robot, "one joint", PhaseFraction::end_of(0),
-                                              integrate(problem.start_configuration(), change));
+  auto posture = BoundaryConstraint::unbounded(problem.robot, "one joint", PhaseFraction::end_of(0),
+                                               integrate(problem.start_configuration(), change));
   posture.configuration_lower(7) = posture.configuration_upper(7) = 0.0;
-  problem.boundary_conditions.push_back(posture);
-  expect_meets_conditions(problem, guess_of(problem));
+  problem.boundary_constraints.push_back(posture);
+  expect_meets_constraints(problem, guess_of(problem));
 }
 
 /// HyQ lifts a foot, and puts it down 20 cm ahead.
@@ -274,33 +275,34 @@ MotionProblem stepping() {
   shift.duration = {0.8, 0.8};
   Phase swing = shift, settle = shift;
   std::erase_if(swing.contacts, [&](const PhaseContact& c) { return c.contact == lf; });
-  const Vector3d from = place(problem.robot, problem.start_configuration(), lf);
+  const Vector3d from = contact_position(problem.robot, problem.start_configuration(), lf);
   for (PhaseContact& c : settle.contacts) {
-    if (c.contact == lf) c.place = Vector3d(from.x() + 0.2, from.y(), 0.0);
+    if (c.contact == lf) c.foothold = Vector3d(from.x() + 0.2, from.y(), 0.0);
   }
   problem.phases.push_back(swing);
   problem.phases.push_back(settle);
   return problem;
 }
 
-TEST(InitialGuess, FeetGoFromPlaceToPlaceAboveTheGround) {
+TEST(InitialGuess, FeetGoFromFootholdToFootholdAboveTheGround) {
   const MotionProblem problem = stepping();
   const int lf = problem.robot.contact_index("lf_foot");
   const Trajectory guess = guess_of(problem);
   expect_finite_and_within_limits(problem, guess);
-  const Vector3d start = place(problem.robot, problem.start_configuration(), lf);
+  const Vector3d start = contact_position(problem.robot, problem.start_configuration(), lf);
   for (const TrajectoryPoint& point : guess.nodes) {
-    const Vector3d foot = place(problem.robot, point.q, lf);
+    const Vector3d foot = contact_position(problem.robot, point.q, lf);
     if (point.phase == 0) EXPECT_LT((foot - start).norm(), 1e-6);
     if (point.phase == 1) EXPECT_GT(foot.z(), start.z() - 1e-6);
     if (point.phase == 2) EXPECT_LT((foot - start - Vector3d(0.2, 0.0, 0.0)).norm(), 1e-6);
   }
-  EXPECT_GT(place(problem.robot, guess.nodes[41 + 20].q, lf).z(), start.z() + problem.swing_clearance);
+  EXPECT_GT(contact_position(problem.robot, guess.nodes[41 + 20].q, lf).z(), start.z() + problem.swing_clearance);
 }
 
 TEST(InitialGuess, LeansAwayFromAFootThatLifts) {
   const MotionProblem problem = stepping();
-  const Vector3d foot = place(problem.robot, problem.start_configuration(), problem.robot.contact_index("lf_foot"));
+  const Vector3d foot =
+      contact_position(problem.robot, problem.start_configuration(), problem.robot.contact_index("lf_foot"));
   const Trajectory guess = guess_of(problem);
   const TrajectoryPoint& lifted = guess.nodes[41 + 20];
   EXPECT_LT(lifted.q.head<2>().dot(foot.head<2>().normalized()), -0.02);

@@ -5,3 +5,8 @@ if(BUILD_SHARED_LIBS AND PROWL_BUILD_CLI)
     -DROBOTS_DATA=${PROWL_CMEEL}/share -DINTERNAL_HEADERS=${internal_headers}
     -DWORK_DIR=${PROJECT_BINARY_DIR}/tests/install -P ${CMAKE_CURRENT_LIST_DIR}/install_test.cmake)
 endif()
+if(PROWL_BUILD_PYTHON AND PROWL_BUILD_CLI)
+  add_test(NAME install/wheel COMMAND ${PROWL_PYTHON} -m pytest -q -p no:cacheprovider --durations=8 -rP
+    ${CMAKE_CURRENT_LIST_DIR}/wheel_test.py)
+  set_tests_properties(install/wheel PROPERTIES TIMEOUT 3600 ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;CXX=${CMAKE_CXX_COMPILER}")
+endif()

@@ -22,8 +22,8 @@ MotionProblem three_phases() {
 }
 
 void add_goal(MotionProblem& problem, PhaseFraction at) {
-  problem.boundary_conditions.push_back(
-      BoundaryCondition::unbounded(problem.robot, "goal 7", at, problem.start_configuration()));
+  problem.boundary_constraints.push_back(
+      BoundaryConstraint::unbounded(problem.robot, "goal 7", at, problem.start_configuration()));
 }
 
 std::string message_for(const MotionProblem& problem, const Mesh& mesh) {
@@ -69,7 +69,7 @@ TEST(DiscreteProblem, HasTheStepsThatAMeshAsksFor) {
   EXPECT_EQ(nodes[11].time, equal.nodes[11].time) << "the end of the phase, exactly";
 }
 
-TEST(DiscreteProblem, PutsBothSidesOfAPhaseSwitchAtOneTime) {
+TEST(DiscreteProblem, PutsBothSidesOfAPhaseTransitionAtOneTime) {
   const DiscreteProblem discrete(three_phases(), kMesh);
   const MeshNode &before = discrete.nodes[7], &after = discrete.nodes[8];
   EXPECT_EQ(before.phase, 0);
@@ -94,7 +94,7 @@ TEST(DiscreteProblem, SaysInWordsWhereANodeIs) {
   EXPECT_EQ(discrete.describe_moment(6), "phase 1 'fixed', node 6, t = 0.600 s");
 }
 
-TEST(DiscreteProblem, KnowsTheNodesOfItsConditions) {
+TEST(DiscreteProblem, KnowsTheNodesOfItsBoundaryConstraints) {
   MotionProblem problem = three_phases();
   problem.phases[1].duration = {0.4, 0.4};
   for (const PhaseFraction at : {PhaseFraction{0, 3.0 / 7.0}, PhaseFraction::end_of(0), PhaseFraction::start_of(1),
@@ -102,9 +102,9 @@ TEST(DiscreteProblem, KnowsTheNodesOfItsConditions) {
     add_goal(problem, at);
   }
   const DiscreteProblem discrete(problem, kMesh);
-  EXPECT_THAT(discrete.condition_nodes, ElementsAre(0, 3, 7, 8, 9, 13));
-  EXPECT_NEAR(discrete.condition_time(1), 0.3, 1e-15);
-  EXPECT_EQ(discrete.condition_time(2), discrete.condition_time(3)) << "both sides of a phase switch";
+  EXPECT_THAT(discrete.boundary_nodes, ElementsAre(0, 3, 7, 8, 9, 13));
+  EXPECT_NEAR(discrete.boundary_time(1), 0.3, 1e-15);
+  EXPECT_EQ(discrete.boundary_time(2), discrete.boundary_time(3)) << "both sides of a phase switch";
 }
 
 /// On any mesh that has a node for them.
@@ -115,10 +115,10 @@ TEST(DiscreteProblem, GoalsStayWhereTheyAre) {
     add_goal(problem, at);
   }
   const Mesh equal{{PhaseMesh(4), PhaseMesh(10)}}, other{{PhaseMesh({1.0, 2.0, 1.0}), PhaseMesh({0.1, 0.3, 0.2, 0.4})}};
-  EXPECT_THAT(nodes_of_conditions(problem, equal), ElementsAre(0, 1, 5 + 4, 5 + 10));
-  EXPECT_THAT(nodes_of_conditions(problem, other), ElementsAre(0, 1, 4 + 2, 4 + 4));
+  EXPECT_THAT(find_boundary_nodes(problem, equal), ElementsAre(0, 1, 5 + 4, 5 + 10));
+  EXPECT_THAT(find_boundary_nodes(problem, other), ElementsAre(0, 1, 4 + 2, 4 + 4));
   const DiscreteProblem before(problem, equal), after(problem, other);
-  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(after.condition_time(c), before.condition_time(c), 1e-12);
+  for (std::size_t c = 0; c < 4; ++c) EXPECT_NEAR(after.boundary_time(c), before.boundary_time(c), 1e-12);
   EXPECT_EQ(message_for(problem, {{PhaseMesh({1.0, 1.0}), PhaseMesh({1.0, 1.0})}}),
             "goal 7: no node of the mesh is at 0.25 of phase 'p'");
 }

@@ -48,17 +48,17 @@ TEST(MeshLevels, KeepEveryGoalAtItsTime) {
   auto [problem, mesh] = with_intervals({40, 360});
   for (const PhaseFraction at : {PhaseFraction{0, 0.0}, PhaseFraction{1, 120.0 / 360.0},
                                  PhaseFraction{1, 180.0 / 360.0}, PhaseFraction{1, 1.0}}) {
-    problem.boundary_conditions.push_back(
-        BoundaryCondition::unbounded(problem.robot, "goal", at, problem.robot.nominal_configuration()));
+    problem.boundary_constraints.push_back(
+        BoundaryConstraint::unbounded(problem.robot, "goal", at, problem.robot.nominal_configuration()));
   }
   const std::vector<Mesh> levels = mesh_levels(problem, mesh);
   ASSERT_EQ(levels.size(), 3u);
   EXPECT_EQ(levels[0].phases[1].intervals(), 24);  // 23 are a quarter of 90, and it takes a multiple of six
   for (const Mesh& level : levels) {
-    const std::vector<int> nodes = nodes_of_conditions(problem, level);
+    const std::vector<int> nodes = find_boundary_nodes(problem, level);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const double times[] = {0.0, 1.0 + 1.0 / 3.0, 1.5, 2.0};
-      const int phase = problem.boundary_conditions[i].at.phase, node = nodes[i] - level.first_node(phase);
+      const int phase = problem.boundary_constraints[i].at.phase, node = nodes[i] - level.first_node(phase);
       EXPECT_NEAR(phase + level.phases[phase].node_time(node, 1.0), times[i], 1e-12);
     }
   }

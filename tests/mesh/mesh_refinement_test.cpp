@@ -24,7 +24,7 @@ test::MeshedProblem one_phase(int intervals, const std::vector<int>& goals = {})
   MotionProblem problem{.robot = test::hyq()};
   problem.phases = {{.name = "p", .contacts = {}, .duration = {1.0, 1.0}}};
   for (const int node : goals) {
-    problem.boundary_conditions.push_back(BoundaryCondition::unbounded(
+    problem.boundary_constraints.push_back(BoundaryConstraint::unbounded(
         problem.robot, "goal", {0, 1.0 * node / intervals}, problem.robot.nominal_configuration()));
   }
   return {std::move(problem), {{PhaseMesh(intervals)}}};
@@ -92,11 +92,11 @@ TEST(MeshRefinement, MergesWhatIsFarBelow) {
   EXPECT_THAT(steps(refined(one_phase(3), std::vector<double>(3, 0.0))), testing::SizeIs(3));
 }
 
-TEST(MeshRefinement, DoesNotMergeOverAGoalNorOverAPhaseSwitch) {
+TEST(MeshRefinement, DoesNotMergeOverAGoalNorOverAPhaseTransition) {
   const test::MeshedProblem of = one_phase(20, {0, 5, 20});
   const Mesh mesh = refined(of, std::vector<double>(20, 0.0));
   EXPECT_THAT(steps(mesh), Pointwise(DoubleNear(1e-12), {0.2, 0.05, 0.2, 0.2, 0.2, 0.15}));
-  EXPECT_THAT(nodes_of_conditions(of.problem, mesh), ElementsAre(0, 2, 6));
+  EXPECT_THAT(find_boundary_nodes(of.problem, mesh), ElementsAre(0, 2, 6));
 
   test::MeshedProblem two = one_phase(6);
   two.problem.phases.push_back({.name = "q", .contacts = {}, .duration = {0.2, 0.5}});

@@ -13,7 +13,7 @@ namespace {
 std::vector<Eigen::Isometry3d> by_hand(const BodyTree& tree, const Eigen::VectorXd& q) {
   std::vector<Eigen::Isometry3d> placements;
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
-    const Body& body = tree.bodies[b];
+    const RigidBody& body = tree.bodies[b];
     if (body.parent < 0) {
       placements.emplace_back(Eigen::Translation3d(base_position(q)) * base_quaternion(q));
       continue;

@@ -49,7 +49,7 @@ TEST(RobotVisuals, AnInertiaBoxHasTheBodysInertia) {
   for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12()}) {
     const BodyTree tree = body_tree(robot);
     for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
-      const Body& body = tree.bodies[b];
+      const RigidBody& body = tree.bodies[b];
       const auto box = inertia_box(tree, static_cast<int>(b));
       ASSERT_TRUE(box.has_value());
       const Eigen::Vector3d squares = box->size.cwiseAbs2();

@@ -11,7 +11,7 @@ using Eigen::Vector2d;
 
 const Surface kStone{.patch = {{0.0, 0.0}, {0.4, 0.1}, {0.3, 0.5}, {-0.1, 0.3}}};
 
-TEST(Surface, CoordinatesAndPlacesAreInverse) {
+TEST(Surface, CoordinatesAndPointsAreInverse) {
   for (const Eigen::Vector3d& normal :
        {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.2, -0.1, 1.0), Eigen::Vector3d(-1, 0, 0)}) {
     const Surface surface{.point = {0.3, -0.2, 0.1}, .normal = normal.normalized()};
@@ -20,9 +20,9 @@ TEST(Surface, CoordinatesAndPlacesAreInverse) {
     EXPECT_LT((frame.transpose() * frame - Eigen::Matrix3d::Identity()).norm(), 1e-14);
     EXPECT_NEAR(frame.determinant(), 1.0, 1e-14);
     const Eigen::Vector2d at(0.7, -0.4);
-    const Eigen::Vector3d place = surface.at(at, 0.05);
-    EXPECT_LT((surface.coordinates(place) - at).norm(), 1e-14);
-    EXPECT_NEAR(surface.distance(place), 0.05, 1e-14);
+    const Eigen::Vector3d point = surface.at(at, 0.05);
+    EXPECT_LT((surface.coordinates(point) - at).norm(), 1e-14);
+    EXPECT_NEAR(surface.distance(point), 0.05, 1e-14);
   }
 }
 

@@ -25,7 +25,7 @@ TEST(ContactSchedule, ATrotHasAStanceAndASwingAFootAndPhase) {
   EXPECT_EQ(schedule.swings().size(), 4u);
 
   // Foot 0 stands through phases 0 and 1, swings in 2, lands in 3.
-  const Stance& first = schedule.stances()[schedule.stance(0, 0)];
+  const ContactStance& first = schedule.stances()[schedule.stance(0, 0)];
   EXPECT_EQ(first.contact, 0);
   EXPECT_EQ(first.last_phase, 1);
   EXPECT_FALSE(first.lands());
@@ -40,7 +40,7 @@ TEST(ContactSchedule, ATrotHasAStanceAndASwingAFootAndPhase) {
   EXPECT_TRUE(schedule.opens(0, 1));
   EXPECT_TRUE(schedule.lands(2, 0));
   EXPECT_FALSE(schedule.lands(3, 1)) << "it is there already";
-  for (const Swing& swing : schedule.swings()) {
+  for (const ContactSwing& swing : schedule.swings()) {
     EXPECT_EQ(swing.first_phase, swing.last_phase);
     EXPECT_EQ(schedule.stances()[swing.before].contact, swing.contact);
     EXPECT_EQ(schedule.stances()[swing.after].first_phase, swing.last_phase + 1);
@@ -51,7 +51,7 @@ TEST(ContactSchedule, ContactsThatAreNeverHeldSwingAllTheTime) {
   const MotionProblem problem = phases({{1, 2, 3}, {1, 2, 3}});
   const ContactSchedule schedule(problem);
   ASSERT_EQ(schedule.swings().size(), 1u);
-  const Swing& swing = schedule.swings()[0];
+  const ContactSwing& swing = schedule.swings()[0];
   EXPECT_EQ(swing.contact, 0);
   EXPECT_EQ(swing.before, -1);
   EXPECT_EQ(swing.after, -1);

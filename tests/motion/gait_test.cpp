@@ -153,7 +153,7 @@ TEST(Gait, NamesArePhaseNamesAndUnique) {
   EXPECT_EQ(hyq_phases(gait_of("walk"))[1].name, "stride 1: lh_foot swings");
 }
 
-TEST(Gait, FeetHoldItsSurfaceAndChooseTheirPlace) {
+TEST(Gait, FeetHoldItsSurfaceAndChooseTheirFoothold) {
   Gait gait = gait_of("pace");
   gait.surface = 1;
   MotionProblem problem{.robot = test::hyq()};
@@ -161,11 +161,11 @@ TEST(Gait, FeetHoldItsSurfaceAndChooseTheirPlace) {
   for (const Phase& phase : problem.phases) {
     for (const PhaseContact& held : phase.contacts) {
       EXPECT_EQ(held.surface, 1);
-      EXPECT_FALSE(held.place);
+      EXPECT_FALSE(held.foothold);
     }
   }
   const ContactSchedule schedule(problem);
-  EXPECT_EQ(std::ranges::count_if(schedule.stances(), &Stance::lands), 8) << "two strides of four feet";
+  EXPECT_EQ(std::ranges::count_if(schedule.stances(), &ContactStance::lands), 8) << "two strides of four feet";
 }
 
 TEST(Gait, GoesAlongItsSurface) {

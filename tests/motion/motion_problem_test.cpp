@@ -21,14 +21,14 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 /// HyQ stands for a second.
 MotionProblem standing() {
   const RobotModel robot = test::hyq();
-  BoundaryCondition start =
-      BoundaryCondition::unbounded(robot, "start", PhaseFraction::start_of(0), robot.nominal_configuration());
+  BoundaryConstraint start =
+      BoundaryConstraint::unbounded(robot, "start", PhaseFraction::start_of(0), robot.nominal_configuration());
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
   start.velocity_upper.setZero();
-  const BoundaryCondition goal =
-      BoundaryCondition::unbounded(robot, "goal", PhaseFraction::end_of(0), robot.nominal_configuration());
+  const BoundaryConstraint goal =
+      BoundaryConstraint::unbounded(robot, "goal", PhaseFraction::end_of(0), robot.nominal_configuration());
   const Phase phase{"stand", {{0, 0}, {1, 0}, {2, 0}, {3, 0}}, {1.0, 1.0}};
   return {"stand", robot, {Surface{}}, {phase}, {start, goal}, zero_cost(robot), zero_cost(robot), {}};
 }
@@ -51,18 +51,18 @@ std::string message_after(const std::function<void(MotionProblem&)>& change) {
 
 TEST(MotionProblem, StandingIsAccepted) { EXPECT_EQ(message_for(standing()), "accepted"); }
 
-TEST(MotionProblem, AnUnboundedConditionBindsNothing) {
+TEST(MotionProblem, AnUnboundedConstraintBindsNothing) {
   const RobotModel robot = test::hyq();
-  const auto condition = BoundaryCondition::unbounded(robot, "goal", {1, 0.4}, robot.nominal_configuration());
-  EXPECT_EQ(condition.name, "goal");
-  EXPECT_EQ(condition.at, (PhaseFraction{1, 0.4}));
-  EXPECT_EQ(condition.q_ref, robot.nominal_configuration());
-  EXPECT_EQ(condition.configuration_lower, Eigen::VectorXd::Constant(18, -kInfinity));
-  EXPECT_EQ(condition.configuration_upper, Eigen::VectorXd::Constant(18, kInfinity));
-  EXPECT_EQ(condition.velocity_lower, Eigen::VectorXd::Constant(18, -kInfinity));
-  EXPECT_EQ(condition.velocity_upper, Eigen::VectorXd::Constant(18, kInfinity));
-  EXPECT_EQ(condition.torque_lower, Eigen::VectorXd::Constant(12, -kInfinity));
-  EXPECT_EQ(condition.torque_upper, Eigen::VectorXd::Constant(12, kInfinity));
+  const auto constraint = BoundaryConstraint::unbounded(robot, "goal", {1, 0.4}, robot.nominal_configuration());
+  EXPECT_EQ(constraint.name, "goal");
+  EXPECT_EQ(constraint.at, (PhaseFraction{1, 0.4}));
+  EXPECT_EQ(constraint.q_ref, robot.nominal_configuration());
+  EXPECT_EQ(constraint.configuration_lower, Eigen::VectorXd::Constant(18, -kInfinity));
+  EXPECT_EQ(constraint.configuration_upper, Eigen::VectorXd::Constant(18, kInfinity));
+  EXPECT_EQ(constraint.velocity_lower, Eigen::VectorXd::Constant(18, -kInfinity));
+  EXPECT_EQ(constraint.velocity_upper, Eigen::VectorXd::Constant(18, kInfinity));
+  EXPECT_EQ(constraint.torque_lower, Eigen::VectorXd::Constant(12, -kInfinity));
+  EXPECT_EQ(constraint.torque_upper, Eigen::VectorXd::Constant(12, kInfinity));
 }
 
 struct Mistake {
@@ -100,58 +100,59 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
-    BoundaryConditions, MotionProblemMistake,
+    BoundaryConstraints, MotionProblemMistake,
     testing::Values(
-        Mistake{"none", [](P& p) { p.boundary_conditions.clear(); }, "boundary_conditions: an empty list"},
-        Mistake{"phase", [](P& p) { p.boundary_conditions[1].at.phase = 1; },
-                "boundary_conditions[1].at.phase: 1 is not allowed; need 0 to 0"},
-        Mistake{"fraction", [](P& p) { p.boundary_conditions[1].at.fraction = 1.2; },
-                "boundary_conditions[1].at.fraction: 1.2 is not allowed; need 0 to 1"},
-        Mistake{"fraction_below", [](P& p) { p.boundary_conditions[1].at.fraction = -0.2; },
-                "boundary_conditions[1].at.fraction: -0.2 is not allowed; need 0 to 1"},
-        Mistake{"fraction_nan", [](P& p) { p.boundary_conditions[1].at.fraction = kNan; },
-                "boundary_conditions[1].at.fraction: nan is not allowed"},
-        Mistake{"size", [](P& p) { p.boundary_conditions[1].velocity_lower.setZero(12); },
-                "boundary_conditions[1].velocity_lower: 12 entries are not allowed; need 18"},
-        Mistake{"order", [](P& p) { p.boundary_conditions[1].torque_lower(3) = kInfinity; },
-                "boundary_conditions[1].torque[3]: inf to inf"},
-        Mistake{"nan", [](P& p) { p.boundary_conditions[1].configuration_upper(2) = kNan; },
-                "boundary_conditions[1].configuration[2]: -inf to nan"},
-        Mistake{"q_ref_nan", [](P& p) { p.boundary_conditions[1].q_ref(0) = kNan; }, "q_ref[0]: nan"},
-        Mistake{"quaternion", [](P& p) { p.boundary_conditions[1].q_ref.segment<4>(3) *= 1.1; },
-                "boundary_conditions[1].q_ref: base quaternion of length 1.1"},
-        Mistake{"goal_joint", [](P& p) { p.boundary_conditions[1].configuration_lower(8) = 2.0; },
-                "boundary_conditions[1].configuration: 0.5 to inf for joint 'lf_kfe_joint' is outside its limits"},
-        Mistake{"goal_velocity", [](P& p) { p.boundary_conditions[1].velocity_upper(6) = -20.0; },
-                "boundary_conditions[1].velocity: -inf to -20 for joint 'lf_haa_joint'"},
-        Mistake{"goal_torque", [](P& p) { p.boundary_conditions[1].torque_lower(0) = 151.0; },
-                "boundary_conditions[1].torque: 151 to inf for joint 'lf_haa_joint' is outside its limits; need some "
+        Mistake{"none", [](P& p) { p.boundary_constraints.clear(); }, "boundary_constraints: an empty list"},
+        Mistake{"phase", [](P& p) { p.boundary_constraints[1].at.phase = 1; },
+                "boundary_constraints[1].at.phase: 1 is not allowed; need 0 to 0"},
+        Mistake{"fraction", [](P& p) { p.boundary_constraints[1].at.fraction = 1.2; },
+                "boundary_constraints[1].at.fraction: 1.2 is not allowed; need 0 to 1"},
+        Mistake{"fraction_below", [](P& p) { p.boundary_constraints[1].at.fraction = -0.2; },
+                "boundary_constraints[1].at.fraction: -0.2 is not allowed; need 0 to 1"},
+        Mistake{"fraction_nan", [](P& p) { p.boundary_constraints[1].at.fraction = kNan; },
+                "boundary_constraints[1].at.fraction: nan is not allowed"},
+        Mistake{"size", [](P& p) { p.boundary_constraints[1].velocity_lower.setZero(12); },
+                "boundary_constraints[1].velocity_lower: 12 entries are not allowed; need 18"},
+        Mistake{"order", [](P& p) { p.boundary_constraints[1].torque_lower(3) = kInfinity; },
+                "boundary_constraints[1].torque[3]: inf to inf"},
+        Mistake{"nan", [](P& p) { p.boundary_constraints[1].configuration_upper(2) = kNan; },
+                "boundary_constraints[1].configuration[2]: -inf to nan"},
+        Mistake{"q_ref_nan", [](P& p) { p.boundary_constraints[1].q_ref(0) = kNan; }, "q_ref[0]: nan"},
+        Mistake{"quaternion", [](P& p) { p.boundary_constraints[1].q_ref.segment<4>(3) *= 1.1; },
+                "boundary_constraints[1].q_ref: base quaternion of length 1.1"},
+        Mistake{"goal_joint", [](P& p) { p.boundary_constraints[1].configuration_lower(8) = 2.0; },
+                "boundary_constraints[1].configuration: 0.5 to inf for joint 'lf_kfe_joint' is outside its limits"},
+        Mistake{"goal_velocity", [](P& p) { p.boundary_constraints[1].velocity_upper(6) = -20.0; },
+                "boundary_constraints[1].velocity: -inf to -20 for joint 'lf_haa_joint'"},
+        Mistake{"goal_torque", [](P& p) { p.boundary_constraints[1].torque_lower(0) = 151.0; },
+                "boundary_constraints[1].torque: 151 to inf for joint 'lf_haa_joint' is outside its limits; need some "
                 "part of -150 to 150"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
     Start, MotionProblemMistake,
     testing::Values(
-        Mistake{"elsewhere", [](P& p) { p.boundary_conditions[0].at.fraction = 0.2; },
+        Mistake{"elsewhere", [](P& p) { p.boundary_constraints[0].at.fraction = 0.2; },
                 "the first condition is the start"},
-        Mistake{"free_base", [](P& p) { p.boundary_conditions[0].configuration_upper(0) = 0.1; },
+        Mistake{"free_base", [](P& p) { p.boundary_constraints[0].configuration_upper(0) = 0.1; },
                 "the start must be fixed at its q_ref"},
-        Mistake{"free_velocity", [](P& p) { p.boundary_conditions[0].velocity_upper(0) = 0.1; },
-                "boundary_conditions[0].velocity: the start must be fixed"},
-        Mistake{"joint_limit", [](P& p) { p.boundary_conditions[0].q_ref(9) = 0.0; },
-                "boundary_conditions[0].configuration: 0 to 0 for joint 'lf_kfe_joint' is outside its limits"},
-        Mistake{"above", [](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0015; },
+        Mistake{"free_velocity", [](P& p) { p.boundary_constraints[0].velocity_upper(0) = 0.1; },
+                "boundary_constraints[0].velocity: the start must be fixed"},
+        Mistake{"joint_limit", [](P& p) { p.boundary_constraints[0].q_ref(9) = 0.0; },
+                "boundary_constraints[0].configuration: 0 to 0 for joint 'lf_kfe_joint' is outside its limits"},
+        Mistake{"above", [](P& p) { p.boundary_constraints[0].q_ref(2) += 0.0015; },
                 "contact 'lf_foot' of the first phase is 1.5 mm above surface 'floor'; need at most 1 mm"},
-        Mistake{"inside", [](P& p) { p.boundary_conditions[0].q_ref(2) -= 0.0015; }, "1.5 mm inside surface 'floor'"},
+        Mistake{"inside", [](P& p) { p.boundary_constraints[0].q_ref(2) -= 0.0015; }, "1.5 mm inside surface 'floor'"},
         Mistake{
             "off_the_patch", [](P& p) { p.surfaces[0].patch = {{-1.0, -1.0}, {0.3, -1.0}, {0.3, 1.0}, {-1.0, 1.0}}; },
             "contact 'lf_foot' of the first phase is 70.8 mm outside the patch of surface 'floor'; need at most 1 mm"},
         Mistake{"under_ground", [](P& p) { p.surfaces.push_back(Surface{.name = "table", .point = {0.0, 0.0, 1.0}}); },
                 "contact 'lf_foot' starts 1000.0 mm inside surface 'table'"},
-        Mistake{
-            "moving",
-            [](P& p) { p.boundary_conditions[0].velocity_lower(2) = p.boundary_conditions[0].velocity_upper(2) = 0.5; },
-            "contact 'lf_foot' of the first phase moves at 0.5 m/s"}),
+        Mistake{"moving",
+                [](P& p) {
+                  p.boundary_constraints[0].velocity_lower(2) = p.boundary_constraints[0].velocity_upper(2) = 0.5;
+                },
+                "contact 'lf_foot' of the first phase moves at 0.5 m/s"}),
     [](const auto& info) { return info.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -164,18 +165,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "surfaces[0].patch: the corners after corner 1 do not turn left"},
         Mistake{"two_corners", [](P& p) { p.surfaces[0].patch = {{0.0, 0.0}, {0.0, 1.0}}; },
                 "surfaces[0].patch: a patch of 2 corners is not allowed; need 3 or more"},
-        Mistake{"place", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.02); },
-                "phases[0].contacts[1].place: 20.0 mm above surface 'floor' is not allowed"},
-        Mistake{
-            "place_at_the_start", [](P& p) { p.phases[0].contacts[1].place = Eigen::Vector3d(0.3, 0.3, 0.0); },
-            "phases[0].contacts[1].place: contact 'lh_foot' does not land in this phase: it starts at its position in "
-            "the start posture"},
-        Mistake{"place_held",
+        Mistake{"foothold", [](P& p) { p.phases[0].contacts[1].foothold = Eigen::Vector3d(0.3, 0.3, 0.02); },
+                "phases[0].contacts[1].foothold: 20.0 mm above surface 'floor' is not allowed"},
+        Mistake{"place_at_the_start", [](P& p) { p.phases[0].contacts[1].foothold = Eigen::Vector3d(0.3, 0.3, 0.0); },
+                "phases[0].contacts[1].foothold: contact 'lh_foot' does not land in this phase: it starts at its "
+                "position in "
+                "the start posture"},
+        Mistake{"foothold_held",
                 [](P& p) {
                   p.phases.push_back(p.phases[0]);
-                  p.phases[1].contacts[2].place = Eigen::Vector3d(0.3, 0.3, 0.0);
+                  p.phases[1].contacts[2].foothold = Eigen::Vector3d(0.3, 0.3, 0.0);
                 },
-                "phases[1].contacts[2].place: contact 'rf_foot' does not land in this phase: it already stands in "
+                "phases[1].contacts[2].foothold: contact 'rf_foot' does not land in this phase: it already stands in "
                 "the phase before"},
         Mistake{"slides",
                 [](P& p) {
@@ -187,12 +188,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"two_rotations",
                 [](P& p) {
                   p.phases.push_back(p.phases[0]);
-                  p.boundary_conditions[1].configuration_lower.segment<3>(3).setZero();
-                  p.boundary_conditions.push_back(p.boundary_conditions[1]);
-                  p.boundary_conditions[2].at =
+                  p.boundary_constraints[1].configuration_lower.segment<3>(3).setZero();
+                  p.boundary_constraints.push_back(p.boundary_constraints[1]);
+                  p.boundary_constraints[2].at =
                       PhaseFraction::start_of(1);  // the other side of the switch: the same time
                 },
-                "boundary_conditions[2].configuration: it binds the base's rotation at the same time as"},
+                "boundary_constraints[2].configuration: it binds the base's rotation at the same time as"},
         Mistake{"terminal", [](P& p) { p.terminal_cost.force_weight.setOnes(); },
                 "terminal_cost.force_weight: has no meaning in a terminal cost"},
         Mistake{"size", [](P& p) { p.terminal_cost.torque_weight.setZero(11); },
@@ -207,10 +208,10 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return info.param.name; });
 
 TEST(MotionProblem, StartMayBeAMillimetreOffTheGroundAndSwingFeetAnywhere) {
-  EXPECT_EQ(message_after([](P& p) { p.boundary_conditions[0].q_ref(2) += 0.0009; }), "accepted");
+  EXPECT_EQ(message_after([](P& p) { p.boundary_constraints[0].q_ref(2) += 0.0009; }), "accepted");
   EXPECT_EQ(message_after([](P& p) {
               p.phases[0].contacts.erase(p.phases[0].contacts.begin());  // lf_foot swings
-              p.boundary_conditions[0].q_ref(9) -= 0.3;
+              p.boundary_constraints[0].q_ref(9) -= 0.3;
             }),
             "accepted");
 }

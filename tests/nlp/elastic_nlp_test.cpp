@@ -51,10 +51,10 @@ TEST(ElasticNlp, HasExactDerivatives) {
 TEST(ElasticNlp, StartsWhereAllSoftBoundsHold) {
   Soft soft;
   const Eigen::Vector4d z(-3.0, 2.0, 7.0, 1.5);
-  const VectorXd start = soft.elastic->start(z);
-  EXPECT_EQ(soft.elastic->inner(start), z);
+  const VectorXd z_guess = soft.elastic->with_slacks(z);
+  EXPECT_EQ(soft.elastic->inner(z_guess), z);
   VectorXd g(4);
-  soft.elastic->constraints(start, g);
+  soft.elastic->constraints(z_guess, g);
   for (int row = 0; row < 4; ++row) {
     EXPECT_GE(g(row), soft.elastic->constraint_lower()(row) - 1e-12) << row;
     EXPECT_LE(g(row), soft.elastic->constraint_upper()(row) + 1e-12) << row;
@@ -66,7 +66,7 @@ TEST(ElasticNlp, TellsWhatGivesWayWithItsSign) {
   const Eigen::Vector4d z(-3.0, 2.0, 7.0, 1.5);
   VectorXd g(2);
   soft.inner.constraints(z, g);
-  const VectorXd violations = soft.elastic->violations(soft.elastic->start(z));
+  const VectorXd violations = soft.elastic->violations(soft.elastic->with_slacks(z));
   constexpr double kRoom = 0.01;  // of the size, both ways where there are two bounds
   EXPECT_NEAR(violations(0), 40.0 - g(1), 1e-9) << "above: < 0";
   EXPECT_NEAR(violations(1), 5.0 - 7.0 - 0.5 * kRoom, 1e-9);

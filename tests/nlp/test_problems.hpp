@@ -17,14 +17,14 @@ class TestNlp : public Nlp {
   const Eigen::VectorXd& variable_upper() const override { return z_upper; }
   const Eigen::VectorXd& constraint_lower() const override { return g_lower; }
   const Eigen::VectorXd& constraint_upper() const override { return g_upper; }
-  const SparsityPattern& jacobian_pattern() const override { return jacobian_places; }
-  const SparsityPattern& hessian_pattern() const override { return hessian_places; }
+  const SparsityPattern& jacobian_pattern() const override { return jacobian_entries; }
+  const SparsityPattern& hessian_pattern() const override { return hessian_entries; }
   std::string describe_constraint(int row) const override { return "constraint " + std::to_string(row); }
   std::string describe_variable(int index) const override { return "variable " + std::to_string(index); }
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Eigen::VectorXd z_lower, z_upper, g_lower, g_upper;
-  SparsityPattern jacobian_places, hessian_places;
+  SparsityPattern jacobian_entries, hessian_entries;
 };
 
 /// Hock, Schittkowski 1981, problem 71:
@@ -37,14 +37,14 @@ class Hs071 : public TestNlp {
     g_lower = Eigen::Vector2d(25.0, 40.0);
     g_upper = Eigen::Vector2d(kInfinity, 40.0);
     for (int row = 0; row < 2; ++row) {
-      for (int col = 0; col < 4; ++col) add(jacobian_places, row, col);
+      for (int col = 0; col < 4; ++col) add(jacobian_entries, row, col);
     }
     for (int row = 0; row < 4; ++row) {
-      for (int col = 0; col <= row; ++col) add(hessian_places, row, col);
+      for (int col = 0; col <= row; ++col) add(hessian_entries, row, col);
     }
   }
 
-  static Eigen::VectorXd start() { return Eigen::Vector4d(1.0, 5.0, 5.0, 1.0); }
+  static Eigen::VectorXd guess() { return Eigen::Vector4d(1.0, 5.0, 5.0, 1.0); }
 
   double cost(const Eigen::VectorXd& x) override { return x[0] * x[3] * (x[0] + x[1] + x[2]) + x[2]; }
 
@@ -78,7 +78,7 @@ class Hs071 : public TestNlp {
         h(row, col) += multipliers[0] * others;
       }
     }
-    for (int i = 0; i < hessian_places.size(); ++i) values[i] = h(hessian_places.rows[i], hessian_places.cols[i]);
+    for (int i = 0; i < hessian_entries.size(); ++i) values[i] = h(hessian_entries.rows[i], hessian_entries.cols[i]);
   }
 
  protected:

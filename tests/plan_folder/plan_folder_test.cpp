@@ -43,7 +43,7 @@ PlanRecord make_record(const std::filesystem::path& folder) {
   plan.result.message = "stopped \"by hand\"";
   plan.result.iterations = 12;
   plan.result.cost = 1.0 / 3.0;
-  plan.certificate.grade = Grade::draft;
+  plan.certificate.grade = CertificateGrade::draft;
   plan.certificate.passed = true;
   plan.certificate.checks.push_back({"contact drift", 1.0 / 7.0, 1e-3, "m", 0.1, "lf_foot", false});
   plan.certificate.checks.push_back({"torque", std::nan(""), 1.0, "-", 0.2, "", false});
@@ -96,7 +96,7 @@ TEST_F(PlanDirectory, ReadsBackWhatItWrote) {
   EXPECT_EQ(read.plan.result.status, SolveStatus::interrupted);
   EXPECT_EQ(read.plan.result.message, record_.plan.result.message);
   EXPECT_EQ(read.plan.result.cost, 1.0 / 3.0);
-  EXPECT_EQ(read.plan.certificate.grade, Grade::draft);
+  EXPECT_EQ(read.plan.certificate.grade, CertificateGrade::draft);
   ASSERT_EQ(read.plan.certificate.checks.size(), 2u);
   EXPECT_EQ(read.plan.certificate.checks[0].worst, 1.0 / 7.0);
   EXPECT_TRUE(std::isnan(read.plan.certificate.checks[1].worst));
@@ -270,8 +270,8 @@ TEST_F(PlanDirectory, ReadsTheMeshThatAPlanWasRefinedTo) {
   EXPECT_EQ(read.plan.mesh.phases[1].intervals(), 2);
   EXPECT_TRUE(read.plan.mesh.phases[1].is_even());
   EXPECT_EQ(read.task.mesh.phases[0].intervals(), 5) << "that of the task stays";
-  for (std::size_t i = 0; i < read.task.problem.boundary_conditions.size(); ++i) {
-    EXPECT_EQ(read.task.problem.boundary_conditions[i].at, record.task.problem.boundary_conditions[i].at);
+  for (std::size_t i = 0; i < read.task.problem.boundary_constraints.size(); ++i) {
+    EXPECT_EQ(read.task.problem.boundary_constraints[i].at, record.task.problem.boundary_constraints[i].at);
   }
 
   const std::string csv = test::read_file(out_ / "trajectory.csv");

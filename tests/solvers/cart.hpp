@@ -39,11 +39,11 @@ class Cart : public TestNlp, public DenseStagewiseNlp {
     for (int k = 0; k < kSteps; ++k) {
       for (int row : {0, 1}) {
         for (int col = state(k); col < state(k + 1) + 2; ++col) {
-          if (col >= 0) add(jacobian_places, 2 * k + row, col);
+          if (col >= 0) add(jacobian_entries, 2 * k + row, col);
         }
       }
     }
-    for (int i = 0; i < 3 * kSteps; ++i) add(hessian_places, i, i);
+    for (int i = 0; i < 3 * kSteps; ++i) add(hessian_entries, i, i);
     for (int k = 0; k <= kSteps; ++k) {
       StageSize& size = sizes_[k];
       size = {k < kSteps ? 1 : 0, k > 0 ? 2 : 0, k == kSteps ? 2 : 0, k < kSteps ? 1 : 0};

@@ -55,7 +55,7 @@ TYPED_TEST(ChainSolvers, FindTheSameFromNear) {
   Cart cart;
   const SolveResult first = this->solve(cart);
   ASSERT_EQ(first.status, SolveStatus::converged) << first.message;
-  const SolveResult again = TypeParam().solve(cart, first.z, {.start_is_near = true});
+  const SolveResult again = TypeParam().solve(cart, first.z, {.is_warm_start = true});
   ASSERT_EQ(again.status, SolveStatus::converged) << again.message;
   EXPECT_LT(again.iterations, first.iterations);
   EXPECT_NEAR(again.cost, first.cost, 1e-5);
@@ -153,7 +153,7 @@ TYPED_TEST(ChainSolvers, StopOnRequest) {
   EXPECT_EQ(result.z.size(), cart.num_variables());
 }
 
-TYPED_TEST(ChainSolvers, EndWhereTheStartIsNaN) {
+TYPED_TEST(ChainSolvers, EndWhereTheGuessIsNaN) {
   Cart cart;
   cart.nan_below = 0.1;
   const SolveResult result = this->solve(cart);
@@ -204,12 +204,12 @@ TYPED_TEST(ChainSolvers, EndWhereTheCostHasNoLeast) {
 TYPED_TEST(ChainSolvers, TakeChainsOnly) {
   test::Hs071 nlp;
   EXPECT_THAT(TypeParam().why_unsupported(nlp).value_or(""), HasSubstr("chain of stages"));
-  EXPECT_EQ(TypeParam().solve(nlp, test::Hs071::start(), {}).status, SolveStatus::solver_failed);
+  EXPECT_EQ(TypeParam().solve(nlp, test::Hs071::guess(), {}).status, SolveStatus::solver_failed);
   Cart cart;
   EXPECT_EQ(TypeParam().why_unsupported(cart), std::nullopt);
 }
 
-TYPED_TEST(ChainSolvers, RefuseAStartOfTheWrongSize) {
+TYPED_TEST(ChainSolvers, RefuseAGuessOfTheWrongSize) {
   Cart cart;
   EXPECT_THROW(TypeParam().solve(cart, Eigen::VectorXd::Zero(3), {}), InputError);
 }

@@ -123,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(All, Faults,
                                   kNames[static_cast<int>(std::get<1>(info.param))];
                          });
 
-TEST_P(Faults, AreNamedWithTheirPlace) {
+TEST_P(Faults, AreNamedWithTheirRowAndVariable) {
   for (const Kind kind : {Kind::nan, Kind::infinity, Kind::numerical_error}) {
     FaultyCart cart(fault(kind, 1, true));
     const SolveResult result = solve(cart);

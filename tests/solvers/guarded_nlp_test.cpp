@@ -44,7 +44,7 @@ class GuardedNlpTest : public ::testing::Test {
  protected:
   Faulty nlp_;
   GuardedNlp guarded_{nlp_};
-  const Eigen::VectorXd z_ = test::Hs071::start();
+  const Eigen::VectorXd z_ = test::Hs071::guess();
   const Eigen::VectorXd multipliers_ = Eigen::Vector2d(1.0, 1.0);
   Eigen::VectorXd g_ = Eigen::VectorXd(2), jacobian_ = Eigen::VectorXd(8), hessian_ = Eigen::VectorXd(10);
 };
@@ -64,7 +64,7 @@ TEST_F(GuardedNlpTest, PassesOnWhatIsFinite) {
   EXPECT_GT(guarded_.times().evaluation(), 0.0);
 }
 
-TEST_F(GuardedNlpTest, NamesThePlaceOfWhatIsNotFinite) {
+TEST_F(GuardedNlpTest, NamesRowAndVariableOfWhatIsNotFinite) {
   nlp_.cost_error = NAN;
   double cost = 0.0;
   EXPECT_FALSE(guarded_.cost(z_, cost));

@@ -17,16 +17,16 @@ TEST(IpoptWithoutSpral, SaysWhatIsMissing) {
   Hs071 nlp;
   const IpoptSolver spral(IpoptLinearSolver::spral);
   EXPECT_THAT(spral.why_unsupported(nlp).value_or(""), HasSubstr("built without SPRAL"));
-  const SolveResult result = spral.solve(nlp, Hs071::start(), {});
+  const SolveResult result = spral.solve(nlp, Hs071::guess(), {});
   EXPECT_EQ(result.status, SolveStatus::solver_failed);
   EXPECT_THAT(result.message, HasSubstr("built without SPRAL"));
-  EXPECT_EQ(result.z, Hs071::start());
+  EXPECT_EQ(result.z, Hs071::guess());
 }
 
 TEST(IpoptWithoutSpral, SolvesWithMumps) {
   Hs071 nlp;
   EXPECT_EQ(IpoptSolver().why_unsupported(nlp), std::nullopt);
-  EXPECT_EQ(IpoptSolver().solve(nlp, Hs071::start(), {}).status, SolveStatus::converged);
+  EXPECT_EQ(IpoptSolver().solve(nlp, Hs071::guess(), {}).status, SolveStatus::converged);
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ SolverOptions tight() {
 class ProgramSolvers : public ::testing::TestWithParam<const char*> {
  protected:
   const std::unique_ptr<NlpSolver> solver = make_solver(GetParam());
-  SolveResult solve(Nlp& nlp, const VectorXd& start = Hs071::start(), const SolverOptions& options = tight()) const {
-    return solver->solve(nlp, start, options);
+  SolveResult solve(Nlp& nlp, const VectorXd& guess = Hs071::guess(), const SolverOptions& options = tight()) const {
+    return solver->solve(nlp, guess, options);
   }
 };
 INSTANTIATE_TEST_SUITE_P(All, ProgramSolvers, ::testing::Values("ipopt", "ipopt-spral", "uno"), [](const auto& info) {
@@ -127,7 +127,7 @@ TEST_P(ProgramSolvers, StopAtTheIterationLimitWithTheirBestIterate) {
   options.max_iterations = 3;
   std::vector<SolveProgress> seen;
   options.on_iteration = [&seen](const SolveProgress& progress) { seen.push_back(progress); };
-  const SolveResult result = solve(nlp, Hs071::start(), options);
+  const SolveResult result = solve(nlp, Hs071::guess(), options);
   EXPECT_EQ(result.status, SolveStatus::iteration_limit) << result.message;
   EXPECT_EQ(result.iterations, 3);
   ASSERT_EQ(seen.size(), 4u);
@@ -141,7 +141,7 @@ TEST_P(ProgramSolvers, ReportEveryIterationInUnitsOfTheProblem) {
   SolverOptions options = tight();
   std::vector<SolveProgress> seen;
   options.on_iteration = [&seen](const SolveProgress& progress) { seen.push_back(progress); };
-  const SolveResult result = solve(nlp, Hs071::start(), options);
+  const SolveResult result = solve(nlp, Hs071::guess(), options);
   ASSERT_EQ(seen.size(), static_cast<size_t>(result.iterations) + 1);
   for (size_t i = 0; i < seen.size(); ++i) EXPECT_EQ(seen[i].iteration, static_cast<int>(i));
   // |x|^2 = 52 at the start instead of 40; Ipopt moves it a little off the bounds.
@@ -162,7 +162,7 @@ TEST_P(ProgramSolvers, StopAtTheTimeLimit) {
   Slow nlp;
   SolverOptions options = tight();
   options.max_seconds = 0.12;
-  const SolveResult result = solve(nlp, Hs071::start(), options);
+  const SolveResult result = solve(nlp, Hs071::guess(), options);
   EXPECT_EQ(result.status, SolveStatus::time_limit) << result.message;
   EXPECT_EQ(result.z.size(), 4);
   EXPECT_LT(result.seconds, 2.0);
@@ -178,7 +178,7 @@ TEST_P(ProgramSolvers, StopWithinAnIterationOfAnInterrupt) {
     last = progress.iteration;
     if (progress.iteration == 2) interrupt = true;
   };
-  const SolveResult result = solve(nlp, Hs071::start(), options);
+  const SolveResult result = solve(nlp, Hs071::guess(), options);
   EXPECT_EQ(result.status, SolveStatus::interrupted) << result.message;
   EXPECT_LE(last, 3);
   EXPECT_TRUE(result.z.size() == 4 && result.z.allFinite());
@@ -229,7 +229,7 @@ TEST_P(ProgramSolvers, StayInsideTheBoundsOfTheVariables) {
   EXPECT_LE(result.z[0], 2.0);
 }
 
-TEST_P(ProgramSolvers, RefuseAStartThatIsNotFinite) {
+TEST_P(ProgramSolvers, RefuseAGuessThatIsNotFinite) {
   Hs071 nlp;
   const SolveResult result = solve(nlp, Eigen::Vector4d(1.0, 5.0, NAN, 1.0));
   EXPECT_EQ(result.status, SolveStatus::evaluation_failed);
@@ -299,7 +299,7 @@ struct Overshoot : test::TestNlp {
   Overshoot() {
     z_lower.setConstant(1, -kInfinity);
     z_upper.setConstant(1, kInfinity);
-    hessian_places = {{0}, {0}};
+    hessian_entries = {{0}, {0}};
   }
   double cost(const VectorXd& x) override {
     if (x[0] >= -5.0) return std::sqrt(1.0 + x[0] * x[0]);
@@ -356,7 +356,7 @@ TEST_P(ProgramSolvers, RefuseArgumentsThatMakeNoSense) {
   Hs071 nlp;
   SolverOptions options;
   options.tolerance = -1.0;
-  EXPECT_THROW(solve(nlp, Hs071::start(), options), InputError);
+  EXPECT_THROW(solve(nlp, Hs071::guess(), options), InputError);
   EXPECT_THROW(solve(nlp, VectorXd::Zero(3)), InputError);
 }
 

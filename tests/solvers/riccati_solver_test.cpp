@@ -83,8 +83,8 @@ class OnACircle : public test::TestNlp, public test::DenseStagewiseNlp {
 TEST(RiccatiSolver, TakesWholeStepsAlongCurvedConstraints) {
   for (const double angle : {0.1, 0.3, 0.5}) {
     OnACircle nlp;
-    const Vector2d start(std::cos(angle), std::sin(angle));
-    const SolveResult result = RiccatiSolver().solve(nlp, start, {.tolerance = 1e-9});
+    const Vector2d guess(std::cos(angle), std::sin(angle));
+    const SolveResult result = RiccatiSolver().solve(nlp, guess, {.tolerance = 1e-9});
     ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
     EXPECT_LT((result.z - VectorXd(Vector2d(1.0, 0.0))).norm(), 1e-8);
     EXPECT_LE(result.iterations, 5) << angle;

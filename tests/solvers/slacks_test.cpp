@@ -44,7 +44,7 @@ TEST(Slacks, CountTheBoundsThatAreFinite) {
   EXPECT_EQ(Slacks(VectorXd(), VectorXd()).num_bounds(), 0);
 }
 
-TEST(Slacks, StartAtTheValuesButInside) {
+TEST(Slacks, BeginAtTheValuesButInside) {
   std::mt19937 rng(1);
   constexpr double push = 1e-2;
   const auto clearance = [](Index i, double bound) {
@@ -54,7 +54,7 @@ TEST(Slacks, StartAtTheValuesButInside) {
   for (int repeat = 0; repeat < 100; ++repeat) {
     const VectorXd values = random_vector(rng, kRows, 3.0);
     Slacks slacks(kLower, kUpper);
-    slacks.start(values, push);
+    slacks.initialise(values, push);
     for (Index i = 0; i < kRows; ++i) {
       bool is_clear = true;
       for (const double bound : {kLower(i), kUpper(i)}) {

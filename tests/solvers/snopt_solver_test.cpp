@@ -23,8 +23,8 @@ using ::testing::Optional;
 
 const Vector4d kOptimum(1.0, 4.74299964, 3.82114998, 1.37940829);
 
-SolveResult solve(Nlp& nlp, const Eigen::VectorXd& start, const SolverOptions& options = {}) {
-  return SnoptSolver(PROWL_SNOPT_DOUBLE).solve(nlp, start, options);
+SolveResult solve(Nlp& nlp, const Eigen::VectorXd& guess, const SolverOptions& options = {}) {
+  return SnoptSolver(PROWL_SNOPT_DOUBLE).solve(nlp, guess, options);
 }
 
 TEST(SnoptSolver, SaysWhatIsMissing) {
@@ -32,7 +32,7 @@ TEST(SnoptSolver, SaysWhatIsMissing) {
   const SnoptSolver none("libsnopt7-that-nobody-has.so");
   EXPECT_THAT(none.why_unsupported(nlp),
               Optional(AllOf(HasSubstr("commercial"), HasSubstr("libsnopt7-that-nobody-has.so"))));
-  EXPECT_THROW(none.solve(nlp, Hs071::start(), {}), InputError);
+  EXPECT_THROW(none.solve(nlp, Hs071::guess(), {}), InputError);
 
   const SnoptSolver other("libm.so.6");
   EXPECT_THAT(other.why_unsupported(nlp),
@@ -62,8 +62,8 @@ TEST(SnoptSolver, HandsOverTheProgramAndReadsTheResult) {
 
 TEST(SnoptSolver, PassesOnThatThePointIsInfeasibleOrALimitWasReached) {
   Hs071 nlp;
-  EXPECT_EQ(solve(nlp, Hs071::start()).status, SolveStatus::infeasible);
-  const SolveResult stopped = solve(nlp, Hs071::start(), {.max_iterations = 1});
+  EXPECT_EQ(solve(nlp, Hs071::guess()).status, SolveStatus::infeasible);
+  const SolveResult stopped = solve(nlp, Hs071::guess(), {.max_iterations = 1});
   EXPECT_EQ(stopped.status, SolveStatus::iteration_limit) << stopped.message;
   ASSERT_EQ(stopped.z.size(), 4);
   EXPECT_NEAR(stopped.constraint_violation, 12.0, 1e-4) << "the best of the points that were evaluated";
@@ -97,10 +97,10 @@ TEST(SnoptSolver, SaysWhichEvaluationFailed) {
 TEST(SnoptSolver, StopsWhenToldTo) {
   Hs071 nlp;
   const std::atomic<bool> interrupt = true;
-  EXPECT_EQ(solve(nlp, Hs071::start(), {.interrupt = &interrupt}).status, SolveStatus::interrupted);
-  const SolveResult late = solve(nlp, Hs071::start(), {.max_seconds = 1e-12});
+  EXPECT_EQ(solve(nlp, Hs071::guess(), {.interrupt = &interrupt}).status, SolveStatus::interrupted);
+  const SolveResult late = solve(nlp, Hs071::guess(), {.max_seconds = 1e-12});
   EXPECT_EQ(late.status, SolveStatus::time_limit) << late.message;
-  EXPECT_EQ(late.z, Hs071::start());
+  EXPECT_EQ(late.z, Hs071::guess());
 }
 
 TEST(SnoptSolver, TellsOfEachEvaluation) {

@@ -19,7 +19,7 @@ TEST(UnoSolver, PrintsNothingTheFirstTime) {
   Hs071 nlp;
   nlp.z_lower[2] = nlp.z_upper[2] = 3.0;
   testing::internal::CaptureStdout();
-  const SolveResult result = UnoSolver().solve(nlp, Hs071::start(), {});
+  const SolveResult result = UnoSolver().solve(nlp, Hs071::guess(), {});
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
   EXPECT_EQ(result.status, SolveStatus::converged) << result.message;
 }
@@ -31,8 +31,8 @@ struct Quadratic : test::TestNlp {
     z_lower.setConstant(2, -kInfinity);
     z_upper.setConstant(2, kInfinity);
     g_lower = g_upper = VectorXd::Ones(1);
-    jacobian_places = {{0, 0}, {0, 1}};
-    hessian_places = {{0, 1, 1}, {0, 0, 1}};
+    jacobian_entries = {{0, 0}, {0, 1}};
+    hessian_entries = {{0, 1, 1}, {0, 0, 1}};
   }
   double cost(const VectorXd& x) override { return x[0] * x[0] + x[0] * x[1] + 2.0 * x[1] * x[1] - 3.0 * x[1]; }
   void cost_gradient(const VectorXd& x, Eigen::Ref<VectorXd> gradient) override {
@@ -65,7 +65,7 @@ TEST(UnoSolver, ConvergesQuadratically) {
   std::vector<double> violations;
   SolverOptions options{.tolerance = 1e-12};
   options.on_iteration = [&](const SolveProgress& progress) { violations.push_back(progress.constraint_violation); };
-  const SolveResult result = UnoSolver().solve(nlp, Hs071::start(), options);
+  const SolveResult result = UnoSolver().solve(nlp, Hs071::guess(), options);
   ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
   ASSERT_GE(violations.size(), 4u);
   const auto last = violations.rbegin();
@@ -86,12 +86,12 @@ struct Interrupting : Hs071 {
 
 TEST(UnoSolver, StopsInTheMidstOfAQuadraticProgram) {
   Interrupting nlp;
-  const SolveResult result = UnoSolver().solve(nlp, Hs071::start(), {.interrupt = &nlp.interrupt});
+  const SolveResult result = UnoSolver().solve(nlp, Hs071::guess(), {.interrupt = &nlp.interrupt});
   EXPECT_EQ(result.status, SolveStatus::interrupted) << result.message;
   EXPECT_EQ(nlp.hessians, 3);
   EXPECT_EQ(result.iterations, 2);
   Hs071 other;
-  EXPECT_EQ(UnoSolver().solve(other, Hs071::start(), {}).status, SolveStatus::converged) << "the next solve suffers";
+  EXPECT_EQ(UnoSolver().solve(other, Hs071::guess(), {}).status, SolveStatus::converged) << "the next solve suffers";
 }
 
 }  // namespace

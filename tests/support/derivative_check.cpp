@@ -42,7 +42,7 @@ void compare_column(const Columns& matrix, const Eigen::VectorXd& difference, in
                     const Names& name, DerivativeError& worst, std::vector<std::string>& faults) {
   Eigen::VectorXd rest = difference;
   for (const auto& [row, value] : matrix.col(col)) {
-    if (row < 0 || row >= difference.size()) continue;  // reported by check_places
+    if (row < 0 || row >= difference.size()) continue;  // reported by check_footholds
     note(worst, value, difference[row], row, col, name);
     rest[row] = 0.0;
   }
@@ -54,8 +54,8 @@ void compare_column(const Columns& matrix, const Eigen::VectorXd& difference, in
   }
 }
 
-void check_places(const char* matrix, const SparsityPattern& pattern, int num_rows, int num_cols, bool lower_triangle,
-                  std::vector<std::string>& faults) {
+void check_pattern(const char* matrix, const SparsityPattern& pattern, int num_rows, int num_cols, bool lower_triangle,
+                   std::vector<std::string>& faults) {
   std::set<std::pair<int, int>> seen;
   for (int i = 0; i < pattern.size(); ++i) {
     const int row = pattern.rows[i];
@@ -124,8 +124,8 @@ DerivativeReport check_derivatives(Nlp& nlp, const Eigen::VectorXd& z, double co
                                    const Eigen::VectorXd& multipliers, const DerivativeCheckOptions& options) {
   const int n = nlp.num_variables();
   DerivativeReport report;
-  check_places("Jacobian", nlp.jacobian_pattern(), nlp.num_constraints(), n, false, report.pattern_faults);
-  check_places("Hessian", nlp.hessian_pattern(), n, n, true, report.pattern_faults);
+  check_pattern("Jacobian", nlp.jacobian_pattern(), nlp.num_constraints(), n, false, report.pattern_faults);
+  check_pattern("Hessian", nlp.hessian_pattern(), n, n, true, report.pattern_faults);
   if (!report.pattern_faults.empty()) return report;  // the values have no place to be compared at
 
   Eigen::VectorXd gradient(n), jacobian(nlp.jacobian_pattern().size()), hessian(nlp.hessian_pattern().size());

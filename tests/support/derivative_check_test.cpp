@@ -48,19 +48,19 @@ struct TwoVariables : test::TestNlp {
     z_upper.setConstant(2, kInfinity);
     g_lower.setConstant(1, -kInfinity);
     g_upper.setConstant(1, 1.0);
-    jacobian_places = {{0, 0}, {0, 1}};
-    hessian_places = {{0, 1}, {0, 0}};
+    jacobian_entries = {{0, 0}, {0, 1}};
+    hessian_entries = {{0, 1}, {0, 0}};
   }
   double cost(const Eigen::VectorXd& x) override { return x[0] * x[1]; }
   void cost_gradient(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> g) override { g << x[1], x[0]; }
   void constraints(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> g) override { g[0] = x[0] * x[0] + x[1]; }
   void jacobian(const Eigen::VectorXd& x, Eigen::Ref<Eigen::VectorXd> values) override {
-    for (int i = 0; i < jacobian_places.size(); ++i) values[i] = jacobian_places.cols[i] == 0 ? 2.0 * x[0] : 1.0;
+    for (int i = 0; i < jacobian_entries.size(); ++i) values[i] = jacobian_entries.cols[i] == 0 ? 2.0 * x[0] : 1.0;
   }
   void hessian(const Eigen::VectorXd&, double cost_factor, const Eigen::VectorXd& multipliers,
                Eigen::Ref<Eigen::VectorXd> values) override {
-    for (int i = 0; i < hessian_places.size(); ++i) {
-      values[i] = hessian_places.rows[i] == hessian_places.cols[i] ? 2.0 * multipliers[0] : cost_factor;
+    for (int i = 0; i < hessian_entries.size(); ++i) {
+      values[i] = hessian_entries.rows[i] == hessian_entries.cols[i] ? 2.0 * multipliers[0] : cost_factor;
     }
   }
   test::DerivativeReport check() {
@@ -88,7 +88,7 @@ TEST(DerivativeCheck, FindsAWrongGradient) {
   }
 }
 
-TEST(DerivativeCheck, FindsAWrongJacobianEntryAndItsPlace) {
+TEST(DerivativeCheck, FindsAWrongJacobianEntryAndItsIndices) {
   for (int entry = 0; entry < 8; ++entry) {
     Wrong nlp;
     nlp.jacobian_entry = entry;
@@ -100,14 +100,14 @@ TEST(DerivativeCheck, FindsAWrongJacobianEntryAndItsPlace) {
   }
 }
 
-TEST(DerivativeCheck, FindsAWrongHessianEntryAndItsPlace) {
+TEST(DerivativeCheck, FindsAWrongHessianEntryAndItsIndices) {
   Wrong nlp;
-  for (int entry = 0; entry < nlp.hessian_places.size(); ++entry) {
+  for (int entry = 0; entry < nlp.hessian_entries.size(); ++entry) {
     nlp.hessian_entry = entry;
     const test::DerivativeReport report = check(nlp);
     EXPECT_GT(report.hessian.relative, 1e-6);
-    EXPECT_EQ(report.hessian.row, nlp.hessian_places.rows[entry]);
-    EXPECT_EQ(report.hessian.col, nlp.hessian_places.cols[entry]);
+    EXPECT_EQ(report.hessian.row, nlp.hessian_entries.rows[entry]);
+    EXPECT_EQ(report.hessian.col, nlp.hessian_entries.cols[entry]);
     EXPECT_LT(report.jacobian.relative, 1e-8);
   }
 }
@@ -130,25 +130,25 @@ TEST(DerivativeCheck, AcceptsASparsePatternThatIsComplete) {
 
 TEST(DerivativeCheck, FindsWhatIsMissingInThePatterns) {
   TwoVariables nlp;
-  nlp.jacobian_places = {{0}, {0}};
+  nlp.jacobian_entries = {{0}, {0}};
   EXPECT_THAT(nlp.check().pattern_faults, Contains(HasSubstr("constraint 0 by variable 1")));
 
   nlp = {};
-  nlp.hessian_places = {{0}, {0}};
+  nlp.hessian_entries = {{0}, {0}};
   EXPECT_THAT(nlp.check().pattern_faults, ElementsAre(HasSubstr("variable 1 by variable 0")));
 }
 
-TEST(DerivativeCheck, FindsPlacesThatNoMatrixHas) {
+TEST(DerivativeCheck, FindsIndicesThatNoMatrixHas) {
   TwoVariables nlp;
-  nlp.jacobian_places = {{0, 0, 0}, {0, 1, 2}};
+  nlp.jacobian_entries = {{0, 0, 0}, {0, 1, 2}};
   EXPECT_THAT(nlp.check().pattern_faults, ElementsAre("Jacobian (0, 2) is outside the matrix"));
 
   nlp = {};
-  nlp.hessian_places = {{0, 1, 0}, {0, 0, 1}};
+  nlp.hessian_entries = {{0, 1, 0}, {0, 0, 1}};
   EXPECT_THAT(nlp.check().pattern_faults, ElementsAre("Hessian (0, 1) is above the diagonal"));
 
   nlp = {};
-  nlp.jacobian_places = {{0, 0, 0}, {0, 1, 1}};
+  nlp.jacobian_entries = {{0, 0, 0}, {0, 1, 1}};
   EXPECT_THAT(nlp.check().pattern_faults, ElementsAre("Jacobian (0, 1) is in the sparsity pattern twice"));
 }
 

@@ -31,13 +31,13 @@ inline MeshedPhase free_phase(std::string name, const std::vector<int>& contacts
 }
 
 /// At rest in the nominal posture, turned with the ground, which goes through the origin.
-inline BoundaryCondition fixed_start(const RobotModel& robot, const Surface& ground) {
+inline BoundaryConstraint fixed_start(const RobotModel& robot, const Surface& ground) {
   const Eigen::Matrix3d turn =
       Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ground.normal).toRotationMatrix();
   Eigen::VectorXd q = robot.nominal_configuration();
   q.head<3>() = (turn * q.head<3>()).eval();
   set_base_rotation(q, turn * base_rotation(robot.nominal_configuration()));
-  auto start = BoundaryCondition::unbounded(robot, "start", PhaseFraction::start_of(0), q);
+  auto start = BoundaryConstraint::unbounded(robot, "start", PhaseFraction::start_of(0), q);
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
@@ -58,15 +58,15 @@ inline MeshedProblem everything(RobotModel robot, const std::vector<MeshedPhase>
     mesh.phases.push_back(one.mesh);
   }
   problem.surfaces = {ground};
-  problem.boundary_conditions = {fixed_start(problem.robot, ground)};
+  problem.boundary_constraints = {fixed_start(problem.robot, ground)};
   Eigen::VectorXd displacement = Eigen::VectorXd::Zero(nv);
   displacement.head<6>() << 0.05, 0.03, -0.05, 0.3, -0.2, 0.4;
   const Eigen::VectorXd goal_q = integrate(problem.start_configuration(), displacement);
   const int last = static_cast<int>(phases.size()) - 1;
-  auto goal = BoundaryCondition::unbounded(problem.robot, "goal", PhaseFraction::end_of(last), goal_q);
+  auto goal = BoundaryConstraint::unbounded(problem.robot, "goal", PhaseFraction::end_of(last), goal_q);
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
-  problem.boundary_conditions.push_back(goal);
+  problem.boundary_constraints.push_back(goal);
 
   QuadraticCost& cost = problem.running_cost;
   cost.q_ref = goal_q;

@@ -14,15 +14,15 @@ class FailingSolver : public NlpSolver {
   std::string name() const override { return solver_.name(); }
   std::string version() const override { return solver_.version(); }
   std::optional<std::string> why_unsupported(Nlp& nlp) const override { return solver_.why_unsupported(nlp); }
-  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& start, const SolverOptions& options) const override {
-    SolveResult result = solver_.solve(nlp, start, options);
-    starts.push_back(start);
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const override {
+    SolveResult result = solver_.solve(nlp, z_guess, options);
+    guesses.push_back(z_guess);
     ends.push_back(result.z);
     if (left_-- <= 0 && failures_-- > 0) result.status = status_;
     return result;
   }
 
-  mutable std::vector<Eigen::VectorXd> starts, ends;  ///< of each solve
+  mutable std::vector<Eigen::VectorXd> guesses, ends;  ///< of each solve
 
  private:
   RiccatiSolver solver_;

@@ -31,13 +31,13 @@ inline Eigen::VectorXd given_torques(const MotionProblem& problem, double t) {
 inline DiscreteProblem given_motion(int intervals) {
   MotionProblem problem = standing_problem(hyq(), 0.0, 2.0);
   problem.phases[0].duration = {kGivenDuration, kGivenDuration};
-  BoundaryCondition& start = problem.boundary_conditions.front();
+  BoundaryConstraint& start = problem.boundary_constraints.front();
   start.torque_lower = start.torque_upper = given_torques(problem, 0.0);
   for (int k = 1; k <= intervals; ++k) {
     auto given =
-        BoundaryCondition::unbounded(problem.robot, "torque", {0, 1.0 * k / intervals}, problem.start_configuration());
+        BoundaryConstraint::unbounded(problem.robot, "torque", {0, 1.0 * k / intervals}, problem.start_configuration());
     given.torque_lower = given.torque_upper = given_torques(problem, kGivenDuration * k / intervals);
-    problem.boundary_conditions.push_back(given);
+    problem.boundary_constraints.push_back(given);
   }
   return on_even_mesh(std::move(problem), intervals);
 }

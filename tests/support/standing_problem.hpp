@@ -27,12 +27,12 @@ inline MotionProblem standing_problem(RobotModel robot = hyq(), double degrees =
   Eigen::VectorXd q = problem.robot.nominal_configuration();
   q.head<3>() = (turn * q.head<3>()).eval();
   set_base_rotation(q, turn * base_rotation(problem.robot.nominal_configuration()));
-  BoundaryCondition start = BoundaryCondition::unbounded(problem.robot, "start", PhaseFraction::start_of(0), q);
+  BoundaryConstraint start = BoundaryConstraint::unbounded(problem.robot, "start", PhaseFraction::start_of(0), q);
   start.configuration_lower.setZero();
   start.configuration_upper.setZero();
   start.velocity_lower.setZero();
   start.velocity_upper.setZero();
-  problem.boundary_conditions = {start};
+  problem.boundary_constraints = {start};
 
   problem.running_cost = zero_cost(problem.robot);
   problem.running_cost.q_ref = q;
@@ -45,10 +45,10 @@ inline MotionProblem with_base_goal(MotionProblem problem, const Eigen::Vector3d
   Eigen::VectorXd q = problem.start_configuration();
   q.head<3>() += displacement;
   const int last = static_cast<int>(problem.phases.size()) - 1;
-  BoundaryCondition goal = BoundaryCondition::unbounded(problem.robot, "goal 1", PhaseFraction::end_of(last), q);
+  BoundaryConstraint goal = BoundaryConstraint::unbounded(problem.robot, "goal 1", PhaseFraction::end_of(last), q);
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
-  problem.boundary_conditions.push_back(goal);
+  problem.boundary_constraints.push_back(goal);
   return problem;
 }
 

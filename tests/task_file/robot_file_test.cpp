@@ -124,7 +124,7 @@ TEST_F(RobotFile, NamesItsLineIfTheUrdfIsEmpty) {
   }
 }
 
-TEST_F(RobotFile, ListsEveryPlaceWhereTheUrdfIsNot) {
+TEST_F(RobotFile, ListsEveryFolderWhereTheUrdfIsNot) {
   const std::string message = this->message("hyq_no_sensors.urdf", "hyq_no_sensor.urdf");
   EXPECT_THAT(message, StartsWith("hyq.toml:2:8: urdf: \"package://example-robot-data/robots/"));
   EXPECT_THAT(message, HasSubstr(std::string("\n  ") + PROWL_ROBOTS_DATA + "/example-robot-data/robots/"));

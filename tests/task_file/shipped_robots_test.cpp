@@ -52,11 +52,11 @@ constexpr double kLargestTorque = 145.0;                                  // [N 
 /// hip lies on the x axis. The shank turns by |q| away from the straight leg. Places of both ends by HyQ's own control
 /// software.
 double cylinder_length(double q) {
-  const auto place = [](double distance, double angle) {
+  const auto point = [](double distance, double angle) {
     return Eigen::Vector2d(distance * std::cos(angle), distance * std::sin(angle));
   };
-  const Eigen::Vector2d on_thigh = place(0.3218, 0.1403);
-  const Eigen::Vector2d on_shank = place(0.045, std::numbers::pi - std::abs(q) - 0.1047);
+  const Eigen::Vector2d on_thigh = point(0.3218, 0.1403);
+  const Eigen::Vector2d on_shank = point(0.045, std::numbers::pi - std::abs(q) - 0.1047);
   return (on_thigh - on_shank).norm();
 }
 

@@ -48,7 +48,7 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
       test::replaced(test::replaced(kTaskFile, "duration_s = 2.0", "duration_s = [1.0, 2.0]\nsteps = \"free\""),
                      "time_s = 2.0", "phase = \"stand\"");
   const auto goal_at = [&](const std::string& fraction) {
-    return read(test::replaced(with_steps, "[start]", fraction + "\n[start]")).problem.boundary_conditions[1].at;
+    return read(test::replaced(with_steps, "[start]", fraction + "\n[start]")).problem.boundary_constraints[1].at;
   };
   const Task task = read(with_steps);
   const MotionProblem& problem = task.problem;
@@ -60,7 +60,8 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
     EXPECT_EQ(phase.duration.max, 0.4);
   }
   EXPECT_EQ(problem.phases[3].name, "stand step 4");
-  EXPECT_EQ(problem.boundary_conditions[1].at, PhaseFraction::end_of(4)) << "the goal is at the end of the whole phase";
+  EXPECT_EQ(problem.boundary_constraints[1].at, PhaseFraction::end_of(4))
+      << "the goal is at the end of the whole phase";
   EXPECT_EQ(goal_at("fraction = 0.4"), PhaseFraction::end_of(1));
   EXPECT_EQ(goal_at("fraction = 0"), PhaseFraction::start_of(0));
   EXPECT_EQ(read(with_steps, kHyqFile, {.intervals = 8}).problem.phases.size(), 8u);
@@ -72,11 +73,11 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
 
 TEST_F(TaskFile, StartIsFixedAndGoalBindsWhatIsNamed) {
   const MotionProblem problem = read(kTaskFile).problem;
-  ASSERT_EQ(problem.boundary_conditions.size(), 2u);
+  ASSERT_EQ(problem.boundary_constraints.size(), 2u);
   EXPECT_TRUE(problem.start().configuration_lower.isZero(0.0) && problem.start().configuration_upper.isZero(0.0));
   EXPECT_TRUE(problem.start().velocity_lower.isZero(0.0) && problem.start().velocity_upper.isZero(0.0));
 
-  const BoundaryCondition& goal = problem.boundary_conditions[1];
+  const BoundaryConstraint& goal = problem.boundary_constraints[1];
   EXPECT_EQ(goal.at, PhaseFraction::end_of(0));
   const Eigen::Vector3d shift = base_position(goal.q_ref) - base_position(problem.start_configuration());
   EXPECT_NEAR((shift - Eigen::Vector3d(0.05, 0.0, -0.05)).norm(), 0.0, 1e-15);
@@ -108,7 +109,7 @@ on = "slope")";
   // Angles of a goal that are free are those of the start.
   const std::string goal = "base_rpy_rad = [\"free\", \"free\", 0]\n";
   const MotionProblem turned = read(test::replaced(kTaskFile, "[start]", goal + slope)).problem;
-  EXPECT_NEAR((base_rotation(turned.boundary_conditions[1].q_ref) - base_rotation(q)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((base_rotation(turned.boundary_constraints[1].q_ref) - base_rotation(q)).norm(), 0.0, 1e-12);
 
   EXPECT_THAT(message("[start]", slope + "\nbase_position_m = [0, 0, 1]"),
               HasSubstr("need either on or base_position_m"));
@@ -123,7 +124,7 @@ joint_velocity_radps = { lf_kfe_joint = 0.5 }
 torque_Nm = { lf_kfe_joint = [10, 20] }
 [start])"))
                                     .problem;
-  const BoundaryCondition& goal = problem.boundary_conditions[1];
+  const BoundaryConstraint& goal = problem.boundary_constraints[1];
   EXPECT_TRUE(base_rotation(goal.q_ref).isApprox(rotation_from_rpy({0.1, 0.0, 0.3}), 1e-14));
   EXPECT_EQ(goal.configuration_upper(3), 0.0);
   EXPECT_EQ(goal.configuration_upper(4), kInfinity);
@@ -171,7 +172,7 @@ joints = { rf_kfe_joint = -1.2 }
   EXPECT_EQ(problem.phases[2].contacts[1].contact, problem.robot.contact_index("lf_foot"));
   EXPECT_EQ(problem.phases[2].contacts[1].surface, 1);
   EXPECT_NEAR(problem.surfaces[1].normal.norm(), 1.0, 1e-15);
-  EXPECT_EQ(problem.boundary_conditions[2].at, PhaseFraction::end_of(2));
+  EXPECT_EQ(problem.boundary_constraints[2].at, PhaseFraction::end_of(2));
 }
 
 TEST_F(TaskFile, TrackingReplacesTheRobotsDefaults) {
@@ -218,13 +219,13 @@ TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
   const Task task =
       read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5, .tolerance = 1e-9});
   EXPECT_EQ(task.mesh.phases[0].intervals(), 40);
-  EXPECT_EQ(task.problem.boundary_conditions[1].at, PhaseFraction::end_of(0)) << "the goal stays at its time";
+  EXPECT_EQ(task.problem.boundary_constraints[1].at, PhaseFraction::end_of(0)) << "the goal stays at its time";
   EXPECT_EQ(task.solver.max_iterations, 7);
   EXPECT_EQ(task.solver.tolerance, 1e-9);
   EXPECT_EQ(task.solver.max_seconds, 1.5);
 }
 
-TEST_F(TaskFile, NamesTheKeyOfAPlaceOffItsSurface) {
+TEST_F(TaskFile, NamesTheKeyOfAFootholdOffItsSurface) {
   EXPECT_EQ(message("\"all\"", "[{ contact = \"lf_foot\", place_m = [0, 0, 0.1] }]"),
             "task.toml:5:46: phase[0].contacts[0].place_m: 100.0 mm above surface 'floor' is not allowed; need a place "
             "on it");

@@ -39,8 +39,8 @@ TEST_F(TaskGait, StandsForPhasesAndAGoal) {
   EXPECT_NEAR(problem.phases[1].duration.min, 0.4 * 0.8, 1e-12);
   EXPECT_EQ(task.mesh.phases[1].intervals(), 16);
 
-  ASSERT_EQ(problem.boundary_conditions.size(), 2u);
-  const BoundaryCondition& goal = problem.boundary_conditions[1];
+  ASSERT_EQ(problem.boundary_constraints.size(), 2u);
+  const BoundaryConstraint& goal = problem.boundary_constraints[1];
   EXPECT_EQ(goal.name, "goal 1");
   EXPECT_EQ(goal.at, PhaseFraction::end_of(12));
   EXPECT_EQ(task.mesh.phases[12].intervals(), 25);
@@ -51,7 +51,7 @@ TEST_F(TaskGait, StandsForPhasesAndAGoal) {
 
 /// The same condition as written out in full, but for what [[goal]] calls the motion.
 TEST_F(TaskGait, GoalIsThatOfAGoalInTheFile) {
-  const BoundaryCondition implied = read(kGaitFile).problem.boundary_conditions[1];
+  const BoundaryConstraint implied = read(kGaitFile).problem.boundary_constraints[1];
   const std::string goal = R"([[goal]]
 phase = "settle"
 base_displacement_m = [0.6, 0, 0]
@@ -60,7 +60,7 @@ base_linear_velocity_mps = [0, 0, 0]
 base_angular_velocity_radps = [0, 0, 0]
 [cost])";
   const std::string written = test::replaced(test::replaced(kGaitFile, "stride_length_m = 0.2\n", ""), "[cost]", goal);
-  const BoundaryCondition wanted = read(written).problem.boundary_conditions.at(1);
+  const BoundaryConstraint wanted = read(written).problem.boundary_constraints.at(1);
   EXPECT_EQ(implied.at, wanted.at);
   EXPECT_TRUE(implied.q_ref.isApprox(wanted.q_ref, 1e-14));
   EXPECT_EQ(implied.configuration_lower, wanted.configuration_lower);
@@ -71,15 +71,15 @@ base_angular_velocity_radps = [0, 0, 0]
 }
 
 TEST_F(TaskGait, GoesWhereTheBaseFacesUnlessSaid) {
-  const auto place = [&](const std::string& to) {
+  const auto goal = [&](const std::string& to) {
     const MotionProblem problem = read(test::replaced(kGaitFile, "[cost]", to + "\n[cost]")).problem;
-    return Eigen::Vector3d(base_position(problem.boundary_conditions.at(1).q_ref) -
+    return Eigen::Vector3d(base_position(problem.boundary_constraints.at(1).q_ref) -
                            base_position(problem.start_configuration()));
   };
   EXPECT_NEAR(
-      (place("[start]\nbase_rpy_rad = [0, 0, 1.0]") - 0.6 * Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0)).norm(),
+      (goal("[start]\nbase_rpy_rad = [0, 0, 1.0]") - 0.6 * Eigen::Vector3d(std::cos(1.0), std::sin(1.0), 0)).norm(),
       0.0, 1e-12);
-  EXPECT_NEAR((place("heading_rad = 3.0") - 0.6 * Eigen::Vector3d(std::cos(3.0), std::sin(3.0), 0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((goal("heading_rad = 3.0") - 0.6 * Eigen::Vector3d(std::cos(3.0), std::sin(3.0), 0)).norm(), 0.0, 1e-12);
 }
 
 TEST_F(TaskGait, ClimbsASlope) {
@@ -93,7 +93,7 @@ TEST_F(TaskGait, ClimbsASlope) {
       "[start]\nbase_rpy_rad = [0, {}, 0]\nbase_position_m = [{}, {}, {}]\n[cost]",
       normal.x(), normal.y(), normal.z(), -slope, base.x(), base.y(), base.z());
   const MotionProblem problem = read(test::replaced(kGaitFile, "[cost]", scene)).problem;
-  const BoundaryCondition& goal = problem.boundary_conditions.at(1);
+  const BoundaryConstraint& goal = problem.boundary_constraints.at(1);
   const Eigen::Vector3d moved = base_position(goal.q_ref) - base_position(problem.start_configuration());
   EXPECT_NEAR((moved - 0.6 * turn.col(0)).norm(), 0.0, 1e-12);
   EXPECT_GT(moved.z(), 0.1);
@@ -136,7 +136,7 @@ TEST_F(TaskGait, OverridesShareOutItsIntervals) {
   for (const int count : task.file_intervals) intervals += count;
   EXPECT_EQ(intervals, 25 + 3 * (2 * 16 + 2 * 4) - 4 + 25);
   EXPECT_EQ(task.mesh.phases[1].intervals(), 34) << "of 166 in all 16 are this phase's";
-  EXPECT_EQ(task.problem.boundary_conditions[1].at, PhaseFraction::end_of(12));
+  EXPECT_EQ(task.problem.boundary_constraints[1].at, PhaseFraction::end_of(12));
 }
 
 TEST_F(TaskGait, RefusesPhasesBesideIt) {

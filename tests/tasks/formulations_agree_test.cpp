@@ -21,7 +21,7 @@ void expect_agreement(const Formulation& formulation, int intervals, double cost
   SCOPED_TRACE(formulation.dynamics + ", " + formulation.transcription + ", " + formulation.orientation);
   const FormulationRun run = crouch(formulation, intervals);
   ASSERT_EQ(run.result.status, SolveStatus::converged) << run.result.message;
-  EXPECT_NE(run.certificate.grade, Grade::failed) << run.worst_check()->name;
+  EXPECT_NE(run.certificate.grade, CertificateGrade::failed) << run.worst_check()->name;
   EXPECT_NEAR(run.result.cost, cost, 0.01 * cost);
 }
 

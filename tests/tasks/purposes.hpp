@@ -89,15 +89,17 @@ class PlannedTask {
     return names;
   }
   /// Centre of a contact's ball, world frame [m].
-  Vector3d place(const TrajectoryPoint& node, const std::string& contact) const {
+  Vector3d contact_position(const TrajectoryPoint& node, const std::string& contact) const {
     RigidBodyTerms terms(robot());
     terms.update_kinematics(node.q);
     return terms.contact_position(robot().contact_index(contact));
   }
-  Vector3d way(const std::string& contact) const { return place(end(), contact) - place(start(), contact); }
+  Vector3d way(const std::string& contact) const {
+    return contact_position(end(), contact) - contact_position(start(), contact);
+  }
   /// Of a contact's ball above the first surface of the file [m].
   double height(const TrajectoryPoint& node, const std::string& contact) const {
-    return normal().dot(place(node, contact)) - radius(contact);
+    return normal().dot(contact_position(node, contact)) - radius(contact);
   }
   double radius(const std::string& contact) const { return robot().contacts()[robot().contact_index(contact)].radius; }
   Vector3d normal() const {
@@ -173,7 +175,8 @@ inline void keeps_its_feet(const PlannedTask& task, Misses& misses) {
   for (const std::string& contact : task.contacts()) {
     double farthest = 0.0;
     for (const TrajectoryPoint& node : task.nodes()) {
-      farthest = std::max(farthest, (task.place(node, contact) - task.place(task.start(), contact)).norm());
+      farthest = std::max(farthest,
+                          (task.contact_position(node, contact) - task.contact_position(task.start(), contact)).norm());
     }
     misses.near("way of " + contact, farthest, 0.0);
   }
@@ -234,9 +237,9 @@ inline Purpose steps(const Names& contacts, double far) {
     swings_clear(task, task.phase("swing"), contacts, misses);
     const auto landing = task.phase_in_file("settle")["contacts"][0];
     misses.unless(landing["contact"] == contacts.front(), "the file has a place for another contact");
-    Vector3d place = PlannedTask::vector(*landing["place_m"].as_array());
-    place.z() += task.radius(contacts.front());
-    misses.near("landing from its place", (task.place(task.end(), contacts.front()) - place).norm(), 0.0);
+    Vector3d foothold = PlannedTask::vector(*landing["place_m"].as_array());
+    foothold.z() += task.radius(contacts.front());
+    misses.near("landing from its place", (task.contact_position(task.end(), contacts.front()) - foothold).norm(), 0.0);
     misses.near("way of " + contacts.front(), task.way(contacts.front()).x(), far);
     for (const std::string& contact : task.contacts()) {
       misses.near("height of " + contact + " at the start", task.height(task.start(), contact), 0.0);
@@ -263,8 +266,8 @@ inline Purpose strides(std::size_t at_once) {
 
     const auto side = [&](const std::string& foot) {
       Vector3d middle = Vector3d::Zero();
-      for (const std::string& each : task.contacts()) middle += task.place(task.start(), each) / 4.0;
-      const Vector3d from_middle = task.place(task.start(), foot) - middle;
+      for (const std::string& each : task.contacts()) middle += task.contact_position(task.start(), each) / 4.0;
+      const Vector3d from_middle = task.contact_position(task.start(), foot) - middle;
       return std::pair(from_middle.dot(along) > 0.0, from_middle.y() > 0.0);
     };
     std::size_t most = 0;
@@ -325,11 +328,12 @@ inline void rears(const PlannedTask& task, Misses& misses) {
 inline void leans_on_the_wall(const PlannedTask& task, Misses& misses) {
   const auto contact = task.phase_in_file("lean")["contacts"][0];
   const Vector3d outwards = PlannedTask::vector(*task.file()["surface"][1]["normal"].as_array());
-  Vector3d place = PlannedTask::vector(*contact["place_m"].as_array());
-  place += outwards * task.radius("lf_foot");
+  Vector3d foothold = PlannedTask::vector(*contact["place_m"].as_array());
+  foothold += outwards * task.radius("lf_foot");
   for (const TrajectoryPoint& node : task.phase("lean")) {
     const std::string when = fmt::format(" at {:.2f} s", node.time);
-    misses.near("lf_foot from its place on the wall" + when, (task.place(node, "lf_foot") - place).norm(), 0.0);
+    misses.near("lf_foot from its place on the wall" + when, (task.contact_position(node, "lf_foot") - foothold).norm(),
+                0.0);
     misses.at_least("push of the wall [N]" + when, task.force(node, "lf_foot").dot(outwards), 50.0);
   }
   misses.at_least("way forward", task.displacement(task.end()).x(), 0.08 - 1e-3);

@@ -27,7 +27,7 @@ Task read(const std::string& name, std::optional<int> intervals = std::nullopt) 
 }
 
 RefinedPlan refine(const Task& task, const NlpSolver& solver = RiccatiSolver(), PlanOptions options = {},
-                   RefineOptions refine = {.tolerance = mesh_tolerance(Grade::draft)}) {
+                   RefineOptions refine = {.tolerance = mesh_tolerance(CertificateGrade::draft)}) {
   options.solver = task.solver;
   return make_refined_plan({task.problem, task.mesh}, solver, options, refine);
 }
@@ -47,23 +47,23 @@ TEST(Refine, MeetsTheToleranceWithFewerIntervalsThanEqualSteps) {
     EXPECT_TRUE(refined.meets_tolerance) << name;
     EXPECT_TRUE(refined.plan.certificate.passed) << name;
     EXPECT_TRUE(refined.plan.hints.empty()) << name;
-    expect_within(mesh_errors(refined.plan.certificate), mesh_tolerance(Grade::draft));
+    expect_within(mesh_errors(refined.plan.certificate), mesh_tolerance(CertificateGrade::draft));
     const int count = refined.plan.mesh.num_intervals();
     EXPECT_LT(count, 0.8 * task.mesh.num_intervals()) << name;
 
     Task equal = read(name, count);  // as many, equal
     const Plan plan = make_plan({equal.problem, equal.mesh}, RiccatiSolver(), {.solver = equal.solver});
-    EXPECT_GT(mesh_errors(plan.certificate).local, mesh_tolerance(Grade::draft).local) << name;
+    EXPECT_GT(mesh_errors(plan.certificate).local, mesh_tolerance(CertificateGrade::draft).local) << name;
   }
 }
 
 TEST(Refine, GoalsKeepTheirTimes) {
   const Task task = read("rear");  // a goal in the middle of a phase
   const Mesh mesh = refine(task).plan.mesh;
-  const std::vector<int> nodes = nodes_of_conditions(task.problem, mesh);
+  const std::vector<int> nodes = find_boundary_nodes(task.problem, mesh);
   int inside = 0;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto [phase, fraction] = task.problem.boundary_conditions[i].at;
+    const auto [phase, fraction] = task.problem.boundary_constraints[i].at;
     EXPECT_NEAR(mesh.phases[phase].node_time(nodes[i] - mesh.first_node(phase), 1.0), fraction, 1e-9);
     inside += fraction > 0.0 && fraction < 1.0;
   }
@@ -73,7 +73,7 @@ TEST(Refine, GoalsKeepTheirTimes) {
 TEST(Refine, MergesWhatIsTooFine) {
   const Task task = read("crouch", 320);
   std::vector<int> intervals;
-  RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+  RefineOptions options{.tolerance = mesh_tolerance(CertificateGrade::draft)};
   options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
   const RefinedPlan refined = refine(task, RiccatiSolver(), {.coarse_first = false}, options);
   EXPECT_TRUE(refined.meets_tolerance);
@@ -98,7 +98,7 @@ TEST(Refine, TakesEverySolverOfPlan) {
 TEST(Refine, BooksAreOfAllMeshes) {
   const Task task = read("step");
   std::vector<RefineRound> rounds;
-  RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+  RefineOptions options{.tolerance = mesh_tolerance(CertificateGrade::draft)};
   options.on_round = [&](const RefineRound& round) { rounds.push_back(round); };
   const RefinedPlan refined = refine(task, RiccatiSolver(), {}, options);
   ASSERT_GE(rounds.size(), 3u);
@@ -119,7 +119,7 @@ TEST(Refine, BooksAreOfAllMeshes) {
 TEST(Refine, TellsWhatItDidNotReach) {
   const Task task = read("step");
   const RefinedPlan refined =
-      refine(task, RiccatiSolver(), {}, {.tolerance = mesh_tolerance(Grade::certified), .max_rounds = 2});
+      refine(task, RiccatiSolver(), {}, {.tolerance = mesh_tolerance(CertificateGrade::certified), .max_rounds = 2});
   EXPECT_FALSE(refined.meets_tolerance);
   EXPECT_EQ(refined.plan.result.status, SolveStatus::converged);
   EXPECT_EQ(refined.plan.mesh.num_intervals(), refined.plan.levels.back().intervals);
@@ -132,7 +132,7 @@ TEST(Refine, KeepsTheLastMotionThatConverged) {
   const Task task = read("step");
   for (const SolveStatus status : {SolveStatus::iteration_limit, SolveStatus::interrupted}) {
     std::vector<int> intervals;
-    RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+    RefineOptions options{.tolerance = mesh_tolerance(CertificateGrade::draft)};
     options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
     const RefinedPlan refined = refine(task, test::FailingSolver(2, status), {}, options);
     ASSERT_EQ(intervals.size(), 2u);
@@ -151,7 +151,7 @@ TEST(Refine, KeepsTheLastMotionThatConverged) {
 TEST(Refine, BeginsOnTheFirstMeshThatConverges) {
   const Task task = read("step");
   std::vector<int> intervals;
-  RefineOptions options{.tolerance = mesh_tolerance(Grade::draft)};
+  RefineOptions options{.tolerance = mesh_tolerance(CertificateGrade::draft)};
   options.on_round = [&](const RefineRound& round) { intervals.push_back(round.intervals); };
   const RefinedPlan begun = refine(task, test::FailingSolver(0, SolveStatus::solver_failed, 1), {}, options);
   EXPECT_TRUE(begun.meets_tolerance);

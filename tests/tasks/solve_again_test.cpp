@@ -49,9 +49,10 @@ std::vector<int> run_three_steps(const Task& task, bool with_multipliers) {
     EXPECT_EQ(problem.start_configuration(), second.q);
     EXPECT_EQ(problem.start().velocity_lower, second.v);
     discrete = next.problem;
-    plan = solve(discrete, task,
-                 {.start_from = next.start_from,
-                  .start_multipliers = with_multipliers ? next.start_multipliers : std::vector<StageMultipliers>{}});
+    plan = solve(
+        discrete, task,
+        {.warm_start = next.warm_start,
+         .warm_start_multipliers = with_multipliers ? next.warm_start_multipliers : std::vector<StageMultipliers>{}});
     EXPECT_EQ(plan.result.status, SolveStatus::converged) << plan.result.message;
     EXPECT_TRUE(plan.certificate.passed) << "step " << i;
     EXPECT_LT((plan.trajectory.nodes.front().q - second.q).norm(), 1e-9)
@@ -63,7 +64,7 @@ std::vector<int> run_three_steps(const Task& task, bool with_multipliers) {
 
 DiscreteProblem with_goal_moved(const Task& task, int axis, double by) {
   MotionProblem problem = task.problem;
-  problem.boundary_conditions.back().q_ref(axis) += by;
+  problem.boundary_constraints.back().q_ref(axis) += by;
   return {std::move(problem), task.mesh};
 }
 
@@ -74,8 +75,9 @@ TEST(SolveAgain, TakesFewIterationsWithTheGoalElsewhere) {
   ASSERT_EQ(plan.result.status, SolveStatus::converged);
   for (int axis = 0; axis < 3; ++axis) {
     for (const double by : {-0.02, 0.02}) {
-      const Plan again = solve(with_goal_moved(task, axis, by), task,
-                               {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
+      const Plan again =
+          solve(with_goal_moved(task, axis, by), task,
+                {.warm_start = plan.trajectory, .warm_start_multipliers = plan.result.stage_multipliers});
       EXPECT_EQ(again.result.status, SolveStatus::converged) << again.result.message;
       EXPECT_LE(again.result.iterations, 5) << "axis " << axis << " by " << by;
     }
@@ -88,7 +90,7 @@ TEST(SolveAgain, FindsAGoalThatIsFarFromTheOldOne) {
   const Plan plan = solve(task);
   const DiscreteProblem moved = with_goal_moved(task, 0, -0.2);
   const Plan again =
-      solve(moved, task, {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
+      solve(moved, task, {.warm_start = plan.trajectory, .warm_start_multipliers = plan.result.stage_multipliers});
   const Plan alone = solve(moved, task);
   EXPECT_EQ(alone.result.status, SolveStatus::converged) << alone.result.message;
   EXPECT_EQ(again.result.status, SolveStatus::converged) << again.result.message;
@@ -101,7 +103,7 @@ TEST(SolveAgain, FindsWhatTheTaskAloneFinds) {
   const DiscreteProblem moved = with_goal_moved(task, 0, 0.02);
   const Plan alone = solve(moved, task);
   const Plan again =
-      solve(moved, task, {.start_from = plan.trajectory, .start_multipliers = plan.result.stage_multipliers});
+      solve(moved, task, {.warm_start = plan.trajectory, .warm_start_multipliers = plan.result.stage_multipliers});
   ASSERT_EQ(again.result.status, SolveStatus::converged) << again.result.message;
   EXPECT_NEAR(again.result.cost, alone.result.cost, 1e-7 * alone.result.cost);
   for (std::size_t k = 0; k < alone.trajectory.nodes.size(); ++k) {
@@ -125,18 +127,18 @@ TEST(ShiftHorizon, KeepsGoalsAtTheirTimes) {
   MotionProblem problem = task.problem;
   const Mesh& mesh = task.mesh;
   const Plan plan = solve(task);
-  BoundaryCondition goal = problem.boundary_conditions.back();
+  BoundaryConstraint goal = problem.boundary_constraints.back();
   const int last = static_cast<int>(problem.phases.size()) - 1, end = mesh.phases.back().intervals();
   ASSERT_GT(last, 0);
-  problem.boundary_conditions.resize(1);
+  problem.boundary_constraints.resize(1);
   for (const auto& [phase, node] : {std::pair{0, 1}, {0, 3}, {1, 2}, {last, end - 1}, {last, end}}) {
     goal.at = {phase, 1.0 * node / mesh.phases[phase].intervals()};
-    problem.boundary_conditions.push_back(goal);
+    problem.boundary_constraints.push_back(goal);
   }
   const DiscreteProblem before(problem, mesh), after = shift_horizon(before, plan.trajectory, {}).problem;
-  std::vector<std::pair<int, int>> places;
-  for (const int k : after.condition_nodes) places.emplace_back(after.nodes[k].phase, after.nodes[k].node);
-  EXPECT_EQ(places, (std::vector<std::pair<int, int>>{{0, 0}, {0, 2}, {1, 2}, {last, end - 1}, {last, end + 1}}));
+  std::vector<std::pair<int, int>> nodes;
+  for (const int k : after.boundary_nodes) nodes.emplace_back(after.nodes[k].phase, after.nodes[k].node);
+  EXPECT_EQ(nodes, (std::vector<std::pair<int, int>>{{0, 0}, {0, 2}, {1, 2}, {last, end - 1}, {last, end + 1}}));
   EXPECT_EQ(after.mesh.phases.front().intervals(), mesh.phases.front().intervals() - 1);
   EXPECT_EQ(after.mesh.phases.back().intervals(), end + 1);
   for (int p = 0; p <= last; ++p) {  // all intervals as long as they were
@@ -170,7 +172,7 @@ TEST(ShiftHorizon, KeepsStepsOfDifferentLength) {
     const bool is_single = task.problem.phases.size() == 1;
     EXPECT_NEAR(step(after, after.num_nodes() - 2), step(before, is_single ? 0 : before.num_nodes() - 2), 1e-9) << name;
     for (std::size_t k = 0; k < after.nodes.size(); ++k) {
-      EXPECT_NEAR(shifted.start_from.nodes[k].time, after.nodes[k].time, 1e-9) << name << ", node " << k;
+      EXPECT_NEAR(shifted.warm_start.nodes[k].time, after.nodes[k].time, 1e-9) << name << ", node " << k;
     }
     EXPECT_NO_THROW(validate(after.problem));
   }
@@ -183,8 +185,8 @@ TEST(ShiftHorizon, RefusesWhatIsOver) {
   cut.nodes.pop_back();
   EXPECT_THROW(shift_horizon({task.problem, task.mesh}, cut, {}), InputError);
   MotionProblem problem = task.problem;
-  std::erase_if(problem.boundary_conditions, [](const BoundaryCondition& condition) {
-    return condition.at.fraction > 0.0 && condition.at.fraction < 1.0;
+  std::erase_if(problem.boundary_constraints, [](const BoundaryConstraint& constraint) {
+    return constraint.at.fraction > 0.0 && constraint.at.fraction < 1.0;
   });
   const DiscreteProblem one_interval(problem, {{PhaseMesh(1)}});
   const Trajectory two_nodes{{plan.trajectory.nodes.front(), plan.trajectory.nodes.back()}};

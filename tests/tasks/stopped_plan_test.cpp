@@ -49,7 +49,7 @@ TEST_F(StoppedPlan, StaysOnTheMeshWhereItWasInterrupted) {
   stop = false;
   meshes_.clear();
   options_.solver.on_iteration = {};
-  options_.start_from = stopped.trajectory;
+  options_.warm_start = stopped.trajectory;
   options_.resume = true;
   const Plan resumed = plan();
   EXPECT_EQ(resumed.result.status, SolveStatus::converged) << resumed.result.message;

@@ -22,7 +22,7 @@ DiscreteProblem stretch(double rise) {
   RobotDescription description = test::solo12_description();
   description.limits.clear();
   MotionProblem problem = test::with_base_goal(test::standing_problem(RobotModel(description)), {0.0, 0.0, rise});
-  problem.boundary_conditions.back().at.fraction = 0.5;
+  problem.boundary_constraints.back().at.fraction = 0.5;
   problem.running_cost.velocity_weight.tail(problem.robot.nu()).setConstant(0.1);
   problem.running_cost.acceleration_weight.setConstant(0.01);
   return test::on_even_mesh(std::move(problem), 16);
@@ -43,9 +43,9 @@ TEST_P(Stretch, IsSolvedOrExplainedAndNeverClaimed) {
   const IpoptSolver hint_solver;
   constexpr double kMostSeconds = 5.0;
   for (const double rise : {0.05, 0.09, 0.0985, 0.105, 0.15}) {
-    const Plan plan =
-        make_plan(stretch(rise), *make_solver(GetParam()),
-                  {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds}, .hint_solver = [&] { return &hint_solver; }});
+    const Plan plan = make_plan(
+        stretch(rise), *make_solver(GetParam()),
+        {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds}, .hint_solver = [&] { return &hint_solver; }});
     const std::string words = std::to_string(rise) + " m: " + to_string(plan.result.status) + ", " + all_words(plan);
     EXPECT_LT(plan.result.seconds, 2.0 * kMostSeconds) << words;
     EXPECT_TRUE(plan.result.z.allFinite()) << words;

@@ -47,16 +47,16 @@ TEST(Threads, WhatFailsIsTheSame) {
   const Task task = step_task();
   const DiscreteProblem discrete(task.problem, task.mesh);
   const Trajectory guess = initial_guess(discrete);
-  const auto failure = [&](int threads, std::vector<double> places) {
+  const auto failure = [&](int threads, std::vector<double> fractions) {
     Transcription nlp(discrete, guess);
-    Eigen::VectorXd start = nlp.pack(guess);
-    for (const double place : places) {
-      start(static_cast<Eigen::Index>(place * static_cast<double>(start.size()))) =
+    Eigen::VectorXd z_guess = nlp.pack(guess);
+    for (const double fraction : fractions) {
+      z_guess(static_cast<Eigen::Index>(fraction * static_cast<double>(z_guess.size()))) =
           std::numeric_limits<double>::quiet_NaN();
     }
     SolverOptions options = task.solver;
     options.threads = threads;
-    const SolveResult result = RiccatiSolver().solve(nlp, start, options);
+    const SolveResult result = RiccatiSolver().solve(nlp, z_guess, options);
     EXPECT_EQ(result.status, SolveStatus::evaluation_failed);
     return result.message;
   };

@@ -155,11 +155,11 @@ TEST(Rollout, KeepsTheContactsOfItsSchedule) {
   const Rollout closed = rollout(robot, tracked.tracker, q, VectorXd::Zero(robot.nv()), {});
   RigidBodyTerms terms(robot);
   terms.update_kinematics(q);
-  std::vector<Eigen::Vector3d> places;
-  for (int c = 0; c < 4; ++c) places.push_back(terms.contact_position(c));
+  std::vector<Eigen::Vector3d> positions;
+  for (int c = 0; c < 4; ++c) positions.push_back(terms.contact_position(c));
   for (const RolloutSample& at : closed.samples) {
     terms.update_kinematics(at.q);
-    for (int c = 0; c < 4; ++c) EXPECT_LT((terms.contact_position(c) - places[c]).norm(), 1e-6);
+    for (int c = 0; c < 4; ++c) EXPECT_LT((terms.contact_position(c) - positions[c]).norm(), 1e-6);
   }
   // Standing on the last posture the forces carry the weight.
   double carried = 0.0;

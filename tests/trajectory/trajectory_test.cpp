@@ -147,7 +147,7 @@ TEST(Sample, FollowsTheCubicsAndTheTorqueInTheMiddle) {
   }
 }
 
-TEST(Sample, TakesTheLaterPhaseAtASwitch) {
+TEST(Sample, TakesTheLaterPhaseAtATransition) {
   std::mt19937 rng(5);
   const Trajectory trajectory = two_phases(rng);
   expect_same(sample(trajectory, 0.25), trajectory.nodes[2], 1e-12);

@@ -46,8 +46,8 @@ MotionProblem squat(RobotModel robot) {
   MotionProblem problem = test::standing_problem(std::move(robot), 0.0, 1.0);
   problem.phases[0].duration = {1.0, 1.0};
   problem = test::with_base_goal(problem, {0.0, 0.0, -0.05});
-  problem.boundary_conditions[1].velocity_lower.head<6>().setZero();
-  problem.boundary_conditions[1].velocity_upper.head<6>().setZero();
+  problem.boundary_constraints[1].velocity_lower.head<6>().setZero();
+  problem.boundary_constraints[1].velocity_upper.head<6>().setZero();
   QuadraticCost& cost = problem.running_cost;
   cost.configuration_weight.setConstant(0.1);
   cost.velocity_weight.setConstant(0.1);

@@ -29,7 +29,7 @@ class Limits : public testing::Test {
                           test::phase_on("down", {0, 1, 2, 3}, 0.4, 2)},
                          Surface{});
     problem.swing_clearance = 0.05;
-    problem.phases[2].contacts[0].place = Eigen::Vector3d(0.45, 0.32, 0.0);
+    problem.phases[2].contacts[0].foothold = Eigen::Vector3d(0.45, 0.32, 0.0);
     discrete_.emplace(problem, mesh);
     const Trajectory guess = initial_guess(*discrete_);
     nlp_.emplace(*discrete_, guess);
@@ -66,7 +66,7 @@ TEST_F(Limits, AreEachThereOnceWithABoundAndItsName) {
   EXPECT_EQ(count[LimitKind::joint_position], (nodes - 1) * nu) << "the start is as it is";
   EXPECT_EQ(count[LimitKind::joint_velocity], (nodes - 1) * nu);
   EXPECT_EQ(count[LimitKind::goal], 6) << "the pose of the base";
-  EXPECT_EQ(count[LimitKind::place], 2);
+  EXPECT_EQ(count[LimitKind::foothold], 2);
   EXPECT_GE(count[LimitKind::clearance], 3);
 }
 

@@ -24,13 +24,13 @@ constexpr const char* kFirstRow = "base force x, equations of motion";  ///< of 
 struct Forms {
   explicit Forms(const MeshedProblem& of)
       : discrete(of.discrete()), guess(initial_guess(discrete)), nlp(discrete, guess), stages(*nlp.stagewise()) {
-    start = nlp.pack(guess);
+    z_guess = nlp.pack(guess);
     for (int i = 0; i < nlp.num_variables(); ++i) {  // as a solver would put what is fixed
-      if (nlp.variable_lower()(i) == nlp.variable_upper()(i)) start(i) = nlp.variable_lower()(i);
+      if (nlp.variable_lower()(i) == nlp.variable_upper()(i)) z_guess(i) = nlp.variable_lower()(i);
     }
   }
   std::vector<VectorXd> random_stages(std::mt19937& rng, double size) {
-    std::vector<VectorXd> result = stages.stages(start);
+    std::vector<VectorXd> result = stages.stages(z_guess);
     for (VectorXd& ux : result) ux += test::random_vector(rng, ux.size(), size);
     return result;
   }
@@ -39,7 +39,7 @@ struct Forms {
   Trajectory guess;
   Transcription nlp;
   StagewiseNlp& stages;
-  VectorXd start;
+  VectorXd z_guess;
 };
 
 /// Every problem that has a kind of stage of its own.
@@ -270,9 +270,9 @@ TEST(StagewiseTranscription, ChangesOfFormAreInverse) {
   std::mt19937 rng(7);
   for (const MeshedProblem& of : problems()) {
     Forms forms(of);
-    VectorXd z = forms.start + test::random_vector(rng, forms.start.size(), 0.1);
+    VectorXd z = forms.z_guess + test::random_vector(rng, forms.z_guess.size(), 0.1);
     for (Eigen::Index i = 0; i < z.size(); ++i) {
-      if (forms.nlp.variable_lower()(i) == forms.nlp.variable_upper()(i)) z(i) = forms.start(i);
+      if (forms.nlp.variable_lower()(i) == forms.nlp.variable_upper()(i)) z(i) = forms.z_guess(i);
     }
     EXPECT_LT(test::relative_error(forms.stages.flat(forms.stages.stages(z)), z), 1e-12);
   }

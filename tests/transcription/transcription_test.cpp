@@ -219,14 +219,14 @@ TEST(Transcription, PackAndUnpackAreInverse) {
 
 TEST(Transcription, QuaternionsDoNotJump) {
   auto [problem, mesh] = everything(test::hyq(), {phase_on("flight", {}, 2.0, 20)}, Surface{});
-  problem.boundary_conditions.resize(1);
+  problem.boundary_constraints.resize(1);
   Eigen::VectorXd turn = Eigen::VectorXd::Zero(problem.robot.nv());
   turn(5) = -2.4;  // beyond the half turn at which a quaternion made from a matrix changes its sign
-  auto turned = BoundaryCondition::unbounded(problem.robot, "turned", PhaseFraction::end_of(0),
-                                             integrate(problem.robot.nominal_configuration(), turn));
+  auto turned = BoundaryConstraint::unbounded(problem.robot, "turned", PhaseFraction::end_of(0),
+                                              integrate(problem.robot.nominal_configuration(), turn));
   turned.configuration_lower.head<6>().setZero();
   turned.configuration_upper.head<6>().setZero();
-  problem.boundary_conditions.push_back(turned);
+  problem.boundary_constraints.push_back(turned);
   const DiscreteProblem discrete(problem, mesh);
   const Trajectory guess = initial_guess(discrete);
   Transcription nlp(discrete, guess);
@@ -238,31 +238,32 @@ TEST(Transcription, QuaternionsDoNotJump) {
 
 TEST(Transcription, ALimitCountsAgainstTheRoundingOfAGoal) {
   auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
-  problem.boundary_conditions.resize(1);
+  problem.boundary_constraints.resize(1);
   Eigen::VectorXd q = problem.robot.nominal_configuration();
   q(7) = problem.robot.position_upper()(0) + 5e-10;
-  auto goal = BoundaryCondition::unbounded(problem.robot, "goal", PhaseFraction::end_of(0), q);
+  auto goal = BoundaryConstraint::unbounded(problem.robot, "goal", PhaseFraction::end_of(0), q);
   goal.configuration_lower(6) = goal.configuration_upper(6) = 0.0;
-  problem.boundary_conditions.push_back(goal);
+  problem.boundary_constraints.push_back(goal);
   const DiscreteProblem discrete(problem, mesh);
   const Transcription nlp(discrete, initial_guess(discrete));
   const int first = 2 * (3 * problem.robot.nv() + problem.robot.nu()) + 6;
   EXPECT_EQ(nlp.variable_lower()(first), problem.robot.position_upper()(0));
   EXPECT_EQ(nlp.variable_upper()(first), problem.robot.position_upper()(0));
 
-  problem.boundary_conditions[1].q_ref(7) += 1e-3;
+  problem.boundary_constraints[1].q_ref(7) += 1e-3;
   EXPECT_THROW(DiscreteProblem(problem, mesh), InputError);
 }
 
 /// Each of them is possible, and both are not: within rounding they may miss each other.
 TEST(Transcription, GoalsThatContradictEachOtherAreRefused) {
   auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 2)});
-  problem.boundary_conditions.push_back(problem.boundary_conditions[1]);
-  problem.boundary_conditions[2].configuration_lower.segment<3>(3).setConstant(
+  problem.boundary_constraints.push_back(problem.boundary_constraints[1]);
+  problem.boundary_constraints[2].configuration_lower.segment<3>(3).setConstant(
       -std::numeric_limits<double>::infinity());
-  problem.boundary_conditions[2].configuration_upper.segment<3>(3).setConstant(std::numeric_limits<double>::infinity());
+  problem.boundary_constraints[2].configuration_upper.segment<3>(3).setConstant(
+      std::numeric_limits<double>::infinity());
   for (const double by : {0.0, 1e-3}) {
-    problem.boundary_conditions[2].q_ref(0) = problem.boundary_conditions[1].q_ref(0) + by;
+    problem.boundary_constraints[2].q_ref(0) = problem.boundary_constraints[1].q_ref(0) + by;
     const DiscreteProblem discrete(problem, mesh);
     const Trajectory guess = initial_guess(discrete);
     if (by > 0.0) {
@@ -276,7 +277,7 @@ TEST(Transcription, GoalsThatContradictEachOtherAreRefused) {
 /// Bounds of all variables at a node that say more than the robot's limits.
 TEST(Transcription, LimitsAndGoalsAreBounds) {
   auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 3)});
-  auto& goal = problem.boundary_conditions[1];
+  auto& goal = problem.boundary_constraints[1];
   goal.velocity_lower(2) = -0.1;
   goal.velocity_upper(2) = 0.2;
   goal.torque_lower(4) = 3.0;
@@ -303,7 +304,7 @@ TEST(Transcription, LimitsAndGoalsAreBounds) {
 TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
   auto [problem, mesh] =
       everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.3, 3), phase_on("b", {0, 1, 3}, 0.4, 2)});
-  problem.boundary_conditions.resize(1);
+  problem.boundary_constraints.resize(1);
   problem.running_cost.force_weight.setZero();
   problem.running_cost.contact_positions.clear();
   problem.terminal_cost.contact_positions.clear();
@@ -331,7 +332,7 @@ TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
 /// Each interval with its own step.
 TEST(Transcription, CostIsTheTrapezoidOfStepsOfDifferentLength) {
   auto [problem, mesh] = everything(test::hyq(), {phase_on("a", {0, 1, 2, 3}, 0.4, 3)});
-  problem.boundary_conditions.resize(1);
+  problem.boundary_constraints.resize(1);
   mesh.phases[0] = PhaseMesh({0.5, 0.2, 0.3});
   for (QuadraticCost* cost : {&problem.running_cost, &problem.terminal_cost}) {
     cost->configuration_weight.setZero();
@@ -395,7 +396,7 @@ TEST(Transcription, StandingStillInBalanceSatisfiesEverything) {
   const RobotModel robot = test::hyq();
   auto [problem, mesh] =
       everything(robot, {phase_on("a", {0, 1, 2, 3}, 0.4, 2), phase_on("b", {0, 1, 2, 3}, 0.4, 2)}, Surface{});
-  problem.boundary_conditions.resize(1);
+  problem.boundary_constraints.resize(1);
   const DiscreteProblem discrete(problem, mesh);
   const Trajectory guess = initial_guess(discrete);  // static: there is nowhere to go
   Transcription nlp(discrete, guess);

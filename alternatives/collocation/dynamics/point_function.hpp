@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "alternatives/collocation/charted_node.hpp"
-#include "alternatives/collocation/graph/function.hpp"
+#include "alternatives/collocation/graph/differentiable_function.hpp"
 
 namespace prowl {
 
@@ -13,7 +13,7 @@ namespace prowl {
 ///
 /// If the acceleration is eliminated, it is the first output instead of an input
 /// (eliminated_acceleration.cpp).
-class PointFunction : public Function {
+class PointFunction : public DifferentiableFunction {
  public:
   /// `rows`: rows of ChartedNode to output. Keeps a reference to the node.
   PointFunction(ChartedNode& node, const Instant& instant, std::vector<int> rows);

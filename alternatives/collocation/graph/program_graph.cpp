@@ -42,7 +42,7 @@ ProgramGraph::Vector ProgramGraph::sum(std::vector<Term> terms) {
   return add(std::move(sum));
 }
 
-ProgramGraph::Vector ProgramGraph::call(Function& function, std::vector<Vector> inputs) {
+ProgramGraph::Vector ProgramGraph::call(DifferentiableFunction& function, std::vector<Vector> inputs) {
   Node call{.kind = Kind::call, .size = function.num_outputs(), .function = &function};
   Pattern rows(function.num_inputs(), num_locals_);
   Index row = 0;
@@ -78,7 +78,7 @@ ProgramGraph::Pattern ProgramGraph::hessian_pattern() const {
         if (term.power > 1) result(step_.variable, step_.variable) += 1.0F;
       }
     } else if (node.kind == Kind::call) {
-      const Function& function = *node.function;
+      const DifferentiableFunction& function = *node.function;
       Pattern rows(function.num_inputs(), num_locals_);
       Index row = 0;
       for (const Term& input : node.terms) {

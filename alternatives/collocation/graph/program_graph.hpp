@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "alternatives/collocation/graph/function.hpp"
+#include "alternatives/collocation/graph/differentiable_function.hpp"
 
 namespace prowl {
 
@@ -42,7 +42,7 @@ class ProgramGraph {
   Vector slice(Vector of, int first, int size);
   Vector sum(std::vector<Term> terms);
   /// `function` must outlive the graph; its argument is the concatenation of `inputs`.
-  Vector call(Function& function, std::vector<Vector> inputs);
+  Vector call(DifferentiableFunction& function, std::vector<Vector> inputs);
 
   const Pattern& pattern(Vector v) const { return node(v).pattern; }
   /// Symmetric pattern of the Hessian of any weighted sum of the vectors.
@@ -68,7 +68,7 @@ class ProgramGraph {
     int size;
     int first = 0;
     std::vector<Term> terms = {};  ///< of a sum; inputs of slice and call
-    Function* function = nullptr;
+    DifferentiableFunction* function = nullptr;
     std::vector<int> active = {};  ///< of a call: local variables that its inputs depend on
     bool is_direct = false;        ///< of a call: its inputs are local variables
     Pattern pattern = {};

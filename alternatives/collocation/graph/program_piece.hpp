@@ -57,7 +57,7 @@ class ProgramPiece {
   std::vector<int> columns_;
   std::vector<Rows> rows_;
   std::vector<ProgramGraph::Vector> costs_;
-  std::vector<std::unique_ptr<Function>> functions_;
+  std::vector<std::unique_ptr<DifferentiableFunction>> functions_;
 };
 
 }  // namespace prowl

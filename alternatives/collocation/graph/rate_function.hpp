@@ -1,7 +1,7 @@
 #pragma once
 
 #include "alternatives/collocation/charts/base_chart.hpp"
-#include "alternatives/collocation/graph/function.hpp"
+#include "alternatives/collocation/graph/differentiable_function.hpp"
 
 namespace prowl {
 
@@ -11,7 +11,7 @@ namespace prowl {
 ///   ṗ = R(e) v_linear,   ė = E(e)⁻¹ ω,   joints: their rates                   [m/s, rad/s]
 ///
 /// Inputs (x, v), 2 nv; outputs ẋ, nv.
-class RateFunction : public Function {
+class RateFunction : public DifferentiableFunction {
  public:
   RateFunction(const BaseChart& chart, int nv) : chart_(chart), nv_(nv) {}
 

@@ -12,7 +12,6 @@
 namespace prowl {
 namespace {
 
-
 Eigen::Isometry3d to_isometry(const urdf::Pose& pose) {
   const urdf::Rotation& r = pose.rotation;
   Eigen::Isometry3d placement = Eigen::Isometry3d::Identity();
@@ -106,7 +105,7 @@ std::vector<RobotVisual> robot_collisions(const RobotModel& robot) {
 }
 
 std::optional<RobotVisual> inertia_box(const BodyTree& tree, int index) {
-  const Body& body = tree.bodies[index];
+  const RigidBody& body = tree.bodies[index];
   if (!(body.mass > 0.0)) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(body.inertia);
   const Eigen::Vector3d& moment = axes.eigenvalues();

@@ -28,27 +28,29 @@ bool parse_number(std::string text, double& value) {
 
 }  // namespace
 
-void UrdfPlace::refuse(const XMLElement& at, const std::string& problem) const {
+void UrdfLocation::refuse(const XMLElement& at, const std::string& problem) const {
   throw InputError(fmt::format("{}:{}: {}: {}", file, at.GetLineNum(), element, problem));
 }
 
-std::string urdf_text(const UrdfPlace& place, const XMLElement& at, const char* name) {
+std::string urdf_text(const UrdfLocation& location, const XMLElement& at, const char* name) {
   const char* text = at.Attribute(name);
-  if (text == nullptr || *text == '\0') place.refuse(at, fmt::format("<{}> has no {}=\"...\"", shown(at.Name()), name));
+  if (text == nullptr || *text == '\0')
+    location.refuse(at, fmt::format("<{}> has no {}=\"...\"", shown(at.Name()), name));
   return text;
 }
 
-double urdf_number(const UrdfPlace& place, const XMLElement& at, const char* name, double largest) {
-  const std::string text = urdf_text(place, at, name);
+double urdf_number(const UrdfLocation& location, const XMLElement& at, const char* name, double largest) {
+  const std::string text = urdf_text(location, at, name);
   double value = 0.0;
   if (!parse_number(text, value) || std::abs(value) > largest) {
-    place.refuse(at, fmt::format("<{} {}=\"{}\">: expected one finite number like 1.5 (SI units, no unit in the text)",
-                                 at.Name(), name, shown(text)));
+    location.refuse(at,
+                    fmt::format("<{} {}=\"{}\">: expected one finite number like 1.5 (SI units, no unit in the text)",
+                                at.Name(), name, shown(text)));
   }
   return value;
 }
 
-double check_urdf_vector(const UrdfPlace& place, const XMLElement* at, const char* name, int size) {
+double check_urdf_vector(const UrdfLocation& location, const XMLElement* at, const char* name, int size) {
   if (at == nullptr || at->Attribute(name) == nullptr) return 0.0;
   std::istringstream words(at->Attribute(name));
   std::string word;
@@ -59,16 +61,16 @@ double check_urdf_vector(const UrdfPlace& place, const XMLElement* at, const cha
     largest = std::max(largest, std::abs(value));
   }
   if (words || count != size) {
-    place.refuse(
+    location.refuse(
         *at, fmt::format("<{} {}=\"{}\">: expected {}", at->Name(), name, shown(at->Attribute(name)),
                          size == 3 ? "three finite numbers like 0 0 1.5" : "four finite numbers like 0.5 0.5 0.5 1"));
   }
   return largest;
 }
 
-void check_urdf_origin(const UrdfPlace& place, const XMLElement& parent) {
-  check_urdf_vector(place, parent.FirstChildElement("origin"), "xyz");
-  check_urdf_vector(place, parent.FirstChildElement("origin"), "rpy");
+void check_urdf_origin(const UrdfLocation& location, const XMLElement& parent) {
+  check_urdf_vector(location, parent.FirstChildElement("origin"), "xyz");
+  check_urdf_vector(location, parent.FirstChildElement("origin"), "rpy");
 }
 
 }  // namespace prowl

@@ -7,6 +7,6 @@ namespace prowl {
 
 /// Refuses shapes (<visual>, <collision>) of a link with numbers that are not finite or negative sizes: urdfdom would
 /// accept some of them and drop others. Ignores shapes of an unknown kind or none; does not look for mesh files.
-void check_shapes(const UrdfPlace& place, const tinyxml2::XMLElement& link);
+void check_shapes(const UrdfLocation& location, const tinyxml2::XMLElement& link);
 
 }  // namespace prowl

@@ -87,13 +87,13 @@ Eigen::Map<VectorXd> segment(const VecRealView& vector, Index first, Eigen::Inde
 /// dynamics, equalities, inequalities, in this order.
 class FatropProblem : public fatrop::Nlp<Type> {
  public:
-  FatropProblem(StagewiseNlp& nlp, std::vector<VectorXd> start, const SolverOptions& options, double began)
+  FatropProblem(StagewiseNlp& nlp, std::vector<VectorXd> guess, const SolverOptions& options, double began)
       : nlp_(nlp),
         options_(options),
         began_(began),
         dims_(dims_of(nlp)),
         totals_(totals(dims_)),
-        start_(std::move(start)) {}
+        guess_(std::move(guess)) {}
 
   const Iterate& best() const { return best_; }
   const std::string& failure() const { return failure_; }
@@ -184,7 +184,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
 
   Index get_initial_primal(const Info& info, VecRealView& x) override {
     for (int k = 0; k < dims_.K; ++k) {
-      const VectorXd& ux = start_[k];
+      const VectorXd& ux = guess_[k];
       segment(x, info.offsets_primal_u[k], ux.size()) = ux;
     }
     return 0;
@@ -228,7 +228,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   /// in IpoptSolver, a regularised step that removes a violation leaves multipliers proportional to
   /// the regularisation.
   void refresh_multipliers(fatrop::IpIterate<Type>& iterate) {
-    const bool begins_near = iterations_ == 0 && options_.start_is_near;
+    const bool begins_near = iterations_ == 0 && options_.is_warm_start;
     if (begins_near) {
       iterate.set_dual_bounds_l(iterate.mu() / iterate.delta_lower());
       iterate.set_dual_bounds_u(iterate.mu() / iterate.delta_upper());
@@ -292,7 +292,7 @@ class FatropProblem : public fatrop::Nlp<Type> {
   double began_;
   Dims dims_;
   fatrop::NlpDims totals_;
-  std::vector<VectorXd> start_;
+  std::vector<VectorXd> guess_;
   StageMultipliers on_;
   Iterate best_, last_;
   std::function<void()> estimate_multipliers_;
@@ -333,8 +333,8 @@ void set_options(fatrop::OptionRegistry& registry, const SolverOptions& options)
   registry.set_option("delta_w0", 1.0);
   registry.set_option("kappa_wplusem", 8.0);
   // See IpoptSolver.
-  registry.set_option("mu_init", options.start_is_near ? 1e-5 : 1e-3);
-  if (options.start_is_near) {
+  registry.set_option("mu_init", options.is_warm_start ? 1e-5 : 1e-3);
+  if (options.is_warm_start) {
     registry.set_option("bound_push", 1e-4);
     registry.set_option("bound_frac", 1e-4);
   }
@@ -346,7 +346,8 @@ std::string FatropSolver::name() const { return "Fatrop"; }
 
 std::string FatropSolver::version() const {
   const std::string kernels = linear_algebra();
-  return fmt::format("{}, BLASFEO {}", PROWL_FATROP_VERSION, kernels.empty() ? "with generic kernels" : "for " + kernels);
+  return fmt::format("{}, BLASFEO {}", PROWL_FATROP_VERSION,
+                     kernels.empty() ? "with generic kernels" : "for " + kernels);
 }
 
 std::string FatropSolver::linear_algebra() {
@@ -372,20 +373,20 @@ std::optional<std::string> FatropSolver::why_unsupported(Nlp& nlp) const {
   return why_no_chain(nlp, "Fatrop");
 }
 
-SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  check_arguments(nlp, z_start, options);
+SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverOptions& options) const {
+  check_arguments(nlp, z_guess, options);
   const double began = wall_seconds();
-  const double cpu_start = cpu_seconds();
+  const double cpu_began = cpu_seconds();
   if (const auto reason = why_unsupported(nlp)) {
     SolveResult result;
     result.message = *reason;
-    result.z = z_start;
+    result.z = z_guess;
     return result;
   }
   StagewiseNlp& stages = *nlp.stagewise();
-  const auto problem = std::make_shared<FatropProblem>(stages, stages.stages(z_start), options, began);
+  const auto problem = std::make_shared<FatropProblem>(stages, stages.stages(z_guess), options, began);
   SolveResult result;
-  result.z = z_start;
+  result.z = z_guess;
   Stopped stopped{SolveStatus::solver_failed, ""};
   bool gave_up = true;  // without an exception: a failed evaluation may be the reason
   Iterate chosen;
@@ -426,7 +427,7 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
 
   remeasure_result(nlp, options.tolerance, name(), result);
   result.times = problem->times();
-  result.times.cpu = cpu_seconds() - cpu_start;
+  result.times.cpu = cpu_seconds() - cpu_began;
   result.seconds = wall_seconds() - began;
   return result;
 }
@@ -434,6 +435,4 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverO
 }  // namespace prowl
 
 /// What load_solver() looks for; the caller owns the result.
-extern "C" prowl::NlpSolver* prowl_make_solver(const char* /*name*/) {
-  return new prowl::FatropSolver();
-}
+extern "C" [[gnu::visibility("default")]] prowl::NlpSolver* prowl_make_solver(const char* /*name*/) { return new prowl::FatropSolver(); }

@@ -47,8 +47,8 @@ struct Iterate : IterateFigures {
 /// Adapter from Ipopt to the Nlp.
 class IpoptProblem : public Ipopt::TNLP {
  public:
-  IpoptProblem(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options, double start)
-      : guarded_(guarded), nlp_(guarded.nlp()), options_(options), start_(start), z_start_(z_start) {}
+  IpoptProblem(GuardedNlp& guarded, const VectorXd& z_guess, const SolverOptions& options, double began)
+      : guarded_(guarded), nlp_(guarded.nlp()), options_(options), began_(began), z_guess_(z_guess) {}
 
   const Iterate& best() const { return best_; }
   const Iterate& last() const { return last_; }
@@ -72,7 +72,7 @@ class IpoptProblem : public Ipopt::TNLP {
   }
 
   bool get_starting_point(Index n, bool, Number* z, bool, Number*, Number*, Index, bool, Number*) override {
-    VectorMap(z, n) = z_start_;  // no multipliers: warm_start_init_point is off
+    VectorMap(z, n) = z_guess_;  // no multipliers: warm_start_init_point is off
     return true;
   }
 
@@ -88,13 +88,13 @@ class IpoptProblem : public Ipopt::TNLP {
 
   bool eval_jac_g(Index n, const Number* z, bool, Index, Index size, Index* rows, Index* cols,
                   Number* values) override {
-    if (!values) return copy_places(nlp_.jacobian_pattern(), rows, cols);
+    if (!values) return copy_pattern(nlp_.jacobian_pattern(), rows, cols);
     return guarded_.jacobian(point(z, n), VectorMap(values, size));
   }
 
   bool eval_h(Index n, const Number* z, bool, Number cost_factor, Index m, const Number* multipliers, bool, Index size,
               Index* rows, Index* cols, Number* values) override {
-    if (!values) return copy_places(nlp_.hessian_pattern(), rows, cols);
+    if (!values) return copy_pattern(nlp_.hessian_pattern(), rows, cols);
     return guarded_.hessian(point(z, n), cost_factor, ConstVectorMap(multipliers, m), VectorMap(values, size));
   }
 
@@ -104,7 +104,7 @@ class IpoptProblem : public Ipopt::TNLP {
     iterations_ = iteration;
     read_iterate(mode, cost, inf_du, data, quantities);
     if (options_.on_iteration) {
-      options_.on_iteration({iteration, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - start_});
+      options_.on_iteration({iteration, last_.cost, last_.violation, last_.dual_violation, wall_seconds() - began_});
     }
     if (options_.on_iterate && last_.z.size() > 0) options_.on_iterate(last_.z);
     guarded_.forget_failure();  // resolved by a shorter step
@@ -124,7 +124,7 @@ class IpoptProblem : public Ipopt::TNLP {
     return z_;
   }
 
-  static bool copy_places(const SparsityPattern& pattern, Index* rows, Index* cols) {
+  static bool copy_pattern(const SparsityPattern& pattern, Index* rows, Index* cols) {
     std::copy(pattern.rows.begin(), pattern.rows.end(), rows);
     std::copy(pattern.cols.begin(), pattern.cols.end(), cols);
     return true;
@@ -160,8 +160,8 @@ class IpoptProblem : public Ipopt::TNLP {
   GuardedNlp& guarded_;
   const Nlp& nlp_;
   const SolverOptions& options_;
-  double start_;
-  const VectorXd z_start_;
+  double began_;
+  const VectorXd z_guess_;
   VectorXd z_;
   Iterate best_, last_;
   int iterations_ = 0;
@@ -219,8 +219,8 @@ void set_options(Ipopt::OptionsList& list, const SolverOptions& options) {
   // moves the first iterates so far that the curvature of the dynamics makes the Hessian indefinite
   // (Solo12: 300 iterations, with this value 15). Near a solution a larger mu costs iterations, and
   // active variables may start close to their bounds.
-  list.SetNumericValue("mu_init", options.start_is_near ? 1e-5 : 1e-3);
-  if (options.start_is_near) {
+  list.SetNumericValue("mu_init", options.is_warm_start ? 1e-5 : 1e-3);
+  if (options.is_warm_start) {
     for (const char* push : {"bound_push", "bound_frac", "slack_bound_push", "slack_bound_frac"}) {
       list.SetNumericValue(push, 1e-4);
     }
@@ -281,14 +281,14 @@ std::optional<std::string> why_missing(IpoptLinearSolver linear_solver) {
       spral ? "SPRAL" : "MUMPS");
 }
 
-void run_ipopt(GuardedNlp& guarded, const VectorXd& z_start, const SolverOptions& options,
-               IpoptLinearSolver linear_solver, double start, SolveResult& result) {
+void run_ipopt(GuardedNlp& guarded, const VectorXd& z_guess, const SolverOptions& options,
+               IpoptLinearSolver linear_solver, double began, SolveResult& result) {
   const Ipopt::SmartPtr<Ipopt::IpoptApplication> ipopt = new Ipopt::IpoptApplication(false);  // prints nothing
   set_options(*ipopt->Options(), options);
   set_linear_solver(*ipopt->Options(), linear_solver);
   if (openblas_set_num_threads) openblas_set_num_threads(1);
 
-  auto* problem = new IpoptProblem(guarded, z_start, options, start);
+  auto* problem = new IpoptProblem(guarded, z_guess, options, began);
   const Ipopt::SmartPtr<Ipopt::TNLP> owner = problem;
   Ipopt::ApplicationReturnStatus code = ipopt->Initialize("");  // "": no ipopt.opt from the working directory
   if (code == Ipopt::Solve_Succeeded) code = ipopt->OptimizeTNLP(owner);
@@ -329,20 +329,20 @@ std::optional<std::string> IpoptSolver::why_unsupported(Nlp& nlp) const {
   return why_nothing_left(nlp);
 }
 
-SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  check_arguments(nlp, z_start, options);
+SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverOptions& options) const {
+  check_arguments(nlp, z_guess, options);
   nlp.use_threads(options.threads);
-  const double start = wall_seconds();
-  const double cpu_start = cpu_seconds();
+  const double began = wall_seconds();
+  const double cpu_began = cpu_seconds();
   GuardedNlp guarded(nlp);
   SolveResult result;
-  result.z = z_start;
+  result.z = z_guess;
   result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
   if (const auto missing = why_missing(linear_solver_)) {
     result.message = *missing;
-  } else if (guarded.finite_point(z_start)) {
+  } else if (guarded.finite_point(z_guess)) {
     try {
-      run_ipopt(guarded, z_start, options, linear_solver_, start, result);
+      run_ipopt(guarded, z_guess, options, linear_solver_, began, result);
     } catch (...) {
       result.status = SolveStatus::solver_failed;
       result.message = "Ipopt: " + thrown_error();
@@ -353,15 +353,15 @@ SolveResult IpoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   }
   if (!guarded.broken()) remeasure_result(nlp, options.tolerance, name(), result);
   result.times = guarded.times();
-  result.times.cpu = cpu_seconds() - cpu_start;
-  result.seconds = wall_seconds() - start;
+  result.times.cpu = cpu_seconds() - cpu_began;
+  result.seconds = wall_seconds() - began;
   return result;
 }
 
 }  // namespace prowl
 
 /// What load_solver() looks for; the caller owns the result.
-extern "C" prowl::NlpSolver* prowl_make_solver(const char* name) {
+extern "C" [[gnu::visibility("default")]] prowl::NlpSolver* prowl_make_solver(const char* name) {
   const bool spral = std::string_view(name) == "ipopt-spral";
   return new prowl::IpoptSolver(spral ? prowl::IpoptLinearSolver::spral : prowl::IpoptLinearSolver::mumps);
 }

@@ -24,8 +24,8 @@ class IpoptSolver : public NlpSolver {
   std::string name() const override;
   std::string version() const override;  ///< of the loaded library
   std::optional<std::string> why_unsupported(Nlp& nlp) const override;
-  /// Throws InputError only for an invalid option or size of z_start.
-  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
+  /// Throws InputError only for an invalid option or size of z_guess.
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const override;
 
   /// Why Prowl cannot use the loaded libipopt.so, for the user; nullopt if it can.
   static std::optional<std::string> why_wrong_library();

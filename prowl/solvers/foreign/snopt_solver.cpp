@@ -30,8 +30,8 @@ using std::vector;
 /// Jacobian's values.
 class SnoptProblem {
  public:
-  SnoptProblem(GuardedNlp& guarded, const SolverOptions& options, double start)
-      : guarded_(guarded), nlp_(guarded.nlp()), options_(options), start_(start), rows_(nlp_.num_constraints()) {}
+  SnoptProblem(GuardedNlp& guarded, const SolverOptions& options, double began)
+      : guarded_(guarded), nlp_(guarded.nlp()), options_(options), began_(began), rows_(nlp_.num_constraints()) {}
 
   const VectorXd& best() const { return best_z_; }  ///< empty if nothing was evaluated
   std::optional<SolveStatus> why_stopped() const { return why_stopped_; }
@@ -61,7 +61,7 @@ class SnoptProblem {
   bool should_stop() {
     if (options_.interrupt && options_.interrupt->load())
       why_stopped_ = SolveStatus::interrupted;
-    else if (wall_seconds() - start_ > options_.max_seconds)
+    else if (wall_seconds() - began_ > options_.max_seconds)
       why_stopped_ = SolveStatus::time_limit;
     return why_stopped_.has_value();
   }
@@ -81,7 +81,7 @@ class SnoptProblem {
     guarded_.forget_failure();  // resolved by a shorter step
     const IterateFigures now{cost, constraint_violation(nlp_, z, rows_), 0.0};
     if (options_.on_iteration) {
-      options_.on_iteration({evaluations_, now.cost, now.violation, 0.0, wall_seconds() - start_});
+      options_.on_iteration({evaluations_, now.cost, now.violation, 0.0, wall_seconds() - began_});
     }
     if (options_.on_iterate) options_.on_iterate(z);
     ++evaluations_;
@@ -93,7 +93,7 @@ class SnoptProblem {
   GuardedNlp& guarded_;
   const Nlp& nlp_;
   const SolverOptions& options_;
-  double start_;
+  double began_;
   VectorXd rows_, best_z_;
   IterateFigures best_;
   int evaluations_ = 0;
@@ -182,22 +182,22 @@ vector<double> bounds(const VectorXd& values, bool with_cost, double of_cost) {
   return all;
 }
 
-void set_options(Workspace& work, const VectorXd& z_start, const SolverOptions& options) {
+void set_options(Workspace& work, const VectorXd& z_guess, const SolverOptions& options) {
   work.set(fmt::format("Major iterations limit {}", options.max_iterations));
   work.set("Iterations limit 1000000");  // minor iterations; the user limits major ones
   work.set(fmt::format("Major optimality tolerance {:.3e}", options.tolerance));
-  work.set(fmt::format("Major feasibility tolerance {:.3e}", options.tolerance / std::max(1.0, z_start.norm())));
-  work.set(fmt::format("Superbasics limit {}", z_start.size() + 1));
+  work.set(fmt::format("Major feasibility tolerance {:.3e}", options.tolerance / std::max(1.0, z_guess.norm())));
+  work.set(fmt::format("Superbasics limit {}", z_guess.size() + 1));
   constexpr int kMostForFullMemory = 500;  // reason: python/prowl/snopt.py, with the same options
-  work.set(z_start.size() <= kMostForFullMemory ? "Hessian full memory" : "Hessian limited memory");
+  work.set(z_guess.size() <= kMostForFullMemory ? "Hessian full memory" : "Hessian limited memory");
   work.set("Derivative option 1");
   work.set("Verify level -1");
 }
 
 /// Input and output arrays of SNOPT.
 struct Point {
-  Point(const Nlp& nlp, const VectorXd& z_start)
-      : x(z_start.begin(), z_start.end()), row_multipliers(1 + static_cast<std::size_t>(nlp.num_constraints()), 0.0) {}
+  Point(const Nlp& nlp, const VectorXd& z_guess)
+      : x(z_guess.begin(), z_guess.end()), row_multipliers(1 + static_cast<std::size_t>(nlp.num_constraints()), 0.0) {}
   vector<double> x, row_multipliers;
 };
 
@@ -244,19 +244,19 @@ std::optional<std::string> SnoptSolver::why_unsupported(Nlp& nlp) const {
   return why_unavailable() ? why_unavailable() : why_nothing_left(nlp);
 }
 
-SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  check_arguments(nlp, z_start, options);
+SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverOptions& options) const {
+  check_arguments(nlp, z_guess, options);
   if (why_unavailable()) throw InputError(*why_unavailable());
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   nlp.use_threads(options.threads);
-  const double start = wall_seconds(), cpu_start = cpu_seconds();
+  const double began = wall_seconds(), cpu_began = cpu_seconds();
   GuardedNlp guarded(nlp);
-  SnoptProblem problem(guarded, options, start);
+  SnoptProblem problem(guarded, options, began);
 
   Workspace work(*library_);
-  set_options(work, z_start, options);
-  Point point(nlp, z_start);
+  set_options(work, z_guess, options);
+  Point point(nlp, z_guess);
   const int info = call(*library_, nlp, problem, work, point);
 
   const auto [status, words] = outcome(info);
@@ -271,11 +271,11 @@ SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   if (!guarded.failure().empty() && !problem.why_stopped()) result.message += "; " + guarded.failure();
   result.iterations = work.major_iterations();
   if (result.status == SolveStatus::converged || result.status == SolveStatus::infeasible) {
-    result.z = Eigen::Map<VectorXd>(point.x.data(), z_start.size());
+    result.z = Eigen::Map<VectorXd>(point.x.data(), z_guess.size());
     result.multipliers =
         -Eigen::Map<VectorXd>(point.row_multipliers.data() + 1, nlp.num_constraints());  // SNOPT's: f − π . g
   } else {
-    result.z = problem.best().size() > 0 ? problem.best() : z_start;
+    result.z = problem.best().size() > 0 ? problem.best() : z_guess;
   }
   if (guarded.broken()) {
     result.cost = result.constraint_violation = std::numeric_limits<double>::quiet_NaN();
@@ -285,8 +285,8 @@ SolveResult SnoptSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOp
   if (result.status == SolveStatus::converged)
     result.dual_violation = dual_violation(nlp, result.z, result.multipliers);
   result.times = guarded.times();
-  result.times.cpu = cpu_seconds() - cpu_start;
-  result.seconds = wall_seconds() - start;
+  result.times.cpu = cpu_seconds() - cpu_began;
+  result.seconds = wall_seconds() - began;
   return result;
 }
 

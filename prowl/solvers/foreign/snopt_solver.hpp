@@ -16,7 +16,7 @@ class SnoptLibrary;
 ///
 /// - Print file and summary are switched off. Only limits, tolerances and derivative options differ
 ///   from SNOPT's defaults.
-/// - SNOPT accepts a row within tolerance x |z|, so its tolerance is divided by |z_start|.
+/// - SNOPT accepts a row within tolerance x |z|, so its tolerance is divided by |z_guess|.
 /// - A failed evaluation at a trial point shortens the step.
 /// - Interrupt and time are checked, and on_iteration is called, at each evaluation.
 /// - Stopped early, it returns its best iterate: smallest violation, and smallest cost among those
@@ -35,8 +35,8 @@ class SnoptSolver : public NlpSolver {
   std::string version() const override;
   /// Includes a missing library or function.
   std::optional<std::string> why_unsupported(Nlp& nlp) const override;
-  /// Throws InputError for an invalid option or size of z_start, or an unusable library.
-  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
+  /// Throws InputError for an invalid option or size of z_guess, or an unusable library.
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const override;
 
  private:
   std::unique_ptr<SnoptLibrary> library_;

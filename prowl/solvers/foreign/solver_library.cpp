@@ -13,8 +13,9 @@ std::unique_ptr<NlpSolver> load_solver(const std::string& library, const std::st
   void* const function = handle ? ::dlsym(handle, "prowl_make_solver") : nullptr;
   if (!function) {
     const char* const reason = ::dlerror();
-    throw InputError(fmt::format("solver: \"{}\" is not installed: pip install \"prowl[solvers]\", or scripts/setup in a clone ({})", name,
-                                 reason ? reason : file));
+    throw InputError(
+        fmt::format("solver: \"{}\" is not installed: pip install \"prowl[solvers]\", in a clone scripts/setup ({})",
+                    name, reason ? reason : file));
   }
   return std::unique_ptr<NlpSolver>(reinterpret_cast<NlpSolver* (*)(const char*)>(function)(name.c_str()));
 }

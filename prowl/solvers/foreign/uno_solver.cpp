@@ -40,11 +40,11 @@ struct Stopped {
 /// those of the Nlp.
 class UnoProblem {
  public:
-  UnoProblem(GuardedNlp& guarded, const SolverOptions& options, double start)
+  UnoProblem(GuardedNlp& guarded, const SolverOptions& options, double began)
       : guarded_(guarded),
         nlp_(guarded.nlp()),
         options_(options),
-        start_(start),
+        began_(began),
         g_(nlp_.num_constraints()),
         hessian_(nlp_.hessian_pattern().size()) {}
 
@@ -74,11 +74,11 @@ class UnoProblem {
       hessian_factor_ = cost_factor;
       hessian_multipliers_ = multipliers_now;
     }
-    const SparsityPattern& places = nlp_.hessian_pattern();
+    const SparsityPattern& pattern = nlp_.hessian_pattern();
     VectorMap(product, z_now.size()).setZero();
-    for (int i = 0; i < places.size(); ++i) {
-      product[places.rows[i]] += hessian_[i] * direction[places.cols[i]];
-      if (places.rows[i] != places.cols[i]) product[places.cols[i]] += hessian_[i] * direction[places.rows[i]];
+    for (int i = 0; i < pattern.size(); ++i) {
+      product[pattern.rows[i]] += hessian_[i] * direction[pattern.cols[i]];
+      if (pattern.rows[i] != pattern.cols[i]) product[pattern.cols[i]] += hessian_[i] * direction[pattern.rows[i]];
     }
     return true;
   }
@@ -116,7 +116,7 @@ class UnoProblem {
     if (!guarded_.cost(now.z, now.cost) || !guarded_.constraints(now.z, g_)) return false;
     now.violation = constraint_violation(nlp_, now.z, g_);
     if (options_.on_iteration) {
-      options_.on_iteration({iterations_, now.cost, now.violation, now.dual_violation, wall_seconds() - start_});
+      options_.on_iteration({iterations_, now.cost, now.violation, now.dual_violation, wall_seconds() - began_});
     }
     if (options_.on_iterate) options_.on_iterate(now.z);
     if (is_better(now, best_, options_.tolerance)) best_ = std::move(now);
@@ -126,13 +126,13 @@ class UnoProblem {
   void check_limits() const {
     if (guarded_.broken()) throw Stopped{SolveStatus::solver_failed, guarded_.failure()};
     if (options_.interrupt && options_.interrupt->load()) throw Stopped{SolveStatus::interrupted, "stopped on request"};
-    if (wall_seconds() - start_ > options_.max_seconds) throw Stopped{SolveStatus::time_limit, "time limit reached"};
+    if (wall_seconds() - began_ > options_.max_seconds) throw Stopped{SolveStatus::time_limit, "time limit reached"};
   }
 
   GuardedNlp& guarded_;
   const Nlp& nlp_;
   const SolverOptions& options_;
-  double start_;
+  double began_;
   VectorXd z_, g_;
   VectorXd hessian_, hessian_z_, hessian_multipliers_;  ///< values and their point
   double hessian_factor_ = 0.0;
@@ -190,20 +190,20 @@ Outcome outcome(uno_int ending, uno_int point) {
   }
 }
 
-Handle make_model(Nlp& nlp, const VectorXd& z_start, UnoProblem& problem) {
+Handle make_model(Nlp& nlp, const VectorXd& z_guess, UnoProblem& problem) {
   Handle model(uno_create_model(UNO_PROBLEM_NONLINEAR, nlp.num_variables(), nlp.variable_lower().data(),
                                 nlp.variable_upper().data(), UNO_ZERO_BASED_INDEXING),
                &uno_destroy_model);
-  const SparsityPattern& places = nlp.jacobian_pattern();
+  const SparsityPattern& pattern = nlp.jacobian_pattern();
   uno_set_objective(model.get(), UNO_MINIMIZE, &give_cost, &give_gradient);
   if (nlp.num_constraints() > 0) {
     uno_set_constraints(model.get(), nlp.num_constraints(), &give_constraints, nlp.constraint_lower().data(),
-                        nlp.constraint_upper().data(), places.size(), places.rows.data(), places.cols.data(),
+                        nlp.constraint_upper().data(), pattern.size(), pattern.rows.data(), pattern.cols.data(),
                         &give_jacobian);
   }
   uno_set_lagrangian_hessian_operator(model.get(), &give_hessian_product);
   uno_set_lagrangian_sign_convention(model.get(), UNO_MULTIPLIER_POSITIVE);
-  uno_set_initial_primal_iterate(model.get(), z_start.data());
+  uno_set_initial_primal_iterate(model.get(), z_guess.data());
   uno_set_user_data(model.get(), &problem);
   return model;
 }
@@ -231,12 +231,12 @@ struct Silence {
   Silence& operator=(const Silence&) = delete;
 };
 
-void run_uno(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options, UnoProblem& problem,
+void run_uno(Nlp& nlp, const VectorXd& z_guess, const SolverOptions& options, UnoProblem& problem,
              SolveResult& result) {
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const Silence silence;
-  const Handle model = make_model(nlp, z_start, problem), solver = configured_solver(options, problem);
+  const Handle model = make_model(nlp, z_guess, problem), solver = configured_solver(options, problem);
   uno_optimize(solver.get(), model.get());
 
   const auto [status, words] =
@@ -268,18 +268,18 @@ std::optional<std::string> UnoSolver::why_unsupported(Nlp& nlp) const {
   return why_nothing_left(nlp);
 }
 
-SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  check_arguments(nlp, z_start, options);
+SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverOptions& options) const {
+  check_arguments(nlp, z_guess, options);
   nlp.use_threads(options.threads);
-  const double start = wall_seconds();
-  const double cpu_start = cpu_seconds();
+  const double began = wall_seconds();
+  const double cpu_began = cpu_seconds();
   GuardedNlp guarded(nlp);
-  UnoProblem problem(guarded, options, start);
+  UnoProblem problem(guarded, options, began);
   SolveResult result;
   try {
     if (const auto reason = why_unsupported(nlp)) throw Stopped{SolveStatus::solver_failed, *reason};
-    problem.begin(z_start);
-    run_uno(nlp, z_start, options, problem, result);
+    problem.begin(z_guess);
+    run_uno(nlp, z_guess, options, problem, result);
   } catch (const Stopped& stopped) {
     result.status = stopped.status;
     result.message = stopped.message;
@@ -298,7 +298,7 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
     result.message = fmt::format("{}; {}", result.message, guarded.failure());
   }
   if (result.z.size() == 0) {
-    result.z = problem.best().z.size() > 0 ? problem.best().z : z_start;
+    result.z = problem.best().z.size() > 0 ? problem.best().z : z_guess;
     result.dual_violation = problem.best().dual_violation;
   }
   if (guarded.broken()) {
@@ -307,14 +307,12 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOpti
     remeasure_result(nlp, options.tolerance, name(), result);
   }
   result.times = guarded.times();
-  result.times.cpu = cpu_seconds() - cpu_start;
-  result.seconds = wall_seconds() - start;
+  result.times.cpu = cpu_seconds() - cpu_began;
+  result.seconds = wall_seconds() - began;
   return result;
 }
 
 }  // namespace prowl
 
 /// What load_solver() looks for; the caller owns the result.
-extern "C" prowl::NlpSolver* prowl_make_solver(const char* /*name*/) {
-  return new prowl::UnoSolver();
-}
+extern "C" [[gnu::visibility("default")]] prowl::NlpSolver* prowl_make_solver(const char* /*name*/) { return new prowl::UnoSolver(); }

@@ -23,8 +23,8 @@ class UnoSolver : public NlpSolver {
   std::string name() const override;
   std::string version() const override;
   std::optional<std::string> why_unsupported(Nlp& nlp) const override;
-  /// Throws InputError only for an invalid option or size of z_start.
-  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_start, const SolverOptions& options) const override;
+  /// Throws InputError only for an invalid option or size of z_guess.
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const override;
 };
 
 }  // namespace prowl

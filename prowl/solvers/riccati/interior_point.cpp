@@ -227,30 +227,30 @@ void InteriorPoint::scale_cost() {
   if (slope > kLargestCostSlope) cost_scale_ = kLargestCostSlope / slope;
 }
 
-bool InteriorPoint::has_start_multipliers() const {
-  const std::vector<StageMultipliers>& start = options_.start_multipliers;
-  bool fits = options_.start_is_near && start.size() == on_.size();
+bool InteriorPoint::has_warm_start_multipliers() const {
+  const std::vector<StageMultipliers>& given = options_.warm_start_multipliers;
+  bool fits = options_.is_warm_start && given.size() == on_.size();
   for (std::size_t i = 0; fits && i < on_.size(); ++i) {
-    fits = start[i].next.size() == on_[i].next.size() && start[i].equalities.size() == on_[i].equalities.size() &&
-           start[i].inequalities.size() == on_[i].inequalities.size();
+    fits = given[i].next.size() == on_[i].next.size() && given[i].equalities.size() == on_[i].equalities.size() &&
+           given[i].inequalities.size() == on_[i].inequalities.size();
   }
   return fits;
 }
 
-void InteriorPoint::start_slacks() {
-  const double push = options_.start_is_near ? kNearPush : kFirstPush;
-  if (!has_start_multipliers()) {
-    slacks_.start(values_.inequalities, push);
+void InteriorPoint::initialise_slacks() {
+  const double push = options_.is_warm_start ? kNearPush : kFirstPush;
+  if (!has_warm_start_multipliers()) {
+    slacks_.initialise(values_.inequalities, push);
     slacks_.center(mu_);
     slacks_.pull(mu_, lambda_);
     return;
   }
   for (int k = 0; k < num_stages_; ++k) {
-    on_[k].next = cost_scale_ * options_.start_multipliers[k].next;
-    on_[k].equalities = cost_scale_ * options_.start_multipliers[k].equalities;
-    segment(lambda_, k) = cost_scale_ * options_.start_multipliers[k].inequalities;
+    on_[k].next = cost_scale_ * options_.warm_start_multipliers[k].next;
+    on_[k].equalities = cost_scale_ * options_.warm_start_multipliers[k].equalities;
+    segment(lambda_, k) = cost_scale_ * options_.warm_start_multipliers[k].inequalities;
   }
-  slacks_.start(values_.inequalities, lambda_, mu_, push);
+  slacks_.initialise(values_.inequalities, lambda_, mu_, push);
 }
 
 std::vector<StageMultipliers> InteriorPoint::multipliers() const {
@@ -356,21 +356,24 @@ bool InteriorPoint::compute_direction(double least_regularisation, std::string& 
   return false;
 }
 
-InteriorPoint::Ending InteriorPoint::run(const StageVectors& start, const Watch& watch) {
+InteriorPoint::Ending InteriorPoint::run(const StageVectors& guess, const Watch& watch) {
   using enum SolveStatus;
-  ux_ = start;
+  ux_ = guess;
   if (!evaluate(ux_, values_)) return {evaluation_failed, failure_};
-  mu_ = (has_start_multipliers() ? kKnownBarrier : options_.start_is_near ? kNearBarrier : kFirstBarrier) / num_stages_;
+  mu_ = (has_warm_start_multipliers() ? kKnownBarrier
+         : options_.is_warm_start     ? kNearBarrier
+                                      : kFirstBarrier) /
+        num_stages_;
   try {
     scale_cost();
-    start_slacks();
-    if (!has_start_multipliers()) estimate_multipliers();
+    initialise_slacks();
+    if (!has_warm_start_multipliers()) estimate_multipliers();
     linearise();
     theta_ = violation(values_, slacks_.s);
     least_theta_ = 1e-4 * std::max(1.0, theta_);
     const double largest_theta = 1e4 * std::max(1.0, theta_);
     filter_.reset(largest_theta);
-    if (has_start_multipliers()) keep_start();
+    if (has_warm_start_multipliers()) keep_point();
     for (iterations_ = 0;; ++iterations_) {
       end_whole_steps();
       update_dual_violation();

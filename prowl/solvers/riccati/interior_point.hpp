@@ -31,7 +31,7 @@ class InteriorPoint {
   };
   /// Called once per iteration; a returned Ending stops the solve.
   using Watch = std::function<std::optional<Ending>(int iteration, const IterateFigures& figures)>;
-  Ending run(const StageVectors& start, const Watch& watch);
+  Ending run(const StageVectors& guess, const Watch& watch);
 
   int iterations() const { return iterations_; }
   const IterateFigures& figures() const { return figures_; }
@@ -64,8 +64,8 @@ class InteriorPoint {
   bool update_barrier();
 
   StageKkt::Outcome factorise(StageKkt::Hessian hessian, double delta);
-  bool has_start_multipliers() const;
-  void start_slacks();
+  bool has_warm_start_multipliers() const;
+  void initialise_slacks();
   void estimate_multipliers();
   double largest_multiplier() const;
   void scale_cost();
@@ -74,7 +74,7 @@ class InteriorPoint {
   void set_gradient(double cost_scale, const Eigen::VectorXd& lambda);
   void set_weights();
   void solve_direction(double cost_scale, const Eigen::VectorXd& residual);
-  void keep_start();
+  void keep_point();
   void end_whole_steps();
   bool search_line();
   bool try_step(double alpha, const StageVectors& steps, const Eigen::VectorXd& ds);
@@ -110,14 +110,14 @@ class InteriorPoint {
   double least_theta_ = 0.0;  ///< below it only the barrier function decides on a step
   Filter filter_;
   /// Point before the first step without a filter.
-  struct Start {
+  struct KeptPoint {
     StageVectors ux;
     Slacks slacks;
     Eigen::VectorXd lambda;
     std::vector<StageMultipliers> on;
     double mu, theta;
   };
-  std::optional<Start> whole_steps_from_;
+  std::optional<KeptPoint> whole_steps_from_;
   IterateFigures figures_;
   int iterations_ = 0;
   std::string failure_;

@@ -84,7 +84,7 @@ bool InteriorPoint::correct_second_order(double alpha, double theta) {
   return false;
 }
 
-void InteriorPoint::keep_start() {
+void InteriorPoint::keep_point() {
   whole_steps_from_ = {ux_, slacks_, lambda_, on_, mu_, violation(values_, slacks_.s)};
 }
 

@@ -20,12 +20,12 @@ std::optional<std::string> RiccatiSolver::why_unsupported(Nlp& nlp) const {
   return why_no_chain(nlp, "the Riccati solver");
 }
 
-SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const SolverOptions& options) const {
-  check_arguments(nlp, z_start, options);
+SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverOptions& options) const {
+  check_arguments(nlp, z_guess, options);
   const double began = wall_seconds();
-  const double cpu_start = cpu_seconds();
+  const double cpu_began = cpu_seconds();
   SolveResult result;
-  result.z = z_start;
+  result.z = z_guess;
   if (const auto reason = why_unsupported(nlp)) {
     result.message = *reason;
     return result;
@@ -59,7 +59,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
   };
   InteriorPoint::Ending ending{SolveStatus::solver_failed, ""};
   try {
-    ending = method.run(stages.stages(z_start), watch);
+    ending = method.run(stages.stages(z_guess), watch);
   } catch (...) {
     ending.message = thrown_error();
   }
@@ -75,7 +75,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_start, const Solver
 
   remeasure_result(nlp, options.tolerance, name(), result);
   result.times = method.times();
-  result.times.cpu = cpu_seconds() - cpu_start;
+  result.times.cpu = cpu_seconds() - cpu_began;
   result.seconds = wall_seconds() - began;
   return result;
 }

@@ -29,7 +29,7 @@ void Slacks::for_each(Self& self, Visit visit) {
   for (auto& bound : self.above_) visit(bound, self.distance_above(bound), -1.0);
 }
 
-void Slacks::start(const VectorXd& values, double push) {
+void Slacks::initialise(const VectorXd& values, double push) {
   s = values;
   const auto margin = [&](const Bound& b) {
     return push * std::min(std::max(1.0, std::abs(b.at)), upper_(b.row) - lower_(b.row));
@@ -42,8 +42,8 @@ void Slacks::center(double mu) {
   for_each(*this, [mu](Bound& b, double distance, double) { b.z = mu / distance; });
 }
 
-void Slacks::start(const VectorXd& values, const VectorXd& lambda, double mu, double push) {
-  start(values, push);
+void Slacks::initialise(const VectorXd& values, const VectorXd& lambda, double mu, double push) {
+  initialise(values, push);
   for_each(*this, [&](Bound& b, double, double sign) {
     b.z = std::max(0.0, -sign * lambda(b.row));
     const double inside = sign * (values(b.row) - b.at);

@@ -18,12 +18,12 @@ class Slacks {
   int num_bounds() const { return static_cast<int>(below_.size() + above_.size()); }
 
   /// s = values of the inequalities, at least push min(max(1, |bound|), upper - lower) inside.
-  void start(const Eigen::VectorXd& values, double push);
+  void initialise(const Eigen::VectorXd& values, double push);
   /// z = mu / distance.
   void center(double mu);
   /// Starts from the multipliers of a neighbouring problem: z from lambda, but at least mu /
   /// distance; slacks keep a distance of mu / z.
-  void start(const Eigen::VectorXd& values, const Eigen::VectorXd& lambda, double mu, double push);
+  void initialise(const Eigen::VectorXd& values, const Eigen::VectorXd& lambda, double mu, double push);
 
   double log_barrier() const;  ///< without mu
   /// beta = derivative of mu log_barrier in s, the target of lambda.

@@ -424,7 +424,8 @@ void add_simulation(FileKeys& keys) {
   };
   add("base_position_m", "m", number_text(defaults.position),
       "largest distance of the base at rest from the end of the plan");
-  add("base_angle_rad", "rad", number_text(defaults.angle), "largest angle of the base at rest from the end of the plan");
+  add("base_angle_rad", "rad", number_text(defaults.angle),
+      "largest angle of the base at rest from the end of the plan");
   add("slip_m", "m", number_text(defaults.slip), "largest slip of a foot in contact");
   add("friction", "-", "that of each [[surface]]",
       "friction coefficient of all surfaces; a larger one than in the plan gives a margin");

@@ -32,7 +32,8 @@ std::size_t after_string(std::string_view text, std::size_t at) {
 }
 
 [[noreturn]] void refuse(const SourceText& source, std::size_t at, const char* what) {
-  throw InputError(fmt::format("{}: {} more than {} deep are not allowed", place_in(source, at), what, kDeepestToml));
+  throw InputError(
+      fmt::format("{}: {} more than {} deep are not allowed", location_in(source, at), what, kDeepestToml));
 }
 
 }  // namespace

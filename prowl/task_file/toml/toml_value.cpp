@@ -58,7 +58,7 @@ std::string in_words(const NumberRange& range) {
 }
 
 /// Location of a key (`with_key`) or its value; if missing, of the innermost table around it.
-std::optional<std::string> place_of(const SourceText& source, const std::string& path, bool with_key) {
+std::optional<std::string> location_of(const SourceText& source, const std::string& path, bool with_key) {
   const toml::table root = toml::parse(source.text);
   for (std::string rest = path; !rest.empty();) {
     const std::size_t end = rest.find_last_of(".[");
@@ -221,12 +221,12 @@ Eigen::Vector3d TomlValue::as_vector3() const {
   return {entries[0].as_number(), entries[1].as_number(), entries[2].as_number()};
 }
 
-Bounds TomlValue::as_bounds() const {
+TomlBounds TomlValue::as_bounds() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (is_text() && node_->as_string()->get() == "free") return {-kInfinity, kInfinity};
   if (is_list()) {
     const std::vector<TomlValue> ends = as_list(2);
-    const Bounds bounds{ends[0].as_number(), ends[1].as_number()};
+    const TomlBounds bounds{ends[0].as_number(), ends[1].as_number()};
     if (bounds.lower > bounds.upper) {
       refuse(fmt::format("[{:g}, {:g}] is not allowed; need [min, max] with min <= max", bounds.lower, bounds.upper));
       return {bounds.upper, bounds.lower};
@@ -241,13 +241,13 @@ Bounds TomlValue::as_bounds() const {
   return {value, value};
 }
 
-Bounds TomlValue::as_range() const {
+TomlBounds TomlValue::as_range() const {
   if (!is_list()) {
     const double value = as_number();
     return {value, value};
   }
   const std::vector<TomlValue> ends = as_list(2);
-  const Bounds bounds{ends[0].as_number(), ends[1].as_number()};
+  const TomlBounds bounds{ends[0].as_number(), ends[1].as_number()};
   if (bounds.lower > bounds.upper) {
     refuse("min > max is not allowed; need [min, max]");
     return {bounds.upper, bounds.lower};
@@ -393,16 +393,16 @@ void TomlDocument::add_mistake(const std::string& message) const {
   mistakes_.add(std::numeric_limits<int>::max(), 0, message);  // sorted after those of this file
 }
 
-std::optional<std::string> find_place(const SourceText& source, const std::string& path) {
-  return place_of(source, path, false);
+std::optional<std::string> find_location(const SourceText& source, const std::string& path) {
+  return location_of(source, path, false);
 }
 
 std::string locate(const SourceText& source, const std::string& path) {
-  return place_of(source, path, false).value_or(source.path.string() + ":1:1: ");
+  return location_of(source, path, false).value_or(source.path.string() + ":1:1: ");
 }
 
 std::string locate_key(const SourceText& source, const std::string& path) {
-  return place_of(source, path, true).value_or(source.path.string() + ":1:1: ");
+  return location_of(source, path, true).value_or(source.path.string() + ":1:1: ");
 }
 
 }  // namespace prowl

@@ -18,7 +18,7 @@
 namespace prowl {
 
 /// Lower and upper bound of one quantity; equal where prescribed, infinite where free.
-struct Bounds {
+struct TomlBounds {
   double lower, upper;
 };
 
@@ -57,8 +57,8 @@ class TomlValue {
   std::vector<TomlValue> as_list() const;
   std::vector<TomlValue> as_list(std::size_t size) const;
   Eigen::Vector3d as_vector3() const;
-  Bounds as_bounds() const;  ///< a number, "free" or [lower, upper]
-  Bounds as_range() const;   ///< a number or [min, max]
+  TomlBounds as_bounds() const;  ///< a number, "free" or [lower, upper]
+  TomlBounds as_range() const;   ///< a number or [min, max]
   /// One of the key's choices; `what` describes them in messages.
   const std::string& as_choice(const std::string& what) const { return key().choices[as_one_of(what, key().choices)]; }
   /// Index of the text in `known`; `what` describes these names in messages.
@@ -168,6 +168,6 @@ std::string locate(const SourceText& source, const std::string& path);
 /// The same for the key itself, if its name is wrong.
 std::string locate_key(const SourceText& source, const std::string& path);
 /// locate(); nullopt if no part of the path exists.
-std::optional<std::string> find_place(const SourceText& source, const std::string& path);
+std::optional<std::string> find_location(const SourceText& source, const std::string& path);
 
 }  // namespace prowl

@@ -73,24 +73,24 @@ PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const E
   // are variables, too, unless prescribed.
   result.landing.resize(held.size());
   const int num_landing = static_cast<int>(landing.size());
-  MatrixXd velocity(3 * num_landing, nv), place = MatrixXd::Zero(3 * num_landing, nv + 2 * num_landing);
+  MatrixXd velocity(3 * num_landing, nv), foothold = MatrixXd::Zero(3 * num_landing, nv + 2 * num_landing);
   for (int l = 0; l < num_landing; ++l) {
     const PhaseContact& contact = held[landing[l]];
     const Surface& surface = problem.surfaces[contact.surface];
     Eigen::Matrix3d axes;
     axes << surface.axes(), surface.normal;
     velocity.middleRows<3>(3 * l) = axes.transpose() * J_landing.middleRows<3>(3 * l);
-    place.middleRows<3>(3 * l).leftCols(nv) = velocity.middleRows<3>(3 * l);
-    if (!contact.place) place.block<2, 2>(3 * l, nv + 2 * l) = -Eigen::Matrix2d::Identity();
+    foothold.middleRows<3>(3 * l).leftCols(nv) = velocity.middleRows<3>(3 * l);
+    if (!contact.foothold) foothold.block<2, 2>(3 * l, nv + 2 * l) = -Eigen::Matrix2d::Identity();
     result.landing[landing[l]] = {{}, {}};
   }
   for (const int row : independent_rows(J_staying, velocity)) {
     result.landing[landing[row / 3]].velocity.push_back(row % 3);
   }
-  MatrixXd staying_wide = MatrixXd::Zero(J_staying.rows(), place.cols());
+  MatrixXd staying_wide = MatrixXd::Zero(J_staying.rows(), foothold.cols());
   staying_wide.leftCols(nv) = J_staying;
-  for (const int row : independent_rows(staying_wide, place)) {
-    result.landing[landing[row / 3]].place.push_back(row % 3);
+  for (const int row : independent_rows(staying_wide, foothold)) {
+    result.landing[landing[row / 3]].foothold.push_back(row % 3);
   }
   return result;
 }

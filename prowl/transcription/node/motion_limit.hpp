@@ -7,7 +7,7 @@
 namespace prowl {
 
 /// Limits that a task or robot could change, in contrast to physics.
-enum class LimitKind { friction, torque, joint_position, joint_velocity, goal, place, clearance };
+enum class LimitKind { friction, torque, joint_position, joint_velocity, goal, foothold, clearance };
 
 inline const char* to_string(LimitKind kind) {
   constexpr const char* kNames[] = {"friction", "torque", "joint_position", "joint_velocity",

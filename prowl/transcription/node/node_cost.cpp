@@ -31,10 +31,10 @@ double NodeCost::StateCost::value(const NodePoint& point, const RigidBodyTerms& 
   if (cost.contact_positions.empty()) return value;
   points.set_configuration(terms);
   for (std::size_t i = 0; i < cost.contact_positions.size(); ++i) {
-    const ContactPositionCost& place = cost.contact_positions[i];
+    const ContactPositionCost& term = cost.contact_positions[i];
     const auto row = static_cast<Eigen::Index>(3 * i);
-    const Eigen::Vector3d error = points.positions().segment<3>(row) - place.reference;
-    pull.segment<3>(row) = place.weight.cwiseProduct(error);
+    const Eigen::Vector3d error = points.positions().segment<3>(row) - term.reference;
+    pull.segment<3>(row) = term.weight.cwiseProduct(error);
     value += 0.5 * error.dot(pull.segment<3>(row));
   }
   return value;
@@ -89,9 +89,9 @@ void NodeCost::StateCost::add_hessian(double weight, Eigen::MatrixXd& result) {
   result.diagonal().segment(nv, nv) += weight * cost.velocity_weight;
   if (cost.contact_positions.empty()) return;
   stiff_points = weight * stiffness.asDiagonal() * points.positions_dq();
-  auto places = result.topLeftCorner(nv, nv);
-  places.noalias() += points.positions_dq().transpose() * stiff_points;
-  points.add_position_hessian(pull, weight, places);
+  auto on_q = result.topLeftCorner(nv, nv);
+  on_q.noalias() += points.positions_dq().transpose() * stiff_points;
+  points.add_position_hessian(pull, weight, on_q);
 }
 
 void NodeCost::add_hessian(const NodePoint& point, double factor, Eigen::MatrixXd& result) {

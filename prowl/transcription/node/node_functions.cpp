@@ -126,9 +126,9 @@ std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, 
   if (row < nv_) return std::nullopt;
   if (row >= placement_row(k)) {
     const PlacementRows::Kind kind = placement_.kind(k, row - placement_row(k));
-    if (kind == PlacementRows::Kind::place || kind == PlacementRows::Kind::velocity) return std::nullopt;
+    if (kind == PlacementRows::Kind::foothold || kind == PlacementRows::Kind::velocity) return std::nullopt;
     const int contact = placement_.contact(k, row - placement_row(k));
-    return MotionLimit{.kind = kind == PlacementRows::Kind::inside ? LimitKind::place : LimitKind::clearance,
+    return MotionLimit{.kind = kind == PlacementRows::Kind::inside ? LimitKind::foothold : LimitKind::clearance,
                        .subject = robot.contacts()[contact].name,
                        .unit = "m",
                        .si = robot.size(),
@@ -210,7 +210,7 @@ void NodeFunctions::gather(const PointDerivatives& derivatives, const NodePoint&
   if (free_duration_) result.col(num_variables()).noalias() = derivatives.gains.lazyProduct(gains(point, 1));
   const double kp = gains(point, 0)(1);
   for (std::size_t l = 0; l < landed_.size(); ++l) {
-    result.middleCols<2>(first_place() + static_cast<Index>(2 * l)).noalias() =
+    result.middleCols<2>(first_foothold_variable() + static_cast<Index>(2 * l)).noalias() =
         derivatives.e.middleCols<3>(3 * landed_[l]).lazyProduct(-kp * landed_axes_[l]);
   }
 }
@@ -243,7 +243,7 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
   auto d_anchors = placement_anchors_.topRows(placement_.count(k));
   placement_.derivatives(k, placement_rows.leftCols(nv_), placement_rows.middleCols(nv_, nv_), d_anchors);
   for (std::size_t l = 0; l < landed_.size(); ++l) {
-    placement_rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)).noalias() =
+    placement_rows.middleCols<2>(first_foothold_variable() + static_cast<Index>(2 * l)).noalias() =
         d_anchors.middleCols<3>(3 * landed_[l]).lazyProduct(landed_axes_[l]);
   }
 
@@ -294,7 +294,8 @@ void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor,
   const double factor = cost_factor / point.duration;
   result.col(duration).head(duration) += factor * force_slope_.head(duration);
   result.col(duration).head(3 * nv_ + nu_) += factor * cost_derivatives_.running_gradient;
-  result.row(duration).tail(num_places()) += factor * force_slope_.tail(num_places()).transpose();
+  result.row(duration).tail(num_foothold_variables()) +=
+      factor * force_slope_.tail(num_foothold_variables()).transpose();
   result(duration, duration) += 2.0 * factor * force_slope_(duration);
 }
 
@@ -339,7 +340,7 @@ void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd&
   q_rows.middleCols(3 * nv_, nu_) += inner.qtau;
   q_rows.middleCols(3 * nv_ + nu_, num_chosen_) += inner.qw;
   for (std::size_t l = 0; l < landed_.size(); ++l) {
-    q_rows.middleCols<2>(first_place() + static_cast<Index>(2 * l)) +=
+    q_rows.middleCols<2>(first_foothold_variable() + static_cast<Index>(2 * l)) +=
         inner.qe.middleCols<3>(3 * landed_[l]).lazyProduct(-at_.stabilisation.kp * landed_axes_[l]);
   }
   if (!free_duration_) return;
@@ -348,7 +349,7 @@ void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd&
   q_rows.col(duration).noalias() += inner.qgains.lazyProduct(slope);
   result.col(duration).segment(nv_, nv_).noalias() += inner.vgains.lazyProduct(slope);
   for (std::size_t l = 0; l < landed_.size(); ++l) {
-    result.row(duration).segment<2>(first_place() + static_cast<Index>(2 * l)) -=
+    result.row(duration).segment<2>(first_foothold_variable() + static_cast<Index>(2 * l)) -=
         slope(1) * inner.de.segment<3>(3 * landed_[l]).transpose() * landed_axes_[l];
   }
   const Eigen::Vector2d on_gains(inner.vgains.col(0).dot(point.v),

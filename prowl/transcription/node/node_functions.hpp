@@ -65,7 +65,7 @@ class NodeFunctions {
                 const StabilisationOfStep& stabilisation = {});
 
   int num_variables() const { return 3 * nv_ + nu_ + num_chosen_; }  ///< of a node
-  int num_shared() const { return (free_duration_ ? 1 : 0) + num_places(); }
+  int num_shared() const { return (free_duration_ ? 1 : 0) + num_foothold_variables(); }
   int num_columns() const { return num_variables() + num_shared(); }
   bool has_free_duration() const { return free_duration_; }
   /// Contacts with a free foothold, as indices in the phase's list.
@@ -105,8 +105,8 @@ class NodeFunctions {
   HessianKind hessian_kind() const { return hessian_kind_; }
 
  private:
-  int num_places() const { return 2 * static_cast<int>(landed_.size()); }
-  int first_place() const { return num_variables() + (free_duration_ ? 1 : 0); }
+  int num_foothold_variables() const { return 2 * static_cast<int>(landed_.size()); }
+  int first_foothold_variable() const { return num_variables() + (free_duration_ ? 1 : 0); }
   int num_contacts() const { return static_cast<int>(friction_.size()); }
   bool unloads(int k, int contact) const { return k == intervals_ && opens_[contact]; }
   int contact_row(int k, int contact) const;  ///< first row of a contact, or the end of all

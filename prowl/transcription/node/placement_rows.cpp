@@ -22,7 +22,7 @@ double time_of(const MotionProblem& problem, int first_phase, int last_phase) {
 /// Fraction of the clearance at progress s in [0, 1] of a swing: 1 in the middle, or at the end of
 /// a swing that does not land. A contact leaves and lands at rest, so its height starts and ends
 /// quadratically in time; one in the air at the start begins at its start height.
-double clearance_profile(const Swing& swing, double s) {
+double clearance_profile(const ContactSwing& swing, double s) {
   if (swing.after < 0) return swing.before < 0 ? 0.0 : s * s;
   return 16.0 * s * s * (1.0 - s) * (1.0 - s);
 }
@@ -38,7 +38,7 @@ PlacementRows::PlacementRows(const DiscreteProblem& discrete, int phase, const s
       second_(discrete.problem.robot.nv()) {
   rows_.resize(discrete.mesh.phases[phase].intervals() + 1);
   add_landing(discrete, phase, landing);
-  for (const Swing& swing : discrete.schedule.swings()) {
+  for (const ContactSwing& swing : discrete.schedule.swings()) {
     if (swing.first_phase <= phase && phase <= swing.last_phase)
       add_clearance(discrete, phase, swing, intervals_at_rest);
   }
@@ -63,15 +63,15 @@ void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, cons
     axes << surface.axes(), surface.normal;
     const std::string& name = problem.robot.contacts()[contact.contact].name;
     const LandingAxes& along = landing[i];
-    for (const int axis : along.place) {
-      rows_[0].push_back({Kind::place, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / length_,
+    for (const int axis : along.foothold) {
+      rows_[0].push_back({Kind::foothold, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / length_,
                           name + ", landing place on " + surface.name});
     }
     for (const int axis : along.velocity) {
       rows_[0].push_back({Kind::velocity, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / speed_,
                           name + ", velocity at landing"});
     }
-    if (contact.place) continue;
+    if (contact.foothold) continue;
     for (std::size_t corner = 0; corner < surface.patch.size(); ++corner) {
       const Eigen::Vector2d edge = surface.patch[(corner + 1) % surface.patch.size()] - surface.patch[corner];
       const Eigen::Vector3d inward = surface.axes() * Eigen::Vector2d(-edge.y(), edge.x()).normalized();
@@ -84,7 +84,7 @@ void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, cons
 
 // Unbounded surfaces count during the whole swing. To avoid edge logic, the patch that the foot
 // leaves counts in the first half, the patch on which it lands in the second.
-void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, const Swing& swing,
+void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, const ContactSwing& swing,
                                   int intervals_at_rest) {
   const MotionProblem& problem = discrete.problem;
   const double total = time_of(problem, swing.first_phase, swing.last_phase);
@@ -129,7 +129,7 @@ int PlacementRows::most_rows() const {
 
 double PlacementRows::upper(int k, int row) const {
   const Kind kind = at(k, row).kind;
-  return kind == Kind::place || kind == Kind::velocity ? at(k, row).lower : std::numeric_limits<double>::infinity();
+  return kind == Kind::foothold || kind == Kind::velocity ? at(k, row).lower : std::numeric_limits<double>::infinity();
 }
 
 std::string PlacementRows::describe(int k, int row) const { return at(k, row).what; }
@@ -144,7 +144,7 @@ void PlacementRows::evaluate(int k, const RigidBodyTerms& terms, const Eigen::Ve
     const Eigen::Index first = 3 * row.point;
     double value = 0.0;
     switch (row.kind) {
-      case Kind::place:
+      case Kind::foothold:
         value = row.axis.dot(kinematics_.positions().segment<3>(first) - anchors.segment<3>(3 * row.held));
         break;
       case Kind::velocity:
@@ -179,7 +179,7 @@ void PlacementRows::derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Re
       continue;
     }
     dq.row(i).noalias() = axis.lazyProduct(kinematics_.positions_dq().middleRows<3>(first));
-    if (row.kind == Kind::place) danchors.row(i).segment<3>(3 * row.held) = -axis;
+    if (row.kind == Kind::foothold) danchors.row(i).segment<3>(3 * row.held) = -axis;
   }
 }
 

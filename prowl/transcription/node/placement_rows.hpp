@@ -12,7 +12,7 @@ namespace prowl {
 /// Surface axes (0 and 1 tangential, 2 normal) along which a landing contact is positioned and
 /// stopped. All three, unless other contacts determine some of them.
 struct LandingAxes {
-  std::vector<int> place = {0, 1, 2};
+  std::vector<int> foothold = {0, 1, 2};
   std::vector<int> velocity = {0, 1, 2};
 };
 
@@ -36,7 +36,7 @@ class PlacementRows {
   double lower(int k, int row) const { return at(k, row).lower; }
   double upper(int k, int row) const;
   std::string describe(int k, int row) const;
-  enum class Kind { place, velocity, inside, clearance };
+  enum class Kind { foothold, velocity, inside, clearance };
   Kind kind(int k, int row) const { return at(k, row).kind; }
   int contact(int k, int row) const { return points_[at(k, row).point]; }  ///< of the robot
 
@@ -65,7 +65,7 @@ class PlacementRows {
   };
   const Row& at(int k, int row) const { return rows_[k][row]; }
   void add_landing(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing);
-  void add_clearance(const DiscreteProblem& discrete, int phase, const Swing& swing, int intervals_at_rest);
+  void add_clearance(const DiscreteProblem& discrete, int phase, const ContactSwing& swing, int intervals_at_rest);
   int point_of(int contact);
 
   double length_, speed_;

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from .. import _prowl
+from .._extras import needs
 from .._plans import Folders, PlanOrFolder, as_plan, folder_with, output_folder
 
 if TYPE_CHECKING:
@@ -114,7 +115,8 @@ def _files(plan: _prowl.Plan, samples: Samples, formats: set[str], rate: float |
 
             files[f"{prefix}motion.npz"] = npz.write(document)
         if "mcap" in formats:
-            from . import mcap
+            with needs("formats"):
+                from . import mcap
 
             in_parent = plan.robot.link_placements(samples.motion.q, in_parent=True).tolist()
             files[f"{prefix}motion.mcap"] = mcap.write(document, in_parent, samples.one_a_time(), plan.robot.urdf_text)

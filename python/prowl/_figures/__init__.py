@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .. import _prowl
+from .._extras import needs
 from .._plans import Folders, PlanOrFolder, as_plan, folder_with, output_folder
 
 
@@ -42,7 +43,8 @@ def figures(
     Raises InputError for an invalid plan or joint, FileError if `out` cannot be replaced; then it writes
     nothing.
     """
-    from . import draw, tables  # imports Matplotlib, which takes a second
+    with needs("figures"):
+        from . import draw, tables  # imports Matplotlib, which takes a second
 
     drawn = as_plan(plan, package_dirs)
     folder = output_folder(drawn, out, "figures")

@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from .. import _prowl
-from .bar import run_with_bar, solve_bar
 from .._files import parse_task, read_task
+from .bar import run_with_bar, solve_bar
 
 AnyTask = _prowl.Task | str | os.PathLike[str] | Mapping[str, Any]
 

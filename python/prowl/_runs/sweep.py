@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from .. import _prowl
-from .bar import run_with_bar, sweep_bar
 from .._plans import Folders, PlanOrFolder, as_plan
+from .bar import run_with_bar, sweep_bar
 
 
 def sweep(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import _prowl
+from .._extras import needs
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,10 +17,8 @@ if TYPE_CHECKING:
 def plot(plan: _prowl.Plan, simulation: _prowl.Simulation | None) -> Figure:
     """Four axes over time: base position, vertical contact forces, torques of the most loaded joints, largest
     share of the torque limits. Plan: lines; simulation: dashes of the same colours."""
-    try:
+    with needs("figures"):
         import matplotlib.pyplot as plt
-    except ImportError as error:
-        raise _prowl.InputError("plot() needs matplotlib: pip install matplotlib") from error
     from .._figures import style
 
     with plt.rc_context():

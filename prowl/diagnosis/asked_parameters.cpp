@@ -1,4 +1,4 @@
-#include "prowl/diagnosis/asked_knobs.hpp"
+#include "prowl/diagnosis/asked_parameters.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 /// The goal at that part of its distance from the start: pose, joints and velocities; not torques.
-BoundaryCondition nearer(const MotionProblem& problem, BoundaryCondition goal, double part) {
+BoundaryConstraint nearer(const MotionProblem& problem, BoundaryConstraint goal, double part) {
   const VectorXd& start = problem.start_configuration();
   const int nu = problem.robot.nu();
   goal.q_ref.head<3>() = start.head<3>() + part * (goal.q_ref - start).head<3>();
@@ -48,7 +48,7 @@ struct Away {
 };
 
 /// The farthest entry, relative to its size; off = 0 if none is away.
-Away farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
+Away farthest(const MotionProblem& problem, const BoundaryConstraint& goal) {
   const RobotModel& robot = problem.robot;
   const VectorXd& start = problem.start_configuration();
   Away most;
@@ -79,9 +79,9 @@ Away farthest(const MotionProblem& problem, const BoundaryCondition& goal) {
   return most;
 }
 
-Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& away) {
+AdjustableParameter goal_parameter(const MotionProblem& problem, std::size_t constraint, const Away& away) {
   return {.kind = "goal",
-          .phase = problem.boundary_conditions[condition].at.phase,
+          .phase = problem.boundary_constraints[constraint].at.phase,
           .subject = away.entry.subject,
           .most = kMostOfWay,
           .is_asked = true,
@@ -89,10 +89,10 @@ Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& 
           .unit = away.entry.unit,
           .value = [off = away.off](double a) { return off * std::exp(-a); },
           .problem =
-              [&problem, condition](double a) {
+              [&problem, constraint](double a) {
                 MotionProblem changed = problem;
-                changed.boundary_conditions[condition] =
-                    nearer(problem, problem.boundary_conditions[condition], std::exp(-a));
+                changed.boundary_constraints[constraint] =
+                    nearer(problem, problem.boundary_constraints[constraint], std::exp(-a));
                 return changed;
               },
           .words =
@@ -111,12 +111,13 @@ Knob goal_knob(const MotionProblem& problem, std::size_t condition, const Away& 
 }
 
 /// A place brought nearer to where its contact was at the start or before it opened.
-Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const Vector3d& from) {
+AdjustableParameter foothold_parameter(const MotionProblem& problem, int phase, std::size_t held,
+                                       const Vector3d& from) {
   const PhaseContact& contact = problem.phases[phase].contacts[held];
   const Surface& surface = problem.surfaces[contact.surface];
-  const Vector3d to = *contact.place;
+  const Vector3d to = *contact.foothold;
   const Vector3d root = from - (from - to).dot(surface.normal) * surface.normal;  // projected on the surface
-  const auto place = [root, to](double a) -> Vector3d { return root + std::exp(-a) * (to - root); };
+  const auto foothold = [root, to](double a) -> Vector3d { return root + std::exp(-a) * (to - root); };
   return {.kind = "place",
           .phase = phase,
           .subject = problem.robot.contacts()[contact.contact].name,
@@ -126,14 +127,14 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
           .unit = "m",
           .value = [root, to](double a) { return std::exp(-a) * (to - root).norm(); },
           .problem =
-              [&problem, phase, held, place](double a) {
+              [&problem, phase, held, foothold](double a) {
                 MotionProblem changed = problem;
-                changed.phases[phase].contacts[held].place = place(a);
+                changed.phases[phase].contacts[held].foothold = foothold(a);
                 return changed;
               },
           .words =
-              [place, root](double a) {
-                const Vector3d at = place(a);
+              [foothold, root](double a) {
+                const Vector3d at = foothold(a);
                 constexpr double kRounding = 1e-9;  // [m]; avoids -0 from the projection
                 const Vector3d shown = (at.array().abs() < kRounding).select(0.0, at);
                 return fmt::format("[{:.6g}] m ({:.3g} m from its previous position)", fmt::join(shown, ", "),
@@ -141,7 +142,7 @@ Knob place_knob(const MotionProblem& problem, int phase, std::size_t held, const
               }};
 }
 
-Knob clearance_knob(const MotionProblem& problem) {
+AdjustableParameter clearance_parameter(const MotionProblem& problem) {
   return {.kind = "clearance",
           .subject = "",
           .most = kMostAmount,
@@ -157,34 +158,34 @@ Knob clearance_knob(const MotionProblem& problem) {
               }};
 }
 
-void add_places(const MotionProblem& problem, std::vector<Knob>& knobs) {
+void add_footholds(const MotionProblem& problem, std::vector<AdjustableParameter>& parameters) {
   const ContactSchedule schedule(problem);
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(problem.start_configuration());
   for (int p = 1; p < static_cast<int>(problem.phases.size()); ++p) {
     const auto& contacts = problem.phases[p].contacts;
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (!contacts[i].place || !schedule.lands(p, static_cast<int>(i))) continue;
+      if (!contacts[i].foothold || !schedule.lands(p, static_cast<int>(i))) continue;
       std::optional<Vector3d> from = terms.contact_position(contacts[i].contact);
-      for (const Stance& stance : schedule.stances()) {
-        if (stance.contact == contacts[i].contact && stance.last_phase < p && stance.lands()) from = stance.place;
+      for (const ContactStance& stance : schedule.stances()) {
+        if (stance.contact == contacts[i].contact && stance.last_phase < p && stance.lands()) from = stance.foothold;
       }
-      if (from) knobs.push_back(place_knob(problem, p, i, *from));
+      if (from) parameters.push_back(foothold_parameter(problem, p, i, *from));
     }
   }
 }
 
 }  // namespace
 
-std::vector<Knob> asked_knobs(const MotionProblem& problem) {
-  std::vector<Knob> knobs;
-  for (std::size_t c = 1; c < problem.boundary_conditions.size(); ++c) {
-    const Away away = farthest(problem, problem.boundary_conditions[c]);
-    if (away.off != 0.0) knobs.push_back(goal_knob(problem, c, away));
+std::vector<AdjustableParameter> asked_parameters(const MotionProblem& problem) {
+  std::vector<AdjustableParameter> parameters;
+  for (std::size_t c = 1; c < problem.boundary_constraints.size(); ++c) {
+    const Away away = farthest(problem, problem.boundary_constraints[c]);
+    if (away.off != 0.0) parameters.push_back(goal_parameter(problem, c, away));
   }
-  add_places(problem, knobs);
-  if (problem.phases.size() > 1 && problem.swing_clearance > 0.0) knobs.push_back(clearance_knob(problem));
-  return knobs;
+  add_footholds(problem, parameters);
+  if (problem.phases.size() > 1 && problem.swing_clearance > 0.0) parameters.push_back(clearance_parameter(problem));
+  return parameters;
 }
 
 }  // namespace prowl

@@ -10,11 +10,11 @@ namespace prowl {
 
 /// Position of the contact point in each stance, in the order of ContactSchedule::stances(), world frame [m]: its
 /// position at the start, or over the given foothold. None if the optimiser chooses.
-std::vector<std::optional<Eigen::Vector3d>> prescribed_places(const MotionProblem& problem,
-                                                              const ContactSchedule& schedule);
+std::vector<std::optional<Eigen::Vector3d>> prescribed_footholds(const MotionProblem& problem,
+                                                                 const ContactSchedule& schedule);
 
 /// True if a condition is at a time of the phase, its ends included: those belong to the phases on both sides.
-bool is_during(const BoundaryCondition& condition, int phase);
+bool is_during(const BoundaryConstraint& constraint, int phase);
 
 /// Bounds of a condition on the point p_base + R_base offset.
 struct PointBounds {
@@ -26,6 +26,6 @@ struct PointBounds {
   /// Least d . point that the condition allows; d a unit vector.
   double least_along(const Eigen::Vector3d& d) const;
 };
-PointBounds point_bounds(const BoundaryCondition& condition, const Eigen::Vector3d& offset);
+PointBounds point_bounds(const BoundaryConstraint& constraint, const Eigen::Vector3d& offset);
 
 }  // namespace prowl

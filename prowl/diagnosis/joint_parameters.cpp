@@ -1,4 +1,4 @@
-#include "prowl/diagnosis/joint_knobs.hpp"
+#include "prowl/diagnosis/joint_parameters.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -92,7 +92,7 @@ std::vector<int> turnable_joints(const RobotModel& robot, LimitKind kind) {
   return joints;
 }
 
-Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints) {
+AdjustableParameter joint_parameter(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints) {
   const RobotModel& robot = problem.robot;
   const int first = joints.front();
   const auto range = [&problem, kind, joints, first](double a) {
@@ -122,13 +122,13 @@ Knob joint_knob(const MotionProblem& problem, LimitKind kind, const std::vector<
               }};
 }
 
-std::vector<Knob> joint_knobs(const MotionProblem& problem) {
-  std::vector<Knob> knobs;
+std::vector<AdjustableParameter> joint_parameters(const MotionProblem& problem) {
+  std::vector<AdjustableParameter> parameters;
   for (const LimitKind kind : {LimitKind::torque, LimitKind::joint_velocity, LimitKind::joint_position}) {
     const std::vector<int> joints = turnable_joints(problem.robot, kind);
-    if (!joints.empty()) knobs.push_back(joint_knob(problem, kind, joints));
+    if (!joints.empty()) parameters.push_back(joint_parameter(problem, kind, joints));
   }
-  return knobs;
+  return parameters;
 }
 
 }  // namespace prowl

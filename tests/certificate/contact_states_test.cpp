@@ -1,4 +1,4 @@
-#include "prowl/certificate/contact_places.hpp"
+#include "prowl/certificate/contact_states.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ namespace {
 constexpr int kStep = 0, kNever = 1, kStays = 2;  // contacts: steps from surface 0 to 1, never touches, always on 0
 
 /// Three phases of one interval; the base moves 1 cm a node along x, and all contacts with it.
-ContactPlaces stepping() {
+ContactStates stepping() {
   const RobotModel robot = test::hyq();
   Trajectory trajectory;
   for (int node = 0; node < 6; ++node) {
@@ -32,38 +32,38 @@ ContactPlaces stepping() {
 
   PhaseDynamics dynamics;
   for (int p = 0; p < 3; ++p) dynamics.emplace_back(robot, std::vector<int>{});
-  return contact_places({std::move(problem), {std::vector(3, PhaseMesh(1))}}, trajectory, dynamics);
+  return contact_states({std::move(problem), {std::vector(3, PhaseMesh(1))}}, trajectory, dynamics);
 }
 
-TEST(ContactPlaces, AContactThatStaysKeepsItsAnchor) {
-  const ContactPlaces places = stepping();
+TEST(ContactStates, AContactThatStaysKeepsItsAnchor) {
+  const ContactStates states = stepping();
   for (int p = 1; p < 3; ++p) {
-    EXPECT_FALSE(places[p][kStays].closes);
-    EXPECT_EQ(places[p][kStays].anchor, places[0][kStays].anchor);
-    EXPECT_EQ(places[p][kStays].time, 0.0);
+    EXPECT_FALSE(states[p][kStays].closes);
+    EXPECT_EQ(states[p][kStays].anchor, states[0][kStays].anchor);
+    EXPECT_EQ(states[p][kStays].time, 0.0);
   }
 }
 
-TEST(ContactPlaces, AContactThatClosesIsAnchoredAtTheFirstNodeOfThatPhase) {
-  const ContactPlaces places = stepping();
-  const ContactPlace &before = places[0][kStep], &after = places[2][kStep];
+TEST(ContactStates, AContactThatClosesIsAnchoredAtTheFirstNodeOfThatPhase) {
+  const ContactStates states = stepping();
+  const ContactState &before = states[0][kStep], &after = states[2][kStep];
   EXPECT_TRUE(before.closes);
   EXPECT_TRUE(after.closes);
-  EXPECT_FALSE(places[1][kStep].surface.has_value());
+  EXPECT_FALSE(states[1][kStep].surface.has_value());
   EXPECT_EQ(after.time, 1.0);
   EXPECT_NEAR((after.anchor - before.anchor).x(), 0.04, 1e-12);  // four nodes later
 }
 
-TEST(ContactPlaces, AContactOpensAtTheEndOfItsStanceAndSwingsToTheNext) {
-  const ContactPlaces places = stepping();
-  EXPECT_TRUE(places[0][kStep].opens);
-  EXPECT_FALSE(places[0][kStep].swings);
-  EXPECT_FALSE(places[1][kStep].opens);
-  EXPECT_TRUE(places[1][kStep].swings);
-  EXPECT_FALSE(places[2][kStep].opens) << "the end of the motion opens nothing";
+TEST(ContactStates, AContactOpensAtTheEndOfItsStanceAndSwingsToTheNext) {
+  const ContactStates states = stepping();
+  EXPECT_TRUE(states[0][kStep].opens);
+  EXPECT_FALSE(states[0][kStep].swings);
+  EXPECT_FALSE(states[1][kStep].opens);
+  EXPECT_TRUE(states[1][kStep].swings);
+  EXPECT_FALSE(states[2][kStep].opens) << "the end of the motion opens nothing";
   for (int p = 0; p < 3; ++p) {
-    EXPECT_FALSE(places[p][kStays].opens || places[p][kStays].swings);
-    EXPECT_FALSE(places[p][kNever].opens || places[p][kNever].swings);
+    EXPECT_FALSE(states[p][kStays].opens || states[p][kStays].swings);
+    EXPECT_FALSE(states[p][kNever].opens || states[p][kNever].swings);
   }
 }
 

@@ -7,9 +7,9 @@
 namespace prowl {
 
 /// A smooth vector function y(x) with exact derivatives: a node of a ProgramGraph.
-class Function {
+class DifferentiableFunction {
  public:
-  virtual ~Function() = default;
+  virtual ~DifferentiableFunction() = default;
 
   virtual int num_inputs() const = 0;
   virtual int num_outputs() const = 0;

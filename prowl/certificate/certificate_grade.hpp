@@ -3,8 +3,8 @@
 namespace prowl {
 
 /// Grade of a certificate; CertificateLimits contains the limits.
-enum class Grade { failed, draft, certified };
+enum class CertificateGrade { failed, draft, certified };
 
-const char* to_string(Grade grade);
+const char* to_string(CertificateGrade grade);
 
 }  // namespace prowl

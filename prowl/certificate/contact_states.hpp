@@ -10,7 +10,7 @@
 namespace prowl {
 
 /// State of one contact of the robot in one phase.
-struct ContactPlace {
+struct ContactState {
   std::optional<int> surface;                        ///< of the surface that it holds, if any
   bool closes = false;                               ///< lands: it was open or elsewhere in the phase before
   bool opens = false;                                ///< stands here, is open in the phase after
@@ -20,8 +20,8 @@ struct ContactPlace {
 };
 
 /// [phase][contact of the robot].
-using ContactPlaces = std::vector<std::vector<ContactPlace>>;
+using ContactStates = std::vector<std::vector<ContactState>>;
 
-ContactPlaces contact_places(const DiscreteProblem& discrete, const Trajectory& trajectory, PhaseDynamics& dynamics);
+ContactStates contact_states(const DiscreteProblem& discrete, const Trajectory& trajectory, PhaseDynamics& dynamics);
 
 }  // namespace prowl

@@ -1,4 +1,4 @@
-#include "prowl/diagnosis/change.hpp"
+#include "prowl/diagnosis/adjustable_parameter.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "prowl/diagnosis/asked_knobs.hpp"
-#include "prowl/diagnosis/joint_knobs.hpp"
+#include "prowl/diagnosis/asked_parameters.hpp"
+#include "prowl/diagnosis/joint_parameters.hpp"
 #include "prowl/motion/duration_limits.hpp"
 
 namespace prowl {
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kMostFriction = 0.8;  // rubber on dry concrete; robots that rely on more fall
 
-Knob friction_knob(const MotionProblem& problem, int surface) {
+AdjustableParameter friction_parameter(const MotionProblem& problem, int surface) {
   const Surface& one = problem.surfaces[surface];
   return {.kind = "friction",
           .subject = one.name,
@@ -50,7 +50,7 @@ double most_of_duration(const MotionProblem& problem, int phase, double sign) {
 }
 
 /// phase -1: all phases together; sign -1: shorter.
-Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
+AdjustableParameter duration_parameter(const MotionProblem& problem, int phase, double sign) {
   const auto scaled = [phase, sign](MotionProblem changed, double a) {
     for (int p = 0; p < static_cast<int>(changed.phases.size()); ++p) {
       if (phase >= 0 && p != phase) continue;
@@ -74,58 +74,60 @@ Knob duration_knob(const MotionProblem& problem, int phase, double sign) {
           }};
 }
 
-/// Most phases with a knob each for their duration; a gait has many phases, from one number.
+/// Most phases with a parameter each for their duration; a gait has many phases, from one number.
 constexpr int kMostPhases = 5;
 
 constexpr std::size_t kStands = 3;  // contacts; with fewer, a robot cannot stand for long
 
 }  // namespace
 
-double printable_amount(const Knob& knob, double amount) {
+double printable_amount(const AdjustableParameter& parameter, double amount) {
   constexpr double kRounding = 1e-9;
-  const double from = std::abs(knob.value(0.0)), to = std::abs(knob.value(amount));
+  const double from = std::abs(parameter.value(0.0)), to = std::abs(parameter.value(amount));
   if (from == 0.0) return amount;  // no factor changes zero
   const double digit = std::pow(10.0, std::floor(std::log10(to)) - 2.0);
   const double rounded = digit * (to > from ? std::ceil(to / digit - kRounding) : std::floor(to / digit + kRounding));
-  const double more = std::min(std::abs(std::log(rounded / from)), knob.most);
+  const double more = std::min(std::abs(std::log(rounded / from)), parameter.most);
   return more >= amount - kRounding ? more : amount;  // a range at its widest
 }
 
-std::vector<Knob> knobs_of(const MotionProblem& problem) {
-  std::vector<Knob> knobs;
+std::vector<AdjustableParameter> adjustable_parameters(const MotionProblem& problem) {
+  std::vector<AdjustableParameter> parameters;
   std::set<int> surfaces;
   for (const Phase& phase : problem.phases) {
     for (const PhaseContact& contact : phase.contacts) surfaces.insert(contact.surface);
   }
   for (const int surface : surfaces) {
-    if (problem.surfaces[surface].friction < kMostFriction) knobs.push_back(friction_knob(problem, surface));
+    if (problem.surfaces[surface].friction < kMostFriction) parameters.push_back(friction_parameter(problem, surface));
   }
-  for (const Knob& knob : asked_knobs(problem)) knobs.push_back(knob);
-  for (const Knob& knob : joint_knobs(problem)) knobs.push_back(knob);
+  for (const AdjustableParameter& parameter : asked_parameters(problem)) parameters.push_back(parameter);
+  for (const AdjustableParameter& parameter : joint_parameters(problem)) parameters.push_back(parameter);
   const int phases = static_cast<int>(problem.phases.size());
   for (int p = 0; p < phases && phases <= kMostPhases; ++p) {
-    knobs.push_back(duration_knob(problem, p, 1.0));
+    parameters.push_back(duration_parameter(problem, p, 1.0));
     const bool may_be_shorter = problem.phases[p].contacts.size() < kStands;
-    if (may_be_shorter) knobs.push_back(duration_knob(problem, p, -1.0));
+    if (may_be_shorter) parameters.push_back(duration_parameter(problem, p, -1.0));
   }
-  if (phases > 1) knobs.push_back(duration_knob(problem, -1, 1.0));
-  return knobs;
+  if (phases > 1) parameters.push_back(duration_parameter(problem, -1, 1.0));
+  return parameters;
 }
 
-std::string in_words(const Knob& knob, double amount) {
-  const std::string value = knob.words ? knob.words(amount)
-                                       : fmt::format("{}{:.3g}{}", knob.is_factor ? "x " : "", knob.value(amount),
-                                                     knob.unit.empty() || knob.is_factor ? "" : " " + knob.unit);
-  if (knob.kind == "goal") return knob.subject + " " + value;
-  if (knob.kind == "clearance") return "swing clearance " + value;
-  const std::string subject = knob.subject.empty() ? (knob.kind == "duration" ? "all phases" : "all joints")
-                              : knob.kind != "duration" || knob.phase < 0 ? knob.subject
-                                                                          : "phase '" + knob.subject + "'";
-  const std::string what = knob.kind == "torque"           ? "torque limits"
-                           : knob.kind == "joint_velocity" ? "velocity limits"
-                           : knob.kind == "joint_position" ? "position ranges"
-                           : knob.kind == "place"          ? "foothold"
-                                                           : knob.kind;
+std::string in_words(const AdjustableParameter& parameter, double amount) {
+  const std::string value =
+      parameter.words ? parameter.words(amount)
+                      : fmt::format("{}{:.3g}{}", parameter.is_factor ? "x " : "", parameter.value(amount),
+                                    parameter.unit.empty() || parameter.is_factor ? "" : " " + parameter.unit);
+  if (parameter.kind == "goal") return parameter.subject + " " + value;
+  if (parameter.kind == "clearance") return "swing clearance " + value;
+  const std::string subject = parameter.subject.empty() ? (parameter.kind == "duration" ? "all phases" : "all joints")
+                              : parameter.kind != "duration" || parameter.phase < 0
+                                  ? parameter.subject
+                                  : "phase '" + parameter.subject + "'";
+  const std::string what = parameter.kind == "torque"           ? "torque limits"
+                           : parameter.kind == "joint_velocity" ? "velocity limits"
+                           : parameter.kind == "joint_position" ? "position ranges"
+                           : parameter.kind == "place"          ? "foothold"
+                                                                : parameter.kind;
   return fmt::format("{} of {} {}", what, subject, value);
 }
 

@@ -10,9 +10,9 @@
 namespace prowl {
 
 /// A number of the task or of the robot that a diagnosis may change. Its amount a >= 0 is the logarithm of a ratio, so
-/// all knobs share one scale: friction times e^a, duration times e^a or e^-a, a goal at e^-a of its distance from the
-/// start. 0 changes nothing.
-struct Knob {
+/// all parameters share one scale: friction times e^a, duration times e^a or e^-a, a goal at e^-a of its distance from
+/// the start. 0 changes nothing.
+struct AdjustableParameter {
   std::string kind;        ///< a LimitKind, or "duration"
   int phase = -1;          ///< -1 for the whole motion
   std::string subject;     ///< surface, goal, contact, joint or phase; "" for all
@@ -31,7 +31,7 @@ struct Knob {
 };
 
 /// "torque limits of all joints x 1.5", "friction of floor 0.61", "goal 1, base z 0.254 m".
-std::string in_words(const Knob& knob, double amount);
+std::string in_words(const AdjustableParameter& parameter, double amount);
 
 /// With more than twenty times the torque it is another robot. A goal may be in millimetres by mistake.
 inline const double kMostAmount = std::log(20.0), kMostOfWay = std::log(1000.0);
@@ -43,12 +43,13 @@ inline constexpr double kWeightOfWay = 1.25;
 inline constexpr double kWeightOfTime = 2.5;
 inline constexpr double kWeightOfAllTimes = 3.0;
 
-/// All knobs of a problem: friction of each surface in use, if below that of rubber on dry concrete; duration of each
-/// phase (of five or fewer), longer, or shorter with fewer than three contacts, and of all phases together; torque,
-/// velocity and position limits of all joints; asked_knobs(). They refer to the problem, which must outlive them.
-std::vector<Knob> knobs_of(const MotionProblem& problem);
+/// All parameters of a problem: friction of each surface in use, if below that of rubber on dry concrete; duration of
+/// each phase (of five or fewer), longer, or shorter with fewer than three contacts, and of all phases together;
+/// torque, velocity and position limits of all joints; asked_parameters(). They refer to the problem, which must
+/// outlive them.
+std::vector<AdjustableParameter> adjustable_parameters(const MotionProblem& problem);
 
 /// That amount, or slightly more, so that value() has at most three digits: the printed number is the solved one.
-double printable_amount(const Knob& knob, double amount);
+double printable_amount(const AdjustableParameter& parameter, double amount);
 
 }  // namespace prowl
