@@ -1,6 +1,6 @@
 prowl_test(alternatives/base_chart prowl::alternatives)
 prowl_test(alternatives/collocation prowl::alternatives nlp_support)
-prowl_test(alternatives/order prowl::alternatives prowl::solvers)
+prowl_test(alternatives/order prowl::alternatives prowl::solvers prowl::ipopt)
 prowl_test(alternatives/contact_motion prowl::alternatives)
 prowl_test(alternatives/run_formulation prowl::alternatives prowl::prowl prowl::ipopt)
 prowl_test(alternatives/centroidal_kinematics prowl::alternatives pinocchio::pinocchio_default)
