@@ -19,9 +19,10 @@ PyObject* interrupted_type = nullptr;  // of this module, which is loaded once i
 
 }  // namespace
 
-void raise_interrupted(nb::handle plan) {
-  const nb::object error = nb::handle(interrupted_type)("stopped; the best motion so far is in .plan");
+void raise_interrupted(const char* message, nb::handle plan, nb::handle sweep) {
+  const nb::object error = nb::handle(interrupted_type)(message);
   nb::setattr(error, "plan", plan);
+  nb::setattr(error, "sweep", sweep);
   PyErr_SetObject(interrupted_type, error.ptr());
   throw nb::python_error();
 }
@@ -52,9 +53,11 @@ void bind_errors(nb::module_& module) {
   const std::string name = nb::cast<std::string>(module.attr("__name__")) + ".Interrupted";
   const nb::object interrupted = nb::steal(PyErr_NewException(name.c_str(), PyExc_KeyboardInterrupt, nullptr));
   document(interrupted,
-           "Ctrl-C, or the stop button of a notebook, while solve() ran: a KeyboardInterrupt. Its attribute `plan` is "
-           "the best\n"
-           "motion so far, with status \"interrupted\".");
+           "Ctrl-C, or the stop button of a notebook, while solve() or sweep() ran: a KeyboardInterrupt. Its attribute "
+           "`plan` is\n"
+           "the best motion so far, with status \"interrupted\"; `sweep` contains the simulations that have finished. "
+           "Each is None\n"
+           "if there is none.");
   module.attr("Interrupted") = interrupted;
   interrupted_type = interrupted.ptr();
 }

@@ -31,7 +31,8 @@ def sweep(
     only. package_dirs: as of read_task(). progress: show a bar with tqdm; None does so in a terminal and in a notebook.
     on_progress: called with the number of simulations that are done, and of all.
 
-    The same arguments give the same result. Ctrl-C raises KeyboardInterrupt.
+    The same arguments give the same result. Ctrl-C raises Interrupted, a KeyboardInterrupt; its `sweep` contains the simulations
+    that have finished, and is None if none has.
     """
     found = as_plan(plan, package_dirs)
 
