@@ -123,6 +123,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
                {"phases", phases_json(problem, inputs.plan.plan)},
                {"plan_json", plan_to_json(record)},
                {"command", plan_command(record)},
+               {"simulated_friction", nullptr},
                {"scene", report_scene(problem, search, warnings)},
                {"plan", report_motion_json(robot, plan)},
                {"simulation", nullptr},
@@ -130,6 +131,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
                {"charts", report_charts(problem, plan, simulation)},
                {"gains", nullptr},
                {"live", nullptr}};
+  if (record.task.simulated_friction) data["simulated_friction"] = *record.task.simulated_friction;
   if (!simulation.empty()) data["simulation"] = report_motion_json(robot, simulation);
   if (inputs.tracking) data["gains"] = report_gains(*inputs.tracking, kGainStep);
   return data;

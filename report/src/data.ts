@@ -165,6 +165,7 @@ export interface ReportData {
   phases: Phase[];
   plan_json: PlanJson;
   command: string;
+  simulated_friction: number | null; // of the task; null: as planned with
   scene: Scene;
   plan: MotionData;
   simulation: MotionData | null;

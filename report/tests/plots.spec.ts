@@ -270,6 +270,16 @@ test("arrows are the planned forces, inside the cones of their surfaces", async 
   expect(drawn).toBeGreaterThan(5);
 });
 
+test("the command of a simulation has the options that were given, and no other", async ({ page }) => {
+  expect(readFileSync(path.join(root, "tasks/hyq/walk.toml"), "utf8")).toMatch(/^\[simulation\]\s*friction = /m);
+  const command = async (name: string) => {
+    await open(page, name);
+    return (await page.locator("pre.commands").textContent())!.split("\n").at(-1);
+  };
+  expect(await command("walk")).toBe(`prowl simulate ${folder("walk")}`); // the friction is the task's own
+  expect(await command("rollout")).toBe(`prowl simulate ${folder("rollout")} --engine rollout`);
+});
+
 test("solver and reproduction say what plan.json says", async ({ page }) => {
   await open(page, "step");
   const plan = JSON.parse(readFileSync(`${folder("step")}/plan.json`, "utf8"));
