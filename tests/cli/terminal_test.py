@@ -120,7 +120,10 @@ class TerminalTest(unittest.TestCase):
             text = self.plan(Terminal(columns, NO_COLOR="1"))
             lines = [line for line in text.splitlines() if " " in line.strip() and self.out not in line]
             longest[columns] = max(map(len, lines))
-            self.assertLessEqual(longest[columns], max(columns, 76), text)
+            self.assertLessEqual(longest[columns], columns, text)
+            checked = Terminal(columns, NO_COLOR="1").run("check", self.out, "--package-dir", PACKAGE_DIR)[1]
+            self.assertRegex(checked, r"\n  joint torque .* pass\n")
+            self.assertLessEqual(max(len(line) for line in checked.splitlines() if self.out not in line), columns, checked)
         self.assertGreater(longest[140], 80)
 
     def test_names_are_cut_where_they_say_least(self) -> None:
