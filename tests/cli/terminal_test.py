@@ -123,7 +123,9 @@ class TerminalTest(unittest.TestCase):
             self.assertLessEqual(longest[columns], columns, text)
             checked = Terminal(columns, NO_COLOR="1").run("check", self.out, "--package-dir", PACKAGE_DIR)[1]
             self.assertRegex(checked, r"\n  joint torque .* pass\n")
-            self.assertLessEqual(max(len(line) for line in checked.splitlines() if self.out not in line), columns, checked)
+            self.assertLessEqual(
+                max(len(line) for line in checked.splitlines() if self.out not in line), columns, checked
+            )
         self.assertGreater(longest[140], 80)
 
     def test_names_are_cut_where_they_say_least(self) -> None:
@@ -145,6 +147,34 @@ class TerminalTest(unittest.TestCase):
         for noise in ("Excludes", "Needs", "NUMBER", "INT in"):
             self.assertNotIn(noise, text)
         self.assertIn("\x1b[1mMesh:\x1b[0m", Terminal().run("plan", "--help")[1])
+
+    def test_help_of_every_verb_is_in_groups_and_without_noise(self) -> None:
+        groups = {
+            "plan": ["Options", "Mesh", "Solver", "Output"],
+            "view": ["Options", "Mesh", "Solver", "Output"],
+            "compare": ["Options", "Compared", "Solver", "Output"],
+            "simulate": ["Options", "MuJoCo", "Rollout", "Output"],
+            "sweep": ["Options", "Perturbations", "Output"],
+            "completion": ["Options"],
+        }
+        terminal = Terminal(80, NO_COLOR="1")
+        listed = terminal.run("--help")[1].partition("\nSubcommands:\n")[2].partition("\n\n")[0]
+        verbs = re.findall(r"^  (\w+) ", listed, re.MULTILINE)
+        self.assertGreater(len(verbs), 12)
+        for verb in [[verb] for verb in verbs if verb != "new"] + [["new", "robot"], ["new", "task"]]:
+            text = terminal.run(*verb, "--help")[1]
+            with self.subTest(verb=verb):
+                for noise in ("Excludes", "Needs", "NUMBER", " INT", "UINT", "FLOAT", "TEXT", "(existing)", " in ["):
+                    self.assertNotIn(noise, text)
+                headings = re.findall(r"^([A-Z]\w+):$", text, re.MULTILINE)
+                self.assertEqual(
+                    [name for name in headings if name not in ("Positionals", "Examples")],
+                    groups.get(verb[0], ["Options", "Output"]),
+                )
+                examples = text.partition("\nExamples:\n")[2].partition("\n\n")[0]
+                for line in text.replace(examples, "").splitlines():
+                    if "{" not in line and not re.search(r" --\S+$", line):
+                        self.assertLessEqual(len(line), 80, line)
 
     def test_alone_prints_the_help(self) -> None:
         status, text = Terminal(NO_COLOR="1").run()
