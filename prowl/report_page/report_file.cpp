@@ -146,7 +146,8 @@ Json other_data(const ReportInputs& inputs, const Json& first, const PackageSear
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   }
   Json other;
-  for (const char* key : {"directory", "robot", "size_m", "phases", "plan_json", "plan", "charts"}) {
+  for (const char* key :
+       {"directory", "robot", "size_m", "phases", "plan_json", "plan", "simulation", "simulation_json", "charts"}) {
     other[key] = std::move(data[key]);
   }
   other["scene"] = data["scene"] == first["scene"] ? Json(nullptr) : std::move(data["scene"]);

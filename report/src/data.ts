@@ -45,8 +45,8 @@ export interface MotionData {
 
 export interface SeriesData {
   label: string;
-  style: "plan" | "other" | "simulation" | "limit";
-  time: "plan" | "other" | "simulation";
+  style: "plan" | "other" | "simulation" | "other-simulation" | "limit";
+  time: "plan" | "other" | "simulation" | "other-simulation";
   values: string;
 }
 
@@ -180,7 +180,7 @@ export interface ReportData {
 /// A second plan in the same page. Its scene is null if it is that of the first.
 export type OtherPlan = Pick<
   ReportData,
-  "directory" | "robot" | "size_m" | "phases" | "plan_json" | "plan" | "charts"
+  "directory" | "robot" | "size_m" | "phases" | "plan_json" | "plan" | "simulation" | "simulation_json" | "charts"
 > & { scene: Scene | null };
 
 /// An iterate of the solver, sent by prowl view; "level" is the mesh, 0 the coarsest.

@@ -125,6 +125,14 @@ export function ghostMaterial(): MeshStandardMaterial {
   });
 }
 
+/// Where a contact of a robot is in the scene now.
+export function contactPoint(scene: Scene, robot: Robot, contact: number): Vector3 {
+  const { body, point } = scene.contacts[contact];
+  const group = robot.bodies[body];
+  group.updateWorldMatrix(true, false);
+  return new Vector3(...point).applyMatrix4(group.matrixWorld);
+}
+
 /// Placement of a body in the scene: x y z, quaternion x y z w; empty if there is none of that name.
 export function placementOf(robot: Robot | null | undefined, name: string): number[] {
   const body = robot?.bodies.find((group) => group.name === name);

@@ -188,6 +188,7 @@ TEST(ReportFile, HasASecondPlanToCompareWith) {
   EXPECT_EQ(data["other"]["plan_json"]["name"], "another");
   EXPECT_EQ(data["other"]["plan"], data["plan"]);
   EXPECT_EQ(data["other"]["charts"], data["charts"]);
+  for (const char* key : {"simulation", "simulation_json"}) EXPECT_EQ(data["other"].at(key), nullptr) << key;
   EXPECT_EQ(data["other"]["scene"], nullptr) << "the same robot is there once";
   EXPECT_EQ(data_of(report_of(stand()).html)["other"], nullptr);
 
