@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 using State = Finding::State;
 
 constexpr double kLeastMemory = 2.2;  // [GB], what one compiler takes for a file that includes Pinocchio
-constexpr double kBusy = 1.5;         // processes that want to run, per core
+constexpr double kBusy = 1.5;         // load per core
 
 /// The value of "name : value" in one of the kernel's tables; "" if it is not there.
 std::string kernel_value(const char* file, const std::string& name) {
@@ -48,7 +48,7 @@ int usable_cores() {
   return static_cast<int>(std::thread::hardware_concurrency());
 }
 
-/// Processes that want to run, over the last minute.
+/// Mean number of processes that run or wait to run, over the last minute.
 double load() {
   double loads[1] = {0.0};
   return ::getloadavg(loads, 1) == 1 ? loads[0] : 0.0;
@@ -165,7 +165,7 @@ std::vector<Finding> check_machine() {
   findings.push_back({.area = "machine",
                       .name = "cores",
                       .state = busy ? State::slow : State::ok,
-                      .text = fmt::format("{}; {:.1f} processes want to run", cores, load()),
+                      .text = fmt::format("{}; load {:.1f}", cores, load()),
                       .remedy = busy ? "others use this machine: times are longer than Prowl's own" : ""});
 
   const double all = memory("MemTotal"), free = memory("MemAvailable");

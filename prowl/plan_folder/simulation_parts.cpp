@@ -48,7 +48,7 @@ std::string torque_line(const TorqueUse& use) {
 }
 
 std::string error_heading() {
-  return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "in rest");
+  return fmt::format("  {:<28}{:>12}{:>12}{:>12}\n", "error", "largest", "RMS", "at rest");
 }
 
 std::string error_line(const std::string& name, const ErrorMeasure& error, double unit, const std::string& unit_name) {

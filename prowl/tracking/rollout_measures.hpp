@@ -30,7 +30,7 @@ struct RolloutMeasures {
   std::vector<ContactLoad> contacts;  ///< one a contact of the robot
 };
 
-/// Measures at the samples of a rollout; "in rest" is the last kRestWindow before `end` [s], when it should have ended.
+/// Measures at the samples of a rollout; "at rest" is the last kRestWindow before `end` [s], when it should have ended.
 /// `friction` of all surfaces, in place of their own.
 RolloutMeasures measure_rollout(const MotionProblem& problem, const Tracker& tracker, const Rollout& rollout,
                                 double end, std::optional<double> friction);
