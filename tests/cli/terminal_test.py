@@ -70,7 +70,8 @@ class TerminalTest(unittest.TestCase):
 
     def test_a_plan_has_colours(self) -> None:
         text = self.plan(Terminal())
-        self.assertIn(f"certificate: {GREEN}passed{END}, grade: {YELLOW}draft{END}", text)
+        meaning = "(good for simulation; certified: error < 1e-6)"
+        self.assertIn(f"certificate: {GREEN}passed{END}, grade: {YELLOW}draft{END} {meaning}\n", text)
         self.assertRegex(text, re.escape(f"  {GREEN}pass{END}") + "\n")
         self.assertRegex(text, r"HyQ crouches \d+ cm and stands up again in 2.00 s; planned in [0-9.]+ s.")
         self.assertRegex(ESCAPE.sub("", text), r"Largest torque: \d+ % of its limit at \w+_joint.")
