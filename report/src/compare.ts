@@ -58,7 +58,7 @@ export function comparison(data: ReportData): HTMLElement | null {
         ),
         row("local integration error", (one) => short(worst(one.plan_json, "local integration error")?.worst)),
         isSimulated ? row("simulation", ({ simulation_json: run }) => (run ? outcome(run) : "none")) : null,
-        isSimulated ? row("base position error", ({ simulation_json: run }) => centimetres(run)) : null,
+        isSimulated ? row("largest base error", ({ simulation_json: run }) => centimetres(run)) : null,
       ),
     ),
     el(

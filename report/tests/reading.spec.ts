@@ -23,7 +23,7 @@ test("a grade says what it is good for, where it stands", async ({ page }) => {
   await expect(page.locator(".badge")).toHaveText("✓ passed · draft");
   await expect(page.locator(".badge")).toHaveAttribute("title", /good for simulation/);
   await expect(page.locator(".grade")).toHaveText(
-    "draft: good for simulation, integration error below 1e-4. Certified: integration error below 1e-6.",
+    "Draft: good for simulation, integration error below 1e-4. Certified: integration error below 1e-6.",
   );
 });
 
@@ -174,7 +174,7 @@ test("two plans: simulations of both in table and plots, forces of the second as
   const error = (name: string) =>
     100 * JSON.parse(readFileSync(`${folder(name)}/simulate.json`, "utf8")).base_position_m.largest;
   await expect(compared(page, "simulation")).toHaveText(["succeeded", "succeeded"]);
-  const errors = await compared(page, "base position error").allTextContents();
+  const errors = await compared(page, "largest base error").allTextContents();
   ["walk", "trot"].forEach((name, i) => isNear(errors[i].replace(" cm", ""), error(name)));
 
   await page.getByRole("tab", { name: "Forces" }).click();
@@ -296,6 +296,29 @@ for (const name of ["walk", "two", "squat"]) {
     await expect(page.getByRole("checkbox", { name: "follow" })).toBeHidden();
   });
 }
+
+test("tables and commands of a section are as wide as its heading, beside no button", async ({ page }) => {
+  await open(page, "walk");
+  const off = await page.evaluate(() =>
+    [...document.querySelectorAll("section:has(> h2 > .fold)")].flatMap((section) => {
+      const heading = section.querySelector("h2")!.getBoundingClientRect();
+      return [...section.querySelectorAll(":scope table, :scope > pre")].flatMap((one) => {
+        const box = one.getBoundingClientRect();
+        return [Math.abs(box.left - heading.left), Math.abs(box.right - heading.right)];
+      });
+    }),
+  );
+  expect(off.length).toBeGreaterThan(7);
+  expect(Math.max(...off)).toBeLessThan(1);
+});
+
+test("the switches of two plans leave an edge of the view free", async ({ page }) => {
+  await open(page, "two");
+  const [view, layers] = await page.evaluate(() =>
+    [".view", ".layers"].map((name) => document.querySelector(name)!.getBoundingClientRect().right),
+  );
+  expect(view - layers).toBeGreaterThan(9);
+});
 
 test("the link of a report opens at its moment", async ({ page }) => {
   await page.goto(`${pathToFileURL(report("walk")).href}#t=2.125&tab=Forces`);
