@@ -41,7 +41,7 @@ Row row_of(const CertificateCheck& check, CheckColumn fourth) {
   const std::string unit = has_share && check.unit == "of limit" ? "" : check.unit;  // the share says that
   return {check.name,
           with_unit(check.worst, unit),
-          with_unit(check.limit, has_share ? "" : unit),
+          with_unit(check.limit, ""),
           has_share ? used(check) : fmt::format("{:.3f} s", check.time),
           check.where,
           verdict(check)};

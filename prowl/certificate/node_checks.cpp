@@ -42,14 +42,14 @@ struct BoundaryChecks {
   explicit BoundaryChecks(const GoalTolerance& tolerance)
       : position("goal position", "m", tolerance.position),
         angle("goal angle", "rad", tolerance.angle),
-        velocity("goal velocity", "SI", tolerance.velocity) {}
+        velocity("goal velocity", "m/s", tolerance.velocity) {}
 
-  WorstCase start{"start state", "SI", Limits::start_state};
+  WorstCase start{"start state", "m", Limits::start_state};
   WorstCase position, angle, velocity;
   WorstCase torque{"goal torque", "of limit", Limits::goal_torque};
 
-  static void record(WorstCase& worst, double violation, double time, const std::string& where) {
-    if (violation > -kInfinity) worst.record(violation, time, where);
+  static void record(WorstCase& worst, double violation, double time, const std::string& where, const char* unit) {
+    if (violation > -kInfinity) worst.record(violation, time, where, unit);
   }
 
   void state(const RobotModel& robot, const BoundaryCondition& condition, const TrajectoryPoint& node, bool is_start) {
@@ -60,10 +60,11 @@ struct BoundaryChecks {
       record(is_start    ? start
              : is_length ? position
                          : angle,
-             violation(offset(i), condition.configuration_lower(i), condition.configuration_upper(i)), node.time,
-             where);
+             violation(offset(i), condition.configuration_lower(i), condition.configuration_upper(i)), node.time, where,
+             is_length ? "m" : "rad");
       record(is_start ? start : velocity,
-             violation(node.v(i), condition.velocity_lower(i), condition.velocity_upper(i)), node.time, where);
+             violation(node.v(i), condition.velocity_lower(i), condition.velocity_upper(i)), node.time, where,
+             is_length ? "m/s" : "rad/s");
     }
   }
 
@@ -71,7 +72,7 @@ struct BoundaryChecks {
     for (Eigen::Index i = 0; i < robot.nu(); ++i) {
       const double scale = std::isfinite(robot.torque_limit()(i)) ? robot.torque_limit()(i) : robot.weight() * 1.0;
       record(torque, violation(node.tau(i), condition.torque_lower(i), condition.torque_upper(i)) / scale, node.time,
-             condition.name + ", " + robot.joint_names()[i]);
+             condition.name + ", " + robot.joint_names()[i], "of limit");
     }
   }
 };
