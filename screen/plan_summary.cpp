@@ -4,8 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "screen/check_table.hpp"
 #include "screen/mesh_advice.hpp"
 
 namespace prowl {
@@ -120,26 +120,10 @@ std::string verdict_line(const Certificate& certificate) {
                      to_string(certificate.grade), meaning(certificate.grade));
 }
 
-std::string certificate_summary(const Certificate& certificate) {
-  std::size_t name_width = 5, where_width = 5;
-  for (const CertificateCheck& check : certificate.checks) {
-    name_width = std::max(name_width, check.name.size());
-    where_width = std::max(where_width, check.where.size());
-  }
-  std::string text = verdict_line(certificate);
-  const auto line = [&](const std::string& name, const std::string& worst, const std::string& limit,
-                        const std::string& time, const std::string& where, const std::string& verdict) {
-    text += fmt::format("  {:<{}}  {:>14}  {:>14}  {:>9}  {:<{}}  {}\n", name, name_width, worst, limit, time, where,
-                        where_width, verdict);
-  };
-  line("check", "worst", "limit", "time", "where", "");
-  for (const CertificateCheck& check : certificate.checks) {
-    line(check.name, with_unit(check.worst, check.unit), with_unit(check.limit, check.unit),
-         fmt::format("{:.3f} s", check.time), check.where,
-         !check.passed                          ? "FAIL"
-         : check.worst <= check.certified_limit ? "pass"
-                                                : "draft");
-  }
+std::string certificate_summary(const Certificate& certificate, std::size_t columns) {
+  std::vector<const CertificateCheck*> checks;
+  for (const CertificateCheck& check : certificate.checks) checks.push_back(&check);
+  std::string text = verdict_line(certificate) + check_table(checks, CheckColumn::time, columns);
   if (!certificate.redundant_contacts.empty()) {
     std::vector<std::string> ranks;
     for (const ContactRank& phase : certificate.contact_ranks) {
@@ -173,9 +157,9 @@ std::string feedback_summary(const FeedbackDesign& feedback, double step) {
   return text;
 }
 
-std::string plan_report(const PlanRecord& record, const std::string& when) {
+std::string plan_report(const PlanRecord& record, const std::string& when, std::size_t columns) {
   if (!record.plan.reasons.empty()) return plan_summary(record, when);
-  return plan_summary(record, when) + certificate_summary(record.plan.certificate) + mesh_advice(record) +
+  return plan_summary(record, when) + certificate_summary(record.plan.certificate, columns) + mesh_advice(record) +
          (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
 }
 

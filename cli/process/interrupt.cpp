@@ -20,7 +20,7 @@ extern "C" void on_interrupt(int signal) {
     ::_exit(kInterrupted);
   }
   const int before = errno;  // of the interrupted code
-  constexpr char kNotice[] = "\nstopping as soon as possible; press Ctrl-C again to quit at once\n";
+  constexpr char kNotice[] = "\nstopping after the current step; press Ctrl-C again to end at once\n";
   [[maybe_unused]] const auto ignored = ::write(STDERR_FILENO, kNotice, sizeof(kNotice) - 1);
   errno = before;
 }

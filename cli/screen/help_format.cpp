@@ -1,6 +1,7 @@
 #include "cli/screen/help_format.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <sstream>
@@ -33,6 +34,11 @@ std::vector<std::string> lines_of(const std::string& text, std::size_t width) {
   return lines;
 }
 
+/// As wide as the screen.
+std::string paragraph(const std::string& text) {
+  return fmt::format("{}\n", fmt::join(lines_of(text, columns()), "\n"));
+}
+
 std::string entry(const std::string& name, const std::string& description) {
   constexpr std::size_t kNarrowest = 30;
   const std::vector<std::string> lines =
@@ -50,6 +56,10 @@ std::string entry(const std::string& name, const std::string& description) {
 std::string HelpFormatter::make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const {
   std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
   for (std::size_t at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n", at)) text.erase(at, 1);
+  if (const std::size_t status = text.rfind("\nExit status: "); status != std::string::npos)
+    text = text.substr(0, status + 1) + paragraph(text.substr(status));
+  if (const std::size_t usage = text.find("\nUsage: "); usage != std::string::npos)
+    text = paragraph(text.substr(0, usage)) + text.substr(usage + 1);
   return text;
 }
 

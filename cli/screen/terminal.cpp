@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <string_view>
 
 namespace prowl::cli {
@@ -22,6 +23,10 @@ std::size_t columns() {
   winsize size{};
   if (::isatty(STDOUT_FILENO) != 1 || ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kUsual;
   return std::max<std::size_t>(size.ws_col, kFewest);
+}
+
+std::size_t columns_of_table() {
+  return ::isatty(STDOUT_FILENO) == 1 ? columns() : std::numeric_limits<std::size_t>::max();
 }
 
 bool has_colour(int stream) {

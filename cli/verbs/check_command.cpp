@@ -7,6 +7,8 @@
 #include "cli/process/program_files.hpp"
 #include "cli/screen/json_result.hpp"
 #include "cli/screen/output.hpp"
+#include "cli/screen/terminal.hpp"
+#include "cli/screen/wrap.hpp"
 #include "cli/verbs/commands.hpp"
 #include "prowl/plan_folder/plan_folder.hpp"
 #include "screen/plan_summary.hpp"
@@ -37,7 +39,7 @@ int run_check(const CheckArguments& arguments) {
                 .directory = arguments.directory,
                 .result = plan_report_json(record, arguments.directory)});
   } else {
-    print_result(plan_report(record, " (as planned)"));
+    print_result(wrap(plan_report(record, " (as planned)", columns_of_table()), columns_of_table()));
   }
   return status;
 }

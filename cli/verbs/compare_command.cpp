@@ -41,6 +41,7 @@ struct CompareArguments {
 
 constexpr const char* kAll = "all";
 constexpr const char* kSnopt = "snopt";
+constexpr const char* kCompared = "Compared";  ///< group of --help
 
 /// Solvers of prowl plan, and SNOPT, which Prowl does not contain.
 Names all_solver_names() {
@@ -189,7 +190,8 @@ void add_names(CLI::App& verb, const char* option, Names& asked, const Names& th
       ->type_name("LIST")
       ->delimiter(',')
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->group(kCompared);
 }
 
 }  // namespace
@@ -211,29 +213,33 @@ void add_compare_command(CLI::App& app, int& status) {
       ->type_name("LIST")
       ->delimiter(',')
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->group(kCompared);
   add_solver_limits(*verb, arguments->overrides);
   add_hessian(*verb, arguments->hessian);
   verb->add_option("--guess", arguments->guess,
                    "Initial guess of all runs: smooth (default), or straight lines from posture to posture")
       ->check(CLI::IsMember(guess_names()))
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->group(kSolverOptions);
   verb->add_option("--snopt-library", arguments->snopt_library,
                    "Your own SNOPT, for --solver snopt; default libsnopt7.so")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->group(kSolverOptions);
   verb->add_option_function<std::string>(
           "--python",
           [](const std::string&) { print_note("--python is ignored: Drake's SNOPT is prowl.snopt in Python"); },
           "Ignored: Drake's SNOPT is prowl.snopt in Python (docs/solvers.md#snopt)")
-      ->type_name("PATH");
+      ->type_name("PATH")
+      ->group(kSolverOptions);
   add_folder(*verb, "--out", arguments->out, "Folder for compare.md, .csv and .json; default out/FOLDER_TASK_compare");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,
              {"prowl compare tasks/hyq/hold.toml --solver riccati,ipopt",
               "prowl compare tasks/hyq/hold.toml --solver all --intervals 5,10,20"},
-             "0 all combinations ran, with any result; 2 bad input, or no combination can run;\n"
-             "4 files; 130 interrupted (Ctrl-C keeps the finished runs).");
+             "0 if all ran; the table tells the results; 2 bad input, also if no combination can be run; 4 files; 130 "
+             "interrupted (Ctrl-C keeps the runs that have finished).");
   verb->callback([arguments, &status] { status = run_compare(*arguments); });
 }
 

@@ -61,11 +61,11 @@ void add_diagnose_command(CLI::App& app, int& status) {
       ->type_name("S");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
-  set_footer(*verb,
-             {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
-             "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, with or without a known\n"
-             "cause; 6 time or iterations ran out before that was known; 7 there is a plan, but its\n"
-             "certificate fails; 130 interrupted: prints the findings so far.");
+  set_footer(
+      *verb, {"prowl diagnose tasks/hyq/crouch.toml", "prowl diagnose tasks/hyq/crouch.toml --max-time 60 --json"},
+      "0 the task has a plan that passes its certificate; 2 bad input; 3 no plan, with or without a known cause; 6 "
+      "time or iterations ran out before that was known; 7 there is a plan, but its certificate fails; 130 "
+      "interrupted: prints the findings so far.");
   verb->callback([arguments, &status] { status = run_diagnose(*arguments); });
 }
 

@@ -162,8 +162,8 @@ std::vector<Finding> check_machine() {
   findings.push_back({.area = "machine",
                       .name = "cores",
                       .state = busy ? State::slow : State::ok,
-                      .text = fmt::format("{}; {:.1f} running processes", cores, load()),
-                      .remedy = busy ? "other programs are running: times are longer than Prowl's own" : ""});
+                      .text = fmt::format("{}; load {:.1f}", cores, load()),
+                      .remedy = busy ? "others use this machine: times are longer than Prowl's own" : ""});
 
   const double all = memory("MemTotal"), free = memory("MemAvailable");
   const bool little = free < kLeastMemory;

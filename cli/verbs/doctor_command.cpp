@@ -92,8 +92,8 @@ void add_doctor_command(CLI::App& app, int& status) {
       app.add_subcommand("doctor", "Check this machine: what works, what is slow or missing, and the remedy");
   add_json(*verb, *as_json);
   set_footer(*verb, {"prowl doctor"},
-             "0 planning works, even if it is slow or parts of a verb like figures are missing;\n"
-             "3 a solver does not work; 4 the URDFs of the shipped robots are not found.");
+             "0 planning works, even if something is slow or a verb like figures lacks its parts; "
+             "3 a solver does not work; 4 the URDFs of the robots that come with Prowl are not found.");
   verb->callback([as_json, &status] { status = run_doctor(*as_json); });
 }
 

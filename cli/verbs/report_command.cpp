@@ -32,6 +32,15 @@ WrittenReport write_page(const Report& report, const fs::path& out, const std::s
   return {report.html.size(), has_simulation, report.warnings};
 }
 
+/// Beside the first folder, named after both: a folder of a plan contains the files of that plan only.
+fs::path comparison_file(const fs::path& first, const fs::path& second) {
+  const auto name = [](const fs::path& folder) {
+    return fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
+  };
+  return ((first / "..").lexically_normal() / fmt::format("report-{}-{}.html", name(first), name(second)))
+      .lexically_normal();
+}
+
 /// Two plans in one page.
 WrittenReport write_comparison(const PlanRecord& plan, const ReportArguments& arguments, const fs::path& out,
                                const PackageSearch& search) {
@@ -56,17 +65,21 @@ void add_report_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("report", "Write a page that replays a plan in a browser");
   add_plan_directory(*verb, arguments->directory);
   verb->add_option("other", arguments->other, "Folder of a second plan, to compare with the first")->type_name("DIR");
-  verb->add_option("--out", arguments->out, "File to write; default: DIR/report.html")->type_name("FILE");
+  verb->add_option("--out", arguments->out,
+                   "File to write; default: DIR/report.html, for two plans report-DIR-DIR.html beside the first")
+      ->type_name("FILE");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(
       *verb,
       {"prowl simulate out/hyq_crouch && prowl report out/hyq_crouch", "prowl report out/hyq_crouch --out crouch.html",
-       "prowl report out/hyq_crouch out/stand --out compared.html"},
+       "prowl report out/hyq_crouch out/stand   into out/report-hyq_crouch-stand.html"},
       "0 if the page is written, 2 bad input, 4 files. The page is one file and needs no network.");
   verb->callback([arguments, &status] {
     const fs::path directory = arguments->directory;
-    const fs::path out = arguments->out.empty() ? directory / kReportFile : fs::path(arguments->out);
+    const fs::path out = !arguments->out.empty()    ? fs::path(arguments->out)
+                         : arguments->other.empty() ? directory / kReportFile
+                                                    : comparison_file(directory, arguments->other);
     const PackageSearch search = package_search(arguments->package_dirs);
     const PlanRecord plan = read_plan(directory, search);
     const WrittenReport report = arguments->other.empty() ? write_report(plan, directory, out, search)

@@ -26,9 +26,9 @@
 namespace prowl::cli {
 namespace {
 
-// Groups of options for one engine, in --help and for check_engine().
-constexpr const char* kMujocoOptions = "With --engine mujoco";
-constexpr const char* kRolloutOptions = "With --engine rollout";
+// Options of one engine alone are grouped by it, in --help and for check_engine().
+constexpr const char* kMujocoOptions = "MuJoCo";
+constexpr const char* kRolloutOptions = "Rollout";
 
 struct SimulateArguments {
   std::string directory;
@@ -230,10 +230,10 @@ void add_simulate_command(CLI::App& app, int& status) {
                    fmt::format("Rows per second in simulate.csv; default {:g}", arguments->record_rate))
       ->type_name("HZ");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays the run in a browser");
-  add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   add_mujoco_options(*verb, *arguments);
   add_rollout_options(*verb, *arguments);
+  add_json(*verb, arguments->json);
   set_footer(*verb,
              {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
               "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},

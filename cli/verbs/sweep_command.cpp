@@ -19,6 +19,8 @@
 namespace prowl::cli {
 namespace {
 
+constexpr const char* kPerturbations = "Perturbations";  ///< group of --help
+
 struct SweepArguments {
   std::string directory;
   std::vector<std::string> package_dirs;
@@ -112,27 +114,32 @@ void add_sweep_command(CLI::App& app, int& status) {
   verb->add_option("--mass-spread", ranges.mass,
                    fmt::format("Largest error of the masses, as a share; default {:g}", ranges.mass))
       ->type_name("X")
-      ->check(number_in({.lower = 0.0, .upper = 0.9}));
+      ->check(number_in({.lower = 0.0, .upper = 0.9}))
+      ->group(kPerturbations);
   verb->add_option("--push-impulse", ranges.push,
                    fmt::format("Impulse of the pushes on the base; default {:g}", ranges.push))
       ->type_name("NS")
-      ->check(number_in(NumberRange::nonnegative()));
+      ->check(number_in(NumberRange::nonnegative()))
+      ->group(kPerturbations);
   verb->add_option(
           "--push-impulse-on-two-feet", ranges.push_on_two_feet,
           fmt::format("The same while two feet or fewer are on the ground; default {:g}", ranges.push_on_two_feet))
       ->type_name("NS")
-      ->check(number_in(NumberRange::nonnegative()));
-  verb->add_option("--breakdown", arguments->breakdown_cases,
-                   "Also find the size at which each perturbation alone breaks the plan, with N simulations per size")
+      ->check(number_in(NumberRange::nonnegative()))
+      ->group(kPerturbations);
+  verb->add_option(
+          "--breakdown", arguments->breakdown_cases,
+          "Also look for the size at which each perturbation alone breaks the plan, with N simulations for each size")
       ->type_name("N")
-      ->check(CLI::Range(0, 100000));
+      ->check(CLI::Range(0, 100000))
+      ->group(kPerturbations);
   verb->add_flag("--open-loop", arguments->options.open_loop, "Apply the planned torques only, without feedback");
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,
              {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2"},
-             "0 if all simulations ran, with or without success;\n"
-             "130 interrupted (Ctrl-C keeps the finished simulations).");
+             "0 if all simulations ran, with or without success; 130 interrupted (Ctrl-C keeps the simulations that "
+             "have finished).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });
 }
 

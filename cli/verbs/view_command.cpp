@@ -121,16 +121,18 @@ void add_view_command(CLI::App& app, int& status) {
       ->type_name("TASK.toml|DIR")
       ->transform(CLI::Validator([](std::string& name) { return name = find_task(name), std::string(); }, ""));
   verb->add_option("--port", arguments->port, "Port of 127.0.0.1; default: any free one")->type_name("N");
-  add_folder(*verb, "--out", arguments->out, "Folder for the plan of a task; default: none");
+  add_folder(*verb, "--out", arguments->out, "Folder to write the plan of a task into; default: none");
+  add_intervals(*verb, arguments->overrides)->group(kMeshOptions);
+  verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, without coarser ones first")
+      ->group(kMeshOptions);
   verb->add_option("--solver", arguments->solver, "Solver to use; default " + arguments->solver)
       ->check(CLI::IsMember(solver_names()))
-      ->type_name("NAME");
-  add_intervals(*verb, arguments->overrides);
-  verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh only, without coarser meshes first");
+      ->type_name("NAME")
+      ->group(kSolverOptions);
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb, {"prowl view tasks/hyq/walk.toml", "prowl view out/hyq_crouch --port 8080"},
-             "0 for a folder, as prowl plan for a task, after Ctrl-C. The page is that of prowl report, served on\n"
+             "0 for a folder, as prowl plan for a task, after Ctrl-C. The page is that of prowl report, served on "
              "the loopback interface; for a task it has a slider over the iterates of the solver.");
   verb->callback([arguments, &status] {
     const std::atomic<bool>& interrupted = catch_interrupts();

@@ -45,7 +45,7 @@ struct CertificateCheck {
   std::string name;    ///< "contact drift", "friction cone", "joint torque", ...
   double worst = 0.0;  ///< in `unit`; NaN is a failure
   double limit = 0.0;  ///< passes if worst <= limit
-  std::string unit;    ///< "m", "N", "N m", "-", ...; "SI" if the check mixes quantities
+  std::string unit;    ///< "m", "N", "N m", "-", ...; of the worst value if the check mixes quantities
   double time = 0.0;   ///< when the worst happens [s]
   std::string where;   ///< contact or joint or coordinate, "" if none
   bool passed = false;

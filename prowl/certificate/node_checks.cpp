@@ -42,14 +42,14 @@ struct BoundaryChecks {
   explicit BoundaryChecks(const GoalTolerance& tolerance)
       : position("goal position", "m", tolerance.position),
         angle("goal angle", "rad", tolerance.angle),
-        velocity("goal velocity", "SI", tolerance.velocity) {}
+        velocity("goal velocity", "m/s", tolerance.velocity) {}
 
-  WorstCase start{"start state", "SI", Limits::start_state};
+  WorstCase start{"start state", "m", Limits::start_state};
   WorstCase position, angle, velocity;
   WorstCase torque{"goal torque", "of limit", Limits::goal_torque};
 
-  static void record(WorstCase& worst, double violation, double time, const std::string& where) {
-    if (violation > -kInfinity) worst.record(violation, time, where);
+  static void record(WorstCase& worst, double violation, double time, const std::string& where, const char* unit) {
+    if (violation > -kInfinity) worst.record(violation, time, where, unit);
   }
 
   void state(const RobotModel& robot, const BoundaryConstraint& constraint, const TrajectoryPoint& node,
@@ -62,9 +62,10 @@ struct BoundaryChecks {
              : is_length ? position
                          : angle,
              violation(offset(i), constraint.configuration_lower(i), constraint.configuration_upper(i)), node.time,
-             where);
+             where, is_length ? "m" : "rad");
       record(is_start ? start : velocity,
-             violation(node.v(i), constraint.velocity_lower(i), constraint.velocity_upper(i)), node.time, where);
+             violation(node.v(i), constraint.velocity_lower(i), constraint.velocity_upper(i)), node.time, where,
+             is_length ? "m/s" : "rad/s");
     }
   }
 
@@ -72,7 +73,7 @@ struct BoundaryChecks {
     for (Eigen::Index i = 0; i < robot.nu(); ++i) {
       const double scale = std::isfinite(robot.torque_limit()(i)) ? robot.torque_limit()(i) : robot.weight() * 1.0;
       record(torque, violation(node.tau(i), constraint.torque_lower(i), constraint.torque_upper(i)) / scale, node.time,
-             constraint.name + ", " + robot.joint_names()[i]);
+             constraint.name + ", " + robot.joint_names()[i], "of limit");
     }
   }
 };

@@ -139,7 +139,8 @@ class JointChecks {
       const double position = point.q(7 + i);
       const double outside = std::max(robot_.position_lower()(i) - position, position - robot_.position_upper()(i));
       const std::string& name = robot_.joint_names()[i];
-      if (outside > -std::numeric_limits<double>::infinity()) position_.record(outside, point.time, name);
+      if (outside > -std::numeric_limits<double>::infinity())
+        position_.record(outside, point.time, name, robot_.joint_is_prismatic()[i] ? "m" : "rad");
       velocity_.record(std::abs(point.v(6 + i)) / robot_.velocity_limit()(i), point.time, name);
       torque_.record(torque_share(robot_, i, position, point.v(6 + i), point.tau(i)), point.time, name);
     }
@@ -151,7 +152,7 @@ class JointChecks {
 
  private:
   const RobotModel& robot_;
-  WorstCase position_{"joint position beyond limit", "SI", Limits::joint_position};
+  WorstCase position_{"joint position beyond limit", "rad", Limits::joint_position};
   WorstCase velocity_{"joint velocity", "of limit", Limits::velocity_ratio};
   WorstCase torque_{"joint torque", "of limit", Limits::torque_ratio};
 };

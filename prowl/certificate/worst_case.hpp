@@ -23,6 +23,10 @@ class WorstCase {
   }
 
   void record(double value, double time, std::string_view where) { moment_.record(value, time, where); }
+  /// The same for a check of several kinds of quantities: it has the unit of its worst.
+  void record(double value, double time, std::string_view where, std::string_view unit) {
+    if (moment_.record(value, time, where)) check_.unit = unit;
+  }
 
   CertificateCheck check() const {
     CertificateCheck check = check_;

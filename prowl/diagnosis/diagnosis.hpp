@@ -58,9 +58,9 @@ struct Diagnosis {
   int search_intervals = 0;             ///< of the mesh of breaches and changes; 0: each mesh of the task was solved
   std::vector<ProposedChange> changes;  ///< alternatives: the proved one, then smallest first; the first one turns only
                                         ///< the joints that gave way, if these suffice
-  int tried = 0;             ///< numbers that were changed
-  bool out_of_time = false;  ///< before everything was tried
-  bool interrupted = false;  ///< likewise
+  int tried = 0;                        ///< numbers that were changed
+  bool out_of_time = false;             ///< before everything was tried
+  bool interrupted = false;             ///< likewise
 };
 
 /// True if all checks pass except errors of the mesh, and these are small enough that a finer mesh keeps the motion.

@@ -122,6 +122,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
                {"phases", phases_json(problem, inputs.plan.plan)},
                {"plan_json", plan_to_json(record)},
                {"command", plan_command(record)},
+               {"simulated_friction", nullptr},
                {"scene", report_scene(problem, search, warnings)},
                {"plan", report_motion_json(robot, plan)},
                {"simulation", nullptr},
@@ -129,6 +130,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
                {"charts", report_charts(problem, plan, simulation)},
                {"gains", nullptr},
                {"live", nullptr}};
+  if (record.task.simulated_friction) data["simulated_friction"] = *record.task.simulated_friction;
   if (!simulation.empty()) data["simulation"] = report_motion_json(robot, simulation);
   if (inputs.tracking) data["gains"] = report_gains(*inputs.tracking, kGainStep);
   return data;
@@ -143,7 +145,8 @@ Json other_data(const ReportInputs& inputs, const Json& first, const PackageSear
     if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
   }
   Json other;
-  for (const char* key : {"directory", "robot", "size_m", "phases", "plan_json", "plan", "charts"}) {
+  for (const char* key :
+       {"directory", "robot", "size_m", "phases", "plan_json", "plan", "simulation", "simulation_json", "charts"}) {
     other[key] = std::move(data[key]);
   }
   other["scene"] = data["scene"] == first["scene"] ? Json(nullptr) : std::move(data["scene"]);

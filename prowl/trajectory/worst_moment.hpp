@@ -13,12 +13,14 @@ struct WorstMoment {
   double time = 0.0;  ///< [s]
   std::string where;
 
-  void record(double value, double at_time, std::string_view at) {
-    if (!empty && (std::isnan(worst) || value <= worst)) return;
+  /// Returns whether it is the largest so far.
+  bool record(double value, double at_time, std::string_view at) {
+    if (!empty && (std::isnan(worst) || value <= worst)) return false;
     empty = false;
     worst = value;
     time = at_time;
     where = at;
+    return true;
   }
 };
 

@@ -36,8 +36,8 @@ void bind_certificate(nb::module_& module) {
           "\"failed\", \"draft\" or \"certified\".")
       .def_ro("checks", &Certificate::checks, nb::rv_policy::reference_internal)
       .def_ro("redundant_contacts", &Certificate::redundant_contacts,
-              "Contacts whose forces are not unique; the motion determines all others.")
-      .def("__str__", &certificate_summary)
+              "Contacts whose forces are one choice of many; those of all others follow from the motion.")
+      .def("__str__", [](const Certificate& c) { return certificate_summary(c); })
       .def(
           "_repr_html_", [](nb::handle self) { return call_package("prowl._show.notebook", "certificate_html", self); },
           nb::sig("def _repr_html_(self) -> str"))

@@ -19,9 +19,10 @@ PyObject* interrupted_type = nullptr;  // the module is loaded once per process
 
 }  // namespace
 
-void raise_interrupted(nb::handle plan) {
-  const nb::object error = nb::handle(interrupted_type)("stopped; the best motion so far is in .plan");
+void raise_interrupted(const char* message, nb::handle plan, nb::handle sweep) {
+  const nb::object error = nb::handle(interrupted_type)(message);
   nb::setattr(error, "plan", plan);
+  nb::setattr(error, "sweep", sweep);
   PyErr_SetObject(interrupted_type, error.ptr());
   throw nb::python_error();
 }
@@ -49,10 +50,12 @@ void bind_errors(nb::module_& module) {
 
   const std::string name = nb::cast<std::string>(module.attr("__name__")) + ".Interrupted";
   const nb::object interrupted = nb::steal(PyErr_NewException(name.c_str(), PyExc_KeyboardInterrupt, nullptr));
-  document(
-      interrupted,
-      "Ctrl-C, or the stop button of a notebook, during solve(): a KeyboardInterrupt. Its attribute `plan` is the\n"
-      "best motion so far, with status \"interrupted\".");
+  document(interrupted,
+           "Ctrl-C, or the stop button of a notebook, while solve() or sweep() ran: a KeyboardInterrupt. Its attribute "
+           "`plan` is\n"
+           "the best motion so far, with status \"interrupted\"; `sweep` contains the simulations that have finished. "
+           "Each is None\n"
+           "if there is none.");
   module.attr("Interrupted") = interrupted;
   interrupted_type = interrupted.ptr();
 }

@@ -4,7 +4,7 @@
 
 namespace prowl::python {
 
-/// Raises prowl.Interrupted with this plan.
-[[noreturn]] void raise_interrupted(nanobind::handle plan);
+/// Raises prowl.Interrupted with what there is so far: a plan or a sweep, None for the other.
+[[noreturn]] void raise_interrupted(const char* message, nanobind::handle plan, nanobind::handle sweep);
 
 }  // namespace prowl::python

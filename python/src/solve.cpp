@@ -79,7 +79,9 @@ nb::object solve(const Task& task, const std::string& solver, int threads, bool 
   }
   const nb::object result = nb::cast(plan);
   if (auto& error = observer.error()) {
-    if (error->matches(PyExc_KeyboardInterrupt)) raise_interrupted(result);
+    if (error->matches(PyExc_KeyboardInterrupt)) {
+      raise_interrupted("stopped; the best motion so far is in .plan", result, nb::none());
+    }
     throw std::move(*error);
   }
   if (!why_no_gains.empty() && PyErr_WarnEx(PyExc_RuntimeWarning, ("no gains: " + why_no_gains).c_str(), 2) != 0) {

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "bindings.hpp"
+#include "interrupted.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
 #include "prowl/plan_folder/sweep_files.hpp"
@@ -128,7 +129,13 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
           return find_breakdowns(task.problem, tracker, task.success, alone, seed, breakdown, on_done, interrupt);
         });
   }
-  if (auto& error = python.error()) throw std::move(*error);
+  if (auto& error = python.error()) {
+    if (!error->matches(PyExc_KeyboardInterrupt)) throw std::move(*error);
+    const bool is_any = !sweep.record.cases.empty();
+    sweep.record.interrupted = std::ssize(sweep.record.cases) < n || breakdown > 0;
+    raise_interrupted("stopped; the simulations so far are in .sweep", nb::none(),
+                      is_any ? nb::cast(std::move(sweep)) : nb::none());
+  }
   return sweep;
 }
 

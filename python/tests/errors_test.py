@@ -115,6 +115,7 @@ def test_ctrl_c_stops_a_solve_and_keeps_its_best_motion():
         prowl.solve(task)
     plan = stopped.value.plan
     assert plan.status == "interrupted" and not plan.good and plan.tracker is None
+    assert stopped.value.sweep is None
     assert np.isfinite(plan.q).all() and len(plan) > 10
 
 

@@ -48,6 +48,20 @@ def test_what_a_callback_raises_ends_it(crouch):
         prowl.sweep(crouch, 100_000, on_progress=stop)
 
 
+def test_ctrl_c_keeps_the_simulations_that_have_finished(crouch, sweep):
+    def press(done: int, total: int) -> None:
+        if done >= 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(prowl.Interrupted, match="in .sweep$") as stopped:
+        prowl.sweep(crouch, 1000, on_progress=press, progress=False)
+    kept = stopped.value.sweep
+    assert 3 <= len(kept) < 1000 and [case.seed for case in kept.cases] == list(range(1, len(kept) + 1))
+    assert [case.mass for case in kept.cases[:3]] == [case.mass for case in sweep.cases[:3]]
+    assert f"interrupted: {len(kept)} of 1000 simulations" in kept.summary()
+    assert stopped.value.plan is None
+
+
 def test_arguments_that_make_no_sense(crouch):
     for argument in ({"n": 0}, {"mass_spread": 1.0}, {"push_impulse": -1.0}, {"breakdown": -1}):
         with pytest.raises(prowl.InputError, match=f"^{next(iter(argument))}: "):

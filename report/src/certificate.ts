@@ -109,8 +109,8 @@ export function certificate(
       ? el(
           "p",
           { class: "grade" },
-          kGrades[found.grade],
-          found.grade === "draft" ? `. ${sentence(kGrades.certified)}.` : ".",
+          `${sentence(kGrades[found.grade])}.`,
+          found.grade === "draft" ? ` ${sentence(kGrades.certified)}.` : null,
         )
       : null,
     el(

@@ -81,12 +81,14 @@ export class Chart {
         "figcaption",
         {},
         this.title,
-        el(
-          "span",
-          { class: "now" },
-          this.values,
-          el("span", { class: "unit" }, options.unit === "-" ? "" : options.unit),
-        ),
+        options.xLabel
+          ? null
+          : el(
+              "span",
+              { class: "now" },
+              this.values,
+              el("span", { class: "unit" }, options.unit === "-" ? "" : options.unit),
+            ),
       ),
       this.box,
     );

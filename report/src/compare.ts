@@ -1,11 +1,17 @@
-import type { PlanJson, ReportData } from "./data";
+import type { PlanJson, ReportData, SimulationJson } from "./data";
 import { el, short } from "./dom";
 import { percent, usedShare } from "./checks";
 import { whyNot } from "./verdict";
 
-type One = Pick<ReportData, "directory" | "robot" | "phases" | "plan_json">;
+type One = Pick<ReportData, "directory" | "robot" | "phases" | "plan_json" | "simulation_json">;
 
 const kShares = ["joint torque", "joint velocity"];
+
+const outcome = (run: SimulationJson): string => (run.success ? "succeeded" : "failed");
+
+/// The largest error of a simulation's base.
+const centimetres = (run: SimulationJson | null): string =>
+  run?.base_position_m.largest == null ? "–" : `${short(100 * run.base_position_m.largest)} cm`;
 
 /// Two plans side by side; null if the page contains one.
 export function comparison(data: ReportData): HTMLElement | null {
@@ -13,6 +19,7 @@ export function comparison(data: ReportData): HTMLElement | null {
   const both: One[] = [data, data.other];
   const row = (name: string, value: (one: One) => string) =>
     el("tr", {}, el("th", { scope: "row" }, name), ...both.map((one) => el("td", { class: "number" }, value(one))));
+  const isSimulated = both.some((one) => one.simulation_json !== null);
   const worst = (plan: PlanJson, name: string) => plan.certificate.checks.find((check) => check.name === name);
   return el(
     "section",
@@ -50,12 +57,14 @@ export function comparison(data: ReportData): HTMLElement | null {
           }),
         ),
         row("local integration error", (one) => short(worst(one.plan_json, "local integration error")?.worst)),
+        isSimulated ? row("simulation", ({ simulation_json: run }) => (run ? outcome(run) : "none")) : null,
+        isSimulated ? row("largest base error", ({ simulation_json: run }) => centimetres(run)) : null,
       ),
     ),
     el(
       "p",
       { class: "hint" },
-      "Plots, view and time line show the first plan. The second appears as a line in the plots and a robot in the view, in its colour.",
+      "Plots, view and time line show the first plan; the second is a line, a robot and arrows in its colour. The robot of its simulation is not drawn.",
     ),
   );
 }

@@ -46,8 +46,8 @@ export interface MotionData {
 
 export interface SeriesData {
   label: string;
-  style: "plan" | "other" | "simulation" | "limit";
-  time: "plan" | "other" | "simulation";
+  style: "plan" | "other" | "simulation" | "other-simulation" | "limit";
+  time: "plan" | "other" | "simulation" | "other-simulation";
   values: string;
 }
 
@@ -167,6 +167,7 @@ export interface ReportData {
   phases: Phase[];
   plan_json: PlanJson;
   command: string;
+  simulated_friction: number | null; // of the task; null: as planned with
   scene: Scene;
   plan: MotionData;
   simulation: MotionData | null;
@@ -181,7 +182,7 @@ export interface ReportData {
 /// A second plan in the same page. Its scene is null if equal to the first.
 export type OtherPlan = Pick<
   ReportData,
-  "directory" | "robot" | "size_m" | "phases" | "plan_json" | "plan" | "charts"
+  "directory" | "robot" | "size_m" | "phases" | "plan_json" | "plan" | "simulation" | "simulation_json" | "charts"
 > & { scene: Scene | null };
 
 /// An iterate of the solver, sent by prowl view; "level" is the mesh, 0 the coarsest.

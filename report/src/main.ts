@@ -64,7 +64,7 @@ function makeView(container: HTMLElement, data: ReportData, clock: Clock): View 
 }
 
 const endOf = ({ plan, simulation, other }: ReportData): number =>
-  Math.max(...[plan, simulation, other?.plan].map((motion) => motion?.time.at(-1) ?? 0));
+  Math.max(...[plan, simulation, other?.plan, other?.simulation].map((motion) => motion?.time.at(-1) ?? 0));
 
 function start(): void {
   const data = readData();

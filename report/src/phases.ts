@@ -1,4 +1,17 @@
-import type { Phase, Scene } from "./data";
+import type { Phase, Scene, Surface } from "./data";
+
+/// The phase of the plan at a time: the later one at a switch, the last one after the end.
+export function phaseAt(phases: Phase[], t: number): Phase | undefined {
+  return phases.findLast((phase) => phase.start <= t + 1e-9) ?? phases[0];
+}
+
+/// The surface that a contact is held on at a time.
+export const heldAt =
+  (phases: Phase[], surfaces: Surface[], t: number) =>
+  (contact: number): Surface | undefined => {
+    const entry = phaseAt(phases, t)?.contacts.find((one) => one.contact === contact);
+    return entry && surfaces[entry.surface];
+  };
 
 /// Short name of a contact: LF for lf_foot, "left" for each point of the left foot.
 export function shortContact(name: string): string {

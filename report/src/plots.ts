@@ -12,6 +12,8 @@ interface Tab {
   wide?: boolean; // for long titles or many values
 }
 
+const kOther = "other plan";
+const kOtherSimulation = "other simulation";
 const kAxes = ["x", "y", "z"];
 const kAxisColours = ["axis-x", "axis-y", "axis-z"];
 
@@ -147,7 +149,12 @@ export class Plots {
 
   private timesOfData(): Record<SeriesData["time"], number[]> {
     const { plan, simulation, other } = this.data;
-    return { plan: plan.time, simulation: simulation?.time ?? [], other: other?.plan.time ?? [] };
+    return {
+      plan: plan.time,
+      simulation: simulation?.time ?? [],
+      other: other?.plan.time ?? [],
+      "other-simulation": other?.simulation?.time ?? [],
+    };
   }
   private tabsOfData(): Tab[] {
     const all = this.data.charts.map((tab) => ({
@@ -167,31 +174,34 @@ export class Plots {
     }
     return tabs;
   }
-  /// Adds the series of the other plan, if it contains the same chart.
+  /// A chart with the series of the other plan and its simulation, if that has the same chart.
   private withOther(tab: string, chart: ChartData): ChartData {
     const same = this.data.other?.charts
       .find((one) => one.name === tab)
       ?.charts.find((one) => one.title === chart.title && one.unit === chart.unit);
-    const series = same?.series.filter((one) => one.style === "plan") ?? [];
-    return {
-      ...chart,
-      series: [
-        ...chart.series,
-        ...series.map((one): SeriesData => ({ ...one, label: "other plan", style: "other", time: "other" })),
-      ],
+    const other = (one: SeriesData): SeriesData[] => {
+      if (one.style === "plan") return [{ ...one, label: kOther, style: "other", time: "other" }];
+      if (one.style !== "simulation") return [];
+      return [{ ...one, label: kOtherSimulation, style: "other-simulation", time: "other-simulation" }];
     };
+    return { ...chart, series: [...chart.series, ...(same?.series.flatMap(other) ?? [])] };
   }
   private fromData(tab: ReportData["charts"][number]): Tab {
     const styles = new Set(tab.charts.flatMap((chart) => chart.series.map((series) => series.style)));
     const legend: Tab["legend"] = [];
     if (styles.has("plan")) legend.push(["plan", "plan", false]);
-    if (styles.has("other")) legend.push(["other plan", "second", false]);
+    if (styles.has("other")) legend.push([kOther, "second", false]);
     if (styles.has("simulation")) legend.push(["simulation", "simulation", false]);
+    if (styles.has("other-simulation")) legend.push([kOtherSimulation, "second", true]);
     if (styles.has("limit")) legend.push(["limit", "limit", true]);
-    // Drawing order, and order of values: the plan is a broad line below the others.
-    const order = { limit: 0, plan: 1, other: 2, simulation: 3 };
+    // In this order one lies over the other, and values stand side by side: the plan is a broad line below the rest.
+    const order = { limit: 0, plan: 1, other: 2, simulation: 3, "other-simulation": 4 };
     const isAlone = !styles.has("other") && !styles.has("simulation");
-    const widths = { limit: 1, plan: isAlone ? 1.5 : 3, other: 1.5, simulation: 1.2 };
+    const widths = { limit: 1, plan: isAlone ? 1.5 : 3, other: 1.5, simulation: 1.2, "other-simulation": 1.2 };
+    const dashes = new Map([
+      ["limit", [4, 3]],
+      ["other-simulation", [2, 2]],
+    ]);
     const lines = (all: SeriesData[]): Line[] =>
       [...all]
         .sort((a, b) => order[a.style] - order[b.style])
@@ -199,8 +209,8 @@ export class Plots {
           label: series.label,
           time: this.times[series.time],
           values: floats(series.values),
-          colour: series.style === "other" ? "second" : series.style,
-          dash: series.style === "limit" ? [4, 3] : undefined,
+          colour: series.style.startsWith("other") ? "second" : series.style,
+          dash: dashes.get(series.style),
           width: widths[series.style],
           limit: series.style === "limit",
         }));

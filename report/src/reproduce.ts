@@ -89,7 +89,7 @@ export function simulation(data: ReportData): HTMLElement | null {
 }
 
 /// The command, without options at their defaults.
-function simulateCommand(directory: string, found: SimulationJson): string {
+function simulateCommand(directory: string, found: SimulationJson, taskFriction: number | null): string {
   const { options } = found;
   const words = [
     "prowl simulate",
@@ -115,7 +115,7 @@ function simulateCommand(directory: string, found: SimulationJson): string {
   add("--bandwidth", options.bandwidth_Hz, 0);
   add("--control-rate", options.control_rate_Hz, 1000);
   add("--mass", options.mass_scale, 1);
-  add("--friction", options.friction, null);
+  add("--friction", options.friction, taskFriction);
   for (const push of options.pushes) words.push(`--push ${push.time_s} ${push.impulse_Ns.join(" ")}`);
   const duration = options.pushes[0]?.duration_s;
   add("--push-duration", duration, 0.1);
@@ -128,7 +128,8 @@ function simulateCommand(directory: string, found: SimulationJson): string {
 export function reproduce(data: ReportData): HTMLElement {
   const { versions, task_file, robot_file, urdf, overrides } = data.plan_json;
   const commands = [data.command];
-  if (data.simulation_json) commands.push(simulateCommand(data.directory, data.simulation_json));
+  if (data.simulation_json)
+    commands.push(simulateCommand(data.directory, data.simulation_json, data.simulated_friction));
   const options = data.simulation_json
     ? file({ path: "options of the simulation", text: JSON.stringify(data.simulation_json.options, null, 2) })
     : null;

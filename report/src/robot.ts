@@ -126,6 +126,14 @@ export function ghostMaterial(): MeshStandardMaterial {
   });
 }
 
+/// Current position of a contact in the scene.
+export function contactPoint(scene: Scene, robot: Robot, contact: number): Vector3 {
+  const { body, point } = scene.contacts[contact];
+  const group = robot.bodies[body];
+  group.updateWorldMatrix(true, false);
+  return new Vector3(...point).applyMatrix4(group.matrixWorld);
+}
+
 /// Placement of a body in the scene: x y z, quaternion x y z w; empty for an unknown name.
 export function placementOf(robot: Robot | null | undefined, name: string): number[] {
   const body = robot?.bodies.find((group) => group.name === name);

@@ -1,8 +1,7 @@
 import { type Clock, kFrame } from "./clock";
 import type { ReportData } from "./data";
 import { el } from "./dom";
-import { inTheAir, parts } from "./phases";
-import { phaseAt } from "./view";
+import { inTheAir, parts, phaseAt } from "./phases";
 
 const kSpeeds = [0.1, 0.25, 0.5, 1, 2];
 const kReadable = 70; // smallest width at which a truncated name is useful [px]

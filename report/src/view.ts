@@ -17,12 +17,14 @@ import {
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Balance, type Support } from "./balance";
 import type { Clock } from "./clock";
-import type { Phase, ReportData, Surface } from "./data";
+import type { ReportData, Surface } from "./data";
 import { colour } from "./dom";
 import { type DrawnForce, Forces, Trails } from "./forces";
 import { Ground } from "./ground";
 import { Motion } from "./motion";
-import { ghostMaterial, placementOf, Robot, Shapes } from "./robot";
+import { OtherRobot } from "./other";
+import { heldAt } from "./phases";
+import { contactPoint, ghostMaterial, placementOf, Robot, Shapes } from "./robot";
 import { cornersOf, Sight } from "./sight";
 
 export interface Layers {
@@ -40,11 +42,6 @@ export interface Layers {
 const kFramed = 40; // number of moments for fitting the first view
 const kToolbar = 50; // height of the switches above the view [px]
 
-/// Phase of the plan at a time: the later one at a phase transition, the last one after the end.
-export function phaseAt(phases: Phase[], t: number): Phase | undefined {
-  return phases.findLast((phase) => phase.start <= t + 1e-9) ?? phases[0];
-}
-
 /// 3D view of the robot.
 export class View {
   plan: Motion;
@@ -57,7 +54,7 @@ export class View {
   private readonly robot: Robot;
   private readonly ghost: Robot | null = null;
   private readonly ghostMaterial = ghostMaterial();
-  private readonly other: { motion: Motion; robot: Robot } | null = null;
+  private readonly other: OtherRobot | null = null;
   private readonly otherMaterial = ghostMaterial();
   private readonly ground: Ground;
   private readonly forces: Forces;
@@ -93,14 +90,7 @@ export class View {
       this.ghost = new Robot(data.scene, shapes, this.ghostMaterial);
       this.simulatedForces = new Forces(data.scene, data.size_m, data.weight_N, true);
     }
-    if (data.other) {
-      const { plan, scene } = data.other;
-      const shown = scene ?? data.scene;
-      this.other = {
-        motion: new Motion(plan, shown.bodies.length, shown.contacts.length),
-        robot: new Robot(shown, scene ? new Shapes(scene) : shapes, this.otherMaterial),
-      };
-    }
+    if (data.other) this.other = new OtherRobot(data.other, data, shapes, this.otherMaterial);
     const reach = this.measure(this.plan.path(0, new Vector3()));
     this.layers = {
       forces: true,
@@ -137,7 +127,7 @@ export class View {
     );
     if (this.ghost) this.scene.add(this.ghost.group);
     if (this.simulatedForces) this.scene.add(this.simulatedForces.arrows);
-    if (this.other) this.scene.add(this.other.robot.group);
+    if (this.other) this.scene.add(this.other.robot.group, this.other.forces.arrows);
 
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
@@ -200,15 +190,15 @@ export class View {
   }
   /// Current position of a contact in the scene.
   contactPoint(contact: number, robot = this.robot): Vector3 {
-    const { body, point } = this.data.scene.contacts[contact];
-    const group = robot.bodies[body];
-    group.updateWorldMatrix(true, false);
-    return new Vector3(...point).applyMatrix4(group.matrixWorld);
+    return contactPoint(this.data.scene, robot, contact);
   }
 
   /// Arrows and cones of the contacts, as drawn.
   arrows(): DrawnForce[] {
     return this.forces.drawn();
+  }
+  otherArrows(): DrawnForce[] {
+    return this.other?.forces.drawn() ?? [];
   }
   simulatedArrows(): DrawnForce[] {
     return this.simulatedForces?.drawn() ?? [];
@@ -256,6 +246,7 @@ export class View {
     this.trails.setColour(new Color(colour("trail")));
     this.ghostMaterial.color.set(colour("simulation"));
     this.otherMaterial.color.set(colour("second"));
+    this.other?.forces.setColours(new Color(colour("second")), new Color(colour("cone")));
     this.simulatedForces?.setColours(new Color(colour("simulation")), new Color(colour("cone")));
     this.balance.setColours(new Color(colour("mass")), new Color(colour("support")), new Color(colour("zmp")));
     this.mark.material.color.set(colour("head"));
@@ -347,18 +338,11 @@ export class View {
     if (this.mark.visible) this.mark.update();
     this.trails.group.visible = this.layers.trails;
     this.showForces(t);
-    if (this.other) {
-      this.other.robot.group.visible = this.layers.other;
-      this.other.robot.show(this.other.motion, t);
-    }
+    this.other?.show(t, this.layers);
   }
   private showForces(t: number): void {
     const { surfaces } = this.data.scene;
-    const phase = phaseAt(this.data.phases, t);
-    const held = (c: number): Surface | undefined => {
-      const entry = phase?.contacts.find((one) => one.contact === c);
-      return entry && surfaces[entry.surface];
-    };
+    const held = heldAt(this.data.phases, surfaces, t);
     this.forces.arrows.visible = this.layers.forces;
     this.forces.cones.visible = this.layers.cones;
     this.forces.show(this.plan, t, held, (c) => this.contactPoint(c));

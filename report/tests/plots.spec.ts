@@ -32,6 +32,7 @@ test("the values in the headings are those of the plan and of the simulation", a
     expect(other).toBeLessThan(Math.max(...range) + slack);
   };
   await expectValues("rf_kfe_joint", "tau_rf_kfe_joint_Nm", "tau_rf_kfe_joint_Nm");
+  await expect(page.locator(".plots .legend .key")).toHaveText(["plan", "simulation", "limit"]); // in the same order
   await tab(page, "Base");
   await expectValues("position z", "base_pz_m", "true_base_pz_m");
   await tab(page, "Joints");
@@ -124,9 +125,13 @@ test("titles are not cut", async ({ page }) => {
   }
 });
 
-test("labels of the axes are inside of their plots", async ({ page }) => {
+test("labels of the axes are inside of their plots, and clear of each other", async ({ page }) => {
   await page.addInitScript(() => {
     const cut: string[] = [];
+    const last = new Map<
+      HTMLCanvasElement,
+      { text: string; left: number; right: number; top: number; bottom: number }
+    >();
     const fillText = CanvasRenderingContext2D.prototype.fillText;
     CanvasRenderingContext2D.prototype.fillText = function (
       this: CanvasRenderingContext2D,
@@ -143,6 +148,10 @@ test("labels of the axes are inside of their plots", async ({ page }) => {
       const bottom = at.y + size.actualBoundingBoxDescent;
       if (left < -0.5 || right > this.canvas.width + 0.5 || top < -0.5 || bottom > this.canvas.height + 0.5)
         cut.push(`${text} in ${this.canvas.closest("figure")?.querySelector(".title")?.textContent}`);
+      const before = last.get(this.canvas); // labels of one axis follow each other
+      if (before && left < before.right && right > before.left && top < before.bottom && bottom > before.top)
+        cut.push(`${text} on ${before.text}`);
+      last.set(this.canvas, { text, left, right, top, bottom });
       Object.assign(window, { cut, labels: ((window as { labels?: number }).labels ?? 0) + 1 });
       return Reflect.apply(fillText, this, [text, x, y, ...rest]);
     } as typeof fillText;
@@ -268,6 +277,16 @@ test("arrows are the planned forces, inside the cones of their surfaces", async 
     }
   }
   expect(drawn).toBeGreaterThan(5);
+});
+
+test("the command of a simulation has the options that were given, and no other", async ({ page }) => {
+  expect(readFileSync(path.join(root, "tasks/hyq/walk.toml"), "utf8")).toMatch(/^\[simulation\]\s*friction = /m);
+  const command = async (name: string) => {
+    await open(page, name);
+    return (await page.locator("pre.commands").textContent())!.split("\n").at(-1);
+  };
+  expect(await command("walk")).toBe(`prowl simulate ${folder("walk")}`); // the friction is the task's own
+  expect(await command("rollout")).toBe(`prowl simulate ${folder("rollout")} --engine rollout`);
 });
 
 test("solver and reproduction say what plan.json says", async ({ page }) => {

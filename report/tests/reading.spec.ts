@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import { expect, type Page, test } from "@playwright/test";
-import { folder, open, report, seek, timeOf, watch } from "./reports";
+import { folder, open, readTable, report, seek, timeOf, watch } from "./reports";
 
 const plan = (name: string) => JSON.parse(readFileSync(`${folder(name)}/plan.json`, "utf8"));
 const isNear = (text: string, value: number) => expect(Math.abs(Number(text) - value)).toBeLessThan(6e-3 * value);
@@ -23,7 +23,7 @@ test("a grade says what it is good for, where it stands", async ({ page }) => {
   await expect(page.locator(".badge")).toHaveText("✓ passed · draft");
   await expect(page.locator(".badge")).toHaveAttribute("title", /good for simulation/);
   await expect(page.locator(".grade")).toHaveText(
-    "draft: good for simulation, integration error below 1e-4. Certified: integration error below 1e-6.",
+    "Draft: good for simulation, integration error below 1e-4. Certified: integration error below 1e-6.",
   );
 });
 
@@ -129,6 +129,10 @@ test("no name on the time line is cut to a letter and dots", async ({ page }) =>
   }
 });
 
+/// The two cells of a row in the table of two plans.
+const compared = (page: Page, name: string) =>
+  page.locator(".compare tr", { has: page.getByRole("rowheader", { name, exact: true }) }).locator("td");
+
 const twoPlans = async (page: Page) => {
   const seen = await open(page, "two");
   await expect(page.locator("#compare-title")).toHaveText("Two plans");
@@ -137,14 +141,12 @@ const twoPlans = async (page: Page) => {
 
 test("two plans in one page: a table, their lines, both robots", async ({ page }) => {
   const { errors } = await twoPlans(page);
-  const row = (name: string) =>
-    page.locator(".compare tr", { has: page.getByRole("rowheader", { name, exact: true }) });
-  await expect(row("task").locator("td")).toHaveText(["HyQ walk", "HyQ trot"]);
-  await expect(row("iterations").locator("td")).toHaveText([
+  await expect(compared(page, "task")).toHaveText(["HyQ walk", "HyQ trot"]);
+  await expect(compared(page, "iterations")).toHaveText([
     String(plan("walk").solver.iterations),
     String(plan("trot").solver.iterations),
   ]);
-  await expect(page.locator(".plots .legend .key.second")).toHaveText("other plan");
+  await expect(page.locator(".plots .legend .key.second")).toHaveText(["other plan", "other simulation"]);
   await page.getByRole("tab", { name: "Base" }).click();
   const time = 2.5;
   await seek(page, time);
@@ -165,6 +167,42 @@ test("two plans in one page: a table, their lines, both robots", async ({ page }
   for (const i of [0, 1, 2]) expect(Math.abs(other[i] - trot[i])).toBeLessThan(1e-5);
   await expect(page.getByRole("checkbox", { name: "other plan" })).toBeChecked();
   expect(errors).toEqual([]);
+});
+
+test("two plans: simulations of both in table and plots, forces of the second as arrows", async ({ page }) => {
+  await twoPlans(page);
+  const error = (name: string) =>
+    100 * JSON.parse(readFileSync(`${folder(name)}/simulate.json`, "utf8")).base_position_m.largest;
+  await expect(compared(page, "simulation")).toHaveText(["succeeded", "succeeded"]);
+  const errors = await compared(page, "largest base error").allTextContents();
+  ["walk", "trot"].forEach((name, i) => isNear(errors[i].replace(" cm", ""), error(name)));
+
+  await page.getByRole("tab", { name: "Forces" }).click();
+  const runs = ["walk", "trot"].map((name) => readTable(`${folder(name)}/simulate.csv`));
+  const time = runs[1].time_s[Math.floor(0.4 * runs[1].time_s.length)];
+  await seek(page, time);
+  const chart = page.locator("figure.chart", { has: page.getByRole("button", { name: "lf_foot z", exact: true }) });
+  const shown = (await chart.locator(".values span").allTextContents()).map((text) => Number(text.replace("−", "-")));
+  expect(shown).toHaveLength(4); // plan, other plan, simulation, other simulation
+  runs.forEach(({ time_s, f_lf_foot_z_N }, i) => {
+    const at = time_s.findIndex((t) => t >= time);
+    const around = f_lf_foot_z_N.slice(at - 12, at + 12);
+    expect(shown[2 + i]).toBeGreaterThan(Math.min(...around) - 5);
+    expect(shown[2 + i]).toBeLessThan(Math.max(...around) + 5);
+  });
+
+  const nodes = readTable(`${folder("trot")}/trajectory.csv`);
+  const node = Math.floor(0.45 * nodes.time_s.length);
+  await seek(page, nodes.time_s[node]);
+  const arrows = await page.evaluate(() => window.prowl!.view!.otherArrows());
+  expect(arrows.filter(({ visible }) => visible).length).toBeGreaterThan(1);
+  for (const { name, visible, vector } of arrows) {
+    expect(visible).toBe(nodes[`contact_${name}`][node] === 1);
+    if (visible)
+      ["x", "y", "z"].forEach((axis, i) =>
+        expect(Math.abs(vector[i] - nodes[`f_${name}_${axis}_N`][node])).toBeLessThan(1),
+      );
+  }
 });
 
 const hash = (page: Page) => page.evaluate(() => location.hash);
@@ -258,6 +296,29 @@ for (const name of ["walk", "two", "squat"]) {
     await expect(page.getByRole("checkbox", { name: "follow" })).toBeHidden();
   });
 }
+
+test("tables and commands of a section are as wide as its heading, beside no button", async ({ page }) => {
+  await open(page, "walk");
+  const off = await page.evaluate(() =>
+    [...document.querySelectorAll("section:has(> h2 > .fold)")].flatMap((section) => {
+      const heading = section.querySelector("h2")!.getBoundingClientRect();
+      return [...section.querySelectorAll(":scope table, :scope > pre")].flatMap((one) => {
+        const box = one.getBoundingClientRect();
+        return [Math.abs(box.left - heading.left), Math.abs(box.right - heading.right)];
+      });
+    }),
+  );
+  expect(off.length).toBeGreaterThan(7);
+  expect(Math.max(...off)).toBeLessThan(1);
+});
+
+test("the switches of two plans leave an edge of the view free", async ({ page }) => {
+  await open(page, "two");
+  const [view, layers] = await page.evaluate(() =>
+    [".view", ".layers"].map((name) => document.querySelector(name)!.getBoundingClientRect().right),
+  );
+  expect(view - layers).toBeGreaterThan(9);
+});
 
 test("the link of a report opens at its moment", async ({ page }) => {
   await page.goto(`${pathToFileURL(report("walk")).href}#t=2.125&tab=Forces`);

@@ -115,6 +115,13 @@ void split_phase(Case& c) {
   c.discrete = {std::move(problem), {{PhaseMesh(half), PhaseMesh(intervals - half)}}};
 }
 
+/// Unit of a check of HyQ standing, after a fault.
+std::string unit_of(const char* check, const std::function<void(Case&)>& fault) {
+  Case c = test::standing(test::hyq());
+  fault(c);
+  return test::find(certify(c.discrete, c.trajectory), check).unit;
+}
+
 constexpr const char* kFinite = "finite numbers, unit quaternions";
 constexpr const char* kNodes = "nodes fit the problem";
 
@@ -231,6 +238,17 @@ TEST(Certificate, CatchesJointsThatAreTooFast) {
   const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), Names{"joint velocity"});
   EXPECT_EQ(find(certificate, "joint velocity").where, "rh_kfe_joint");
+}
+
+// Of a check that covers lengths and angles, states and rates.
+TEST(Certificate, GivesTheUnitOfTheWorstValue) {
+  const auto start = [](Case& c) -> BoundaryConstraint& { return c.discrete.problem.boundary_constraints[0]; };
+  EXPECT_EQ(unit_of("start state", [&](Case& c) { start(c).q_ref(0) += 1e-3; }), "m");
+  EXPECT_EQ(unit_of("start state", [&](Case& c) { start(c).q_ref(9) += 1e-3; }), "rad");
+  EXPECT_EQ(unit_of("start state", [&](Case& c) { start(c).velocity_lower(1) += 1e-3; }), "m/s");
+  EXPECT_EQ(unit_of("goal velocity", [](Case& c) { goal(c).velocity_lower(2) += 0.01; }), "m/s");
+  EXPECT_EQ(unit_of("goal velocity", [](Case& c) { goal(c).velocity_lower(7) += 0.01; }), "rad/s");
+  EXPECT_EQ(unit_of("joint position beyond limit", [](Case&) {}), "rad");
 }
 
 TEST(Certificate, SaysWhenAndWhere) {

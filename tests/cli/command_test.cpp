@@ -187,6 +187,17 @@ TEST_F(Command, ComparesTwoPlansInOneReport) {
   EXPECT_THAT(both.error, HasSubstr("of two plans"));
   const std::string page = test::read_file(folder_.path() / "both.html");
   EXPECT_THAT(page, HasSubstr("\"other\":{\"directory\":\"second\""));
+
+  const Outcome named = run("$prowl report first second/ $dirs --json && cd second && $prowl report . ../first $dirs");
+  EXPECT_EQ(named.status, 0) << named.error;
+  EXPECT_THAT(named.error, AllOf(HasSubstr("report: report-first-second.html, "),
+                                 HasSubstr("report: ../report-second-first.html, ")));
+  EXPECT_EQ(nlohmann::json::parse(named.out).at("written"), nlohmann::json::array({"report-first-second.html"}));
+  EXPECT_THAT(test::read_file(folder_.path() / "report-first-second.html"),
+              HasSubstr("\"other\":{\"directory\":\"second/\""));
+  for (const char* folder : {"first", "second"})
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / folder / "report.html")) << "the report of one plan";
+
   const Outcome none = run("$prowl report first nowhere $dirs");
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.error, HasSubstr("nowhere/plan.json: no such file"));

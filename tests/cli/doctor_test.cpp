@@ -32,8 +32,8 @@ TEST_F(Command, DoctorFindsThatTheSolversWork) {
     ASSERT_NE(found, checks.end()) << solver;
     EXPECT_THAT(found->at("text").get<std::string>(), HasSubstr("solves and passes")) << solver;
   }
-  for (const char* name : {"prowl", "Pinocchio", "MuJoCo", "processor", "cores", "memory", "robots",
-                           "figures", "export", "report"}) {
+  for (const char* name :
+       {"prowl", "Pinocchio", "MuJoCo", "processor", "cores", "memory", "robots", "figures", "export", "report"}) {
     ASSERT_FALSE(named(checks, name).is_null()) << name;
     EXPECT_FALSE(named(checks, name).at("text").get<std::string>().empty()) << name;
   }

@@ -70,7 +70,8 @@ class TerminalTest(unittest.TestCase):
 
     def test_a_plan_has_colours(self) -> None:
         text = self.plan(Terminal())
-        self.assertIn(f"certificate: {GREEN}passed{END}, grade: {YELLOW}draft{END}", text)
+        meaning = "(good for simulation; certified: error < 1e-6)"
+        self.assertIn(f"certificate: {GREEN}passed{END}, grade: {YELLOW}draft{END} {meaning}\n", text)
         self.assertRegex(text, re.escape(f"  {GREEN}pass{END}") + "\n")
         self.assertRegex(text, r"HyQ crouches \d+ cm and stands up again in 2.00 s; planned in [0-9.]+ s.")
         self.assertRegex(ESCAPE.sub("", text), r"Largest torque: \d+ % of its limit at \w+_joint.")
@@ -120,7 +121,12 @@ class TerminalTest(unittest.TestCase):
             text = self.plan(Terminal(columns, NO_COLOR="1"))
             lines = [line for line in text.splitlines() if " " in line.strip() and self.out not in line]
             longest[columns] = max(map(len, lines))
-            self.assertLessEqual(longest[columns], max(columns, 76), text)
+            self.assertLessEqual(longest[columns], columns, text)
+            checked = Terminal(columns, NO_COLOR="1").run("check", self.out, "--package-dir", PACKAGE_DIR)[1]
+            self.assertRegex(checked, r"\n  joint torque .* pass\n")
+            self.assertLessEqual(
+                max(len(line) for line in checked.splitlines() if self.out not in line), columns, checked
+            )
         self.assertGreater(longest[140], 80)
 
     def test_names_are_cut_where_they_say_least(self) -> None:
@@ -142,6 +148,34 @@ class TerminalTest(unittest.TestCase):
         for noise in ("Excludes", "Needs", "NUMBER", "INT in"):
             self.assertNotIn(noise, text)
         self.assertIn("\x1b[1mMesh:\x1b[0m", Terminal().run("plan", "--help")[1])
+
+    def test_help_of_every_verb_is_in_groups_and_without_noise(self) -> None:
+        groups = {
+            "plan": ["Options", "Mesh", "Solver", "Output"],
+            "view": ["Options", "Mesh", "Solver", "Output"],
+            "compare": ["Options", "Compared", "Solver", "Output"],
+            "simulate": ["Options", "MuJoCo", "Rollout", "Output"],
+            "sweep": ["Options", "Perturbations", "Output"],
+            "completion": ["Options"],
+        }
+        terminal = Terminal(80, NO_COLOR="1")
+        listed = terminal.run("--help")[1].partition("\nSubcommands:\n")[2].partition("\n\n")[0]
+        verbs = re.findall(r"^  (\w+) ", listed, re.MULTILINE)
+        self.assertGreater(len(verbs), 12)
+        for verb in [[verb] for verb in verbs if verb != "new"] + [["new", "robot"], ["new", "task"]]:
+            text = terminal.run(*verb, "--help")[1]
+            with self.subTest(verb=verb):
+                for noise in ("Excludes", "Needs", "NUMBER", " INT", "UINT", "FLOAT", "TEXT", "(existing)", " in ["):
+                    self.assertNotIn(noise, text)
+                headings = re.findall(r"^([A-Z]\w+):$", text, re.MULTILINE)
+                self.assertEqual(
+                    [name for name in headings if name not in ("Positionals", "Examples")],
+                    groups.get(verb[0], ["Options", "Output"]),
+                )
+                examples = text.partition("\nExamples:\n")[2].partition("\n\n")[0]
+                for line in text.replace(examples, "").splitlines():
+                    if "{" not in line and not re.search(r" --\S+$", line):
+                        self.assertLessEqual(len(line), 80, line)
 
     def test_alone_prints_the_help(self) -> None:
         status, text = Terminal(NO_COLOR="1").run()

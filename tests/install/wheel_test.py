@@ -204,6 +204,16 @@ def test_with_all_extras(machine):
 
 def test_pip_alone_says_what_to_do():
     environment = {**os.environ, "PIP_NO_INPUT": "1"}
-    command = [sys.executable, "-m", "pip", "wheel", str(SOURCE), "--no-deps", "--no-build-isolation", "-w", "/nonexistent"]
+    command = [
+        sys.executable,
+        "-m",
+        "pip",
+        "wheel",
+        str(SOURCE),
+        "--no-deps",
+        "--no-build-isolation",
+        "-w",
+        "/nonexistent",
+    ]
     result = subprocess.run(command, capture_output=True, text=True, env=environment)
     assert result.returncode != 0 and "Run scripts/wheel" in result.stdout + result.stderr

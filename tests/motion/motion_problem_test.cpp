@@ -167,7 +167,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "surfaces[0].patch: a patch of 2 corners is not allowed; need 3 or more"},
         Mistake{"foothold", [](P& p) { p.phases[0].contacts[1].foothold = Eigen::Vector3d(0.3, 0.3, 0.02); },
                 "phases[0].contacts[1].foothold: 20.0 mm above surface 'floor' is not allowed"},
-        Mistake{"place_at_the_start", [](P& p) { p.phases[0].contacts[1].foothold = Eigen::Vector3d(0.3, 0.3, 0.0); },
+        Mistake{"foothold_at_the_start",
+                [](P& p) { p.phases[0].contacts[1].foothold = Eigen::Vector3d(0.3, 0.3, 0.0); },
                 "phases[0].contacts[1].foothold: contact 'lh_foot' does not land in this phase: it starts at its "
                 "position in "
                 "the start posture"},

@@ -104,6 +104,14 @@ TEST(ReportFile, NamesTheSolverOfTheCommandThatMakesThePlanAgain) {
   EXPECT_THAT(command("of our own"), testing::Not(testing::HasSubstr("--solver"))) << "the command has no such solver";
 }
 
+// Without it the page takes the friction of a simulation for an option of its command.
+TEST(ReportFile, TellsTheFrictionThatTheTaskSimulatesWith) {
+  PlanRecord record = stand();
+  EXPECT_EQ(data_of(report_of(record).html)["simulated_friction"], nullptr);
+  record.task.simulated_friction = 0.45;
+  EXPECT_EQ(data_of(report_of(record).html)["simulated_friction"], 0.45);
+}
+
 TEST(ReportFile, HasEveryNodeOfThePlan) {
   const json data = data_of(report_of(stand()).html);
   const std::vector<double> times = data["plan"]["time"];
@@ -180,6 +188,7 @@ TEST(ReportFile, HasASecondPlanToCompareWith) {
   EXPECT_EQ(data["other"]["plan_json"]["name"], "another");
   EXPECT_EQ(data["other"]["plan"], data["plan"]);
   EXPECT_EQ(data["other"]["charts"], data["charts"]);
+  for (const char* key : {"simulation", "simulation_json"}) EXPECT_EQ(data["other"].at(key), nullptr) << key;
   EXPECT_EQ(data["other"]["scene"], nullptr) << "the same robot is there once";
   EXPECT_EQ(data_of(report_of(stand()).html)["other"], nullptr);
 

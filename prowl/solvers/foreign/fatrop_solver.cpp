@@ -435,4 +435,6 @@ SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverO
 }  // namespace prowl
 
 /// What load_solver() looks for; the caller owns the result.
-extern "C" [[gnu::visibility("default")]] prowl::NlpSolver* prowl_make_solver(const char* /*name*/) { return new prowl::FatropSolver(); }
+extern "C" [[gnu::visibility("default")]] prowl::NlpSolver* prowl_make_solver(const char* /*name*/) {
+  return new prowl::FatropSolver();
+}

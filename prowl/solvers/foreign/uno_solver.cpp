@@ -315,4 +315,6 @@ SolveResult UnoSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverOpti
 }  // namespace prowl
 
 /// What load_solver() looks for; the caller owns the result.
-extern "C" [[gnu::visibility("default")]] prowl::NlpSolver* prowl_make_solver(const char* /*name*/) { return new prowl::UnoSolver(); }
+extern "C" [[gnu::visibility("default")]] prowl::NlpSolver* prowl_make_solver(const char* /*name*/) {
+  return new prowl::UnoSolver();
+}

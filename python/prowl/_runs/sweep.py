@@ -33,7 +33,8 @@ def sweep(
     tqdm; None: in a terminal or notebook. on_progress: called with the number of finished and of all
     simulations.
 
-    Deterministic. Ctrl-C raises KeyboardInterrupt.
+    Deterministic. Ctrl-C raises Interrupted, a KeyboardInterrupt; its `sweep` contains the finished
+    simulations, or None.
     """
     found = as_plan(plan, package_dirs)
 
