@@ -14,7 +14,7 @@ namespace {
 // Columns of the table.
 constexpr std::size_t kWorst = 1, kLimit = 2, kFourth = 3, kWhere = 4, kColumns = 6;
 constexpr std::size_t kGap = 2;
-using Row = std::array<std::string, kColumns>;
+using CheckRow = std::array<std::string, kColumns>;
 using Widths = std::array<std::size_t, kColumns>;  ///< 0: left out
 
 /// Without the quantity of a coordinate, if need be: "RR_calf_joint" for "velocity of RR_calf_joint". Of names the end
@@ -36,7 +36,7 @@ const char* verdict(const CertificateCheck& check) {
   return !check.passed ? "FAIL" : is_draft(check) ? "draft" : "pass";
 }
 
-Row row_of(const CertificateCheck& check, CheckColumn fourth) {
+CheckRow check_row(const CertificateCheck& check, CheckColumn fourth) {
   const bool has_share = fourth == CheckColumn::used;
   const std::string unit = has_share && check.unit == "of limit" ? "" : check.unit;  // the share says that
   return {check.name,
@@ -69,15 +69,15 @@ void fit(Widths& widths, CheckColumn fourth, std::size_t columns) {
 bool is_draft(const CertificateCheck& check) { return check.passed && !(check.worst <= check.certified_limit); }
 
 std::string check_table(const std::vector<const CertificateCheck*>& checks, CheckColumn fourth, std::size_t columns) {
-  std::vector<Row> rows = {{"check", "worst", "limit", fourth == CheckColumn::used ? "used" : "time", "where", ""}};
-  for (const CertificateCheck* check : checks) rows.push_back(row_of(*check, fourth));
+  std::vector<CheckRow> rows = {{"check", "worst", "limit", fourth == CheckColumn::used ? "used" : "time", "where", ""}};
+  for (const CertificateCheck* check : checks) rows.push_back(check_row(*check, fourth));
   Widths widths{};
-  for (const Row& row : rows) {
+  for (const CheckRow& row : rows) {
     for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], row[i].size());
   }
   fit(widths, fourth, columns);
   std::string text;
-  for (Row& row : rows) {
+  for (CheckRow& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < kColumns; ++i) {
       if (widths[i] == 0) continue;
