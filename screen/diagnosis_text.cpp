@@ -121,6 +121,12 @@ std::string how_it_is_found(const Diagnosis& diagnosis) {
       diagnosis.stopped_by.empty() ? diagnosis.message : diagnosis.stopped_by);
 }
 
+/// Whether a proof speaks of the same goal and phase: "goal 1, phase 'swing': ...". A doubt then adds nothing.
+bool is_certain(const std::string& doubt, const std::vector<std::string>& reasons) {
+  const std::string subject = doubt.substr(0, doubt.find(": ") + 1);
+  return std::ranges::any_of(reasons, [&](const std::string& reason) { return reason.starts_with(subject); });
+}
+
 Json to_json(const Breach& breach, const MotionProblem& problem) {
   return {{"kind", to_string(breach.kind)},
           {"phase", breach.phase + 1},
@@ -170,7 +176,9 @@ std::string diagnosis_text(const Diagnosis& diagnosis, const MotionProblem& prob
   const std::string headline = diagnosis_headline(diagnosis, problem);
   std::string text = fmt::format("{} {}: {}\n", problem.robot.name(), problem.name, headline);
   for (const std::string& reason : diagnosis.reasons) text += fmt::format("  certain      {}\n", reason);
-  for (const std::string& hint : diagnosis.hints) text += fmt::format("  doubtful     {}\n", hint);
+  for (const std::string& hint : diagnosis.hints) {
+    if (!is_certain(hint, diagnosis.reasons)) text += fmt::format("  doubtful     {}\n", hint);
+  }
   for (std::size_t i = 0; i < std::min(diagnosis.breaches.size(), kMostBreaches); ++i) {
     text += fmt::format("  gives way    {}\n", in_words(diagnosis.breaches[i], problem));
   }

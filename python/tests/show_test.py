@@ -124,6 +124,8 @@ def test_a_notebook_shows_what_fails():
     text = failed._repr_html_()
     assert "not good" in text and "iteration limit" in text and "<details open><summary>Certificate" in text
     rows = re.findall(r"<tr>(.*?)</tr>", failed.certificate._repr_html_())
+    left, right = re.findall("<th style=[^>]*left[^>]*>([a-z]+)<", rows[0]), re.findall("<th>([a-z]+)<", rows[0])
+    assert left == ["check", "where"] and right == ["worst", "limit", "time"], "headings are above their values"
     verdicts = ["FAIL" in row for row in rows[1:]]
     assert any(verdicts) and verdicts == sorted(verdicts, reverse=True), "failed checks come first"
 

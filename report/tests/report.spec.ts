@@ -30,6 +30,7 @@ test("plays in real time, pauses, and stops at the end", async ({ page }) => {
   const gone = (await timeOf(page)) - start;
   expect(gone).toBeLessThan((Date.now() - wall) / 1000 + 0.1);
   await page.getByRole("button", { name: "Pause" }).click();
+  await expect(page.getByRole("button", { name: "Play" })).toBeVisible();
   const stopped = await timeOf(page);
   await page.waitForTimeout(300);
   expect(await timeOf(page)).toBe(stopped);

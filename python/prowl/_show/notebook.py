@@ -94,8 +94,9 @@ def _verdict(passed: bool, yes: str, no: str) -> tuple[str, str]:
 
 
 def _table(head: list[str], rows: list[list[tuple[str, str]]]) -> str:
-    """Cells with their styles."""
-    heading = "".join(f"<th{LEFT}>{escape(name)}</th>" for name in head)
+    """Cells with their styles; headings are aligned as the cells below."""
+    styles = [style if style == LEFT else "" for _, style in rows[0]] if rows else [LEFT] * len(head)
+    heading = "".join(f"<th{style}>{escape(name)}</th>" for name, style in zip(head, styles))
     body = "".join(
         "<tr>" + "".join(f"<td{style}>{escape(text)}</td>" for text, style in cells) + "</tr>" for cells in rows
     )
