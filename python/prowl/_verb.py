@@ -105,6 +105,8 @@ def _run(options: argparse.Namespace) -> None:
     try:
         {"figures": _figures, "export": _export}[options.verb](options)
     except tuple(kinds) as error:
+        if isinstance(error.__cause__, ModuleNotFoundError):
+            raise error.__cause__ from None
         is_option = str(error).startswith(("format: ", "joint: ", "rate: "))  # named like the argument of the function
         kind = next(kind for base, kind in kinds.items() if isinstance(error, base))
         _say(error=f"{'--' if is_option else ''}{error}", kind=kind)
@@ -116,7 +118,8 @@ def main() -> None:
     try:
         _run(options)
     except ModuleNotFoundError as error:
-        needed = f"need a Python with {LIBRARIES[options.verb]} (scripts/setup installs one in .venv): --python PATH"
+        extra = {"figures": "figures", "export": "formats"}[options.verb]
+        needed = f'need a Python with {LIBRARIES[options.verb]}: pip install "prowl[{extra}]", or --python PATH'
         _say(error=f"{sys.executable}: {error.name} is missing; {needed}", kind="input")
     except ImportError as error:  # compiled module or its libraries are missing
         _say(error=str(error), kind="files")

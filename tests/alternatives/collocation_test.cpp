@@ -208,7 +208,7 @@ TEST(Collocation, SaysWhatRowsAndVariablesAre) {
         "phase 2 'lifted', node 1", "base x, position across the phase transition", "lh_foot, friction cone"}) {
     EXPECT_THAT(rows, Contains(HasSubstr(what)));
   }
-  for (const char* what : {"phase 1 'four', duration", "place 2 of lf_foot",
+  for (const char* what : {"phase 1 'four', duration", "foothold coordinate 2 of lf_foot",
                            "in the interval after it, torque lf_haa_joint", "acceleration base z", "force 12"}) {
     EXPECT_THAT(variables, Contains(HasSubstr(what)));
   }

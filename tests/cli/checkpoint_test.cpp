@@ -205,7 +205,7 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
       EXPECT_EQ(result.status, 130) << solver << " " << signal << result.error;
       EXPECT_EQ(plan().at("status"), "interrupted") << solver;
       const std::string progress = test::read_file(folder_.path() / "progress");
-      const std::size_t notice = progress.find("stopping as soon as");
+      const std::size_t notice = progress.find("stopping after the current step");
       ASSERT_NE(notice, std::string::npos) << progress;
       EXPECT_LE(count(progress.substr(notice), " s\n"), 1) << solver << ": one was under way\n" << progress;
     }
@@ -218,7 +218,7 @@ TEST_F(Checkpoints, ASecondHangUpIsIgnored) {
       ": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; " +
       test::until(test::kIteration) +
       "kill -HUP $pid; "
-      "for i in $(seq 6000); do grep -q 'stopping as' progress && break; sleep 0.001; done; kill -HUP $pid; wait $pid");
+      "for i in $(seq 6000); do grep -q 'stopping after' progress && break; sleep 0.001; done; kill -HUP $pid; wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
   EXPECT_THAT(test::read_file(folder_.path() / "said"), testing::HasSubstr("interrupted")) << "it did not end at once";
