@@ -69,7 +69,8 @@ void fit(Widths& widths, CheckColumn fourth, std::size_t columns) {
 bool is_draft(const CertificateCheck& check) { return check.passed && !(check.worst <= check.certified_limit); }
 
 std::string check_table(const std::vector<const CertificateCheck*>& checks, CheckColumn fourth, std::size_t columns) {
-  std::vector<CheckRow> rows = {{"check", "worst", "limit", fourth == CheckColumn::used ? "used" : "time", "where", ""}};
+  std::vector<CheckRow> rows = {
+      {"check", "worst", "limit", fourth == CheckColumn::used ? "used" : "time", "where", ""}};
   for (const CertificateCheck* check : checks) rows.push_back(check_row(*check, fourth));
   Widths widths{};
   for (const CheckRow& row : rows) {

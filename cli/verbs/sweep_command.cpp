@@ -59,7 +59,7 @@ int run_sweep(const SweepArguments& arguments) {
   }
   print_progress(fmt::format("{} simulation{} of {:.1f} s of motion{}\n", arguments.cases,
                              arguments.cases == 1 ? "" : "s", tracker.end() + plan.task.success.rest,
-                             arguments.breakdown_cases > 0 ? ", then those of one perturbation alone" : ""));
+                             arguments.breakdown_cases > 0 ? ", then those with a single perturbation" : ""));
   record.cases = with_bar("simulations", interrupted, [&](const SweepProgress& on_done) {
     return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
   });

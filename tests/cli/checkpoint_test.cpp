@@ -214,11 +214,12 @@ TEST_F(Checkpoints, SignalsStopEverySolverWithinAnIteration) {
 
 /// A shell and the kernel may both tell of it.
 TEST_F(Checkpoints, ASecondHangUpIsIgnored) {
-  const Outcome result = run(
-      ": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; " +
-      test::until(test::kIteration) +
-      "kill -HUP $pid; "
-      "for i in $(seq 6000); do grep -q 'stopping after' progress && break; sleep 0.001; done; kill -HUP $pid; wait $pid");
+  const Outcome result =
+      run(": >progress; $prowl plan bow.toml $dirs --out out --one-mesh --intervals 300 2>progress >said & pid=$!; " +
+          test::until(test::kIteration) +
+          "kill -HUP $pid; "
+          "for i in $(seq 6000); do grep -q 'stopping after' progress && break; sleep 0.001; done; kill -HUP $pid; "
+          "wait $pid");
   EXPECT_EQ(result.status, 130) << result.error;
   EXPECT_EQ(plan().at("status"), "interrupted");
   EXPECT_THAT(test::read_file(folder_.path() / "said"), testing::HasSubstr("interrupted")) << "it did not end at once";

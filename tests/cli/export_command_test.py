@@ -64,7 +64,7 @@ class ExportCommand(unittest.TestCase):
         for arguments, said in (
             (("--format", "cvs"), "cvs"),
             ((), "--format"),
-            (("--format", "csv", "--simulation"), "simulate.csv already"),
+            (("--format", "csv", "--simulation"), "simulate.csv contains the simulation already"),
             (("--format", "csv", "--rate", 0), "--rate: 0"),
             (("--format", "csv", "--rate", "nan"), "--rate: nan"),
             (("--format", "csv", "--rate", 1e12), "at most"),

@@ -111,7 +111,7 @@ TEST_F(AtomicFolder, KeepsWhatCannotTakeItsPlaceAndOfThatTheLatest) {
       write_folder_atomically(out_, {{"a.txt", text}}, kNames);
       FAIL() << "was replaced";
     } catch (const FileError& error) {
-      EXPECT_TRUE(std::string(error.what()).ends_with("is in " + kept.string())) << error.what();
+      EXPECT_TRUE(std::string(error.what()).ends_with("are in " + kept.string())) << error.what();
     }
     EXPECT_EQ(test::read_file(kept / "a.txt"), text);
   }

@@ -152,6 +152,7 @@ ALLOWED = {
     "cli/process": ["prowl", "prowl/session"],
     "cli/screen": ["cli/process", "prowl/text", "prowl/files", "prowl/nlp", "prowl/session"],
     "cli/options": [
+        "cli/process",
         "cli/screen",
         "prowl",
         "prowl/files",

@@ -36,7 +36,7 @@ TEST(SnoptSolver, SaysWhatIsMissing) {
 
   const SnoptSolver other("libm.so.6");
   EXPECT_THAT(other.why_unsupported(nlp),
-              Optional(AllOf(HasSubstr("libm.so.6: no function f_snset"), HasSubstr("snopt-interface"))));
+              Optional(AllOf(HasSubstr("libm.so.6: function f_snset is missing"), HasSubstr("snopt-interface"))));
 }
 
 TEST(SnoptSolver, NamesBoundsThatLeaveNothing) {
