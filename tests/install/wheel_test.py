@@ -68,10 +68,10 @@ def test_it_is_small_and_for_old_systems(wheel):
 def test_it_has_types_and_licences(unpacked):
     assert (unpacked / "prowl/py.typed").is_file() and (unpacked / "prowl/_prowl.pyi").is_file()
     licences = {path.stem for path in (unpacked / "prowl/share/doc/prowl/licences").iterdir()}
-    grafted = {re.match(r"lib([a-z]+)", path.name)[1] for path in unpacked.glob("prowl.libs/*")}
-    owners = {"octomath": "octomap", "assimp": "assimp", "z": None}  # zlib's is in its binary
-    missing = {owners.get(name, name) for name in grafted} - licences - {None}
-    assert not missing, f"no licence of {missing}"
+    known = tuple(licences | {"octomath", "z-"})  # part of OctoMap; zlib's is in its binary
+    names = [path.name.removeprefix("lib") for path in unpacked.glob("prowl.libs/*")]
+    assert len(names) > 10
+    assert not [name for name in names if not name.startswith(known)]
     assert (unpacked / "prowl/share/example-robot-data/robots/hyq_description/LICENSE").is_file()
 
 
@@ -81,11 +81,12 @@ def test_no_other_library_can_take_its_symbols(unpacked):
     (module,) = unpacked.glob("prowl/_prowl*.so")
     shown = run("nm", "--dynamic", "--defined-only", "--format=just-symbols", module).split()
     assert "PyInit__prowl" in shown
-    assert not [name for name in shown if "5prowl" in name or "pinocchio" in name], shown
+    own = ("_ZN5prowl", "_ZNK5prowl", "_ZTIN5prowl", "_ZN9pinocchio", "_ZNK9pinocchio")
+    assert not [name for name in shown if name.startswith(own)]
 
 
 SOLVE = "import prowl; p = prowl.solve('hyq/crouch', gains=False); print(p.q.tobytes().hex()[:4000], p.good)"
-OTHERS = "import crocoddyl, mujoco, numpy, pinocchio; m = pinocchio.buildSampleModelHumanoid(); d = m.createData()"
+OTHERS = "import crocoddyl, numpy, pinocchio; m = pinocchio.buildSampleModelHumanoid(); d = m.createData()"
 THEIRS = "print(pinocchio.rnea(m, d, pinocchio.neutral(m), numpy.ones(m.nv), numpy.ones(m.nv)).tobytes().hex())"
 
 
@@ -181,7 +182,7 @@ def test_a_robot_of_ones_own(machine):
 def test_python(machine):
     script = "import prowl; p = prowl.solve('hyq/crouch'); assert p.good; print(prowl.simulate(p).success)"
     assert machine.run("python3", "-c", script).strip() == "True"
-    figures = "import prowl; prowl.figures(prowl.read_plan('first'), 'figures')"
+    figures = "import prowl; prowl.figures('first')"
     missing = "\n".join(("try:", f"    {figures}", "except prowl.InputError as error: print(error)"))
     assert "prowl[figures]" in machine.run("python3", "-c", f"import prowl\n{missing}")
 
