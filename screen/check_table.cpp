@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "screen/plan_summary.hpp"
 
@@ -14,13 +15,18 @@ namespace {
 // Columns of the table.
 constexpr std::size_t kWorst = 1, kLimit = 2, kFourth = 3, kWhere = 4, kColumns = 6;
 constexpr std::size_t kGap = 2;
+constexpr std::size_t kNarrowest = 8;  ///< of the column "where"
 using CheckRow = std::array<std::string, kColumns>;
 using Widths = std::array<std::size_t, kColumns>;  ///< 0: left out
 
-/// Without the quantity of a coordinate, if need be: "RR_calf_joint" for "velocity of RR_calf_joint". Of names the end
-/// tells more: "..arm_right_4_joint".
+/// Shortened if necessary: "velocity of RR_calf_joint" to "RR_calf_joint", "goal 1, base z" to "base z", then to
+/// "RR_calf", then to the end.
 std::string cut(std::string text, std::size_t width) {
+  constexpr std::string_view kJoint = "_joint";
   if (const std::size_t of = text.find(" of "); text.size() > width && of != std::string::npos) text.erase(0, of + 4);
+  if (const std::size_t comma = text.find(", "); text.size() > width && comma != std::string::npos)
+    text.erase(0, comma + 2);
+  if (text.size() > width && text.ends_with(kJoint)) text.resize(text.size() - kJoint.size());
   return text.size() <= width ? text : ".." + text.substr(text.size() - (width - 2));
 }
 
@@ -38,7 +44,7 @@ const char* verdict(const CertificateCheck& check) {
 
 CheckRow check_row(const CertificateCheck& check, CheckColumn fourth) {
   const bool has_share = fourth == CheckColumn::used;
-  const std::string unit = has_share && check.unit == "of limit" ? "" : check.unit;  // the share says that
+  const std::string unit = check.unit == "of limit" ? "" : check.unit;  // the limit beside it is 1
   return {check.name,
           with_unit(check.worst, unit),
           with_unit(check.limit, ""),
@@ -55,10 +61,15 @@ std::size_t total(const Widths& widths) {
 
 /// Narrows the column of places, and leaves out one after the other.
 void fit(Widths& widths, CheckColumn fourth, std::size_t columns) {
-  constexpr std::size_t kNarrowest = 8;
-  const std::size_t others = total(widths) - widths[kWhere];
-  widths[kWhere] = std::min(widths[kWhere], std::max(kNarrowest, columns > others ? columns - others : 0));
-  if (fourth == CheckColumn::time && total(widths) > columns) widths[kFourth] = 0;
+  const auto narrow = [&widths, columns, widest = widths[kWhere]] {
+    const std::size_t others = total(widths) - widths[kWhere];
+    widths[kWhere] = std::min(widest, std::max(kNarrowest, columns > others ? columns - others : 0));
+  };
+  narrow();
+  if (fourth == CheckColumn::time && total(widths) > columns) {
+    widths[kFourth] = 0;
+    narrow();
+  }
   for (const std::size_t column : {kWhere, kLimit, kWorst}) {
     if (total(widths) > columns) widths[column] = 0;
   }

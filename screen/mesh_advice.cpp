@@ -56,8 +56,8 @@ std::string mesh_advice(const PlanRecord& record) {
   advise("draft", CertificateLimits::integration_error_draft);
   advise("certified", CertificateLimits::integration_error_certified);
   if (text.empty()) return "";
-  return fmt::format("local integration error {:.1e} with {} intervals; it falls with the cube of the step:\n",
-                     worst->error, errors.size()) +
+  return fmt::format("local integration error {:.1e} with {} intervals (cubic in the step size):\n", worst->error,
+                     errors.size()) +
          text;
 }
 

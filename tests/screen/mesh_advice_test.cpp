@@ -79,9 +79,10 @@ TEST_F(MeshAdvice, SpeaksOfWhatIsMissingOnly) {
 TEST_F(MeshAdvice, OfAnUnevenMeshIsToRefineIt) {
   PlanRecord plan = record(5e-5);
   plan.plan.mesh.phases[0] = PhaseMesh({1.0, 1.0, 1.0, 1.0, 2.0});
-  EXPECT_THAT(mesh_advice(plan),
-              testing::EndsWith(
-                  "step:\nfor grade certified (1e-06) --refine certified --warm-start with the folder of this plan\n"));
+  EXPECT_THAT(
+      mesh_advice(plan),
+      testing::EndsWith(
+          "step size):\nfor grade certified (1e-06) --refine certified --warm-start with the folder of this plan\n"));
 }
 
 TEST_F(MeshAdvice, SaysNothingOfAPlanThatDidNotConverge) {
