@@ -7,8 +7,10 @@
 
 namespace prowl {
 
-/// An MJCF file that includes `model_file` (mujoco_xml()) and has one keyframe a point of the motion, named
-/// PHASE_INDEX. Numbers have all digits.
+/// The MJCF text `model` with one keyframe a point of the motion, named PHASE_INDEX. Numbers have all digits.
+std::string add_mujoco_keyframes(const std::string& model, const MotionProblem& problem, const Trajectory& motion);
+
+/// The keyframes alone, as a file that includes `model_file`.
 std::string mujoco_keyframes_xml(const MotionProblem& problem, const Trajectory& motion, const std::string& model_file);
 
 }  // namespace prowl
