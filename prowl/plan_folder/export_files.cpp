@@ -9,7 +9,7 @@ const std::vector<ExportFormat>& export_formats() {
       {"npz", {"motion.npz"}},
       {"mcap", {"motion.mcap"}},
       {"joint-trajectory", {"joint_trajectory.json"}},
-      {"mujoco", {"mujoco_keyframes.xml", "mujoco_model.xml"}},
+      {"mujoco", {"mujoco.xml", "mujoco_keyframes.xml", "mujoco_model.xml"}},
   };
   return formats;
 }

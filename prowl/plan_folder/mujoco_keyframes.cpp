@@ -4,38 +4,55 @@
 #include <fmt/ranges.h>
 #include <tinyxml2.h>
 
+#include "prowl/error.hpp"
 #include "prowl/simulation/mujoco_state.hpp"
 
 namespace prowl {
 namespace {
 
+using tinyxml2::XMLElement;
+
 std::string numbers(const Eigen::VectorXd& values) { return fmt::format("{}", fmt::join(values, " ")); }
 
-}  // namespace
-
-std::string mujoco_keyframes_xml(const MotionProblem& problem, const Trajectory& motion,
-                                 const std::string& model_file) {
-  tinyxml2::XMLPrinter xml;
-  xml.OpenElement("mujoco");
-  xml.PushAttribute("model", fmt::format("{} {}", problem.robot.name(), problem.name).c_str());
-  xml.OpenElement("include");
-  xml.PushAttribute("file", model_file.c_str());
-  xml.CloseElement();
-  xml.OpenElement("keyframe");
+void add_keyframes(const MotionProblem& problem, const Trajectory& motion, XMLElement& root) {
+  root.SetAttribute("model", fmt::format("{} {}", problem.robot.name(), problem.name).c_str());
+  XMLElement* const keys = root.InsertNewChildElement("keyframe");
   for (std::size_t i = 0; i < motion.nodes.size(); ++i) {
     const TrajectoryPoint& point = motion.nodes[i];
     const std::string& phase = problem.phases[point.phase].name;
-    xml.OpenElement("key");
-    xml.PushAttribute("name", fmt::format("{}_{}", phase, i).c_str());
-    xml.PushAttribute("time", fmt::format("{}", point.time).c_str());
-    xml.PushAttribute("qpos", numbers(mujoco_qpos(point.q)).c_str());
-    xml.PushAttribute("qvel", numbers(mujoco_qvel(point.q, point.v)).c_str());
-    xml.PushAttribute("ctrl", numbers(point.tau).c_str());
-    xml.CloseElement();
+    XMLElement* const key = keys->InsertNewChildElement("key");
+    key->SetAttribute("name", fmt::format("{}_{}", phase, i).c_str());
+    key->SetAttribute("time", fmt::format("{}", point.time).c_str());
+    key->SetAttribute("qpos", numbers(mujoco_qpos(point.q)).c_str());
+    key->SetAttribute("qvel", numbers(mujoco_qvel(point.q, point.v)).c_str());
+    key->SetAttribute("ctrl", numbers(point.tau).c_str());
   }
-  xml.CloseElement();
-  xml.CloseElement();
-  return xml.CStr();
+}
+
+std::string to_text(const tinyxml2::XMLDocument& document) {
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+}  // namespace
+
+std::string add_mujoco_keyframes(const std::string& model, const MotionProblem& problem, const Trajectory& motion) {
+  tinyxml2::XMLDocument document;
+  document.Parse(model.c_str());
+  if (!document.RootElement()) throw InputError(fmt::format("robot '{}': not a model of MuJoCo", problem.robot.name()));
+  add_keyframes(problem, motion, *document.RootElement());
+  return to_text(document);
+}
+
+std::string mujoco_keyframes_xml(const MotionProblem& problem, const Trajectory& motion,
+                                 const std::string& model_file) {
+  tinyxml2::XMLDocument document;
+  XMLElement* const root = document.NewElement("mujoco");
+  document.InsertFirstChild(root);
+  root->InsertNewChildElement("include")->SetAttribute("file", model_file.c_str());
+  add_keyframes(problem, motion, *root);
+  return to_text(document);
 }
 
 }  // namespace prowl

@@ -7,8 +7,10 @@
 
 namespace prowl {
 
-/// An MJCF file that includes `model_file` (mujoco_xml()) and contains one keyframe per point of the motion, named
-/// PHASE_INDEX. Numbers have all digits.
+/// The MJCF text `model` with one keyframe per point of the motion, named PHASE_INDEX. Numbers have all digits.
+std::string add_mujoco_keyframes(const std::string& model, const MotionProblem& problem, const Trajectory& motion);
+
+/// The keyframes alone, as an MJCF file that includes `model_file` (mujoco_xml()).
 std::string mujoco_keyframes_xml(const MotionProblem& problem, const Trajectory& motion, const std::string& model_file);
 
 }  // namespace prowl

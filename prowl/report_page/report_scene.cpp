@@ -1,21 +1,14 @@
-#include <fmt/format.h>
-
 #include <map>
-#include <set>
 
-#include "prowl/error.hpp"
 #include "prowl/files/base64.hpp"
-#include "prowl/files/visual_mesh.hpp"
 #include "prowl/model/body_placements.hpp"
-#include "prowl/model/urdf/robot_visuals.hpp"
+#include "prowl/plan_folder/robot_look.hpp"
 #include "prowl/report_page/report_json.hpp"
 
 namespace prowl {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kMostTriangles = 40000;  ///< of all meshes of a robot together: about 1 MB of the report
 
 Json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -36,72 +29,19 @@ const char* to_text(RobotVisual::Kind kind) {
   return "box";
 }
 
-/// Mesh files of the visuals, each read once, reduced to a common budget of triangles.
-class Meshes {
- public:
-  Meshes(const RobotModel& robot, const PackageSearch& search) : urdf_(robot.description().urdf), search_(search) {}
-
-  /// Throws InputError if the file cannot be found or read.
-  void read(const std::string& uri) {
-    if (parts_.contains(uri)) return;
-    parts_[uri] = read_visual_mesh(resolve_uri(uri, urdf_, {}, search_));
-  }
-
-  /// All meshes as JSON; sets the mesh indices of each URI.
-  Json take() {
-    double triangles = 0.0;
-    for (const auto& [uri, parts] : parts_) {
-      for (const VisualMesh& part : parts) triangles += static_cast<double>(part.num_triangles());
-    }
-    Json meshes = Json::array();
-    for (auto& [uri, parts] : parts_) {
-      for (VisualMesh& part : parts) {
-        simplify(part, kMostTriangles / triangles);
-        indices_[uri].push_back(meshes.size());
-        Json colour = nullptr;
-        if (part.colour) colour = to_json(*part.colour);
-        meshes.push_back(
-            {{"positions", base64(part.positions)}, {"triangles", base64(part.triangles)}, {"colour", colour}});
-      }
-    }
-    return meshes;
-  }
-
-  Json indices(const std::string& uri) const { return indices_.at(uri); }
-
- private:
-  const std::filesystem::path& urdf_;
-  const PackageSearch& search_;
-  std::map<std::string, std::vector<VisualMesh>> parts_;
-  std::map<std::string, std::vector<std::size_t>> indices_;
-};
-
-/// The robot's visuals with readable meshes; a body that loses one gets a box of its inertia.
-std::vector<RobotVisual> readable_visuals(const RobotModel& robot, const BodyTree& tree, Meshes& meshes,
-                                          std::vector<std::string>& warnings) {
-  std::vector<RobotVisual> visuals;
-  std::set<int> incomplete;
-  std::set<std::string> unreadable;
-  for (const RobotVisual& visual : robot_visuals(robot)) {
-    try {
-      if (visual.kind == RobotVisual::Kind::mesh) meshes.read(visual.mesh);
-      visuals.push_back(visual);
-    } catch (const InputError& error) {
-      if (unreadable.insert(visual.mesh).second) {
-        warnings.push_back(fmt::format("link {}: drawn as a box of its inertia: {}", visual.link, error.what()));
-      }
-      incomplete.insert(visual.body);
+/// Writes the meshes, and their indices by URI.
+Json meshes_json(const RobotLook& look, std::map<std::string, Json>& indices) {
+  Json meshes = Json::array();
+  for (const auto& [uri, parts] : look.meshes) {
+    for (const VisualMesh& part : parts) {
+      indices[uri].push_back(meshes.size());
+      Json colour = nullptr;
+      if (part.colour) colour = to_json(*part.colour);
+      meshes.push_back(
+          {{"positions", base64(part.positions)}, {"triangles", base64(part.triangles)}, {"colour", colour}});
     }
   }
-  if (visuals.empty() && incomplete.empty()) {
-    warnings.push_back(fmt::format("{}: contains no <visual>: bodies are drawn as boxes of their inertia",
-                                   robot.description().urdf.string()));
-    for (std::size_t b = 0; b < tree.bodies.size(); ++b) incomplete.insert(static_cast<int>(b));
-  }
-  for (const int body : incomplete) {
-    if (const auto box = inertia_box(tree, body)) visuals.push_back(*box);
-  }
-  return visuals;
+  return meshes;
 }
 
 /// Centre of mass of bodies at their placements in the world [m].
@@ -134,14 +74,16 @@ Json surfaces_json(const MotionProblem& problem) {
 Json report_scene(const MotionProblem& problem, const PackageSearch& search, std::vector<std::string>& warnings) {
   const RobotModel& robot = problem.robot;
   const BodyTree tree = body_tree(robot);
-  Meshes meshes(robot, search);
-  const std::vector<RobotVisual> visuals = readable_visuals(robot, tree, meshes, warnings);
-  Json json = {
-      {"meshes", meshes.take()}, {"visuals", Json::array()}, {"bodies", Json::array()}, {"contacts", Json::array()}};
-  for (const RobotVisual& visual : visuals) {
+  const RobotLook look = robot_look(robot, search, warnings);
+  std::map<std::string, Json> indices;
+  Json json = {{"meshes", meshes_json(look, indices)},
+               {"visuals", Json::array()},
+               {"bodies", Json::array()},
+               {"contacts", Json::array()}};
+  for (const RobotVisual& visual : look.visuals) {
     Json colour = nullptr, parts = Json::array();
     if (visual.colour) colour = to_json(*visual.colour);
-    if (visual.kind == RobotVisual::Kind::mesh) parts = meshes.indices(visual.mesh);
+    if (visual.kind == RobotVisual::Kind::mesh) parts = indices.at(visual.mesh);
     json["visuals"].push_back({{"link", visual.link},
                                {"body", visual.body},
                                {"placement", to_json(visual.placement)},

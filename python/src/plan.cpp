@@ -2,6 +2,7 @@
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -14,7 +15,10 @@
 #include "prowl/files/csv_table.hpp"
 #include "prowl/plan_folder/motion_points.hpp"
 #include "prowl/plan_folder/mujoco_keyframes.hpp"
+#include "prowl/plan_folder/mujoco_visuals.hpp"
+#include "prowl/plan_folder/robot_look.hpp"
 #include "prowl/plan_folder/trajectory_csv.hpp"
+#include "prowl/simulation/mujoco_xml.hpp"
 #include "prowl/simulation/simulation.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
 #include "prowl/transcription/cost_terms.hpp"
@@ -81,6 +85,20 @@ Motion simulated_motion(const PlanObject& plan, double step) {
   if (motion.nodes.empty()) throw InputError(table.file + ": no row of finite numbers");
   for (TrajectoryPoint& point : motion.nodes) point.phase = sample(plan.record.plan.trajectory, point.time).phase;
   return Motion(motion);
+}
+
+/// The file and its warnings.
+std::pair<std::string, std::vector<std::string>> mujoco_file(const PlanObject& plan, const Motion& motion,
+                                                             const std::vector<std::string>& package_dirs) {
+  const MotionProblem& problem = plan.problem();
+  const Trajectory points = motion.trajectory();
+  const PackageSearch search = package_search(package_dirs);
+  const nb::gil_scoped_release others_may_run;
+  std::vector<std::string> warnings;
+  const RobotLook look = robot_look(problem.robot, search, warnings);
+  const std::string model =
+      mujoco_xml(problem.robot, problem.surfaces, {.friction = plan.record.task.simulated_friction});
+  return {add_mujoco_keyframes(add_mujoco_visuals(model, problem.robot, look), problem, points), std::move(warnings)};
 }
 
 nb::dict term_costs(const PlanObject& plan) {
@@ -202,6 +220,10 @@ void bind_plan(nb::module_& module) {
            "f is the measured force. The last phase continues after the end of the plan.")
       .def("to_csv", &to_csv, nb::arg("step") = nb::none(),
            "Text of trajectory.csv, at the nodes or every `step` seconds.")
+      .def("mujoco_xml", &mujoco_file, nb::arg("motion"), nb::kw_only(),
+           nb::arg("package_dirs") = std::vector<std::string>{},
+           "An MJCF file with the model that simulate() runs, the meshes of the robot, and one keyframe an instant.\n"
+           "Also lines about meshes that cannot be read.")
       .def(
           "mujoco_keyframes",
           [](const PlanObject& p, const Motion& motion, const std::string& model_file) {

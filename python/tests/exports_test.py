@@ -1,6 +1,7 @@
 """Samples of a motion with a switch of contacts: nodes or a rate, gains on both sides of the switch. export() as a function."""
 
 import math
+import tomllib
 
 import numpy as np
 import pytest
@@ -58,13 +59,23 @@ def test_export_of_a_folder(crouch, tmp_path):
     assert done.files == {path.name: path.stat().st_size for path in (tmp_path / "plan/exports").iterdir()}
     assert (tmp_path / "plan/exports/motion.csv").read_text() == (tmp_path / "plan/trajectory.csv").read_text()
     several = prowl.export(tmp_path / "plan", ["json", "mujoco"], rate=50, out=tmp_path / "out")
-    assert list(several.files) == ["motion.json", "mujoco_keyframes.xml", "mujoco_model.xml"]
+    assert list(several.files) == ["motion.json", "mujoco.xml", "mujoco_keyframes.xml", "mujoco_model.xml"]
     with pytest.raises(prowl.InputError, match="^format: cvs is not allowed; need one of csv, json"):
         prowl.export(tmp_path / "plan", "cvs")
     with pytest.raises(prowl.InputError, match="first prowl simulate"):
         prowl.export(tmp_path / "plan", "npz", simulation=True)
     with pytest.raises(prowl.FileError, match="cannot create this folder"):
         prowl.export(tmp_path / "plan", "csv", out="/dev/null")
+
+
+def test_export_warns_of_a_mesh_that_cannot_be_read(hyq, tmp_path):
+    (tmp_path / "hyq.urdf").write_text(hyq.urdf_text.replace("meshes/trunk/trunk.dae", "meshes/trunk/none.dae"))
+    robot = prowl.parse_robot(tomllib.loads(hyq.text) | {"urdf": "hyq.urdf"}, folder=tmp_path)
+    task = tomllib.loads(prowl.read_task("hyq/hold").text) | {"robot": robot}
+    plan = prowl.solve(prowl.parse_task(task, folder=tmp_path), gains=False, progress=False)
+    with pytest.warns(UserWarning, match="^link trunk: drawn as a box of its inertia: .*none.dae"):
+        prowl.export(plan, "mujoco", out=tmp_path / "out")
+    assert 'type="box"' in (tmp_path / "out/mujoco.xml").read_text()
 
 
 def test_export_warns_of_a_plan_that_is_not_good(tmp_path):

@@ -30,6 +30,7 @@ class ExportCommand(unittest.TestCase):
             "motion.npz",
             "motion.mcap",
             "joint_trajectory.json",
+            "mujoco.xml",
             "mujoco_keyframes.xml",
             "mujoco_model.xml",
         ):

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
+import mujoco
 import numpy as np
 from exports_support import ROOT, Urdf, columns, of_seven, placement, read_csv, read_mcap, rotation, run_or_fail, xyz
 
@@ -255,6 +256,29 @@ class Exports(unittest.TestCase):
             np.testing.assert_array_equal(numbers["qvel"][3:], v[3:])
             np.testing.assert_array_equal(numbers["ctrl"], tau)
 
+    def test_mujoco_file_shows_the_robot_in_all_keyframes(self):
+        model, bare = (
+            mujoco.MjModel.from_xml_path(str(self.out / name)) for name in ("mujoco.xml", "mujoco_keyframes.xml")
+        )
+        self.assertEqual(model.nkey, len(self.nodes["time_s"]))
+        self.assertGreater(model.nmesh, 0)
+        self.assertEqual(bare.nmesh, 0)
+        masses = ElementTree.fromstring(self.json["urdf"]["text"]).iterfind("link/inertial/mass")
+        self.assertAlmostEqual(model.body_mass.sum(), sum(float(mass.get("value")) for mass in masses), places=9)
+        shown = model.geom_group == 2
+        self.assertEqual(np.count_nonzero(shown), model.ngeom - bare.ngeom)
+        self.assertFalse(np.any(model.geom_contype[shown]) or np.any(model.geom_conaffinity[shown]))
+        expected = self.quantities(self.nodes)
+        np.testing.assert_array_equal(model.key_qpos, expected["q"][:, [0, 1, 2, 6, 3, 4, 5, *range(7, 19)]])
+        np.testing.assert_array_equal(model.key_ctrl, expected["tau"])
+        ends = []
+        for each in (model, bare):  # visuals change no bit of the motion
+            data = mujoco.MjData(each)
+            mujoco.mj_resetDataKeyframe(each, data, model.nkey // 2)
+            mujoco.mj_step(each, data, 100)
+            ends.append(data.qpos.copy())
+        np.testing.assert_array_equal(*ends)
+
     def test_simulation_is_the_true_motion(self):
         rows = read_csv(self.plan / "simulate.csv")
         with np.load(self.out / "simulated_motion.npz", allow_pickle=False) as file:
@@ -276,6 +300,8 @@ class Exports(unittest.TestCase):
         self.assertEqual({len(p["accelerations"]) for p in points}, {0}, "ROS reads an empty list as not given")
         keys = ElementTree.parse(self.out / "simulated_mujoco_keyframes.xml").getroot()
         self.assertTrue((self.out / keys.find("include").get("file")).exists())
+        simulated = mujoco.MjModel.from_xml_path(str(self.out / "simulated_mujoco.xml"))
+        np.testing.assert_array_equal(simulated.key_time, [float(key.get("time")) for key in keys.iter("key")])
 
     def test_same_input_same_files(self):
         again = self.plan.with_name("again")

@@ -33,17 +33,20 @@ Trajectory random_motion(const RobotModel& robot) {
   return motion;
 }
 
-class Keyframes : public testing::TestWithParam<const char*> {};
+/// A shipped task, and if the keyframes are a file of their own.
+class Keyframes : public testing::TestWithParam<std::tuple<const char*, bool>> {};
 
 TEST_P(Keyframes, StandAndMoveAsThePlan) {
-  const Task task =
-      read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + GetParam() + ".toml", test::test_search());
+  const auto& [name, apart] = GetParam();
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test::test_search());
   const MotionProblem& problem = task.problem;
   const RobotModel& robot = problem.robot;
   const Trajectory motion = random_motion(robot);
   test::TempFolder folder;
-  folder.write("model.xml", mujoco_xml(robot, problem.surfaces, {}));
-  const auto file = folder.write("keys.xml", mujoco_keyframes_xml(problem, motion, "model.xml"));
+  const std::string bare = mujoco_xml(robot, problem.surfaces, {});
+  folder.write("model.xml", bare);
+  const auto file = folder.write("keys.xml", apart ? mujoco_keyframes_xml(problem, motion, "model.xml")
+                                                   : add_mujoco_keyframes(bare, problem, motion));
 
   std::array<char, 500> error{};
   const std::unique_ptr<mjModel, decltype(&mj_deleteModel)> model(
@@ -83,7 +86,8 @@ TEST_P(Keyframes, StandAndMoveAsThePlan) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shipped, Keyframes, testing::Values("hyq/step", "hyq/wall", "talos/squat"));
+INSTANTIATE_TEST_SUITE_P(Shipped, Keyframes,
+                         testing::Combine(testing::Values("hyq/step", "hyq/wall", "talos/squat"), testing::Bool()));
 
 }  // namespace
 }  // namespace prowl

@@ -46,8 +46,9 @@ def export(
     true motion of this Simulation, or if True of simulate.csv in the plan folder, instead of the plan.
     package_dirs: see read_task().
 
-    Needs numpy, for "mcap" also mcap and mcap-ros2-support. Warns if the plan is not good. Raises InputError,
-    FileError; replaces existing files one by one, each atomically.
+    Needs numpy, for "mcap" also mcap and mcap-ros2-support. Warns if the plan is not good, and for "mujoco"
+    if a mesh cannot be read. Raises InputError, FileError; replaces existing files one by one, each
+    atomically.
     """
     names = [formats] if isinstance(formats, str) else list(formats)
     for name in names:
@@ -66,7 +67,7 @@ def export(
     if not source.good:
         certificate = "passed" if source.certificate.passed else "failed"
         warnings.warn(f"this plan is not good: {source.status}, certificate {certificate}", stacklevel=2)
-    files = _files(source, samples, set(names), rate)
+    files = _files(source, samples, set(names), rate, package_dirs)
     _prowl.write_files(folder, files)
     return Export(
         source,
@@ -90,8 +91,10 @@ def _simulated(plan: _prowl.Plan, simulation: bool | _prowl.Simulation, rate: fl
         return sample_simulation(as_plan(folder), rate)
 
 
-def _files(plan: _prowl.Plan, samples: Samples, formats: set[str], rate: float | None) -> dict[str, bytes]:
-    """Files of all formats, by name."""
+def _files(
+    plan: _prowl.Plan, samples: Samples, formats: set[str], rate: float | None, package_dirs: Folders
+) -> dict[str, bytes]:
+    """Files of all formats, by name. Warns of meshes that cannot be read."""
     from . import texts
 
     prefix = "simulated_" if samples.simulated else ""
@@ -103,6 +106,11 @@ def _files(plan: _prowl.Plan, samples: Samples, formats: set[str], rate: float |
     if "joint-trajectory" in formats:
         files[f"{prefix}joint_trajectory.json"] = texts.joint_trajectory_json(plan, samples)
     if "mujoco" in formats:
+        files[f"{prefix}mujoco.xml"], told = plan.mujoco_xml(
+            samples.motion, package_dirs=[os.fspath(path) for path in package_dirs]
+        )
+        for warning in told:
+            warnings.warn(warning, stacklevel=3)
         model = f"{prefix}mujoco_model.xml"
         files[model] = plan.task.mujoco_xml()
         files[f"{prefix}mujoco_keyframes.xml"] = plan.mujoco_keyframes(samples.motion, model)
