@@ -92,19 +92,19 @@ class Visuals {
   /// Of the asset, which is added the first time; "" for a part that is left out.
   std::string mesh_name(const RobotVisual& visual, std::size_t part) {
     const auto key = std::tuple(visual.mesh, part, numbers(visual.size));
-    const auto [foothold, is_new] = names_.try_emplace(key);
+    const auto [entry, is_new] = names_.try_emplace(key);
     const VisualMesh& mesh = look_.meshes.at(visual.mesh)[part];
-    if (!is_new || area(mesh, visual.size) < kSmallestArea) return foothold->second;
-    foothold->second = fmt::format("{} {}", std::filesystem::path(visual.mesh).stem().string(), names_.size());
+    if (!is_new || area(mesh, visual.size) < kSmallestArea) return entry->second;
+    entry->second = fmt::format("{} {}", std::filesystem::path(visual.mesh).stem().string(), names_.size());
     std::vector<float> vertices = mesh.positions;
     while (vertices.size() < 3 * kFewestVertices) vertices.insert(vertices.end(), vertices.end() - 3, vertices.end());
     XMLElement& asset = *assets_.InsertNewChildElement("mesh");
-    asset.SetAttribute("name", foothold->second.c_str());
+    asset.SetAttribute("name", entry->second.c_str());
     asset.SetAttribute("inertia", "shell");  // not used, but others need closed meshes
     asset.SetAttribute("scale", std::get<2>(key).c_str());
     asset.SetAttribute("vertex", numbers(vertices).c_str());
     asset.SetAttribute("face", fmt::format("{}", fmt::join(mesh.triangles, " ")).c_str());
-    return foothold->second;
+    return entry->second;
   }
 
   const RobotLook& look_;
