@@ -142,9 +142,13 @@ int run_new_task(const NewTaskArguments& arguments) {
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});
     return kPassed;
   }
-  const bool is_quick = task.pattern == "pace" || task.pattern == "bound";  // whose errors are in a few intervals
+  const GaitEvidence evidence = gait_evidence(task.pattern);
   print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}{}\n", robot.name(), arguments.kind, out.string(),
-                           out.string(), is_quick ? " --refine" : ""));
+                           out.string(), evidence == GaitEvidence::refined ? " --refine" : ""));
+  if (evidence == GaitEvidence::some) {
+    print_result(fmt::format("note: a {} may fail; with --refine it passes on about half of the robots tried\n",
+                             arguments.kind));
+  }
   return kPassed;
 }
 

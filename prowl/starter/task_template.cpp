@@ -62,7 +62,7 @@ kind = "{kind}"
 strides = {strides}
 stride_s = {stride:.4g}          # of one stride, in which each foot swings once
 stride_length_m = {length:.3g}   # forward; heading_rad turns the way
-{duty}intervals_per_second = {rate:.0f}   # of the mesh. Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do
+{duty}intervals_per_second = {rate:.0f}   # of the mesh. {mesh}
 
 )";
 
@@ -124,6 +124,16 @@ joint_acceleration = {joints}
 constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride in which a foot is in contact\n";
 constexpr int kStrides = 2;
 
+/// What to know about the mesh of a gait.
+const char* mesh_note(GaitEvidence evidence) {
+  switch (evidence) {
+    case GaitEvidence::all: break;
+    case GaitEvidence::refined: return "Too few for the certificate by themselves: plan with --refine";
+    case GaitEvidence::some: return "Too few for the certificate; with --refine about half of the robots tried pass";
+  }
+  return "Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do";
+}
+
 std::string vector(const Eigen::Vector3d& v) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
@@ -181,7 +191,8 @@ std::string gait(const NewTask& task) {
   return fmt::format(fmt::runtime(kGait), fmt::arg("others", fmt::join(others, ", ")), fmt::arg("kind", task.pattern),
                      fmt::arg("strides", kStrides), fmt::arg("stride", task.stride_duration),
                      fmt::arg("length", task.stride_length), fmt::arg("duty", duty),
-                     fmt::arg("rate", task.intervals_per_second));
+                     fmt::arg("rate", task.intervals_per_second),
+                     fmt::arg("mesh", mesh_note(gait_evidence(task.pattern))));
 }
 
 /// Roll, pitch and yaw of a base that has `rpy` already and is turned by `turn` about the world's axes.
