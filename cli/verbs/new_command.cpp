@@ -143,12 +143,13 @@ int run_new_task(const NewTaskArguments& arguments) {
     return kPassed;
   }
   const GaitEvidence evidence = gait_evidence(task.pattern);
-  print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}{}\n", robot.name(), arguments.kind, out.string(),
-                           out.string(), evidence == GaitEvidence::refined ? " --refine" : ""));
-  if (evidence == GaitEvidence::some) {
-    print_result(fmt::format("note: a {} may fail; with --refine it passes on about half of the robots tried\n",
-                             arguments.kind));
-  }
+  const std::string next =
+      evidence == GaitEvidence::some
+          ? fmt::format(
+                "note: a {} may fail: of six robots none passed with prowl plan, three with prowl plan --refine",
+                arguments.kind)
+          : fmt::format("next: prowl plan {}{}", out.string(), evidence == GaitEvidence::refined ? " --refine" : "");
+  print_result(fmt::format("{} {}: written to {}\n{}\n", robot.name(), arguments.kind, out.string(), next));
   return kPassed;
 }
 

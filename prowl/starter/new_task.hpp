@@ -47,7 +47,7 @@ std::string kind_name(const NewTask& task);  ///< "hold", "trot" ...
 enum class GaitEvidence {
   all,      ///< all pass; so do the motions that are no gaits
   refined,  ///< all pass on a refined mesh
-  some,     ///< some pass on a refined mesh
+  some,     ///< three pass on a refined mesh
 };
 
 GaitEvidence gait_evidence(const std::string& pattern);

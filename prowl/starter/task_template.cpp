@@ -129,7 +129,7 @@ const char* mesh_note(GaitEvidence evidence) {
   switch (evidence) {
     case GaitEvidence::all: break;
     case GaitEvidence::refined: return "Too few for the certificate by themselves: plan with --refine";
-    case GaitEvidence::some: return "Too few for the certificate; with --refine about half of the robots tried pass";
+    case GaitEvidence::some: return "Too few for the certificate; with --refine three of six robots pass";
   }
   return "Too few, and the certificate fails by integration errors; `prowl plan` then says how many would do";
 }

@@ -242,8 +242,11 @@ TEST_F(NewTask, KnowsEveryGait) {
   for (const std::string gait : {"walk", "trot", "pace", "bound"}) {
     const Outcome made = run("$prowl new task b1.toml $dirs --kind " + gait + " --out " + gait + ".toml");
     EXPECT_EQ(made.status, 0) << made.error;
-    EXPECT_EQ(made.out.ends_with(" --refine\n"), gait == "pace") << made.out;
-    EXPECT_EQ(made.out.find("a bound may fail") != std::string::npos, gait == "bound") << made.out;
+    const std::string next = gait == "bound"  ? "\nnote: a bound may fail: "
+                             : gait == "pace" ? "\nnext: prowl plan pace.toml --refine\n"
+                                              : "\nnext: prowl plan " + gait + ".toml\n";
+    EXPECT_THAT(made.out, HasSubstr(next));
+    EXPECT_EQ(made.out.find("next: ") == std::string::npos, gait == "bound") << made.out;
     EXPECT_THAT(test::read_file(folder_.path() / (gait + ".toml")), HasSubstr("kind = \"" + gait + "\""));
     const Outcome phases = run("$prowl plan " + gait + ".toml $dirs --print-phases");
     EXPECT_EQ(phases.status, 0) << phases.error;
