@@ -142,9 +142,14 @@ int run_new_task(const NewTaskArguments& arguments) {
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});
     return kPassed;
   }
-  const bool is_quick = task.pattern == "pace" || task.pattern == "bound";  // errors are in few intervals
-  print_result(fmt::format("{} {}: written to {}\nnext: prowl plan {}{}\n", robot.name(), arguments.kind, out.string(),
-                           out.string(), is_quick ? " --refine" : ""));
+  const GaitEvidence evidence = gait_evidence(task.pattern);
+  const std::string next =
+      evidence == GaitEvidence::some
+          ? fmt::format(
+                "note: a {} may fail: of six robots none passed with prowl plan, three with prowl plan --refine",
+                arguments.kind)
+          : fmt::format("next: prowl plan {}{}", out.string(), evidence == GaitEvidence::refined ? " --refine" : "");
+  print_result(fmt::format("{} {}: written to {}\n{}\n", robot.name(), arguments.kind, out.string(), next));
   return kPassed;
 }
 

@@ -182,13 +182,21 @@ struct GaitScale {
   double stride;                ///< [s]
   double length;                ///< of the height [-]
   double duty_factor;           ///< 0: that of the pattern
-  double intervals_per_second;  ///< enough for grade draft of walk and trot; pace and bound need --refine
+  double intervals_per_second;  ///< enough for grade draft where all pass
+  GaitEvidence evidence;
 };
-constexpr GaitScale kGaitScales[] = {{"walk", 3.0, 0.4, 0.0, 170.0},
-                                     {"trot", 0.8, 0.35, 0.55, 200.0},
-                                     {"pace", 0.7, 0.2, 0.0, 150.0},
-                                     {"bound", 0.7, 0.2, 0.0, 150.0}};
-constexpr GaitScale kOtherGait = {"", 0.8, 0.2, 0.0, 150.0};
+constexpr GaitScale kGaitScales[] = {{"walk", 3.0, 0.4, 0.0, 170.0, GaitEvidence::all},
+                                     {"trot", 0.8, 0.35, 0.55, 200.0, GaitEvidence::all},
+                                     {"pace", 0.7, 0.2, 0.0, 150.0, GaitEvidence::refined},
+                                     {"bound", 0.7, 0.2, 0.0, 150.0, GaitEvidence::some}};
+constexpr GaitScale kOtherGait = {"", 0.8, 0.2, 0.0, 150.0, GaitEvidence::some};
+
+const GaitScale& scale_of(const std::string& pattern) {
+  const auto* const known =
+      std::ranges::find_if(kGaitScales, [&](const GaitScale& scale) { return pattern == scale.pattern; });
+  return known == std::end(kGaitScales) ? kOtherGait : *known;
+}
+
 constexpr double kHyqGaitWeight = 1e-4;  // of torques
 
 void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& task) {
@@ -198,9 +206,7 @@ void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& t
         "has {}; no --kind {}",
         robot.name(), robot.contacts().size(), pattern));
   }
-  const auto* const known =
-      std::ranges::find_if(kGaitScales, [&](const GaitScale& scale) { return pattern == scale.pattern; });
-  const GaitScale& scale = known == std::end(kGaitScales) ? kOtherGait : *known;
+  const GaitScale& scale = scale_of(pattern);
   const double time = std::sqrt(task.height / kReferenceHeight);
   constexpr double kTimeStep = 0.05;  // [s], rounding
   task.pattern = pattern;
@@ -236,6 +242,10 @@ std::vector<std::string> new_task_kinds() {
 std::string kind_name(const NewTask& task) {
   const auto found = std::ranges::find(standing_kinds(), task.kind, [](const auto& kind) { return kind.second; });
   return found == standing_kinds().end() ? task.pattern : found->first;
+}
+
+GaitEvidence gait_evidence(const std::string& pattern) {
+  return pattern.empty() ? GaitEvidence::all : scale_of(pattern).evidence;
 }
 
 NewTask new_task(const RobotModel& robot, const std::string& name) {

@@ -62,7 +62,7 @@ kind = "{kind}"
 strides = {strides}
 stride_s = {stride:.4g}          # of one stride, in which each foot swings once
 stride_length_m = {length:.3g}   # forward; heading_rad turns the direction
-{duty}intervals_per_second = {rate:.0f}   # of the mesh. Too few fail the certificate; `prowl plan` then tells how many suffice
+{duty}intervals_per_second = {rate:.0f}   # of the mesh. {mesh}
 
 )";
 
@@ -124,6 +124,16 @@ joint_acceleration = {joints}
 constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride with a foot in contact\n";
 constexpr int kStrides = 2;
 
+/// What to know about the mesh of a gait.
+const char* mesh_note(GaitEvidence evidence) {
+  switch (evidence) {
+    case GaitEvidence::all: break;
+    case GaitEvidence::refined: return "They fail the certificate unless refined: plan with --refine";
+    case GaitEvidence::some: return "They fail the certificate; with --refine three of six robots pass";
+  }
+  return "Too few fail the certificate; `prowl plan` then tells how many suffice";
+}
+
 std::string vector(const Eigen::Vector3d& v) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
@@ -181,7 +191,8 @@ std::string gait(const NewTask& task) {
   return fmt::format(fmt::runtime(kGait), fmt::arg("others", fmt::join(others, ", ")), fmt::arg("kind", task.pattern),
                      fmt::arg("strides", kStrides), fmt::arg("stride", task.stride_duration),
                      fmt::arg("length", task.stride_length), fmt::arg("duty", duty),
-                     fmt::arg("rate", task.intervals_per_second));
+                     fmt::arg("rate", task.intervals_per_second),
+                     fmt::arg("mesh", mesh_note(gait_evidence(task.pattern))));
 }
 
 /// Roll, pitch and yaw of `rpy` followed by `turn` about the world's axes [rad].
