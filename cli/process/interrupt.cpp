@@ -10,12 +10,12 @@
 namespace prowl::cli {
 namespace {
 
-std::atomic<bool> interrupted = false, hung_up = false;
+std::atomic<bool> interrupted_once = false, has_hung_up = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
 
 extern "C" void on_interrupt(int signal) {
-  if (signal == SIGHUP) hung_up = true;
-  if (interrupted.exchange(true)) {
+  if (signal == SIGHUP) has_hung_up = true;
+  if (interrupted_once.exchange(true)) {
     if (signal == SIGHUP) return;  // shell and kernel may both send it
     ::_exit(kInterrupted);
   }
@@ -27,7 +27,7 @@ extern "C" void on_interrupt(int signal) {
 
 }  // namespace
 
-bool is_terminal_gone() { return hung_up; }
+bool is_terminal_gone() { return has_hung_up; }
 
 const std::atomic<bool>& catch_interrupts() {
   struct sigaction action = {};
@@ -41,7 +41,7 @@ const std::atomic<bool>& catch_interrupts() {
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
   std::signal(SIGPIPE, SIG_IGN);  // a closed progress pipe must not stop the solve
-  return interrupted;
+  return interrupted_once;
 }
 
 }  // namespace prowl::cli

@@ -1,10 +1,10 @@
 #include "prowl/dynamics/static_equilibrium.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/linear_algebra/factorisations.hpp"
 #include "prowl/model/configuration.hpp"
 
 namespace prowl {
@@ -48,10 +48,7 @@ StaticEquilibrium equilibrium_in_motion(const RobotModel& robot, const Eigen::Ve
   const Eigen::VectorXd load = scale.asDiagonal() * total.head<6>();
 
   // Rank-revealing: two point feet leave the moment about their line unbalanced (rank 5).
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(1e-9);
-  decomposition.compute(balance);
-  const Eigen::VectorXd f = decomposition.solve(load);
+  const Eigen::VectorXd f = least_norm_solution(balance, load, 1e-9);
 
   result.residual = (balance * f - load).norm();
   result.tau -= J.rightCols(robot.nu()).transpose() * f;

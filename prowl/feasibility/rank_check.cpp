@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/projector.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/linear_algebra/factorisations.hpp"
 
 namespace prowl {
 
@@ -59,8 +59,7 @@ std::optional<LostRank> lost_rank(const RobotModel& robot, const VectorXd& q, co
   }
   if (lost.beside <= lost.rank) return std::nullopt;
   // Forces without torques and without a wrench on the base: J'f = 0. Flat feet add theirs.
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(J * J.transpose());
-  const VectorXd force = eigen.eigenvectors().leftCols(J.rows() - lost.rank).rowwise().norm();
+  const VectorXd force = symmetric_eigen(J * J.transpose()).vectors.leftCols(J.rows() - lost.rank).rowwise().norm();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (force.segment<3>(3 * static_cast<Eigen::Index>(i)).norm() > kPushes * force.maxCoeff())
       lost.contacts.push_back(contacts[i]);

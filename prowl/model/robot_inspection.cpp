@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,6 +10,7 @@
 #include <pinocchio/algorithm/frames.hpp>
 #include <pinocchio/algorithm/jacobian.hpp>
 
+#include "prowl/linear_algebra/factorisations.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/mirror_name.hpp"
 #include "prowl/model/physical_inertia.hpp"
@@ -223,8 +223,7 @@ RobotInspection inspect(const RobotModel& robot) {
 
   result.contact_rows = static_cast<int>(3 * points.size());
   if (points.empty()) return result;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(contact_jacobian(pin, data, q));
-  result.contact_singular_values = svd.singularValues();
+  result.contact_singular_values = singular_values(contact_jacobian(pin, data, q));
   const Eigen::ArrayXd ratios = result.contact_singular_values.array() / result.contact_singular_values(0);
   result.contact_rank = static_cast<int>((ratios > kRankThreshold).count());
   for (const double ratio : ratios) {

@@ -58,6 +58,18 @@ Eigen::Vector3d log(const Eigen::Matrix3d& R) {
   return rotation.angle() * rotation.axis();
 }
 
+Eigen::Matrix3d shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d a = from.normalized(), b = to.normalized();
+  const double cosine = b.dot(a);
+  if (cosine < -1.0 + 1e-12) {  // the axis is rounding: by way of any perpendicular direction
+    const Eigen::Vector3d between = a.unitOrthogonal();
+    return shortest_rotation(between, b) * shortest_rotation(a, between);
+  }
+  const double root = std::sqrt((1.0 + cosine) * 2.0);
+  const Eigen::Vector3d axis = a.cross(b) * (1.0 / root);
+  return Eigen::Quaterniond(0.5 * root, axis.x(), axis.y(), axis.z()).toRotationMatrix();
+}
+
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& theta) {
   const Coefficients c = coefficients(theta.norm());
   const Eigen::Matrix3d W = skew(theta);

@@ -14,6 +14,8 @@ namespace prowl::so3 {
 Eigen::Matrix3d skew(const Eigen::Vector3d& w);  ///< skew(w) u = w x u
 Eigen::Matrix3d exp(const Eigen::Vector3d& theta);
 Eigen::Vector3d log(const Eigen::Matrix3d& R);  ///< |log R| <= pi
+/// By the smallest angle, takes the direction of `from` to that of `to`.
+Eigen::Matrix3d shortest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& theta);
 /// Jr(θ)⁻¹: log(exp(θ) exp(w)) = θ + Jr(θ)⁻¹ w + O(|w|²). Needs |θ| < 2 pi.

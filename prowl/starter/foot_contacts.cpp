@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "prowl/model/so3.hpp"
 #include "prowl/starter/sole.hpp"
 
 namespace prowl {
@@ -37,7 +38,7 @@ Eigen::Matrix3d level_rotation(const RobotPose& pose, const Leg& leg) {
       }
     }
   }
-  return Eigen::Quaterniond::FromTwoVectors(down, -Eigen::Vector3d::UnitZ()).toRotationMatrix() * R;
+  return so3::shortest_rotation(down, -Eigen::Vector3d::UnitZ()) * R;
 }
 
 /// Link of the body whose origin is nearest to `point`; `preferred` wins ties.

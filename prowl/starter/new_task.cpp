@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "prowl/dynamics/inverse_kinematics.hpp"
 #include "prowl/dynamics/static_equilibrium.hpp"
 #include "prowl/error.hpp"
+#include "prowl/linear_algebra/factorisations.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/leg_kinematics.hpp"
 #include "prowl/motion/gait.hpp"
@@ -123,8 +123,8 @@ void check_that_it_can_step(const RobotModel& robot, const NewTask& task, int fo
   }
   LegKinematics legs(robot);
   legs.update(robot.nominal_configuration().tail(robot.nu()));
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(legs.linear(foot));
-  if ((svd.singularValues().array() > 1e-6 * svd.singularValues()(0)).count() < 3) {
+  const Eigen::ArrayXd stretches = singular_values(legs.linear(foot));
+  if ((stretches > 1e-6 * stretches(0)).count() < 3) {
     throw InputError(
         fmt::format("robot '{}': the leg of {} moves its foot in a plane only, so the weight cannot shift to the "
                     "other feet; no --kind step",

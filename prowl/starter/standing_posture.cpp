@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
+#include "prowl/model/so3.hpp"
 #include "prowl/starter/robot_pose.hpp"
 #include "prowl/starter/sole.hpp"
 
@@ -141,7 +142,7 @@ class PostureSearch {
         const auto bottom = [&](std::size_t i) { return pose_.contact(static_cast<std::size_t>(contacts_[l][i])); };
         Eigen::Vector3d normal = (bottom(1) - bottom(0)).cross(bottom(2) - bottom(0)).normalized();
         if (normal.z() < 0.0) normal = -normal;
-        turn = Eigen::Quaterniond::FromTwoVectors(normal, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        turn = so3::shortest_rotation(normal, Eigen::Vector3d::UnitZ());
       }
       std::vector<Eigen::Vector3d>& sole = soles_.emplace_back();
       for (const int c : contacts_[l]) {

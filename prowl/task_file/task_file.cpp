@@ -8,6 +8,7 @@
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/so3.hpp"
 #include "prowl/motion/duration_limits.hpp"
 #include "prowl/task_file/interval_shares.hpp"
 #include "prowl/task_file/problem_fields.hpp"
@@ -89,8 +90,7 @@ int find_name(const TomlValue& value, const std::string& what, const std::vector
 /// Moves a posture from level ground, z = 0, to a surface: by the shortest rotation, the origin to
 /// its point.
 void put_on(const Surface& surface, TaskStart& start) {
-  const Eigen::Matrix3d turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), surface.normal).toRotationMatrix();
+  const Eigen::Matrix3d turn = so3::shortest_rotation(Eigen::Vector3d::UnitZ(), surface.normal);
   const Eigen::Matrix3d R = turn * base_rotation(start.q);
   start.q.head<3>() = (surface.point + turn * start.q.head<3>()).eval();
   set_base_rotation(start.q, R);

@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "prowl/error.hpp"
+#include "prowl/linear_algebra/factorisations.hpp"
 #include "prowl/tracking/linearised_dynamics.hpp"
 #include "prowl/tracking/riccati_flow.hpp"
 #include "prowl/trajectory/state_scale.hpp"
@@ -47,14 +45,13 @@ MatrixXd aligned(const MatrixXd& Z, const MatrixXd& next, const VectorXd& weight
 /// Largest and mean singular value, and the dominant coordinate of the worst initial deviation.
 void fill_decay(const RobotModel& robot, const MatrixXd& transition, const MatrixXd& Z, const VectorXd& weight,
                 PhaseDecay& decay) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(transition.transpose() *
-                                                     transition);  // compiles in a fifth of the time of an SVD
+  const SymmetricEigen gram = symmetric_eigen(transition.transpose() * transition);
   const Eigen::Index largest = Z.cols() - 1;
   decay.directions = static_cast<int>(Z.cols());
-  decay.worst = std::sqrt(gram.eigenvalues()(largest));
+  decay.worst = std::sqrt(gram.values(largest));
   decay.mean = transition.norm() / std::sqrt(static_cast<double>(Z.cols()));
   Eigen::Index leading = 0;
-  (weight.cwiseSqrt().asDiagonal() * (Z * gram.eigenvectors().col(largest))).cwiseAbs().maxCoeff(&leading);
+  (weight.cwiseSqrt().asDiagonal() * (Z * gram.vectors.col(largest))).cwiseAbs().maxCoeff(&leading);
   decay.worst_direction = state_name(robot, leading);
 }
 
@@ -147,13 +144,11 @@ class BackwardPass {
     is_limited_ = false;
     gain_ = root.asDiagonal() * feedback;
     if (!loop.allFinite()) return;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> crossings(loop);
-    const VectorXd& rates = crossings.eigenvalues();
+    const auto [rates, U] = symmetric_eigen(loop);
     bandwidth_ = std::max(bandwidth_, std::min(rates(rates.size() - 1), limit));
     if (rates(rates.size() - 1) <= limit) return;
     is_limited_ = true;
     const VectorXd share = rates.unaryExpr([&](double rate) { return rate > limit ? limit / rate : 1.0; });
-    const MatrixXd& U = crossings.eigenvectors();
     gain_ = root.asDiagonal() * U * share.asDiagonal() * U.transpose() * feedback;
   }
 
@@ -172,7 +167,7 @@ class BackwardPass {
     }
     set_gain();
     if (stationary) {
-      const Eigen::VectorXcd poles = (now_.A - now_.B * gain_).eigenvalues();
+      const Eigen::VectorXcd poles = eigenvalues(now_.A - now_.B * gain_);
       design_.slowest_rate = -poles.real().maxCoeff();
       design_.fastest_rate = poles.cwiseAbs().maxCoeff();
       // The limited bandwidth may leave gains too small to stabilise.
@@ -206,7 +201,7 @@ class BackwardPass {
     now_ = std::move(left);
     set_gain();
     if (!is_limited_ && !was_limited) return optimal;
-    return (h * (A - 0.5 * B * (gain_ + gain_at_end))).exp();
+    return exponential(h * (A - 0.5 * B * (gain_ + gain_at_end)));
   }
 
   MatrixXd control_of(const MatrixXd& B) const { return B * control_weight_.asDiagonal() * B.transpose(); }
@@ -236,10 +231,7 @@ std::optional<ReferencePhase> stand_on(const RobotModel& robot, const ReferenceP
   // a = a0 + D dtau is exact; take the dtau of smallest weight with a = 0.
   const VectorXd scale = options.torque_deviation;
   const MatrixXd D = dynamics.acceleration_derivatives().tau * scale.asDiagonal();
-  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
-  factors.setThreshold(1e-8);
-  factors.compute(D);
-  rest.tau -= scale.asDiagonal() * factors.solve(dynamics.acceleration());
+  rest.tau -= scale.asDiagonal() * least_norm_solution(D, dynamics.acceleration(), 1e-8);
   rest.a.setZero();
   dynamics.evaluate(rest.q, rest.v, rest.tau);
   constexpr double kStill = 1e-6;  // of gravity

@@ -2,7 +2,8 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "prowl/linear_algebra/factorisations.hpp"
 
 namespace prowl {
 namespace {
@@ -34,7 +35,7 @@ RiccatiFlow riccati_flow(const MatrixXd& A, const MatrixXd& G, const MatrixXd& Q
   const double unit = g > 0.0 && q > 0.0 ? std::sqrt(q / g) : 1.0;
   MatrixXd hamiltonian(2 * n, 2 * n);
   hamiltonian << A, -unit * G, -Q / unit, -A.transpose();
-  const MatrixXd theta = (h * hamiltonian).exp();
+  const MatrixXd theta = exponential(h * hamiltonian);
 
   // (x, λ)(h) = theta (x, λ)(0), solved for x(h) and λ(0).
   const auto corner = theta.bottomRightCorner(n, n).partialPivLu();

@@ -17,8 +17,9 @@ ALLOWED = {
     # The planner, in the order in which a plan goes through it. Each line may include lines above it only.
     "prowl/text": [],
     "prowl/files": ["prowl/text"],
-    "prowl/model": ["prowl/text"],
-    "prowl/dynamics": ["prowl/model"],
+    "prowl/linear_algebra": [],
+    "prowl/model": ["prowl/text", "prowl/linear_algebra"],
+    "prowl/dynamics": ["prowl/linear_algebra", "prowl/model"],
     "prowl/motion": ["prowl/model", "prowl/dynamics"],
     "prowl/trajectory": ["prowl/model"],
     "prowl/nlp": [],  # knows no robots
@@ -34,6 +35,7 @@ ALLOWED = {
     ],
     "prowl/solvers": ["prowl/nlp"],
     "prowl/feasibility": [
+        "prowl/linear_algebra",
         "prowl/model",
         "prowl/dynamics",
         "prowl/motion",
@@ -54,7 +56,14 @@ ALLOWED = {
         "prowl/certificate",
     ],
     "prowl/tracker": [],  # nor prowl/error.hpp: it goes on the robot
-    "prowl/tracking": ["prowl/model", "prowl/dynamics", "prowl/motion", "prowl/trajectory", "prowl/tracker"],
+    "prowl/tracking": [
+        "prowl/linear_algebra",
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/tracker",
+    ],
     "prowl/estimation": ["prowl/model", "prowl/dynamics"],
     # Of dynamics nothing: an independent judge. What runs on board the robot, the estimator, may use them.
     "prowl/simulation": ["prowl/model", "prowl/motion", "prowl/trajectory", "prowl/tracker", "prowl/estimation"],

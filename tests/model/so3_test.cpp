@@ -44,6 +44,18 @@ TEST(So3, LogIsTheInverseOfExpUpToPi) {
   EXPECT_NEAR(so3::log(half_turn).norm(), std::numbers::pi, 1e-12);
 }
 
+TEST(So3, ShortestRotationTurnsFromOneDirectionToTheOther) {
+  std::mt19937 rng(2);
+  for (const double angle : {0.0, 1e-9, 0.3, 2.0, 3.0, 3.1415926, std::numbers::pi}) {
+    const Vector3d from = random_direction(rng), axis = from.unitOrthogonal();
+    const Vector3d to = so3::exp(angle * axis) * from;
+    const Matrix3d R = so3::shortest_rotation(2.0 * from, 0.5 * to);
+    EXPECT_LT((R * from - to).norm(), 1e-12) << angle;
+    EXPECT_LT((R.transpose() * R - Matrix3d::Identity()).norm(), 1e-12) << angle;
+    EXPECT_NEAR(so3::log(R).norm(), angle, 1e-7) << angle;
+  }
+}
+
 TEST(So3, RightJacobianIsTheDerivativeOfExp) {
   const double step = 1e-6;
   for (const Vector3d& theta : rotation_vectors()) {

@@ -21,33 +21,33 @@ Eigen::Isometry3d to_isometry(const urdf::Pose& pose) {
 }
 
 void set_shape(const urdf::Geometry& geometry, RobotVisual& visual) {
-  using Kind = RobotVisual::Kind;
+  using Shape = RobotVisual::Kind;
   switch (geometry.type) {
     case urdf::Geometry::BOX: {
       const auto& box = static_cast<const urdf::Box&>(geometry);
-      visual.kind = Kind::box;
+      visual.kind = Shape::box;
       visual.size = {box.dim.x, box.dim.y, box.dim.z};
       return;
     }
     case urdf::Geometry::SPHERE:
-      visual.kind = Kind::sphere;
+      visual.kind = Shape::sphere;
       visual.size.setConstant(static_cast<const urdf::Sphere&>(geometry).radius);
       return;
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-      visual.kind = Kind::cylinder;
+      visual.kind = Shape::cylinder;
       visual.size = {cylinder.radius, cylinder.radius, cylinder.length};
       return;
     }
     case urdf::Geometry::CAPSULE: {
       const auto& capsule = static_cast<const urdf::Capsule&>(geometry);
-      visual.kind = Kind::capsule;
+      visual.kind = Shape::capsule;
       visual.size = {capsule.radius, capsule.radius, capsule.length};
       return;
     }
     case urdf::Geometry::MESH: {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
-      visual.kind = Kind::mesh;
+      visual.kind = Shape::mesh;
       visual.size = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
       visual.mesh = mesh.filename;
       return;

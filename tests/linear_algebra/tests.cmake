@@ -1,0 +1,1 @@
+prowl_test(linear_algebra/factorisations prowl::linear_algebra)
