@@ -34,7 +34,7 @@ if(python_module)
     message(FATAL_ERROR "the installed command exports or draws nothing: ${output}")
   endif()
 endif()
-run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_PREFIX_PATH=${prefix}
+run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_MAKE_PROGRAM=${NINJA} -DCMAKE_PREFIX_PATH=${prefix}
   -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer ${prefix}/share/prowl/tasks/hyq/hold.toml ${ROBOTS_DATA})
@@ -43,7 +43,7 @@ if(NOT output MATCHES "converged, cost [0-9]")
 endif()
 
 # The examples that docs/ shows, as a reader builds them.
-run(${CMAKE_COMMAND} -S ${EXAMPLES_DIR} -B ${WORK_DIR}/examples -G Ninja -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} -S ${EXAMPLES_DIR} -B ${WORK_DIR}/examples -G Ninja -DCMAKE_MAKE_PROGRAM=${NINJA} -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/examples)
 run(${WORK_DIR}/examples/plan_task ${prefix}/share/prowl/tasks/hyq/stand.toml ${ROBOTS_DATA})
 run(${prefix}/bin/prowl plan ${prefix}/share/prowl/tasks/hyq/stand.toml --package-dir ${ROBOTS_DATA} --out ${WORK_DIR}/stand)

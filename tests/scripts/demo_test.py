@@ -18,7 +18,10 @@ class Demo(unittest.TestCase):
         (line,) = re.findall(r"^scripts/setup --target (.+)$", (ROOT / "scripts/demo").read_text(), re.MULTILINE)
         targets = line.split()
         commands = subprocess.run(
-            ["ninja", "-C", build, "-t", "commands", *targets], check=True, capture_output=True, text=True
+            [ROOT / ".venv/bin/ninja", "-C", build, "-t", "commands", *targets],
+            check=True,
+            capture_output=True,
+            text=True,
         ).stdout
         for made in ("-o bin/prowl ", "share/prowl/report.html", "-o python/prowl/_prowl", "python/prowl/_prowl.pyi"):
             self.assertIn(made, commands, f"{targets} do not make it")
