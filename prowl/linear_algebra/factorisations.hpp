@@ -14,9 +14,9 @@ struct SymmetricEigen {
 };
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& A);  ///< of a symmetric A; reads its lower triangle
 
-Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);      ///< of a square A
-Eigen::VectorXd singular_values(const Eigen::MatrixXd& A);   ///< in decreasing order
-Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);       ///< e^A of a square A
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);     ///< of a square A
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& A);  ///< in decreasing order
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);      ///< e^A of a square A
 
 /// The x of least norm that minimises |A x - b|. Pivots below `threshold` times the largest count as zero.
 Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double threshold);

@@ -84,7 +84,8 @@ TEST_F(Compare, RunsEveryCombinationOfWhatIsAskedFor) {
 // Whatever there is to choose from: what does not go together says why.
 TEST_F(Compare, HasALineForAllChoices) {
   const Outcome outcome =
-      run("$prowl compare hold.toml $dirs --formulation all --transcription all --contact all --orientation all "
+      run("$prowl compare hold.toml $dirs --intervals 1 --formulation all --transcription all --contact all "
+          "--orientation all "
           "--solver all --max-iterations 1 --out out");
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   const nlohmann::json compared = table();

@@ -69,7 +69,7 @@ TEST_F(Help, ShowsExamplesThatRun) {
   int ran = 0;
   for (const std::string& verb : test::verbs(help(""))) {
     for (const std::string& example : examples(help(verb))) {
-      const Outcome outcome = run(setup + "timeout -s INT 20 bash -c 'trap : INT; " + example + "'");
+      const Outcome outcome = run(setup + "timeout -s INT 8 bash -c 'trap : INT; " + example + "'");
       EXPECT_THAT(outcome.error, Not(HasSubstr("For help: prowl"))) << example << ": is not understood";
       EXPECT_NE(outcome.status, 1) << example << "\n" << outcome.error;
       if (ours.contains(verb)) EXPECT_THAT(outcome.status, AnyOf(0, 124, 130)) << example << "\n" << outcome.error;

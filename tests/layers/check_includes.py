@@ -126,6 +126,7 @@ ALLOWED = {
         "prowl/plan_folder",
     ],
     "prowl/starter": [
+        "prowl/linear_algebra",
         "prowl/text",
         "prowl/files",
         "prowl/model",

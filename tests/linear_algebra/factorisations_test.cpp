@@ -50,7 +50,7 @@ TEST(Factorisations, LeastNormSolutionIsTheShortestOfTheBest) {
   // Rank 2 of 4 rows and 6 columns: neither solvable nor unique.
   const MatrixXd A = random_matrix(4, 2, 5) * random_matrix(2, 6, 6);
   const VectorXd b = random_matrix(4, 1, 7), x = least_norm_solution(A, b, 1e-9);
-  EXPECT_LT((A.transpose() * (A * x - b)).norm(), 1e-12);                              // best
+  EXPECT_LT((A.transpose() * (A * x - b)).norm(), 1e-12);                                      // best
   EXPECT_LT((x - A.transpose() * least_norm_solution(A.transpose(), x, 1e-9)).norm(), 1e-12);  // in the row space
 }
 
