@@ -10,11 +10,3 @@ if(BUILD_SHARED_LIBS AND PROWL_BUILD_CLI AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU
   add_test(NAME layers/flow COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/flow_test.py $<TARGET_FILE:prowl_cli>)
   set_tests_properties(layers/flow PROPERTIES TIMEOUT 600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 endif()
-
-# The unity build hides a file that lacks an include.
-find_program(PROWL_CLANG clang++)
-if(PROWL_CLANG AND PROWL_BUILD_CLI AND PROWL_BUILD_PYTHON)
-  add_test(NAME layers/single_files COMMAND bash -c "cmake --preset single && cmake --build --preset single --parallel 1"
-    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
-  set_tests_properties(layers/single_files PROPERTIES TIMEOUT 3600)
-endif()
