@@ -44,7 +44,8 @@ RobotLook robot_look(const RobotModel& robot, const PackageSearch& search, std::
     }
   }
   if (look.visuals.empty() && incomplete.empty()) {
-    warnings.push_back(fmt::format("{}: no <visual> in it: bodies are drawn as boxes of their inertia", urdf.string()));
+    warnings.push_back(
+        fmt::format("{}: contains no <visual>: bodies are drawn as boxes of their inertia", urdf.string()));
     for (std::size_t b = 0; b < tree.bodies.size(); ++b) incomplete.insert(static_cast<int>(b));
   }
   for (const int body : incomplete) {

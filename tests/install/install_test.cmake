@@ -1,5 +1,5 @@
 # Installs BUILD_DIR, then configures, builds and runs the consumer against the installed tree alone. Run by ctest:
-#   cmake -DBUILD_DIR=... -DCONSUMER_DIR=... -DROBOTS_DATA=... -DWORK_DIR=... -P install_test.cmake
+#   cmake -DBUILD_DIR=... -DNINJA=... -DCONSUMER_DIR=... -DROBOTS_DATA=... -DWORK_DIR=... -P install_test.cmake
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   message(STATUS "${output}")
