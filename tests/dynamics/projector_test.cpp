@@ -8,17 +8,13 @@
 #include <random>
 
 #include "prowl/error.hpp"
+#include "tests/support/random_vector.hpp"
 
 namespace prowl {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-
-MatrixXd random_matrix(Eigen::Index rows, Eigen::Index cols, std::mt19937& random) {
-  std::uniform_real_distribution<double> entry(-1.0, 1.0);
-  return MatrixXd::NullaryExpr(rows, cols, [&] { return entry(random); });
-}
 
 struct Shape {
   Eigen::Index rows, cols, rank;
@@ -29,7 +25,7 @@ const std::vector<Shape> kShapes = {{0, 18, 0},   {3, 18, 3},   {12, 18, 12}, {1
                                     {24, 38, 12}, {24, 18, 18}, {24, 18, 7},  {6, 18, 0}};
 
 MatrixXd random_jacobian(const Shape& shape, std::mt19937& random) {
-  return random_matrix(shape.rows, shape.rank, random) * random_matrix(shape.rank, shape.cols, random);
+  return test::random_matrix(random, shape.rows, shape.rank) * test::random_matrix(random, shape.rank, shape.cols);
 }
 
 TEST(Projector, FindsTheRankAndThePseudoInverse) {
@@ -115,7 +111,7 @@ TEST(Projector, PivotRatioFollowsTheSingularValues) {
   std::mt19937 random(4);
   Projector projector;
   for (double shrink = 1.0; shrink > 1e-7; shrink /= 10.0) {
-    MatrixXd J = random_matrix(12, 18, random);
+    MatrixXd J = test::random_matrix(random, 12, 18);
     J.row(11) = J.row(3) + shrink * J.row(11);
     projector.compute(J);
     const Eigen::VectorXd sigma = Eigen::JacobiSVD<MatrixXd>(J).singularValues();

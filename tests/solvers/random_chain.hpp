@@ -9,10 +9,6 @@
 
 namespace prowl::test {
 
-inline Eigen::MatrixXd random_matrix(std::mt19937& rng, int rows, int cols) {
-  return random_vector(rng, Eigen::Index{rows} * cols, 1.0).reshaped(rows, cols);
-}
-
 /// A chain whose derivatives are data, for tests of linear algebra: it has no values.
 class RandomChain : public DenseStagewiseNlp {
  public:

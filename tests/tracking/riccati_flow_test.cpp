@@ -15,19 +15,15 @@ struct System {
   MatrixXd A, G, Q;
 };
 
-MatrixXd random_matrix(std::mt19937& rng, int rows, int cols, double size = 1.0) {
-  return Eigen::Map<const MatrixXd>(test::random_vector(rng, rows * cols, size).data(), rows, cols);
-}
-
 MatrixXd random_cost(std::mt19937& rng, int n, int rank) {
-  const MatrixXd root = random_matrix(rng, n, rank);
+  const MatrixXd root = test::random_matrix(rng, n, rank);
   return root * root.transpose();
 }
 
 /// Unstable and stable directions, fewer inputs than states, Q of the units that robots have: G is large where Q is
 /// small.
 System random_system(std::mt19937& rng, int n, double input_size) {
-  return {random_matrix(rng, n, n, 3.0), input_size * random_cost(rng, n, n / 2), random_cost(rng, n, n)};
+  return {test::random_matrix(rng, n, n, 3.0), input_size * random_cost(rng, n, n / 2), random_cost(rng, n, n)};
 }
 
 MatrixXd riccati_rate(const System& s, const MatrixXd& S) { return s.A.transpose() * S + S * s.A - S * s.G * S + s.Q; }

@@ -120,7 +120,7 @@ TEST(StagewiseTranscription, DerivativesAreThoseOfDifferences) {
 
 /// A form that is symmetric and positive, as what costs to go is.
 MatrixXd random_form(std::mt19937& rng, Eigen::Index size) {
-  const MatrixXd root = test::random_vector(rng, size * size, 1.0).reshaped(size, size);
+  const MatrixXd root = test::random_matrix(rng, size, size);
   return root * root.transpose();
 }
 
