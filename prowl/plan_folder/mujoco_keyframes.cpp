@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tinyxml2.h>
 
-#include "prowl/error.hpp"
+#include "prowl/plan_folder/mjcf_document.hpp"
 #include "prowl/simulation/mujoco_state.hpp"
 
 namespace prowl {
@@ -29,20 +28,12 @@ void add_keyframes(const MotionProblem& problem, const Trajectory& motion, XMLEl
   }
 }
 
-std::string to_text(const tinyxml2::XMLDocument& document) {
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
-}
-
 }  // namespace
 
 std::string add_mujoco_keyframes(const std::string& model, const MotionProblem& problem, const Trajectory& motion) {
-  tinyxml2::XMLDocument document;
-  document.Parse(model.c_str());
-  if (!document.RootElement()) throw InputError(fmt::format("robot '{}': not a model of MuJoCo", problem.robot.name()));
-  add_keyframes(problem, motion, *document.RootElement());
-  return to_text(document);
+  const auto document = parse_mjcf(model, problem.robot.name());
+  add_keyframes(problem, motion, *document->RootElement());
+  return mjcf_text(*document);
 }
 
 std::string mujoco_keyframes_xml(const MotionProblem& problem, const Trajectory& motion,
@@ -52,7 +43,7 @@ std::string mujoco_keyframes_xml(const MotionProblem& problem, const Trajectory&
   document.InsertFirstChild(root);
   root->InsertNewChildElement("include")->SetAttribute("file", model_file.c_str());
   add_keyframes(problem, motion, *root);
-  return to_text(document);
+  return mjcf_text(document);
 }
 
 }  // namespace prowl

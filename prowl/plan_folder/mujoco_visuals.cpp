@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tinyxml2.h>
 
 #include <array>
 #include <filesystem>
 #include <tuple>
 
-#include "prowl/error.hpp"
 #include "prowl/model/body_tree.hpp"
+#include "prowl/plan_folder/mjcf_document.hpp"
 
 namespace prowl {
 namespace {
@@ -129,22 +128,17 @@ void add_class_and_light(tinyxml2::XMLDocument& document, XMLElement& root) {
 }  // namespace
 
 std::string add_mujoco_visuals(const std::string& model, const RobotModel& robot, const RobotLook& look) {
-  tinyxml2::XMLDocument document;
-  document.Parse(model.c_str());
-  XMLElement* const root = document.RootElement();
-  XMLElement* const world = root ? root->FirstChildElement("worldbody") : nullptr;
-  if (!world) throw InputError(fmt::format("robot '{}': not a model of MuJoCo", robot.name()));
-  add_class_and_light(document, *root);
+  const auto document = parse_mjcf(model, robot.name());
+  XMLElement* const root = document->RootElement();
+  add_class_and_light(*document, *root);
   std::map<std::string, XMLElement*> bodies;
-  collect_bodies(*world, bodies);
+  collect_bodies(*root->FirstChildElement("worldbody"), bodies);
   XMLElement* assets = root->FirstChildElement("asset");
-  if (!assets) root->InsertAfterChild(root->FirstChildElement("default"), assets = document.NewElement("asset"));
+  if (!assets) root->InsertAfterChild(root->FirstChildElement("default"), assets = document->NewElement("asset"));
   const BodyTree tree = body_tree(robot);
   Visuals visuals(look, *assets);
   for (const RobotVisual& visual : look.visuals) visuals.add(visual, *bodies.at(tree.bodies[visual.body].name));
-  tinyxml2::XMLPrinter printer;
-  document.Print(&printer);
-  return printer.CStr();
+  return mjcf_text(*document);
 }
 
 }  // namespace prowl
