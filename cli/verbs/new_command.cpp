@@ -144,11 +144,9 @@ int run_new_task(const NewTaskArguments& arguments) {
   }
   const GaitEvidence evidence = gait_evidence(task.pattern);
   const std::string next =
-      evidence == GaitEvidence::some
-          ? fmt::format(
-                "note: a {} may fail: of six robots none passed with prowl plan, three with prowl plan --refine",
-                arguments.kind)
-          : fmt::format("next: prowl plan {}{}", out.string(), evidence == GaitEvidence::refined ? " --refine" : "");
+      *evidence.failures
+          ? fmt::format("note: a {} may fail: {}, without it none", arguments.kind, evidence.failures)
+          : fmt::format("next: prowl plan {}{}", out.string(), evidence.needs_refining ? " --refine" : "");
   print_result(fmt::format("{} {}: written to {}\n{}\n", robot.name(), arguments.kind, out.string(), next));
   return kPassed;
 }

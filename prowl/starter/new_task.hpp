@@ -44,10 +44,9 @@ std::string task_template(const NewTask& task, const RobotModel& robot, const st
 std::string kind_name(const NewTask& task);  ///< "hold", "trot" ...
 
 /// How the tasks of a gait do, unedited, on HyQ, ANYmal C, Go2, Solo12, B1 and A1.
-enum class GaitEvidence {
-  all,      ///< all pass; so do the motions that are no gaits
-  refined,  ///< all pass on a refined mesh
-  some,     ///< three pass on a refined mesh
+struct GaitEvidence {
+  bool needs_refining = false;  ///< fail the certificate unless refined
+  const char* failures = "";    ///< who fails even then; empty: none
 };
 
 GaitEvidence gait_evidence(const std::string& pattern);

@@ -125,12 +125,9 @@ constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride wit
 constexpr int kStrides = 2;
 
 /// What to know about the mesh of a gait.
-const char* mesh_note(GaitEvidence evidence) {
-  switch (evidence) {
-    case GaitEvidence::all: break;
-    case GaitEvidence::refined: return "They fail the certificate unless refined: plan with --refine";
-    case GaitEvidence::some: return "They fail the certificate; with --refine three of six robots pass";
-  }
+std::string mesh_note(const GaitEvidence& evidence) {
+  if (*evidence.failures) return fmt::format("They fail the certificate; {}", evidence.failures);
+  if (evidence.needs_refining) return "They fail the certificate unless refined: plan with --refine";
   return "Too few fail the certificate; `prowl plan` then tells how many suffice";
 }
 
