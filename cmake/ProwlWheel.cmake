@@ -8,6 +8,9 @@ if(PROWL_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${PROWL_CCACHE})
 endif()
 
+# Hidden when linked, not when compiled: the objects are those of a build by hand, which the compiler cache has.
+add_link_options(LINKER:--version-script=${CMAKE_CURRENT_SOURCE_DIR}/cmake/wheel_symbols.map)
+
 # A source file that includes Pinocchio takes up to 2.2 GB to compile: not more of them at once than there is memory for.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 cmake_host_system_information(RESULT memory QUERY AVAILABLE_PHYSICAL_MEMORY)
