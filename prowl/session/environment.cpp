@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "prowl/error.hpp"
+#include "prowl/kernels/dense_kernels.hpp"
 #include "prowl/simulation/physics.hpp"
 #include "prowl/solvers/foreign/library_release.hpp"
 #include "prowl/solvers/make_solver.hpp"
@@ -89,6 +90,7 @@ std::map<std::string, std::string> versions() {
           {"MuJoCo", Physics::version()},
           {"Pinocchio", PROWL_PINOCCHIO_VERSION},
           {"vector instructions", PROWL_SIMD},
+          {"kernels", dense_kernels().instruction_set},
           {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 

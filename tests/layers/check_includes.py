@@ -17,6 +17,7 @@ ALLOWED = {
     # The planner, in the order in which a plan goes through it. Each line may include lines above it only.
     "prowl/text": [],
     "prowl/files": ["prowl/text"],
+    "prowl/kernels": [],
     "prowl/linear_algebra": [],
     "prowl/model": ["prowl/text", "prowl/linear_algebra"],
     "prowl/dynamics": ["prowl/linear_algebra", "prowl/model"],
@@ -26,6 +27,7 @@ ALLOWED = {
     "prowl/mesh": ["prowl/motion", "prowl/trajectory", "prowl/nlp"],
     "prowl/guess": ["prowl/model", "prowl/dynamics", "prowl/trajectory", "prowl/mesh"],
     "prowl/transcription": [
+        "prowl/kernels",
         "prowl/model",
         "prowl/dynamics",
         "prowl/motion",
@@ -33,7 +35,7 @@ ALLOWED = {
         "prowl/nlp",
         "prowl/mesh",
     ],
-    "prowl/solvers": ["prowl/nlp"],
+    "prowl/solvers": ["prowl/kernels", "prowl/nlp"],
     "prowl/feasibility": [
         "prowl/linear_algebra",
         "prowl/model",
@@ -93,6 +95,7 @@ ALLOWED = {
         "prowl/simulation",
     ],
     "prowl/session": [
+        "prowl/kernels",
         "prowl",
         "prowl/diagnosis",
         "prowl/model",
@@ -238,6 +241,7 @@ LIBRARIES = {
             "cli/verbs/view_server.cpp",
         ],
     ),
+    "glibc": (r"sys/platform/", ["prowl/kernels/dense_kernels.cpp"]),
     "POSIX": (r"sys/", ["prowl/files", "cli"]),
     "Pinocchio": (r"pinocchio/", ["prowl/model", "prowl/dynamics", "prowl/certificate"]),
     "Ipopt": (r"Ip[A-Z]\w*\.(hpp|h)|IpoptConfig\.h|coin-or/", ["prowl/solvers/foreign/ipopt_solver.cpp"]),

@@ -25,6 +25,7 @@ BINDING = re.compile(rb"binding file (\S+) \[0\] to (\S+) \[0\]: normal symbol `
 EARLY = {
     "prowl/tracking": "the task file may change the weights of the feedback design: default_tracking_options()",
     "prowl/plan_folder": "a folder that cannot be written ends the command before the solve: check_plan_directory()",
+    "prowl/kernels": "the record of a plan names the instruction set: dense_kernels()",
     "prowl/simulation": "the record of a plan names the version of MuJoCo: Physics::version()",
 }
 # Called all the time: by everything, and by solvers through Nlp.
