@@ -57,13 +57,14 @@ class StagewiseNlp {
   virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
   virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;
   virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;  ///< as hessian()
-  /// result = next' next_hessian next + inequalities' diag(weights) inequalities, with the derivatives of both.
+  /// result = next' next_hessian next + inequalities' diag(weights) inequalities, with the derivatives of both: the
+  /// lower triangle, above which it is undefined but finite.
   virtual void condense(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
                         Eigen::MatrixXd& result) = 0;
   /// Derivatives of next and of the inequalities along a step in (u, x).
   virtual void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next,
                             Eigen::VectorXd& inequalities) = 0;
-  /// gradient += next' on_next + inequalities' on_inequalities.
+  /// gradient += next' on_next + inequalities' on_inequalities; an empty vector is left out.
   virtual void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
                              Eigen::VectorXd& gradient) = 0;
 

@@ -130,18 +130,6 @@ void Arrival::substitute_velocity(Matrix&& m) const {
   m.middleCols(2 * nv_, nv_) += time_.s * m.middleCols(nv_, nv_);
 }
 
-void Arrival::push_forward(VectorXd& step) const {
-  const Index nu = nv_ - 6;
-  const double dT = time_.column >= 0 ? time_.slope * step(time_.column) : 0.0;
-  step.segment(nv_, nv_) += time_.s * step.segment(2 * nv_, nv_) + dT * node_.segment(2 * nv_, nv_);
-  step.segment<3>(3) =
-      slope_.leftCols<3>() * Vector3d(step.segment<3>(3)) +
-      slope_.rightCols<3>() * Vector3d(time_.s * step.segment<3>(nv_ + 3) + dT * node_.segment<3>(nv_ + 3));
-  step.segment(6, nu) += time_.s * step.segment(nv_ + 6, nu) + dT * node_.segment(nv_ + 6, nu);
-  step.head<3>() +=
-      time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
-}
-
 void Arrival::pull_back(MatrixXd& rows) const {
   substitute_position(rows);
   substitute_joints(rows);
@@ -234,18 +222,6 @@ void Departure::add_hessian(const VectorXd& multipliers, MatrixXd& hessian) cons
   add_by_duration(2 * nv_, multipliers.segment(nv_, nv_), time_, hessian);
 }
 
-void Departure::push_forward(const VectorXd& step, Eigen::Ref<VectorXd> state) const {
-  const Index nu = nv_ - 6;
-  const double dT = time_.column >= 0 ? time_.slope * step(time_.column) : 0.0;
-  state = step.head(2 * nv_);
-  state.segment<3>(3) = slope_.leftCols<3>() * step.segment<3>(3) +
-                        slope_.rightCols<3>() * (time_.s * step.segment<3>(nv_ + 3) + dT * node_.segment<3>(nv_ + 3));
-  state.segment(6, nu) += time_.s * step.segment(nv_ + 6, nu) + dT * node_.segment(nv_ + 6, nu);
-  state.head<3>() +=
-      time_.s * (world_.d_theta * step.segment<3>(3) + world_.d_v * step.segment<3>(nv_)) + dT * world_.value;
-  state.tail(nv_) += time_.s * step.segment(2 * nv_, nv_) + dT * node_.segment(2 * nv_, nv_);
-}
-
 /// Turns columns of (z', w'), stored in place of (q, v), into those of the node.
 template <class Matrix>
 void Departure::substitute(Matrix&& m) const {
@@ -268,10 +244,5 @@ void Departure::substitute(Matrix&& m) const {
 }
 
 void Departure::pull_back(VectorXd& gradient) const { substitute(gradient.transpose()); }
-
-void Departure::pull_back_form(MatrixXd& m) const {
-  substitute(m);
-  substitute(m.transpose());
-}
 
 }  // namespace prowl

@@ -24,7 +24,7 @@ struct HalfTime {
 /// state stores z and w in place of q and v, all else is equal. docs/transcription.md, "Stage by
 /// stage".
 ///
-/// The linearised map pushes steps forward and pulls gradients and Hessians back.
+/// The linearised map pulls gradients and Hessians back.
 class Arrival {
  public:
   /// Sets the state at which the rest is evaluated.
@@ -35,8 +35,6 @@ class Arrival {
   /// Inverse map: the state that leads to these variables of a node.
   static Eigen::VectorXd state(const Eigen::Matrix3d& chart, int nv, double s, const Eigen::VectorXd& node);
 
-  /// Turns a step of the state into that of the node.
-  void push_forward(Eigen::VectorXd& step) const;
   /// Turns derivatives in the node's variables (one row per function) into those in the state's.
   void pull_back(Eigen::MatrixXd& rows) const;
   void pull_back(Eigen::VectorXd& gradient) const;
@@ -81,12 +79,9 @@ class Departure {
   /// Adds the Hessian of multipliers . value().
   void add_hessian(const Eigen::VectorXd& multipliers, Eigen::MatrixXd& hessian) const;
 
-  /// Turns a step of the node into that of (z', w').
-  void push_forward(const Eigen::VectorXd& step, Eigen::Ref<Eigen::VectorXd> state) const;
-  /// Turn a gradient or a quadratic form in (z', w'), stored in place of q and v, into one in the
-  /// node's variables. Entries of carried-over variables stay.
+  /// Turns a gradient in (z', w'), stored in place of q and v, into one in the node's variables. Entries of
+  /// carried-over variables stay.
   void pull_back(Eigen::VectorXd& gradient) const;
-  void pull_back_form(Eigen::MatrixXd& m) const;
 
  private:
   template <class Matrix>

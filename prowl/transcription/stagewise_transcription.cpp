@@ -15,13 +15,19 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using Entry = Eigen::SparseMatrix<double>::InnerIterator;
 
 }  // namespace
 
 StagewiseTranscription::StagewiseTranscription(NodeProgram& nodes)
-    : nodes_(nodes), discrete_(nodes.discrete()), layout_(nodes.layout()), stages_(nodes.num_nodes()) {
+    : kernels_(dense_kernels()),
+      nodes_(nodes),
+      discrete_(nodes.discrete()),
+      layout_(nodes.layout()),
+      stages_(nodes.num_nodes()) {
   for (int k = 0; k < num_stages(); ++k) set_variables(k);
   for (int k = 0; k < num_stages(); ++k) set_functions(k);
+  for (int k = 0; k < num_stages(); ++k) set_patterns(k);
   set_shapes();
 }
 
@@ -239,33 +245,74 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
     stage.cost_gradient(i) = stage.unit(i) * work.on_node(stage.variables[i]);
   }
 
-  work.slopes.setZero(stage.size.equalities, size);
-  for (int i = 0; i < stage.size.equalities; ++i) {
-    const int index = stage.equalities[i], bound = index - stage.num_rows;
-    if (bound < 0) {
-      work.slopes.row(i) = jacobian.row(index);
-    } else {
-      work.slopes(i, stage.bounded[bound]) = stage.per_unit(bound);
+  // All functions (rows | bounds | next states) in the node's variables, then in the state's.
+  MatrixXd& slopes = work.slopes;
+  slopes.resize(stage.num_rows + static_cast<Index>(stage.bounded.size()) + stage.num_next(), size);
+  slopes.topRows(stage.num_rows) = jacobian.topRows(stage.num_rows);
+  fill_bounds_and_next(stage, stage.departure, slopes);
+  stage.arrival.pull_back(slopes);
+  const auto slope = [&](int function, Index j) { return stage.unit(j) * slopes(function, stage.variables[j]); };
+  for (Index j = 0; j < stage.equality_slopes.cols(); ++j) {
+    for (Index i = 0; i < stage.equality_slopes.rows(); ++i)
+      stage.equality_slopes(i, j) = slope(stage.equalities[i], j);
+  }
+  for (Index i = 0; i < stage.row_gradients.cols(); ++i) {
+    for (Index j = 0; j < stage.row_gradients.rows(); ++j) stage.row_gradients(j, i) = slope(stage.inequalities[i], j);
+  }
+  const Index rows = stage.row_gradients.cols(), first_next = slopes.rows() - stage.num_next();
+  for (Index i = 0; i < stage.bound_gradients.cols(); ++i) {
+    for (Entry entry(stage.bound_gradients, i); entry; ++entry) {
+      entry.valueRef() = slope(stage.inequalities[rows + i], entry.row());
     }
   }
-  stage.arrival.pull_back(work.slopes);
-  stage.equality_slopes.resize(stage.size.equalities, stage.size.variables());
-  for (Index i = 0; i < stage.equality_slopes.cols(); ++i) {
-    stage.equality_slopes.col(i) = stage.unit(i) * work.slopes.col(stage.variables[i]);
+  for (Index j = 0; j < stage.next_slopes.cols(); ++j) {
+    for (Entry entry(stage.next_slopes, j); entry; ++entry) {
+      entry.valueRef() = slope(static_cast<int>(first_next + entry.row()), j);
+    }
   }
+  stage.have_derivatives = true;
+}
 
-  const auto is_row = [&](int index) { return index < stage.num_rows; };
-  const Index count = std::ranges::count_if(stage.inequalities, is_row);
-  InequalityRows& rows = stage.rows;
-  rows.gradients.resize(size, count);
-  rows.indices.resize(size, count);
-  rows.counts.setZero(count);
-  for (Index i = 0; i < count; ++i) {  // rows precede the bounds
-    rows.gradients.col(i) = jacobian.row(stage.inequalities[i]).transpose();
-    for (Index j = 0; j < size; ++j) {
-      if (rows.gradients(j, i) != 0.0) rows.indices(rows.counts(i)++, i) = static_cast<int>(j);
-    }
+/// Their slopes in the variables of the node, in the last rows.
+void StagewiseTranscription::fill_bounds_and_next(const Stage& stage, const Departure& departure,
+                                                  MatrixXd& slopes) const {
+  const Index bounds = static_cast<Index>(stage.bounded.size()), next = stage.num_next();
+  slopes.bottomRows(bounds + next).setZero();
+  for (Index i = 0; i < bounds; ++i) slopes(stage.num_rows + i, stage.bounded[i]) = stage.per_unit(i);
+  if (next == 0) return;
+  const Index states = 2 * layout_.nv();
+  auto rows = slopes.bottomRows(next);
+  departure.derivatives(rows.topRows(states));
+  for (std::size_t i = 0; i < stage.carried.size(); ++i) rows(states + static_cast<Index>(i), stage.carried[i]) = 1.0;
+  rows.array().colwise() *= stage.next_per_unit.array();
+}
+
+/// The slopes depend on which variables there are, not on where the robot is: found at a point where none vanishes by
+/// chance.
+void StagewiseTranscription::set_patterns(int k) {
+  Stage& stage = this->stage(k);
+  const Index size = stage.fixed.size(), variables = stage.size.variables(),
+              bounds = static_cast<Index>(stage.bounded.size());
+  VectorXd state(size);
+  for (Index i = 0; i < size; ++i) state(i) = std::sin(static_cast<double>(i + 1));
+  Arrival arrival;
+  arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state);
+  Departure departure;
+  if (stage.num_next() > 0) {
+    const HalfTime time = half_time(k, discrete_.nodes[k].node, arrival.node());
+    departure.set(nodes_.chart(k), nodes_.chart(k + 1), layout_.nv(), time, arrival.node());
   }
+  MatrixXd slopes = MatrixXd::Zero(stage.num_rows + bounds + stage.num_next(), size);
+  fill_bounds_and_next(stage, departure, slopes);
+  arrival.pull_back(slopes);
+  const MatrixXd in_stage = slopes(Eigen::all, stage.variables);
+  const auto first_bound = std::ranges::find_if(stage.inequalities, [&](int index) { return index >= stage.num_rows; });
+  const std::vector<int> of_bounds(first_bound, stage.inequalities.end());  // rows precede the bounds
+  const MatrixXd gradients = in_stage(of_bounds, Eigen::all).transpose();
+  stage.bound_gradients = gradients.sparseView();
+  stage.next_slopes = in_stage.bottomRows(stage.num_next()).sparseView();
+  stage.equality_slopes.resize(stage.size.equalities, variables);
+  stage.row_gradients.resize(variables, first_bound - stage.inequalities.begin());
 }
 
 void StagewiseTranscription::add_on_next(const Stage& stage, const VectorXd& on_next, VectorXd& on_node) const {
@@ -325,7 +372,6 @@ void StagewiseTranscription::linearise(int k, const VectorXd& ux, double cost_fa
   gather(stage, work.form, stage.hessian);
   if (!stage.have_values) fill_values(k, work.values);
   if (!stage.have_derivatives) fill_slopes(k, work.values);
-  keep_linear(stage);
 }
 
 void StagewiseTranscription::linearise_to_first_order(int k, const VectorXd& ux) {
@@ -337,129 +383,67 @@ void StagewiseTranscription::linearise_to_first_order(int k, const VectorXd& ux)
     if (!stage.have_values) fill_values(k, node);
     fill_slopes(k, node);
   }
-  keep_linear(stage);
-}
-
-void StagewiseTranscription::keep_linear(Stage& stage) {
-  stage.have_derivatives = true;
-  stage.linear_arrival = stage.arrival;
-  stage.linear_departure = stage.departure;
 }
 
 void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
   Stage& stage = this->stage(k);
   Work& work = this->work(stage);
-  const Index size = stage.node().size(), states = 2 * layout_.nv();
-  work.form.setZero(size, size);
+  const Index size = stage.size.variables();
+  result.setZero(size, size);
   if (stage.num_next() > 0) {
-    const VectorXd& unit = stage.next_per_unit;
-    const auto on_next_node = [&](Index i) { return i < states ? i : Index{stage.carried[i - states]}; };
-    for (Index j = 0; j < unit.size(); ++j) {
-      for (Index i = 0; i < unit.size(); ++i)
-        work.form(on_next_node(i), on_next_node(j)) = unit(i) * unit(j) * next_hessian(i, j);
+    work.on_states.setZero(stage.num_next(), size);
+    for (Index j = 0; j < size; ++j) {
+      for (Entry entry(stage.next_slopes, j); entry; ++entry) {
+        work.on_states.col(j) += entry.value() * next_hessian.col(entry.row());
+      }
     }
-    stage.linear_departure.pull_back_form(work.form);
-  }
-  const Index rows = stage.rows.gradients.cols();
-  work.dense.resize(size, rows);
-  work.scaled.resize(size, rows);
-  Index dense = 0;
-  for (Index i = 0; i < rows; ++i) {
-    const auto gradient = stage.rows.gradients.col(i);
-    const auto indices = stage.rows.indices.col(i).head(stage.rows.counts(i));
-    if (2 * indices.size() > size) {
-      work.dense.col(dense) = gradient;
-      work.scaled.col(dense++) = weights(i) * gradient;
-      continue;
-    }
-    for (const int column : indices) {
-      const double factor = weights(i) * gradient(column);
-      for (const int row : indices) work.form(row, column) += factor * gradient(row);
+    work.on_states_transposed = work.on_states.transpose();
+    for (Index j = 0; j < size; ++j) {
+      for (Entry entry(stage.next_slopes, j); entry; ++entry) {
+        result.col(j).tail(size - j) += entry.value() * work.on_states_transposed.col(entry.row()).tail(size - j);
+      }
     }
   }
-  if (dense > 0) {  // Eigen's triangular product of empty matrices divides by zero
-    work.form.triangularView<Eigen::Lower>() += work.dense.leftCols(dense) * work.scaled.leftCols(dense).transpose();
-    work.form.triangularView<Eigen::StrictlyUpper>() = work.form.transpose();
+  const Index rows = stage.row_gradients.cols();
+  work.weighted = stage.row_gradients * weights.head(rows).asDiagonal();
+  const int n = static_cast<int>(size);
+  kernels_.add_lower_product(n, static_cast<int>(rows), 1.0, stage.row_gradients.data(), n, work.weighted.data(), n,
+                             result.data(), n);
+  for (Index i = 0; i < stage.bound_gradients.cols(); ++i) {
+    for (Entry column(stage.bound_gradients, i); column; ++column) {
+      const double factor = weights(rows + i) * column.value();
+      for (Entry row = column; row; ++row) result(row.row(), column.row()) += factor * row.value();
+    }
   }
-  for (Index i = rows; i < weights.size(); ++i) {
-    const auto [variable, per_unit] = stage.bound(i);
-    work.form(variable, variable) += weights(i) * per_unit * per_unit;
-  }
-  stage.linear_arrival.pull_back_form(work.form);
-  gather(stage, work.form, result);
 }
 
 void StagewiseTranscription::push_forward(int k, const VectorXd& step, VectorXd& next, VectorXd& inequalities) {
-  Stage& stage = this->stage(k);
-  Work& work = this->work(stage);
-  work.step.setZero(stage.node().size());
-  for (Index i = 0; i < step.size(); ++i) {
-    work.step(stage.variables[i]) = stage.unit(i) * step(i);
-  }
-  stage.linear_arrival.push_forward(work.step);
-  const Index rows = stage.rows.gradients.cols();
+  const Stage& stage = this->stage(k);
+  next.noalias() = stage.next_slopes * step;
   inequalities.resize(stage.size.inequalities);
-  inequalities.head(rows).noalias() = stage.rows.gradients.transpose() * work.step;
-  for (Index i = rows; i < inequalities.size(); ++i) {
-    const auto [variable, per_unit] = stage.bound(i);
-    inequalities(i) = work.step(variable) * per_unit;
-  }
-  next.resize(stage.num_next());
-  if (stage.num_next() == 0) return;
-  const Index states = 2 * layout_.nv();
-  stage.linear_departure.push_forward(work.step, next.head(states));
-  for (std::size_t i = 0; i < stage.carried.size(); ++i) {
-    next(states + static_cast<Index>(i)) = work.step(stage.carried[i]);
-  }
-  next.array() *= stage.next_per_unit.array();
+  inequalities.head(stage.row_gradients.cols()).noalias() = stage.row_gradients.transpose() * step;
+  inequalities.tail(stage.bound_gradients.cols()).noalias() = stage.bound_gradients.transpose() * step;
 }
 
 void StagewiseTranscription::add_pull_back(int k, const VectorXd& on_next, const VectorXd& on_inequalities,
                                            VectorXd& gradient) {
-  Stage& stage = this->stage(k);
-  Work& work = this->work(stage);
-  work.on_node.setZero(stage.node().size());
-  if (stage.num_next() > 0) {
-    add_on_next(stage, on_next, work.on_node);
-    stage.linear_departure.pull_back(work.on_node);
-  }
-  const Index rows = stage.rows.gradients.cols();
-  work.on_node.noalias() += stage.rows.gradients * on_inequalities.head(rows);
-  for (Index i = rows; i < on_inequalities.size(); ++i) {
-    const auto [variable, per_unit] = stage.bound(i);
-    work.on_node(variable) += on_inequalities(i) * per_unit;
-  }
-  stage.linear_arrival.pull_back(work.on_node);
-  for (Index i = 0; i < gradient.size(); ++i) {
-    gradient(i) += stage.unit(i) * work.on_node(stage.variables[i]);
-  }
+  const Stage& stage = this->stage(k);
+  if (on_next.size() > 0) gradient.noalias() += stage.next_slopes.transpose() * on_next;
+  if (on_inequalities.size() == 0) return;
+  gradient.noalias() += stage.row_gradients * on_inequalities.head(stage.row_gradients.cols());
+  gradient.noalias() += stage.bound_gradients * on_inequalities.tail(stage.bound_gradients.cols());
 }
 
-// The same derivatives as dense matrices.
 const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorXd& ux) {
   linearise_to_first_order(k, ux);
   Stage& stage = this->stage(k);
   StageDerivatives& derivatives = stage.derivatives;
-  const Index size = stage.node().size(), rows = stage.rows.gradients.cols();
-  MatrixXd slopes = MatrixXd::Zero(stage.size.inequalities + stage.num_next(), size);
-  slopes.topRows(rows) = stage.rows.gradients.transpose();
-  for (Index i = rows; i < stage.size.inequalities; ++i) {
-    const auto [variable, per_unit] = stage.bound(i);
-    slopes(i, variable) = per_unit;
-  }
-  if (stage.num_next() > 0) {
-    const Index states = 2 * layout_.nv();
-    auto next = slopes.bottomRows(stage.num_next());
-    stage.departure.derivatives(next.topRows(states));
-    for (std::size_t i = 0; i < stage.carried.size(); ++i) next(states + static_cast<Index>(i), stage.carried[i]) = 1.0;
-    next.array().colwise() *= stage.next_per_unit.array();
-  }
-  stage.arrival.pull_back(slopes);
-  slopes = (slopes(Eigen::all, stage.variables) * stage.unit.asDiagonal()).eval();
   derivatives.cost_gradient = stage.cost_gradient;
   derivatives.equalities = stage.equality_slopes;
-  derivatives.inequalities = slopes.topRows(stage.size.inequalities);
-  derivatives.next = slopes.bottomRows(stage.num_next());
+  derivatives.inequalities.resize(stage.size.inequalities, stage.size.variables());
+  derivatives.inequalities.topRows(stage.row_gradients.cols()) = stage.row_gradients.transpose();
+  derivatives.inequalities.bottomRows(stage.bound_gradients.cols()) = MatrixXd(stage.bound_gradients).transpose();
+  derivatives.next = stage.next_slopes;
   return derivatives;
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <string>
 #include <vector>
 
+#include "prowl/kernels/dense_kernels.hpp"
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/transcription/half_step.hpp"
@@ -57,18 +59,12 @@ class StagewiseTranscription : public StagewiseNlp {
   void use_threads(int count);  ///< see Nlp
 
  private:
-  /// Gradients of the inequality rows of a node, one per column, with their non-zero positions.
-  struct InequalityRows {
-    Eigen::MatrixXd gradients;
-    Eigen::MatrixXi indices;
-    Eigen::VectorXi counts;
-  };
   /// Work space in the variables of a node, one per thread. Stages of one shape share it: no
   /// reallocation.
   struct Work {
     NodeValues values;  ///< of the stage evaluated last
-    Eigen::VectorXd on_rows, on_node, step, on_next, state;
-    Eigen::MatrixXd form, slopes, scaled, dense;
+    Eigen::VectorXd on_rows, on_node, on_next, state;
+    Eigen::MatrixXd form, slopes, weighted, on_states, on_states_transposed;
   };
   struct Stage {
     StageSize size;
@@ -97,20 +93,16 @@ class StagewiseTranscription : public StagewiseNlp {
     Departure departure;
     NodePoint point;
     StageValues values;
+
+    // Last linearisation, kept during evaluations elsewhere.
     Eigen::VectorXd cost_gradient;
     Eigen::MatrixXd equality_slopes, hessian;
-    InequalityRows rows;
-    Arrival linear_arrival;  ///< point of linearisation, kept during evaluations elsewhere
-    Departure linear_departure;
-
-    StageDerivatives derivatives;  ///< dense, on request
+    Eigen::MatrixXd row_gradients;                ///< of the inequalities that are rows of the node, one per column
+    Eigen::SparseMatrix<double> bound_gradients;  ///< of those that are bounds, which follow
+    Eigen::SparseMatrix<double> next_slopes;
+    StageDerivatives derivatives;  ///< the same as dense matrices, on request
     const Eigen::VectorXd& node() const { return arrival.node(); }
     int num_next() const { return static_cast<int>(next_per_unit.size()); }
-    /// For an inequality that is a bound: its variable and slope.
-    std::pair<int, double> bound(Eigen::Index inequality) const {
-      const int i = inequalities[inequality] - num_rows;
-      return {bounded[i], per_unit(i)};
-    }
   };
   const Stage& stage(int k) const { return stages_[k]; }
 
@@ -133,12 +125,14 @@ class StagewiseTranscription : public StagewiseNlp {
   void move_to(int k, const Eigen::VectorXd& ux);
   void fill_values(int k, const NodeValues& node);
   void fill_slopes(int k, const NodeValues& node);
-  void keep_linear(Stage& stage);
+  void set_patterns(int k);
+  void fill_bounds_and_next(const Stage& stage, const Departure& departure, Eigen::MatrixXd& slopes) const;
   /// Adds multipliers or a gradient of the next states at their positions among the node's
   /// variables.
   void add_on_next(const Stage& stage, const Eigen::VectorXd& on_next, Eigen::VectorXd& on_node) const;
   static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
+  const DenseKernels& kernels_;
   NodeProgram& nodes_;
   const DiscreteProblem& discrete_;
   const DecisionLayout& layout_;

@@ -178,6 +178,25 @@ TEST(StageKkt, IsTheDenseSolution) {
   }
 }
 
+TEST(StageKkt, PivotsFullyOnlyWhereTheFirstInputsDoNotServe) {
+  std::mt19937 rng(13);
+  RandomChain chain(rng, {{4, 0, 2, 1}, {5, 4, 2, 1}, {4, 3, 2, 1}, {3, 3, 2, 1}, {0, 2, 0, 1}});
+  const System system = random_system(rng, chain, 2.0);
+  const auto pivoted = [&] {
+    chain.linearise_all();
+    StageKkt kkt(chain);
+    EXPECT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
+    return kkt.num_pivoted();
+  };
+  EXPECT_EQ(pivoted(), 0);
+  chain.parts[1].slopes.equalities.col(0).setZero();
+  EXPECT_EQ(pivoted(), 1) << "an input without a say";
+  expect_dense_solution(chain, Hessian::lagrangian, 0.0, system, 1e-10, "another input is determined");
+  chain.parts[2].slopes.equalities.leftCols(4).setZero();
+  EXPECT_EQ(pivoted(), 1) << "conditions on states; the first inputs of the stage before meet them";
+  expect_dense_solution(chain, Hessian::lagrangian, 0.0, system, 1e-10, "conditions are passed");
+}
+
 TEST(StageKkt, SolvesForNewRightSidesWithTheSameFactors) {
   std::mt19937 rng(4);
   RandomChain chain(rng, kPassed);
@@ -294,6 +313,7 @@ TEST(StageKkt, RefinesWhereInputsBarelyTellEqualitiesApart) {
 
     StageKkt kkt(chain);
     ASSERT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
+    EXPECT_EQ(kkt.num_pivoted(), 1);
     const Dense dense(chain, Hessian::lagrangian, 0.0, system);
     const auto residual_with = [&](double accuracy) {
       kkt.solve(system.gradient, system.equalities, system.links, accuracy);

@@ -29,8 +29,8 @@ void DenseStagewiseNlp::push_forward(int k, const VectorXd& step, VectorXd& next
 
 void DenseStagewiseNlp::add_pull_back(int k, const VectorXd& on_next, const VectorXd& on_inequalities,
                                       VectorXd& gradient) {
-  gradient.noalias() += model(k).slopes.next.transpose() * on_next;
-  gradient.noalias() += model(k).slopes.inequalities.transpose() * on_inequalities;
+  if (on_next.size() > 0) gradient.noalias() += model(k).slopes.next.transpose() * on_next;
+  if (on_inequalities.size() > 0) gradient.noalias() += model(k).slopes.inequalities.transpose() * on_inequalities;
 }
 
 }  // namespace prowl::test

@@ -81,7 +81,7 @@ InteriorPoint::InteriorPoint(StagewiseNlp& nlp, const SolverOptions& options, in
   }
   dual_violation_ = step_ = trial_ux_ = gradient_;
   step_on_equalities_ = right_equalities_;
-  step_on_next_ = no_next_ = right_links_;
+  step_on_next_ = right_links_;
   for (Values* values : {&values_, &trial_}) {
     values->stage_costs.setZero(num_stages_);
     values->links = right_links_;
@@ -298,7 +298,7 @@ void InteriorPoint::set_gradient(double cost_scale, const VectorXd& lambda) {
   for (int k = 0; k < num_stages_; ++k) {
     gradient_[k] = cost_scale * nlp_.cost_gradient(k);
     on_[k].inequalities = segment(lambda, k);
-    nlp_.add_pull_back(k, no_next_[k], on_[k].inequalities, gradient_[k]);
+    nlp_.add_pull_back(k, no_next_, on_[k].inequalities, gradient_[k]);
   }
 }
 

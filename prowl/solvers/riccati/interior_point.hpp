@@ -101,7 +101,7 @@ class InteriorPoint {
   Values values_, trial_;
   StageVectors dual_violation_, gradient_, weights_, right_equalities_, right_links_;
   StageVectors step_, step_on_equalities_, step_on_next_;
-  StageVectors no_next_;  ///< zero
+  Eigen::VectorXd no_next_;  ///< empty
   Eigen::VectorXd step_lambda_;
 
   double cost_scale_ = 1.0, mu_ = 0.0;

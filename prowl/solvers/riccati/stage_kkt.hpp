@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <deque>
 #include <vector>
 
+#include "prowl/kernels/dense_kernels.hpp"
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/solvers/riccati/stage_vectors.hpp"
 
@@ -20,9 +20,10 @@ namespace prowl {
 /// for the latest linearisation of the stages, with the multipliers of both. From the last stage to
 /// the first:
 ///
-///   equalities     determine as many inputs as their rank (LU with full pivoting), which are
-///                  substituted. The remainder is a condition on the state, E dx + e = 0, and
-///                  becomes an equality of the stage before.
+///   equalities     determine as many inputs as their rank, which are substituted. These are the
+///                  first inputs (of a robot: its accelerations) where their square block is well
+///                  conditioned; else full pivoting chooses, and the remainder is a condition on the
+///                  state, E dx + e = 0, which becomes an equality of the stage before.
 ///   free inputs    minimise (Cholesky), which leaves the cost-to-go  1/2 dx' P dx + p' dx
 ///
 /// The Cholesky factors exist if and only if M is positive definite on the null space of the
@@ -40,7 +41,8 @@ class StageKkt {
   /// `weights`: of the inequalities, one vector per stage. With `identity` M omits the Hessian of
   /// the Lagrangian.
   Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
-  int last_stage() const { return last_stage_; }  ///< stage where the latest factorisation ended; 0 if solvable
+  int last_stage() const { return last_stage_; }    ///< stage where the latest factorisation ended; 0 if solvable
+  int num_pivoted() const { return num_pivoted_; }  ///< its stages whose determined inputs full pivoting chose
 
   /// Solves for g, c and b: one vector per stage, b without one for the last. `accuracy`: largest
   /// residual at which iterative refinement may stop.
@@ -57,22 +59,24 @@ class StageKkt {
   /// ones. Kept small, as on long chains a solve reads it from main memory.
   struct Stage {
     StageSize size;
-    int carried = 0;                       ///< conditions E of the next stage, equalities here
-    int rank = 0;                          ///< number of determined inputs
-    int passed = 0;                        ///< conditions E of this stage
-    Eigen::FullPivLU<Eigen::MatrixXd> lu;  ///< of own and carried equalities, in u
-    std::vector<Eigen::Index> order;       ///< position of each variable in (u, x)
-    Eigen::MatrixXd M_dd;                  ///< M in the determined inputs
-    Eigen::MatrixXd K;                     ///< determined inputs = K r + k
-    Eigen::MatrixXd T;                     ///< M_dd K + M_dr
-    Eigen::LLT<Eigen::MatrixXd> cholesky;
-    Eigen::MatrixXd G;  ///< L^-1 N_fx of the free inputs
+    int carried = 0;                  ///< conditions E of the next stage, equalities here
+    int rank = 0;                     ///< number of determined inputs
+    int passed = 0;                   ///< conditions E of this stage
+    bool pivoted = false;             ///< full pivoting chose the determined inputs
+    std::vector<int> rows;            ///< own and carried equalities; the first `rank` determine
+    Eigen::MatrixXd lu;               ///< their factors in the determined inputs, one row per equality
+    std::vector<Eigen::Index> order;  ///< position of each variable in (u, x)
+    Eigen::MatrixXd M_dd;             ///< M in the determined inputs
+    Eigen::MatrixXd K;                ///< determined inputs = K' r + k
+    Eigen::MatrixXd T;                ///< M_rd + K M_dd
+    Eigen::MatrixXd L;                ///< Cholesky factor of N in the free inputs (lower triangle)
+    Eigen::MatrixXd G;                ///< N_xf L^-T
     Eigen::MatrixXd P, E;
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of equalities that determine no input
-    std::vector<int> passed_rows;                            ///< rows, in pivot order, that form E
+    std::vector<int> passed_rows;                            ///< their indices among `rows` that form E
 
     Eigen::VectorXd m, c, k, r, p, e, step, on_rows, on_carried;
-    Eigen::VectorXd gradient, permuted, no_inequalities;
+    Eigen::VectorXd gradient;
     int num_equalities() const { return size.equalities + carried; }
     int free() const { return size.inputs - rank; }
     int rest() const { return size.variables() - rank; }
@@ -92,15 +96,17 @@ class StageKkt {
     Shared condensed;   ///< M in (u, x)
     Shared M;           ///< in the stage's order
     Shared N;           ///< M in r, lower triangle
-    Shared M_ddK;
+    Shared KM_dd;
+    Eigen::FullPivLU<Eigen::MatrixXd> lu;
   };
 
   Stage& stage(int k) { return stages_[k]; }
-  Eigen::MatrixXd& gather_equalities(int k);
+  const Eigen::MatrixXd& gather_equalities(int k);
+  bool determine_first_inputs(Stage& stage, const Eigen::MatrixXd& equalities);
+  void determine_any_inputs(Stage& stage, const Eigen::MatrixXd& equalities);
   void put_in_order(const Stage& stage, const Eigen::MatrixXd& condensed, Eigen::MatrixXd& M);
-  void determine_inputs(Stage& stage, const Eigen::MatrixXd& equalities);
-  void eliminate(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& M, Eigen::MatrixXd& in_states,
-                 Eigen::MatrixXd& N);
+  void eliminate(Stage& stage, const Eigen::MatrixXd& M, Eigen::MatrixXd& N);
+  bool minimise(Stage& stage, const Eigen::MatrixXd& N);
   void pass_conditions(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& in_states);
   /// Number of significant pivots of a stage's equalities; sets is_exact_.
   template <class Pivots>
@@ -113,11 +119,12 @@ class StageKkt {
   double find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
 
   StagewiseNlp& nlp_;
+  const DenseKernels& kernels_;
   int num_stages_;
   std::vector<Stage> stages_;
   Work work_;
   StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
-  int last_stage_ = 0;
+  int last_stage_ = 0, num_pivoted_ = 0;
   bool is_exact_ = true;  ///< only rounding was left out
   Hessian hessian_ = Hessian::lagrangian;
   double delta_ = 0.0;
@@ -127,6 +134,7 @@ class StageKkt {
   } sum_;
   StageVectors residual_gradient_, residual_equalities_, residual_links_, residual_next_, residual_inequalities_;
   Eigen::MatrixXd no_hessian_;
+  Eigen::VectorXd nothing_;  ///< no multipliers
 };
 
 }  // namespace prowl
