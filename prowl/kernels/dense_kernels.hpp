@@ -3,25 +3,27 @@
 namespace prowl {
 
 /// Products and factorisations of small dense matrices (about 10 to 100 rows), compiled for several instruction sets.
-/// Plain arrays, stored by columns; `ld...`: distance of two columns. No Eigen type: its inline functions, compiled for one
-/// instruction set, must not serve code that was compiled for another. No allocation, no alignment, no exceptions; sizes
-/// may be 0. Output must not overlap input.
+/// Plain arrays, stored by columns; `ld...`: distance of two columns. No Eigen type: its inline functions, compiled for
+/// one instruction set, must not serve code that was compiled for another. No allocation, no alignment, no exceptions;
+/// sizes may be 0. Output must not overlap input.
 struct DenseKernels {
   const char* instruction_set;  ///< "x86-64", "x86-64-v3"
 
   /// C (rows x cols) += factor A (rows x inner) B (inner x cols), B(i, j) = b[i * b_row + j * b_col].
-  void (*add_product)(int rows, int cols, int inner, double factor, const double* a, int lda, const double* b, int b_row,
-                      int b_col, double* c, int ldc);
+  void (*add_product)(int rows, int cols, int inner, double factor, const double* a, int lda, const double* b,
+                      int b_row, int b_col, double* c, int ldc);
 
-  /// Lower triangle of C (size x size) += factor A B', A and B (size x inner). Above the diagonal C is undefined afterwards.
+  /// Lower triangle of C (size x size) += factor A B', A and B (size x inner). Above the diagonal C is undefined
+  /// afterwards.
   void (*add_lower_product)(int size, int inner, double factor, const double* a, int lda, const double* b, int ldb,
                             double* c, int ldc);
 
-  /// LU with row pivoting: row i of L U is row order[i] of A (size x size), which they replace. Returns the smallest pivot's
-  /// absolute value, at which it stops if that is 0 or not a number.
+  /// LU with row pivoting: row i of L U is row order[i] of A (size x size), which they replace. Returns the smallest
+  /// pivot's absolute value, at which it stops if that is 0 or not a number.
   double (*factorise_lu)(int size, double* a, int lda, int* order);
 
-  /// Cholesky: the lower triangle of A (size x size) becomes L, A = L L'. Returns false at a pivot that is not positive.
+  /// Cholesky: the lower triangle of A (size x size) becomes L, A = L L'. Returns false at a pivot that is not
+  /// positive.
   bool (*factorise_cholesky)(int size, double* a, int lda);
 
   /// X (rows x size) := X T^-1 for an upper triangular T, T(i, j) = t[i * t_row + j * t_col]; `unit`: with ones on its

@@ -32,9 +32,10 @@ StagewiseTranscription::StagewiseTranscription(NodeProgram& nodes)
 }
 
 void StagewiseTranscription::set_shapes() {
-  std::vector<std::array<Index, 3>> shapes;
+  std::vector<std::array<Index, 5>> shapes;
   for (Stage& stage : stages_) {
-    const std::array<Index, 3> shape = {stage.fixed.size(), stage.num_rows, stage.size.equalities};
+    const std::array<Index, 5> shape = {stage.fixed.size(), stage.num_rows, stage.size.equalities,
+                                        stage.size.variables(), stage.num_next()};
     const auto known = std::ranges::find(shapes, shape);
     stage.shape = static_cast<std::size_t>(known - shapes.begin());
     if (known == shapes.end()) shapes.push_back(shape);

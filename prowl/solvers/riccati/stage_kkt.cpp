@@ -136,17 +136,21 @@ int StageKkt::count_independent(const MatrixXd& equalities, const Pivots& pivots
 bool StageKkt::determine_first_inputs(Stage& s, const MatrixXd& equalities) {
   const int rank = s.num_equalities(), rest = s.size.variables() - rank;
   if (rank > s.size.inputs) return false;
-  s.rank = rank;
+  MatrixXd &lu = work_.lu.of_size(rank, rank), &K = work_.K.of_size(rest, rank);
+  lu = equalities.leftCols(rank);
   s.rows.resize(static_cast<std::size_t>(rank));
+  if (rank > 0) {
+    if (!(kernels_.factorise_lu(rank, lu.data(), stride(lu), s.rows.data()) > 0.0)) return false;
+    for (int i = 0; i < rank; ++i) K.col(i) = -equalities.row(s.rows[i]).tail(rest).transpose();
+    kernels_.divide_by_upper(rest, rank, lu.data(), stride(lu), 1, true, K.data(), stride(K));   // by L'
+    kernels_.divide_by_lower(rest, rank, lu.data(), stride(lu), 1, false, K.data(), stride(K));  // by U'
+    if (!lu.diagonal().allFinite() || !(K.array().abs() <= kLargestGain).all()) return false;
+  }
+  s.rank = rank;
+  s.lu = lu;
+  s.K = K;
   std::iota(s.order.begin(), s.order.end(), 0);
-  s.lu = equalities.leftCols(rank);
-  s.K.resize(rest, rank);
-  if (rank == 0) return true;
-  if (!(kernels_.factorise_lu(rank, s.lu.data(), stride(s.lu), s.rows.data()) > 0.0)) return false;
-  for (int i = 0; i < rank; ++i) s.K.col(i) = -equalities.row(s.rows[i]).tail(rest).transpose();
-  kernels_.divide_by_upper(rest, rank, s.lu.data(), stride(s.lu), 1, true, s.K.data(), stride(s.K));   // by L'
-  kernels_.divide_by_lower(rest, rank, s.lu.data(), stride(s.lu), 1, false, s.K.data(), stride(s.K));  // by U'
-  return s.lu.diagonal().allFinite() && (s.K.array().abs() <= kLargestGain).all();
+  return true;
 }
 
 /// By full pivoting: any inputs, any rank.
@@ -158,7 +162,7 @@ void StageKkt::determine_any_inputs(Stage& s, const MatrixXd& equalities) {
   std::iota(s.order.begin(), s.order.end(), 0);
   MatrixXd& in_states = work_.in_states.of_size(rows, states);
   if (inputs > 0) {
-    const auto& lu = work_.lu.compute(equalities.leftCols(inputs));
+    const auto& lu = s.full_lu.compute(equalities.leftCols(inputs));
     s.rank = count_independent(equalities, lu.matrixLU().diagonal());
     for (int i = 0; i < inputs; ++i) s.order[i] = lu.permutationQ().indices()(i);
     for (int i = 0; i < rows; ++i) s.rows[lu.permutationP().indices()(i)] = i;
@@ -171,7 +175,7 @@ void StageKkt::determine_any_inputs(Stage& s, const MatrixXd& equalities) {
     auto determining = in_states.topRows(s.rank);
     if (states > 0) square.triangularView<Eigen::UnitLower>().solveInPlace(determining);
     in_states.bottomRows(rows - s.rank).noalias() -= s.lu.bottomRows(rows - s.rank) * determining;
-    s.K.topRows(s.free()) = -work_.lu.matrixLU().block(0, s.rank, s.rank, s.free()).transpose();
+    s.K.topRows(s.free()) = -s.full_lu.matrixLU().block(0, s.rank, s.rank, s.free()).transpose();
     s.K.bottomRows(states) = -determining.transpose();
     kernels_.divide_by_lower(s.rest(), s.rank, s.lu.data(), stride(s.lu), 1, false, s.K.data(), stride(s.K));  // by U'
   }

@@ -59,18 +59,19 @@ class StageKkt {
   /// ones. Kept small, as on long chains a solve reads it from main memory.
   struct Stage {
     StageSize size;
-    int carried = 0;                  ///< conditions E of the next stage, equalities here
-    int rank = 0;                     ///< number of determined inputs
-    int passed = 0;                   ///< conditions E of this stage
-    bool pivoted = false;             ///< full pivoting chose the determined inputs
-    std::vector<int> rows;            ///< own and carried equalities; the first `rank` determine
-    Eigen::MatrixXd lu;               ///< their factors in the determined inputs, one row per equality
-    std::vector<Eigen::Index> order;  ///< position of each variable in (u, x)
-    Eigen::MatrixXd M_dd;             ///< M in the determined inputs
-    Eigen::MatrixXd K;                ///< determined inputs = K' r + k
-    Eigen::MatrixXd T;                ///< M_rd + K M_dd
-    Eigen::MatrixXd L;                ///< Cholesky factor of N in the free inputs (lower triangle)
-    Eigen::MatrixXd G;                ///< N_xf L^-T
+    int carried = 0;                            ///< conditions E of the next stage, equalities here
+    int rank = 0;                               ///< number of determined inputs
+    int passed = 0;                             ///< conditions E of this stage
+    bool pivoted = false;                       ///< full pivoting chose the determined inputs
+    std::vector<int> rows;                      ///< own and carried equalities; the first `rank` determine
+    Eigen::MatrixXd lu;                         ///< their factors in the determined inputs, one row per equality
+    Eigen::FullPivLU<Eigen::MatrixXd> full_lu;  ///< if pivoted
+    std::vector<Eigen::Index> order;            ///< position of each variable in (u, x)
+    Eigen::MatrixXd M_dd;                       ///< M in the determined inputs
+    Eigen::MatrixXd K;                          ///< determined inputs = K' r + k
+    Eigen::MatrixXd T;                          ///< M_rd + K M_dd
+    Eigen::MatrixXd L;                          ///< Cholesky factor of N in the free inputs (lower triangle)
+    Eigen::MatrixXd G;                          ///< N_xf L^-T
     Eigen::MatrixXd P, E;
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of equalities that determine no input
     std::vector<int> passed_rows;                            ///< their indices among `rows` that form E
@@ -97,7 +98,7 @@ class StageKkt {
     Shared M;           ///< in the stage's order
     Shared N;           ///< M in r, lower triangle
     Shared KM_dd;
-    Eigen::FullPivLU<Eigen::MatrixXd> lu;
+    Shared lu, K;  ///< of the first inputs, until it is known that they serve
   };
 
   Stage& stage(int k) { return stages_[k]; }
