@@ -1,7 +1,9 @@
 #include "cli/options/shared_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -11,8 +13,18 @@
 #include "cli/process/program_files.hpp"
 #include "cli/screen/output.hpp"
 #include "prowl/task_file/toml/file_keys.hpp"
+#include "prowl/text/nearest_name.hpp"
 
 namespace prowl::cli {
+CLI::Validator one_of(const std::vector<std::string>& names) {
+  CLI::Validator known = CLI::IsMember(names);
+  known.operation([names](std::string& value) {
+    if (std::ranges::find(names, value) != names.end()) return std::string();
+    return fmt::format("{} not in {{{}}}{}", value, fmt::join(names, ","), did_you_mean(value, names));
+  });
+  return known;
+}
+
 CLI::Option* add_task(CLI::App& verb, std::string& task) {
   return verb.add_option("task", task, "Task file (docs/task-file.md), or a shipped task such as hyq/crouch")
       ->required()
@@ -80,7 +92,7 @@ void add_hessian(CLI::App& verb, HessianKind& hessian) {
             hessian = name == exact ? HessianKind::exact : HessianKind::gauss_newton;
           },
           "Second derivatives: exact (default), or gauss-newton: of the cost only")
-      ->check(CLI::IsMember({exact, gauss_newton}))
+      ->check(one_of({exact, gauss_newton}))
       ->type_name("NAME")
       ->group(kSolverOptions);
 }

@@ -18,7 +18,11 @@ inline constexpr const char* kOutputOptions = "Output";
 // Options common to several verbs.
 /// An option with a folder as value; rejects "".
 CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& folder, const std::string& meaning);
-/// The required task: a file, or the name of a shipped task, which becomes its path.
+/// Refuses all other values, and names the nearest.
+CLI::Validator one_of(const std::vector<std::string>& names);
+
+/// The required task: a file, or the name of a shipped task, which becomes its path. An unknown name throws InputError
+/// with the nearest one.
 CLI::Option* add_task(CLI::App& verb, std::string& task);
 void add_plan_directory(CLI::App& verb, std::string& directory);           ///< the required folder of a plan
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders);  ///< --package-dir, for package_search()

@@ -1,5 +1,14 @@
 #include "cli/process/program_files.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "prowl/error.hpp"
+#include "prowl/text/nearest_name.hpp"
+#include "prowl/text/shown_text.hpp"
+
 namespace prowl::cli {
 
 std::filesystem::path program_path() {
@@ -14,13 +23,22 @@ PackageSearch package_search(const std::vector<std::string>& package_dirs) {
 }
 
 std::string find_task(const std::string& name) {
-  std::error_code ignored;
-  if (std::filesystem::exists(name, ignored)) return name;
-  for (const std::filesystem::path& folder : {share_folder(), package_search({}).clone}) {
-    const std::filesystem::path shipped = folder / "tasks" / (name + ".toml");
-    if (std::filesystem::is_regular_file(shipped, ignored)) return shipped.string();
+  std::error_code unknown;  // told by the reader
+  if (std::filesystem::exists(name, unknown) || unknown) return name;
+  std::vector<std::string> shipped;
+  for (const std::filesystem::path& share : {share_folder(), package_search({}).clone}) {
+    const std::filesystem::path folder = share / "tasks", task = folder / (name + ".toml");
+    if (std::filesystem::is_regular_file(task, unknown)) return task.string();
+    for (const auto& file : std::filesystem::recursive_directory_iterator(folder, unknown)) {
+      if (file.path().extension() == ".toml")
+        shipped.push_back(file.path().lexically_relative(folder).replace_extension());
+    }
   }
-  return name;
+  std::ranges::sort(shipped);
+  const bool is_path = name.ends_with(".toml");  // of a file of the user's own, probably
+  if (is_path || shipped.empty()) return name;
+  throw InputError(
+      fmt::format("{}: no such file, and no shipped task of that name{}", shown(name), did_you_mean(name, shipped)));
 }
 
 }  // namespace prowl::cli

@@ -17,7 +17,8 @@ std::filesystem::path share_folder();
 /// Folders to search for package://, --package-dir first (session/environment.hpp).
 PackageSearch package_search(const std::vector<std::string>& package_dirs);
 
-/// Path of the shipped task of that name, such as "hyq/crouch"; `name` itself if it is a file or no shipped task.
+/// Path of the shipped task of that name, such as "hyq/crouch"; `name` itself if it is a file or ends in
+/// .toml. Throws InputError with the nearest shipped task otherwise.
 std::string find_task(const std::string& name);
 
 }  // namespace prowl::cli

@@ -186,7 +186,7 @@ void add_names(CLI::App& verb, const char* option, Names& asked, const Names& th
   Names allowed = there_is;
   allowed.push_back(kAll);
   verb.add_option(option, asked, fmt::format("{}, comma-separated; default {}", meaning, there_is.front()))
-      ->check(CLI::IsMember(allowed))
+      ->check(one_of(allowed))
       ->type_name("LIST")
       ->delimiter(',')
       ->expected(1)
@@ -219,7 +219,7 @@ void add_compare_command(CLI::App& app, int& status) {
   add_hessian(*verb, arguments->hessian);
   verb->add_option("--guess", arguments->guess,
                    "Initial guess of all runs: smooth (default), or straight lines from posture to posture")
-      ->check(CLI::IsMember(guess_names()))
+      ->check(one_of(guess_names()))
       ->type_name("NAME")
       ->group(kSolverOptions);
   verb->add_option("--snopt-library", arguments->snopt_library,

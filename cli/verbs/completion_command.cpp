@@ -286,7 +286,7 @@ void add_completion_command(CLI::App& app, int& status) {
   CLI::App* const verb = app.add_subcommand("completion", "Print a script that completes this command in a shell");
   verb->add_option("shell", *shell, "Shell of the script")
       ->required()
-      ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+      ->check(one_of({"bash", "zsh", "fish"}))
       ->type_name("SHELL");
   set_footer(
       *verb,

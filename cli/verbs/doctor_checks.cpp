@@ -116,16 +116,8 @@ std::vector<Finding> check_build() {
        .text = fmt::format("{}, build type {}", PROWL_VERSION, *PROWL_BUILD_TYPE == '\0' ? "none" : PROWL_BUILD_TYPE),
        .remedy =
            optimised ? "" : "at least 10 times slower; use cmake --preset release && cmake --build --preset release"});
-  const bool could_be_faster =
-      std::string(PROWL_SIMD) == "baseline" && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  findings.push_back({.area = "build",
-                      .name = "vector instructions",
-                      .state = State::ok,
-                      .text = std::string(PROWL_SIMD) +
-                              (could_be_faster ? "; avx2 would be somewhat faster, with different last digits" : ""),
-                      .remedy = could_be_faster ? "optional: cmake -DPROWL_SIMD=avx2" : ""});
   for (const auto& [name, version] : all_versions()) {
-    if (name == "prowl" || name == "vector instructions") continue;
+    if (name == "prowl") continue;
     findings.push_back({.area = "build", .name = name, .text = version, .remedy = ""});
     if (const auto reason = name == "MuJoCo" ? why_no_mujoco() : std::nullopt) {
       findings.back().state = State::missing;

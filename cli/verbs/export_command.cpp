@@ -24,7 +24,7 @@ void add_export_command(CLI::App& app, int& status) {
                    "One or more formats, comma-separated: " + CLI::detail::join(names, ", "))
       ->required()
       ->delimiter(',')
-      ->check(CLI::IsMember(names))
+      ->check(one_of(names))
       ->type_name("FORMAT");
   add_folder(*verb, "--out", arguments->out, "Folder for the files; default: DIR/exports");
   verb->add_option("--rate", arguments->rate,

@@ -159,7 +159,7 @@ void add_new_task(CLI::App& verb, int& status) {
   task->add_option("--kind", arguments->kind,
                    "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step "
                    "forward; walk, trot, pace, bound: two strides of that gait on four legs")
-      ->check(CLI::IsMember(new_task_kinds()))
+      ->check(one_of(new_task_kinds()))
       ->type_name("NAME");
   add_new_file(*task, arguments->file, "tasks/ROBOT/KIND.toml");
   add_json(*task, arguments->json);

@@ -188,7 +188,7 @@ void add_plan_command(CLI::App& app, int& status) {
           "Solve on this mesh only, without coarser meshes first")
       ->group(kMeshOptions);
   verb->add_option("--solver", arguments->request.solver, "Solver to use; default " + arguments->request.solver)
-      ->check(CLI::IsMember(solver_names()))
+      ->check(one_of(solver_names()))
       ->type_name("NAME")
       ->group(kSolverOptions);
   verb->add_option("--threads", arguments->request.threads,

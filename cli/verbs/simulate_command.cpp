@@ -219,7 +219,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   verb->add_option("--engine", arguments->engine,
                    "mujoco (default): physics with contacts and sensors; rollout: the dynamics of the plan, contacts "
                    "as scheduled")
-      ->check(CLI::IsMember({"mujoco", "rollout"}))
+      ->check(one_of({"mujoco", "rollout"}))
       ->type_name("NAME");
   verb->add_flag("--open-loop", arguments->open_loop, "Apply the planned torques only, without feedback");
   verb->add_option("--control-rate", arguments->control_rate,

@@ -126,7 +126,7 @@ void add_view_command(CLI::App& app, int& status) {
   verb->add_flag("--one-mesh", arguments->one_mesh, "Solve on this mesh at once, without coarser ones first")
       ->group(kMeshOptions);
   verb->add_option("--solver", arguments->solver, "Solver to use; default " + arguments->solver)
-      ->check(CLI::IsMember(solver_names()))
+      ->check(one_of(solver_names()))
       ->type_name("NAME")
       ->group(kSolverOptions);
   add_json(*verb, arguments->json);

@@ -46,6 +46,13 @@ TEST_F(Command, SuggestsWhatWasMeant) {
   EXPECT_EQ(option.status, 2);
   EXPECT_THAT(option.error, HasSubstr("did you mean '--intervals'?"));
   EXPECT_EQ(run("$prowl plan").status, 2);
+  const Outcome task = run("$prowl plan hyq/crouhc");
+  EXPECT_EQ(task.status, 2);
+  EXPECT_THAT(task.error, HasSubstr("no shipped task of that name; did you mean 'hyq/crouch'?"));
+  EXPECT_THAT(run("$prowl plan crouhc.toml").error, Not(HasSubstr("did you mean"))) << "a file of the user's own";
+  const Outcome format = run("$prowl export out --format csv,mujco");
+  EXPECT_EQ(format.status, 2);
+  EXPECT_THAT(format.error, HasSubstr("did you mean 'mujoco'?"));
 }
 
 TEST_F(Command, PrintsItsHelpAlone) {

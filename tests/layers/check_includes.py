@@ -162,9 +162,10 @@ ALLOWED = {
         "prowl/plan_folder",
     ],
     # The front ends.
-    "cli/process": ["prowl", "prowl/session"],
+    "cli/process": ["prowl", "prowl/session", "prowl/text"],
     "cli/screen": ["cli/process", "prowl/text", "prowl/files", "prowl/nlp", "prowl/session"],
     "cli/options": [
+        "prowl/text",
         "cli/process",
         "cli/screen",
         "prowl",
