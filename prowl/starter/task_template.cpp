@@ -121,7 +121,7 @@ base_angular_acceleration = 0.1
 joint_acceleration = {joints}
 )";
 
-constexpr const char* kDuty = "duty_factor = {:.3g}       # part of a stride with a foot in contact\n";
+constexpr const char* kDuty = "duty_factor = {:.3g}       # fraction of the stride for which each foot stands\n";
 constexpr int kStrides = 2;
 
 /// What to know about the mesh of a gait.

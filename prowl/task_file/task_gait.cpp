@@ -46,7 +46,8 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
   gait.duty_factor = gait.pattern.duty_factor;
   if (const auto value = table.find("duty_factor")) {
     NumberRange range = value->key().range;
-    range.lower = gait.pattern.least_duty_factor();
+    // Of a kind that is a mistake, nothing is known about its least duty factor.
+    if (table.need("kind").as_text() == gait.pattern.name) range.lower = gait.pattern.least_duty_factor();
     gait.duty_factor = value->as_number(range);
   }
   if (const auto value = table.find("start_s")) gait.start = value->as_number();

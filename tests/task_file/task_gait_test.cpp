@@ -11,6 +11,7 @@ namespace prowl {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 const std::string kGaitFile = R"(robot = "hyq.toml"
@@ -158,6 +159,8 @@ TEST_F(TaskGait, RefusesAGoalOfItsOwnBesideGoals) {
 TEST_F(TaskGait, RefusesWhatIsNoGait) {
   EXPECT_EQ(message("\"trot\"", "\"trott\""),
             "task.toml:3:8: gait.kind: unknown gait \"trott\"; did you mean 'trot'? Known: walk, trot, pace, bound");
+  EXPECT_THAT(message("\"trot\"", "\"trott\"\nduty_factor = 0.55"), Not(HasSubstr("duty_factor")))
+      << "right for a trot";
   EXPECT_THAT(message("strides = 3", "strides = 0"), StartsWith("task.toml:4:11: gait.strides: 0 is not allowed"));
   EXPECT_THAT(message("stride_s = 0.8", "stride_s = [0.9, 0.8]"),
               StartsWith("task.toml:5:12: gait.stride_s: min > max is not allowed"));

@@ -228,7 +228,7 @@ void add_gait(FileKeys& keys) {
                  .hint = "; with less, swings overlap: write the phases as [[phase]]"},
        .unit = "-",
        .fallback = of_each_gait([](const GaitPattern& pattern) { return pattern.duty_factor; }),
-       .meaning = fmt::format("part of a stride in which a foot is in contact; at least {}", of_each_gait(least))});
+       .meaning = fmt::format("fraction of the stride for which each foot stands; at least {}", of_each_gait(least))});
   gait.add({.name = "start_s",
             .form = "number",
             .range = kDuration,
