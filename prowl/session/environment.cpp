@@ -90,7 +90,7 @@ std::map<std::string, std::string> versions() {
           {"MuJoCo", Physics::version()},
           {"Pinocchio", PROWL_PINOCCHIO_VERSION},
           {"vector instructions", PROWL_SIMD},
-          {"kernels", dense_kernels().instruction_set},
+          {"kernel instructions", dense_kernels().instruction_set},
           {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 

@@ -61,8 +61,7 @@ def _export(options: argparse.Namespace) -> None:
     )
     paths = {os.path.join(done.folder, name): size for name, size in done.files.items()}
     text = "".join(f"{1e-3 * size:>10.1f} kB  {path}\n" for path, size in paths.items())
-    gains = "with gains" if done.has_gains else "without gains"
-    text += f"{done.samples} samples of the {done.motion}, {done.end:g} s, {gains}\n"
+    text += f"{done.samples} samples of the {done.motion}, {done.end:g} s\n"
     _result(
         done.plan,
         options.directory,
