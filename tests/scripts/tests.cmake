@@ -15,6 +15,6 @@ if(EXISTS ${PROWL_VENV}/bin/clang-format AND EXISTS ${PROJECT_SOURCE_DIR}/report
 endif()
 if(PROWL_BUILD_CLI)
   add_test(NAME scripts/paper COMMAND ${PROWL_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/paper_test.py $<TARGET_FILE:prowl_cli> ${PROWL_CMEEL}/share)
-  set_tests_properties(scripts/paper PROPERTIES TIMEOUT 900 PROCESSORS 2 COST 30
+  set_tests_properties(scripts/paper PROPERTIES TIMEOUT 900 PROCESSORS 2
     ENVIRONMENT "PYTHONDONTWRITEBYTECODE=1;OPENBLAS_NUM_THREADS=1")
 endif()
