@@ -2,6 +2,12 @@
 
 namespace prowl {
 
+/// A sparse matrix: column j has the entries starts[j] to starts[j + 1] - 1, each with its row and its value.
+struct SparseColumns {
+  const int *starts, *rows;
+  const double* values;
+};
+
 /// Products and factorisations of small dense matrices (about 10 to 100 rows), compiled for several instruction sets.
 /// Plain arrays, stored by columns; `ld...`: distance of two columns. No Eigen type: its inline functions, compiled for
 /// one instruction set, must not serve code that was compiled for another. No allocation, no alignment, no exceptions;
@@ -9,14 +15,24 @@ namespace prowl {
 struct DenseKernels {
   const char* instruction_set;  ///< "x86-64", "x86-64-v3"
 
-  /// C (rows x cols) += factor A (rows x inner) B (inner x cols), B(i, j) = b[i * b_row + j * b_col].
+  /// C (rows x cols) = factor A B or C += factor A B, with A (rows x inner) and B (inner x cols),
+  /// B(i, j) = b[i * b_row + j * b_col]. Only the second reads C.
+  void (*set_product)(int rows, int cols, int inner, double factor, const double* a, int lda, const double* b,
+                      int b_row, int b_col, double* c, int ldc);
   void (*add_product)(int rows, int cols, int inner, double factor, const double* a, int lda, const double* b,
                       int b_row, int b_col, double* c, int ldc);
 
-  /// Lower triangle of C (size x size) += factor A B', A and B (size x inner). Above the diagonal C is undefined
-  /// afterwards.
+  /// The same for the lower triangle of C (size x size) and A B', A and B (size x inner). Above the diagonal C is
+  /// undefined afterwards.
+  void (*set_lower_product)(int size, int inner, double factor, const double* a, int lda, const double* b, int ldb,
+                            double* c, int ldc);
   void (*add_lower_product)(int size, int inner, double factor, const double* a, int lda, const double* b, int ldb,
                             double* c, int ldc);
+
+  /// C (rows x cols) = A B for a sparse B.
+  void (*set_sparse_product)(int rows, int cols, const double* a, int lda, const SparseColumns& b, double* c, int ldc);
+  /// Lower triangle of C (size x size) += A B for a sparse B.
+  void (*add_lower_sparse_product)(int size, const double* a, int lda, const SparseColumns& b, double* c, int ldc);
 
   /// LU with row pivoting: row i of L U is row order[i] of A (size x size), which they replace. Returns the smallest
   /// pivot's absolute value, at which it stops if that is 0 or not a number.

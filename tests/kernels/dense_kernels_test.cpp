@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -41,7 +42,7 @@ void expect_padding(const MatrixXd& all) { EXPECT_TRUE((all.bottomRows(3).array(
 
 MatrixXd lower(const MatrixXd& matrix) { return matrix.triangularView<Eigen::Lower>(); }
 
-TEST(DenseKernels, AddProducts) {
+TEST(DenseKernels, SetAndAddProducts) {
   std::mt19937 rng(1);
   for (const DenseKernels* kernels : sets()) {
     for (const int rows : kSizes) {
@@ -55,6 +56,11 @@ TEST(DenseKernels, AddProducts) {
                                  transposed ? cols : 1, transposed ? 1 : inner, c.data(), rows + 3);
             expect_near(c.topRows(rows), C - 0.7 * A * B, kernels->instruction_set);
             expect_padding(c);
+            c.topRows(rows).setConstant(std::nan(""));
+            kernels->set_product(rows, cols, inner, -0.7, a.data(), rows + 3, transposed ? Bt.data() : B.data(),
+                                 transposed ? cols : 1, transposed ? 1 : inner, c.data(), rows + 3);
+            expect_near(c.topRows(rows), -0.7 * A * B, kernels->instruction_set);
+            expect_padding(c);
           }
         }
       }
@@ -62,7 +68,7 @@ TEST(DenseKernels, AddProducts) {
   }
 }
 
-TEST(DenseKernels, AddTheLowerTriangleOfAProduct) {
+TEST(DenseKernels, SetAndAddTheLowerTriangleOfAProduct) {
   std::mt19937 rng(2);
   for (const DenseKernels* kernels : sets()) {
     for (const int size : kSizes) {
@@ -72,6 +78,33 @@ TEST(DenseKernels, AddTheLowerTriangleOfAProduct) {
         MatrixXd c = padded(C);
         kernels->add_lower_product(size, inner, 2.0, A.data(), size, B.data(), size, c.data(), size + 3);
         expect_near(lower(c.topRows(size)), lower(C + 2.0 * A * B.transpose()), kernels->instruction_set);
+        expect_padding(c);
+        c.topRows(size).setConstant(std::nan(""));
+        kernels->set_lower_product(size, inner, 2.0, A.data(), size, B.data(), size, c.data(), size + 3);
+        expect_near(lower(c.topRows(size)), lower(2.0 * A * B.transpose()), kernels->instruction_set);
+        expect_padding(c);
+      }
+    }
+  }
+}
+
+TEST(DenseKernels, MultiplyBySparseMatrices) {
+  std::mt19937 rng(5);
+  for (const DenseKernels* kernels : sets()) {
+    for (const int size : kSizes) {
+      for (const int inner : {0, 1, 5, 18}) {
+        const MatrixXd A = random_matrix(rng, size, inner), C = random_matrix(rng, size, size), a = padded(A);
+        MatrixXd B = random_matrix(rng, inner, size);
+        B = (B.array().abs() < 0.5).select(B, 0.0).eval();  // columns without entries among them
+        const Eigen::SparseMatrix<double> sparse = B.sparseView();
+        const SparseColumns columns = {sparse.outerIndexPtr(), sparse.innerIndexPtr(), sparse.valuePtr()};
+        MatrixXd c = padded(C);
+        kernels->add_lower_sparse_product(size, a.data(), size + 3, columns, c.data(), size + 3);
+        expect_near(lower(c.topRows(size)), lower(C + A * B), kernels->instruction_set);
+        expect_padding(c);
+        c.topRows(size).setConstant(std::nan(""));
+        kernels->set_sparse_product(size, size, a.data(), size + 3, columns, c.data(), size + 3);
+        expect_near(c.topRows(size), A * B, kernels->instruction_set);
         expect_padding(c);
       }
     }
