@@ -36,30 +36,6 @@ void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
   }
 }
 
-// The base moves all contacts (a dense product), a joint only those behind it.
-void ContactKinematics::multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const {
-  out.noalias() = jacobian_.leftCols<6>() * x.topRows<6>();
-  for (Eigen::Index column = 0; column < x.cols(); ++column) {
-    for (std::size_t c = 0; c < chains_.size(); ++c) {
-      Vector3d sum = Vector3d::Zero();
-      for (std::size_t i = kBaseDofs; i < chains_[c].size(); ++i) sum += chains_[c][i].d * x(chains_[c][i].dof, column);
-      out.col(column).segment<3>(static_cast<Eigen::Index>(3 * c)) += sum;
-    }
-  }
-}
-
-void ContactKinematics::subtract_transposed(const Eigen::MatrixXd& y, Eigen::MatrixXd& out) const {
-  out.topRows<6>().noalias() -= jacobian_.leftCols<6>().transpose() * y;
-  for (Eigen::Index column = 0; column < y.cols(); ++column) {
-    for (std::size_t c = 0; c < chains_.size(); ++c) {
-      const Vector3d force = y.col(column).segment<3>(static_cast<Eigen::Index>(3 * c));
-      for (std::size_t i = kBaseDofs; i < chains_[c].size(); ++i) {
-        out(chains_[c][i].dof, column) -= chains_[c][i].d.dot(force);
-      }
-    }
-  }
-}
-
 void ContactKinematics::set_motion(const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
     propagate_motion(chains_[c], v, a, acceleration_.segment(static_cast<Eigen::Index>(3 * c), 3));

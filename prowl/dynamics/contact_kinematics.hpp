@@ -33,10 +33,6 @@ class ContactKinematics {
   const Eigen::MatrixXd& jacobian() const { return jacobian_; }          ///< rows() x nv, for v
   const Eigen::MatrixXd& positions_dq() const { return positions_dq_; }  ///< rows() x nv, for the tangent of q
 
-  /// out = J x, and out -= Jᵀ y; both skip the zeros of J.
-  void multiply(const Eigen::MatrixXd& x, Eigen::MatrixXd& out) const;
-  void subtract_transposed(const Eigen::MatrixXd& y, Eigen::MatrixXd& out) const;
-
   /// Sets the motion (v, a) of the evaluations below. v = 0, a = u makes g = J u.
   void set_motion(const Eigen::VectorXd& v, const Eigen::VectorXd& a);
   const Eigen::VectorXd& acceleration() const { return acceleration_; }  ///< g, rows()

@@ -59,11 +59,13 @@ void ProjectedResidual::compute_forces(const DynamicsPoint& point) {
     r_ -= point.chosen_forces(static_cast<Eigen::Index>(i)) * J.row(chosen_rows_[i]).transpose();
   }
   e_ = kinematics_.acceleration() + point.stabilisation.kp * (kinematics_.positions() - point.anchors);
+  Jt_ = J.transpose();
   work_f_ = -contact_weight_ * e_;
-  work_f_.noalias() += J * r_;
-  f_.noalias() = gram_inverse_ * work_f_;
+  products_.add(work_f_, J, r_);
+  f_.resize(J.rows());
+  products_.set(f_, gram_inverse_, work_f_);
   c_ = r_;
-  c_.noalias() -= J.transpose() * f_;
+  products_.add(c_, Jt_, f_, -1.0);
   for (std::size_t i = 0; i < chosen_rows_.size(); ++i) {
     f_(chosen_rows_[i]) = point.chosen_forces(static_cast<Eigen::Index>(i));
   }
@@ -91,42 +93,46 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   work_f_ = -f_;
   A_q_ = terms_.dq();
   kinematics_.add_force_derivative(work_f_, A_q_);
-  K_.noalias() = W * J;
+  K_.resize(J.rows(), J.cols());
+  products_.set(K_, W, J);
 
   // J c = s J J⁺ e: differentiate, solve for df = (J J')⁺ (J A + dJ c - s de). Both dJ c and s de come from one chain
   // pass, since the acceleration is linear in its second argument.
   work_v_ = point.a + kd * point.v - c_ / contact_weight_;
   kinematics_.set_motion(point.v, work_v_);
   kinematics_.acceleration_dq(work_m_);
-  kinematics_.multiply(A_q_, rhs_);
-  rhs_ -= contact_weight_ * (work_m_ + kp * kinematics_.positions_dq());
-  df_.q.noalias() = W * rhs_;
+  rhs_ = -contact_weight_ * (work_m_ + kp * kinematics_.positions_dq());
+  products_.add(rhs_, J, A_q_);
+  df_.q.resizeLike(rhs_);
+  products_.set(df_.q, W, rhs_);
   kinematics_.acceleration_dv(work_m_);
-  kinematics_.multiply(terms_.dv(), rhs_);
-  rhs_ -= contact_weight_ * (work_m_ + kd * J);
-  df_.v.noalias() = W * rhs_;
+  rhs_ = -contact_weight_ * (work_m_ + kd * J);
+  products_.add(rhs_, J, terms_.dv());
+  df_.v.resizeLike(rhs_);
+  products_.set(df_.v, W, rhs_);
   df_.a = -contact_weight_ * K_;
-  df_.a.noalias() += K_ * terms_.mass_matrix();
+  products_.add(df_.a, K_, terms_.mass_matrix());
   df_.tau = -K_.rightCols(nu);
   df_.e = -contact_weight_ * W;
 
   // dc = A - J' df
   dc_.q = A_q_;
-  kinematics_.subtract_transposed(df_.q, dc_.q);
+  products_.add(dc_.q, Jt_, df_.q, -1.0);
   dc_.v = terms_.dv();
-  kinematics_.subtract_transposed(df_.v, dc_.v);
+  products_.add(dc_.v, Jt_, df_.v, -1.0);
   dc_.a = terms_.mass_matrix();
-  kinematics_.subtract_transposed(df_.a, dc_.a);
+  products_.add(dc_.a, Jt_, df_.a, -1.0);
   dc_.tau.setZero(terms_.nv(), nu);
   dc_.tau.bottomRows(nu).diagonal().setConstant(-1.0);
-  kinematics_.subtract_transposed(df_.tau, dc_.tau);
+  products_.add(dc_.tau, Jt_, df_.tau, -1.0);
   dc_.e = contact_weight_ * K_.transpose();
 
   const auto chosen = static_cast<Eigen::Index>(chosen_rows_.size());
   dc_.w.resize(terms_.nv(), chosen);
   for (Eigen::Index i = 0; i < chosen; ++i) dc_.w.col(i) = -J.row(chosen_rows_[i]);
-  df_.w.noalias() = K_ * dc_.w;
-  kinematics_.subtract_transposed(df_.w, dc_.w);
+  df_.w.resize(J.rows(), chosen);
+  products_.set(df_.w, K_, dc_.w);
+  products_.add(dc_.w, Jt_, df_.w, -1.0);
   for (Eigen::Index i = 0; i < chosen; ++i) df_.w(chosen_rows_[i], i) = 1.0;
 
   e_gains_.resize(J.rows(), 2);
@@ -165,10 +171,11 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   //   d2(mu.c + nu.f) = l1.d2r + s l2.d2e - f.d2J l1 - l2.d2J c - 2 df.dJ l1 - 2 l2.dJ dc.
   // A chosen row enters only by its force w in r: l2 is zero there.
   work_f_ = -nu;
-  work_f_.noalias() += J * mu;
-  l2_.noalias() = gram_inverse_ * work_f_;
+  products_.add(work_f_, J, mu);
+  l2_.resize(J.rows());
+  products_.set(l2_, gram_inverse_, work_f_);
   l1_ = mu;
-  l1_.noalias() -= J.transpose() * l2_;
+  products_.add(l1_, Jt_, l2_, -1.0);
   h.de = contact_weight_ * l2_;
 
   h.set_zero();
@@ -186,32 +193,37 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   kinematics_.acceleration_dq(work_m_);  // d(J l1)/dq
   work_n_.setZero(terms_.nv(), terms_.nv());
   kinematics_.add_force_derivative(l2_, work_n_);
-  kinematics_.multiply(work_n_, rhs_);
-  work_m_ -= rhs_;
+  products_.add(work_m_, J, work_n_, -1.0);
   const Eigen::Index turning = terms_.nv() - 3, joints = point.tau.size();
-  const auto G = work_m_.rightCols(turning).transpose(), N = work_n_.rightCols(turning).transpose();
-  cross_.noalias() = G * df_.q;
-  cross_.noalias() += N * A_q_;
+  Gt_ = work_m_.rightCols(turning).transpose();
+  Nt_ = work_n_.rightCols(turning).transpose();
+  cross_.resize(turning, terms_.nv());
+  products_.set(cross_, Gt_, df_.q);
+  products_.add(cross_, Nt_, A_q_);
   h.qq.bottomRows(turning) -= cross_;
   h.qq.rightCols(turning) -= cross_.transpose();
-  h.qv.bottomRows(turning).noalias() -= G * df_.v;
-  h.qv.bottomRows(turning).noalias() -= N * terms_.dv();
-  h.qa.bottomRows(turning).noalias() -= G * df_.a;
-  h.qa.bottomRows(turning).noalias() -= N * terms_.mass_matrix();
-  h.qtau.setZero(terms_.nv(), joints);
-  h.qtau.bottomRows(turning) = N.rightCols(joints);
-  h.qtau.bottomRows(turning).noalias() -= G * df_.tau;
-  h.qe.setZero(terms_.nv(), J.rows());
-  h.qe.bottomRows(turning).noalias() -= G * df_.e;
-
-  h.qw.setZero(terms_.nv(), df_.w.cols());  // A_w = -J' of the chosen rows, whose own 1 in df adds J' again
-  h.qw.bottomRows(turning).noalias() -= G * df_.w;
+  auto qv = h.qv.bottomRows(turning);
+  products_.add(qv, Gt_, df_.v, -1.0);
+  products_.add(qv, Nt_, terms_.dv(), -1.0);
+  auto qa = h.qa.bottomRows(turning);
+  products_.add(qa, Gt_, df_.a, -1.0);
+  products_.add(qa, Nt_, terms_.mass_matrix(), -1.0);
+  h.qtau.resize(terms_.nv(), joints);
+  h.qtau.topRows(3).setZero();
+  h.qtau.bottomRows(turning) = Nt_.rightCols(joints);
+  products_.add(h.qtau.bottomRows(turning), Gt_, df_.tau, -1.0);
+  h.qe.resize(terms_.nv(), J.rows());
+  h.qe.topRows(3).setZero();
+  products_.set(h.qe.bottomRows(turning), Gt_, df_.e, -1.0);
+  h.qw.resize(terms_.nv(), df_.w.cols());  // A_w = -J' of the chosen rows, whose own 1 in df adds J' again
+  h.qw.topRows(3).setZero();
+  products_.set(h.qw.bottomRows(turning), Gt_, df_.w, -1.0);
 
   h.qgains.noalias() = h.qe * e_gains_;
   h.qgains.col(0).noalias() += contact_weight_ * (work_n_.transpose() * point.v);  // l2.d(J v)
   h.qgains.col(1).noalias() += kinematics_.positions_dq().transpose() * h.de;
   h.vgains.setZero(terms_.nv(), 2);
-  h.vgains.col(0).noalias() = J.transpose() * h.de;
+  h.vgains.col(0).noalias() = Jt_ * h.de;
   return h;
 }
 

@@ -6,6 +6,7 @@
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/projector.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/linear_algebra/matrix_products.hpp"
 
 namespace prowl {
 
@@ -91,6 +92,7 @@ class ProjectedResidual {
   void compute_gram_inverse();
   void add_redundancy();
 
+  MatrixProducts products_;
   double contact_weight_;
   RigidBodyTerms terms_;
   ContactKinematics kinematics_;
@@ -102,10 +104,12 @@ class ProjectedResidual {
   PointDerivatives dc_, df_;
   PointHessian hessian_;
   // Work space, so that nothing is allocated after the first evaluation.
+  Eigen::MatrixXd Jt_;       ///< J'
   Eigen::MatrixXd A_q_;      ///< derivative of the equations of motion in q with f fixed
   Eigen::MatrixXd K_;        ///< (J J')⁺ J
   Eigen::MatrixXd e_gains_;  ///< derivative of e in the gains
   Eigen::MatrixXd work_m_, work_n_, rhs_, cross_;
+  Eigen::MatrixXd Gt_, Nt_;  ///< of hessian(): G' and N'
   Eigen::VectorXd l1_, l2_, work_v_, work_f_, zero_;
 };
 

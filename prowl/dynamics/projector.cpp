@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "prowl/error.hpp"
+#include "prowl/linear_algebra/matrix_products.hpp"
 
 namespace prowl {
 
@@ -23,27 +24,23 @@ void Projector::compute(const Eigen::MatrixXd& J, double rank_threshold) {
   }
 }
 
-// J' Π = V R, that is J = Π R' V': U = Π, T = R', (J J')⁻¹ = Π R⁻¹ R'⁻¹ Π'. Hand-written: for matrices this small, the
-// calls of general solvers and products would dominate.
+// J' Π = V R, that is J = Π R' V': U = Π, T = R', (J J')⁻¹ = Π R⁻¹ R'⁻¹ Π'.
 void Projector::factor_full() {
+  const auto& R = qr_.matrixQR();
   const Eigen::Index rows = transposed_.cols();
+  const int size = static_cast<int>(rows);
   inverse_factor_.resize(rows, rows);
-  permuted_gram_.setZero(rows, rows);
+  permuted_gram_.resize(rows, rows);
   gram_inverse_.resize(rows, rows);
   upper_inverse_.setIdentity(rows, rows);
-  for (Eigen::Index j = 0; j < rows; ++j) {
-    auto column = upper_inverse_.col(j);
-    for (Eigen::Index i = j; i >= 0; --i) {
-      column(i) /= qr_.matrixQR()(i, i);
-      column.head(i) -= column(i) * qr_.matrixQR().col(i).head(i);
-    }
-    for (Eigen::Index i = 0; i <= j; ++i) permuted_gram_.col(i).head(i + 1) += column(i) * column.head(i + 1);
-  }
+  dense_kernels().divide_by_upper(size, size, R.data(), 1, static_cast<int>(R.rows()), false, upper_inverse_.data(),
+                                  size);
+  MatrixProducts().set_lower(permuted_gram_, upper_inverse_, upper_inverse_);
   const auto& index = qr_.colsPermutation().indices();
   for (Eigen::Index i = 0; i < rows; ++i) {
     inverse_factor_.col(index(i)) = upper_inverse_.row(i).transpose();
     for (Eigen::Index j = 0; j <= i; ++j) {
-      gram_inverse_(index(i), index(j)) = gram_inverse_(index(j), index(i)) = permuted_gram_(j, i);
+      gram_inverse_(index(i), index(j)) = gram_inverse_(index(j), index(i)) = permuted_gram_(i, j);
     }
   }
 }

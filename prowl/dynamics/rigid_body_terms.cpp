@@ -109,9 +109,7 @@ void RigidBodyTerms::update_with_derivatives(const Eigen::VectorXd& q, const Eig
                                              const Eigen::VectorXd& a) {
   auto& model = workspace_->model;
   auto& data = workspace_->data;
-  dq_.setZero();  // Pinocchio writes only the entries that the tree makes non-zero
-  dv_.setZero();
-  mass_matrix_.setZero();
+  // It writes only the entries that the tree makes non-zero; the others stay as the constructor set them.
   pinocchio::computeRNEADerivatives(model, data, q, v, a, dq_, dv_, mass_matrix_);
   mass_matrix_.triangularView<Eigen::StrictlyLower>() = mass_matrix_.transpose();
   // Inverse dynamics do not depend on the base position. (Pinocchio leaves rounding there.)

@@ -18,7 +18,7 @@ ALLOWED = {
     "prowl/text": [],
     "prowl/files": ["prowl/text"],
     "prowl/kernels": [],
-    "prowl/linear_algebra": [],
+    "prowl/linear_algebra": ["prowl/kernels"],
     "prowl/model": ["prowl/text", "prowl/linear_algebra"],
     "prowl/dynamics": ["prowl/linear_algebra", "prowl/model"],
     "prowl/motion": ["prowl/model", "prowl/dynamics"],
