@@ -70,6 +70,7 @@ struct SolveResult {
   double constraint_violation = 0.0;
   double dual_violation = 0.0;
   int iterations = 0;
+  int pivoted_stages = 0;  ///< in the last linear system: stages without well-determined accelerations; 0 if unknown
   double seconds = 0.0;
   SolveTimes times;
 };

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
-constexpr int kSchemaVersion = 3;
+constexpr int kSchemaVersion = 4;
 constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
@@ -90,6 +90,7 @@ Json solver_to_json(const PlanRecord& record) {
           {"constraint_violation", result.constraint_violation},
           {"dual_violation", result.dual_violation},
           {"iterations", result.iterations},
+          {"pivoted_stages", result.pivoted_stages},
           {"seconds", result.seconds},
           {"cpu_seconds", result.times.cpu},
           {"evaluation",
@@ -307,6 +308,7 @@ SolveResult read_result(const Reader& plan, int version) {
   result.constraint_violation = solver.number("constraint_violation");
   result.dual_violation = solver.number("dual_violation");
   result.iterations = solver.integer("iterations");
+  result.pivoted_stages = version < 4 ? 0 : solver.integer("pivoted_stages");
   result.seconds = solver.number("seconds");
   if (version < 2 && !solver.has("cpu_seconds")) return result;
   result.times.cpu = solver.number("cpu_seconds");

@@ -99,8 +99,8 @@ class PlanSchema(unittest.TestCase):
 
     def test_refuses_values_of_the_wrong_kind(self):
         for path, value in (
-            ("schema_version", 2),
-            ("schema_version", 4),
+            ("schema_version", 3),
+            ("schema_version", 5),
             ("status", "fine"),
             ("good", "yes"),
             ("certificate.grade", "A"),
@@ -139,7 +139,7 @@ class PlanSchema(unittest.TestCase):
 
     def test_the_command_reads_the_version_before_and_tells_what_to_do_with_others(self):
         plan = copy.deepcopy(self.plans["crouch"])
-        for key in ("hessian", "cpu_seconds", "evaluation", "convergence"):
+        for key in ("hessian", "cpu_seconds", "evaluation", "convergence", "pivoted_stages"):
             del plan["solver"][key]
         for phase in plan["problem"]["phases"]:
             del phase["shares"]
@@ -150,7 +150,7 @@ class PlanSchema(unittest.TestCase):
             (1, 0, ""),
             (2, 2, "cpu_seconds: missing"),
             (3, 2, "shares: missing"),
-            (4, 2, "written by a newer Prowl"),
+            (5, 2, "written by a newer Prowl"),
             (0, 2, "plan again with prowl plan"),
         ):
             plan["schema_version"] = version

@@ -42,6 +42,7 @@ PlanRecord make_record(const std::filesystem::path& folder) {
   plan.result.status = SolveStatus::interrupted;
   plan.result.message = "stopped \"by hand\"";
   plan.result.iterations = 12;
+  plan.result.pivoted_stages = 2;
   plan.result.cost = 1.0 / 3.0;
   plan.certificate.grade = CertificateGrade::draft;
   plan.certificate.passed = true;
@@ -95,6 +96,7 @@ TEST_F(PlanDirectory, ReadsBackWhatItWrote) {
   }
   EXPECT_EQ(read.plan.result.status, SolveStatus::interrupted);
   EXPECT_EQ(read.plan.result.message, record_.plan.result.message);
+  EXPECT_EQ(read.plan.result.pivoted_stages, 2);
   EXPECT_EQ(read.plan.result.cost, 1.0 / 3.0);
   EXPECT_EQ(read.plan.certificate.grade, CertificateGrade::draft);
   ASSERT_EQ(read.plan.certificate.checks.size(), 2u);
@@ -132,7 +134,7 @@ TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
 TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
   write_plan(out_, record_);
   const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
-  EXPECT_EQ(json.at("schema_version"), 3);
+  EXPECT_EQ(json.at("schema_version"), 4);
   EXPECT_EQ(json.at("status"), "interrupted");
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ(json.at("certificate").at("passed"), true);
@@ -185,7 +187,7 @@ TEST_F(PlanDirectory, SamplesAUniformGrid) {
 TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
-  edit("plan.json", "\"schema_version\": 3", "\"schema_version\": 4294967297");
+  edit("plan.json", "\"schema_version\": 4", "\"schema_version\": 4294967297");
   EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from "))
       << "1 modulo 2^32";
   write_plan(out_, record_);
@@ -214,7 +216,9 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
     change(json);
     folder_.write("out/plan.json", json.dump());
   };
-  const auto remove_shares = [](auto& json) {
+  const auto remove_pivoted_stages = [](auto& json) { ASSERT_EQ(json["solver"].erase("pivoted_stages"), 1u); };
+  const auto remove_shares = [&](auto& json) {
+    remove_pivoted_stages(json);
     for (auto& phase : json["problem"]["phases"]) ASSERT_EQ(phase.erase("shares"), 1u);
     for (auto& interval : json["certificate"]["integration_errors"]) ASSERT_EQ(interval.erase("reintegration"), 1u);
   };
@@ -234,17 +238,21 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   EXPECT_TRUE(std::isnan(read_plan(out_, test::test_search()).plan.certificate.interval_errors.at(0).reintegration));
   write_version(3, remove_shares);
   EXPECT_EQ(message(), "out/plan.json: plan.problem.phases[0].shares: missing");
-  write_version(4, [](auto&) {});
+  write_version(3, remove_pivoted_stages);
+  EXPECT_EQ(read_plan(out_, test::test_search()).plan.result.pivoted_stages, 0);
+  write_version(4, remove_pivoted_stages);
+  EXPECT_EQ(message(), "out/plan.json: plan.solver.pivoted_stages: missing");
+  write_version(5, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 4, written by a newer Prowl; this one reads 1 to 3: use that Prowl, or "
+      "out/plan.json: plan.schema_version: 5, written by a newer Prowl; this one reads 1 to 4: use that Prowl, or "
       "plan again with this one");
   write_version(0, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 3: plan again with prowl plan; its "
+      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 4: plan again with prowl plan; its "
       "task_file contains the task");
-  write_version(3, [](auto& json) { json.erase("schema_version"); });
+  write_version(4, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");
 }
 

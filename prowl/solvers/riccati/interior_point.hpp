@@ -34,6 +34,7 @@ class InteriorPoint {
   Ending run(const StageVectors& guess, const Watch& watch);
 
   int iterations() const { return iterations_; }
+  int pivoted_stages() const { return kkt_.num_pivoted(); }  ///< of the latest factorisation
   const IterateFigures& figures() const { return figures_; }
   const StageVectors& stages() const { return ux_; }
   const SolveTimes& times() const { return times_; }

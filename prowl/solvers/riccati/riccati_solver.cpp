@@ -66,6 +66,7 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_guess, const Solver
   result.status = ending.status;
   result.message = ending.message;
   result.iterations = method.iterations();
+  result.pivoted_stages = method.pivoted_stages();
   const bool has_converged = result.status == SolveStatus::converged;
   if (has_converged || !best_stages.empty()) {
     result.z = stages.flat(has_converged ? method.stages() : best_stages);
