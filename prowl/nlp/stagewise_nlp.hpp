@@ -56,11 +56,11 @@ class StagewiseNlp {
   virtual void linearise_to_first_order(int k, const Eigen::VectorXd& ux) = 0;
   virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
   virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;
-  virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;  ///< as hessian()
-  /// result = next' next_hessian next + inequalities' diag(weights) inequalities, with the derivatives of both: the
-  /// lower triangle, above which it is undefined but finite.
-  virtual void condense(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
-                        Eigen::MatrixXd& result) = 0;
+  virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;  ///< lower triangle of hessian()
+  /// result += next' next_hessian next + inequalities' diag(weights) inequalities, with the derivatives of both: the
+  /// lower triangle. Above it the result is undefined afterwards.
+  virtual void add_condensed(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
+                             Eigen::MatrixXd& result) = 0;
   /// Derivatives of next and of the inequalities along a step in (u, x).
   virtual void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next,
                             Eigen::VectorXd& inequalities) = 0;

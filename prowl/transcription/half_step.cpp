@@ -1,6 +1,7 @@
 #include "prowl/transcription/half_step.hpp"
 
 #include "prowl/model/so3.hpp"
+#include "prowl/transcription/congruence.hpp"
 
 namespace prowl {
 
@@ -19,10 +20,10 @@ Turn turn(const Matrix3d& charts, const Vector3d& theta, double s, const Vector3
   return Turn({{{charts, theta}, {Matrix3d::Identity(), s * omega}}});
 }
 
-/// `block` may be an expression, evaluated in place without heap allocation.
+/// Adds a block to a Hessian above its diagonal, that is, its transpose below it. `block` may be an expression,
+/// evaluated in place without heap allocation.
 template <class Block>
-void add_symmetric(MatrixXd& hessian, Index row, Index column, const Eigen::MatrixBase<Block>& block) {
-  hessian.block<Block::RowsAtCompileTime, Block::ColsAtCompileTime>(row, column, block.rows(), block.cols()) += block;
+void add_off_diagonal(MatrixXd& hessian, Index row, Index column, const Eigen::MatrixBase<Block>& block) {
   hessian.block<Block::ColsAtCompileTime, Block::RowsAtCompileTime>(column, row, block.cols(), block.rows()) +=
       block.transpose();
 }
@@ -31,10 +32,10 @@ void add_symmetric(MatrixXd& hessian, Index row, Index column, const Eigen::Matr
 void add_moving(const WorldVelocity& world, const WorldVelocityHessian& bent, const Vector3d& lambda,
                 const HalfTime& time, Index nv, MatrixXd& hessian) {
   hessian.block<3, 3>(3, 3) += time.s * bent.theta_theta;
-  add_symmetric(hessian, 3, nv, time.s * bent.theta_v);
+  add_off_diagonal(hessian, 3, nv, time.s * bent.theta_v);
   if (time.column < 0) return;
-  add_symmetric(hessian, 3, time.column, time.slope * world.d_theta.transpose() * lambda);
-  add_symmetric(hessian, nv, time.column, time.slope * world.d_v.transpose() * lambda);
+  add_off_diagonal(hessian, 3, time.column, time.slope * world.d_theta.transpose() * lambda);
+  add_off_diagonal(hessian, nv, time.column, time.slope * world.d_v.transpose() * lambda);
 }
 
 /// Adds the Hessian of lambda . theta' in theta, omega and the duration.
@@ -43,18 +44,18 @@ void add_turning(const Turn& turn, const Vector3d& lambda, const Vector3d& omega
   const Turn::Hessian bent = turn.hessian(lambda);
   const Matrix3d theta_x = bent.topRightCorner<3, 3>(), xx = bent.bottomRightCorner<3, 3>();
   hessian.block<3, 3>(3, 3) += bent.topLeftCorner<3, 3>();
-  add_symmetric(hessian, 3, nv + 3, time.s * theta_x);
+  add_off_diagonal(hessian, 3, nv + 3, time.s * theta_x);
   hessian.block<3, 3>(nv + 3, nv + 3) += time.s * time.s * xx;
   if (time.column < 0) return;
   const Vector3d pull = turn.derivative().rightCols<3>().transpose() * lambda;
-  add_symmetric(hessian, 3, time.column, time.slope * theta_x * omega);
-  add_symmetric(hessian, nv + 3, time.column, time.slope * (time.s * xx * omega + pull));
+  add_off_diagonal(hessian, 3, time.column, time.slope * theta_x * omega);
+  add_off_diagonal(hessian, nv + 3, time.column, time.slope * (time.s * xx * omega + pull));
   hessian(time.column, time.column) += time.slope * time.slope * omega.dot(xx * omega);
 }
 
 /// Adds the Hessian of lambda . s x; x: variables from `first` on.
 void add_by_duration(Index first, const Eigen::Ref<const VectorXd>& lambda, const HalfTime& time, MatrixXd& hessian) {
-  if (time.column >= 0) add_symmetric(hessian, first, time.column, time.slope * lambda);
+  if (time.column >= 0) add_off_diagonal(hessian, first, time.column, time.slope * lambda);
 }
 
 /// Three columns times a matrix, in place, without heap allocation.
@@ -145,35 +146,62 @@ void Arrival::pull_back(VectorXd& gradient) const {
   substitute_velocity(row);
 }
 
+Arrival::JointRow Arrival::pull_back(JointRow row, Index dof) const {
+  row.duration += time_.slope * row.q * node_(nv_ + dof);
+  row.v += time_.s * row.q;
+  row.duration += time_.slope * row.v * node_(2 * nv_ + dof);
+  row.a += time_.s * row.v;
+  return row;
+}
+
+void Arrival::substitute_position_in_form(MatrixXd& m) const {
+  if (time_.column >= 0) add_vector(m, 0, time_.column, time_.slope, world_.value);
+  add_block(m, 0, 3, time_.s * world_.d_theta);
+  add_block(m, 0, nv_, time_.s * world_.d_v);
+}
+
+void Arrival::substitute_joints_in_form(MatrixXd& m) const {
+  const Index nu = nv_ - 6;
+  if (time_.column >= 0) add_vector(m, 6, time_.column, time_.slope, node_.segment(nv_ + 6, nu));
+  add_multiple(m, 6, nv_ + 6, nu, time_.s);
+}
+
+void Arrival::substitute_rotation_in_form(MatrixXd& m) const {
+  const Matrix3d by_omega = slope_.rightCols<3>();
+  const Vector3d turning = by_omega * node_.segment<3>(nv_ + 3);
+  if (time_.column >= 0) add_vector(m, 3, time_.column, time_.slope, turning);
+  add_block(m, 3, nv_ + 3, time_.s * by_omega);
+  replace_block(m, 3, slope_.leftCols<3>());
+}
+
+void Arrival::substitute_velocity_in_form(MatrixXd& m) const {
+  if (time_.column >= 0) add_vector(m, nv_, time_.column, time_.slope, node_.segment(2 * nv_, nv_));
+  add_multiple(m, nv_, 2 * nv_, nv_, time_.s);
+}
+
 void Arrival::pull_back_form(MatrixXd& m) const {
-  pull_back(m);
-  auto transposed = m.transpose();
-  substitute_position(transposed);
-  substitute_joints(transposed);
-  substitute_rotation(transposed);
-  substitute_velocity(transposed);
+  substitute_position_in_form(m);
+  substitute_joints_in_form(m);
+  substitute_rotation_in_form(m);
+  substitute_velocity_in_form(m);
 }
 
 void Arrival::pull_back_hessian(MatrixXd& hessian, VectorXd& gradient) const {
   auto g = gradient.transpose();
-  const auto both = [&](auto substitute) {
-    substitute(hessian);
-    substitute(hessian.transpose());
-  };
-  both([this](auto&& m) { substitute_position(m); });
+  substitute_position_in_form(hessian);
   const Vector3d on_position = gradient.head<3>();
   add_moving(world_, {chart_, turn_.value(), node_.segment<3>(nv_), on_position}, on_position, time_, nv_, hessian);
   substitute_position(g);
 
-  both([this](auto&& m) { substitute_joints(m); });
+  substitute_joints_in_form(hessian);
   add_by_duration(nv_ + 6, gradient.segment(6, nv_ - 6), time_, hessian);
   substitute_joints(g);
 
-  both([this](auto&& m) { substitute_rotation(m); });
+  substitute_rotation_in_form(hessian);
   add_turning(turn_, gradient.segment<3>(3), node_.segment<3>(nv_ + 3), time_, nv_, hessian);
   substitute_rotation(g);
 
-  both([this](auto&& m) { substitute_velocity(m); });
+  substitute_velocity_in_form(hessian);
   add_by_duration(2 * nv_, gradient.segment(nv_, nv_), time_, hessian);
 }
 
@@ -196,21 +224,21 @@ void Departure::value(Eigen::Ref<VectorXd> state) const {
   state.tail(nv_) += time_.s * node_.segment(2 * nv_, nv_);
 }
 
-void Departure::derivatives(Eigen::Ref<MatrixXd> rows) const {
-  const Index nu = nv_ - 6;
-  const Turn::Jacobian& slope = slope_;
+void Departure::base_derivatives(Eigen::Ref<MatrixXd> rows) const {
   rows.setZero();
-  rows.leftCols(2 * nv_).diagonal().setOnes();
+  rows.block<3, 3>(0, 0).setIdentity();
   rows.block<3, 3>(0, 3) = time_.s * world_.d_theta;
   rows.block<3, 3>(0, nv_) = time_.s * world_.d_v;
-  rows.block<3, 3>(3, 3) = slope.leftCols<3>();
-  rows.block<3, 3>(3, nv_ + 3) = time_.s * slope.rightCols<3>();
-  rows.block(6, nv_ + 6, nu, nu).diagonal().setConstant(time_.s);
-  rows.block(nv_, 2 * nv_, nv_, nv_).diagonal().setConstant(time_.s);
+  rows.block<3, 3>(3, 3) = slope_.leftCols<3>();
+  rows.block<3, 3>(3, nv_ + 3) = time_.s * slope_.rightCols<3>();
   if (time_.column < 0) return;
-  rows.col(time_.column) << world_.value, slope.rightCols<3>() * node_.segment<3>(nv_ + 3), node_.segment(nv_ + 6, nu),
-      node_.segment(2 * nv_, nv_);
-  rows.col(time_.column) *= time_.slope;
+  rows.col(time_.column) << time_.slope * world_.value,
+      time_.slope * (slope_.rightCols<3>() * node_.segment<3>(nv_ + 3));
+}
+
+Arrival::JointRow Departure::joint_derivatives(Index i) const {
+  if (i < nv_) return {.q = 1.0, .v = time_.s, .duration = time_.slope * node_(nv_ + i)};
+  return {.v = 1.0, .a = time_.s, .duration = time_.slope * node_(nv_ + i)};
 }
 
 void Departure::add_hessian(const VectorXd& multipliers, MatrixXd& hessian) const {

@@ -38,7 +38,14 @@ class Arrival {
   /// Turns derivatives in the node's variables (one row per function) into those in the state's.
   void pull_back(Eigen::MatrixXd& rows) const;
   void pull_back(Eigen::VectorXd& gradient) const;
-  /// The same for a quadratic form: m -> A' m A, A = d node / d state.
+  /// A row that depends on one entry of each of q (a joint), v, a, and on the duration alone.
+  struct JointRow {
+    double q = 0.0, v = 0.0, a = 0.0, duration = 0.0;
+  };
+  /// The same for such a row; `dof` (0 ... nv - 1): the entry, one of the base only if q = 0.
+  JointRow pull_back(JointRow row, Eigen::Index dof) const;
+  /// The same for a quadratic form: m -> A' m A, A = d node / d state. Here and below, the lower triangle alone
+  /// is read and written.
   void pull_back_form(Eigen::MatrixXd& m) const;
   /// The same for the Hessian of a function with its gradient in the node's variables
   /// (overwritten).
@@ -53,6 +60,10 @@ class Arrival {
   void substitute_rotation(Matrix&& m) const;
   template <class Matrix>
   void substitute_velocity(Matrix&& m) const;
+  void substitute_position_in_form(Eigen::MatrixXd& m) const;
+  void substitute_joints_in_form(Eigen::MatrixXd& m) const;
+  void substitute_rotation_in_form(Eigen::MatrixXd& m) const;
+  void substitute_velocity_in_form(Eigen::MatrixXd& m) const;
 
   Eigen::Matrix3d chart_;
   Eigen::Index nv_ = 0;
@@ -74,9 +85,11 @@ class Departure {
            const Eigen::VectorXd& node);
 
   void value(Eigen::Ref<Eigen::VectorXd> state) const;  ///< (z', w')
-  /// Derivatives in the node's variables, 2 nv rows.
-  void derivatives(Eigen::Ref<Eigen::MatrixXd> rows) const;
-  /// Adds the Hessian of multipliers . value().
+  /// Derivatives of its first six entries, the placement of the base, in the node's variables.
+  void base_derivatives(Eigen::Ref<Eigen::MatrixXd> rows) const;
+  /// Those of entry 6 <= i < 2 nv: of a joint's position or a velocity.
+  Arrival::JointRow joint_derivatives(Eigen::Index i) const;
+  /// Adds the lower triangle of the Hessian of multipliers . value().
   void add_hessian(const Eigen::VectorXd& multipliers, Eigen::MatrixXd& hessian) const;
 
   /// Turns a gradient in (z', w'), stored in place of q and v, into one in the node's variables. Entries of

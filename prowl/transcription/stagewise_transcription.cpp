@@ -17,6 +17,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Entry = Eigen::SparseMatrix<double>::InnerIterator;
 
+/// Of Work::slopes: placement of the base, and of the next stage's.
+constexpr Index kBaseRows = 12;
+
 }  // namespace
 
 StagewiseTranscription::StagewiseTranscription(NodeProgram& nodes)
@@ -152,6 +155,9 @@ void StagewiseTranscription::set_functions(int k) {
   }
 
   stage.size.equalities = static_cast<int>(stage.equalities.size());
+  while (stage.num_first_equalities < stage.size.equalities &&
+         stage.equalities[stage.num_first_equalities] == stage.num_first_equalities)
+    ++stage.num_first_equalities;
   stage.size.inequalities = static_cast<int>(stage.inequalities.size());
   stage.level = Eigen::Map<VectorXd>(level.data(), stage.size.equalities);
   stage.lower = Eigen::Map<VectorXd>(lower.data(), stage.size.inequalities);
@@ -246,72 +252,107 @@ void StagewiseTranscription::fill_slopes(int k, const NodeValues& node) {
     stage.cost_gradient(i) = stage.unit(i) * work.on_node(stage.variables[i]);
   }
 
-  // All functions (rows | bounds | next states) in the node's variables, then in the state's.
   MatrixXd& slopes = work.slopes;
-  slopes.resize(stage.num_rows + static_cast<Index>(stage.bounded.size()) + stage.num_next(), size);
+  slopes.resize(stage.num_rows + kBaseRows, size);
   slopes.topRows(stage.num_rows) = jacobian.topRows(stage.num_rows);
-  fill_bounds_and_next(stage, stage.departure, slopes);
-  stage.arrival.pull_back(slopes);
-  const auto slope = [&](int function, Index j) { return stage.unit(j) * slopes(function, stage.variables[j]); };
-  for (Index j = 0; j < stage.equality_slopes.cols(); ++j) {
-    for (Index i = 0; i < stage.equality_slopes.rows(); ++i)
-      stage.equality_slopes(i, j) = slope(stage.equalities[i], j);
+  fill_base_slopes(stage, slopes);
+  const Index rows = stage.row_gradients.cols(), first = stage.num_first_equalities;
+  for (Index j = 0; j < stage.size.variables(); ++j) {
+    const auto column = slopes.col(stage.variables[j]);
+    const double unit = stage.unit(j);
+    auto equalities = stage.equality_slopes.col(j);
+    equalities.head(first) = unit * column.head(first);
+    for (Index i = first; i < equalities.size(); ++i) {
+      const int row = stage.equalities[i], bound = row - stage.num_rows;  // a bound if both sides are equal
+      equalities(i) =
+          unit * (bound < 0 ? column(row) : stage.per_unit(bound) * bound_slope(k, slopes, bound, stage.variables[j]));
+    }
+    for (Index i = 0; i < rows; ++i) stage.row_gradients(j, i) = unit * column(stage.inequalities[i]);
   }
-  for (Index i = 0; i < stage.row_gradients.cols(); ++i) {
-    for (Index j = 0; j < stage.row_gradients.rows(); ++j) stage.row_gradients(j, i) = slope(stage.inequalities[i], j);
-  }
-  const Index rows = stage.row_gradients.cols(), first_next = slopes.rows() - stage.num_next();
   for (Index i = 0; i < stage.bound_gradients.cols(); ++i) {
+    const int bound = stage.inequalities[rows + i] - stage.num_rows;
     for (Entry entry(stage.bound_gradients, i); entry; ++entry) {
-      entry.valueRef() = slope(stage.inequalities[rows + i], entry.row());
+      entry.valueRef() =
+          stage.per_unit(bound) * stage.unit(entry.row()) * bound_slope(k, slopes, bound, stage.variables[entry.row()]);
     }
   }
   for (Index j = 0; j < stage.next_slopes.cols(); ++j) {
     for (Entry entry(stage.next_slopes, j); entry; ++entry) {
-      entry.valueRef() = slope(static_cast<int>(first_next + entry.row()), j);
+      entry.valueRef() = stage.next_per_unit(entry.row()) * stage.unit(j) *
+                         next_slope(k, slopes, static_cast<int>(entry.row()), stage.variables[j]);
     }
   }
   stage.have_derivatives = true;
 }
 
-/// Their slopes in the variables of the node, in the last rows.
-void StagewiseTranscription::fill_bounds_and_next(const Stage& stage, const Departure& departure,
-                                                  MatrixXd& slopes) const {
-  const Index bounds = static_cast<Index>(stage.bounded.size()), next = stage.num_next();
-  slopes.bottomRows(bounds + next).setZero();
-  for (Index i = 0; i < bounds; ++i) slopes(stage.num_rows + i, stage.bounded[i]) = stage.per_unit(i);
-  if (next == 0) return;
-  const Index states = 2 * layout_.nv();
-  auto rows = slopes.bottomRows(next);
-  departure.derivatives(rows.topRows(states));
-  for (std::size_t i = 0; i < stage.carried.size(); ++i) rows(states + static_cast<Index>(i), stage.carried[i]) = 1.0;
-  rows.array().colwise() *= stage.next_per_unit.array();
+void StagewiseTranscription::fill_base_slopes(Stage& stage, MatrixXd& slopes) const {
+  auto own = slopes.bottomRows(kBaseRows).topRows<6>();
+  own.setZero();
+  own.leftCols<6>().setIdentity();
+  auto next = slopes.bottomRows<6>();
+  if (stage.num_next() > 0) {
+    stage.departure.base_derivatives(next);
+  } else {
+    next.setZero();
+  }
+  stage.arrival.pull_back(slopes);
+}
+
+double StagewiseTranscription::entry(int k, const Arrival::JointRow& row, int dof, int variable) const {
+  const int nv = layout_.nv();
+  if (variable < 3 * nv) {
+    if (variable % nv != dof) return 0.0;
+    return variable < nv ? row.q : variable < 2 * nv ? row.v : row.a;
+  }
+  const bool is_duration = nodes_.functions(k).has_free_duration() && variable == layout_.node_size(k);
+  return is_duration ? row.duration : 0.0;
+}
+
+double StagewiseTranscription::bound_slope(int k, const MatrixXd& slopes, int i, int variable) const {
+  const Stage& stage = this->stage(k);
+  const int of = stage.bounded[i], nv = layout_.nv();
+  if (of < 6) return slopes(slopes.rows() - kBaseRows + of, variable);
+  if (of < nv) return entry(k, stage.arrival.pull_back({.q = 1.0}, of), of, variable);
+  if (of < 2 * nv) return entry(k, stage.arrival.pull_back({.v = 1.0}, of - nv), of - nv, variable);
+  return of == variable ? 1.0 : 0.0;
+}
+
+double StagewiseTranscription::next_slope(int k, const MatrixXd& slopes, int i, int variable) const {
+  const Stage& stage = this->stage(k);
+  const int nv = layout_.nv();
+  if (i < 6) return slopes(slopes.rows() - 6 + i, variable);
+  if (i < 2 * nv) {
+    const int dof = i % nv;
+    return entry(k, stage.arrival.pull_back(stage.departure.joint_derivatives(i), dof), dof, variable);
+  }
+  return stage.carried[i - 2 * nv] == variable ? 1.0 : 0.0;
 }
 
 /// The slopes depend on which variables there are, not on where the robot is: found at a point where none vanishes by
 /// chance.
 void StagewiseTranscription::set_patterns(int k) {
   Stage& stage = this->stage(k);
-  const Index size = stage.fixed.size(), variables = stage.size.variables(),
-              bounds = static_cast<Index>(stage.bounded.size());
+  const Index size = stage.fixed.size(), variables = stage.size.variables();
   VectorXd state(size);
   for (Index i = 0; i < size; ++i) state(i) = std::sin(static_cast<double>(i + 1));
-  Arrival arrival;
-  arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state);
-  Departure departure;
+  stage.arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state);
   if (stage.num_next() > 0) {
-    const HalfTime time = half_time(k, discrete_.nodes[k].node, arrival.node());
-    departure.set(nodes_.chart(k), nodes_.chart(k + 1), layout_.nv(), time, arrival.node());
+    const HalfTime time = half_time(k, discrete_.nodes[k].node, stage.node());
+    stage.departure.set(nodes_.chart(k), nodes_.chart(k + 1), layout_.nv(), time, stage.node());
   }
-  MatrixXd slopes = MatrixXd::Zero(stage.num_rows + bounds + stage.num_next(), size);
-  fill_bounds_and_next(stage, departure, slopes);
-  arrival.pull_back(slopes);
-  const MatrixXd in_stage = slopes(Eigen::all, stage.variables);
+  MatrixXd slopes(kBaseRows, size);
+  fill_base_slopes(stage, slopes);
   const auto first_bound = std::ranges::find_if(stage.inequalities, [&](int index) { return index >= stage.num_rows; });
   const std::vector<int> of_bounds(first_bound, stage.inequalities.end());  // rows precede the bounds
-  const MatrixXd gradients = in_stage(of_bounds, Eigen::all).transpose();
+  MatrixXd gradients(variables, std::ssize(of_bounds)), next(stage.num_next(), variables);
+  for (Index j = 0; j < variables; ++j) {
+    const int variable = stage.variables[j];
+    for (Index i = 0; i < gradients.cols(); ++i)
+      gradients(j, i) = bound_slope(k, slopes, of_bounds[i] - stage.num_rows, variable);
+    for (Index i = 0; i < next.rows(); ++i) next(i, j) = next_slope(k, slopes, static_cast<int>(i), variable);
+  }
   stage.bound_gradients = gradients.sparseView();
-  stage.next_slopes = in_stage.bottomRows(stage.num_next()).sparseView();
+  stage.next_slopes = next.sparseView();
   stage.equality_slopes.resize(stage.size.equalities, variables);
   stage.row_gradients.resize(variables, first_bound - stage.inequalities.begin());
 }
@@ -329,10 +370,18 @@ void StagewiseTranscription::gather(const Stage& stage, const MatrixXd& form, Ma
   const Index size = stage.size.variables();
   result.resize(size, size);
   for (Index j = 0; j < size; ++j) {
-    const auto column = form.col(stage.variables[j]);
-    for (const auto& [first, variable, length] : stage.runs) {
-      result.col(j).segment(first, length) =
-          stage.unit(j) * stage.unit.segment(first, length).cwiseProduct(column.segment(variable, length));
+    const int own = stage.variables[j];
+    for (const Stage::Run& run : stage.runs) {
+      const Index skipped = std::max<Index>(0, j - run.first), length = run.length - skipped;
+      if (length <= 0) continue;
+      const Index first = run.first + skipped, variable = run.variable + skipped;
+      const auto units = stage.unit(j) * stage.unit.segment(first, length);
+      auto to = result.col(j).segment(first, length);
+      if (variable >= own) {
+        to = units.cwiseProduct(form.col(own).segment(variable, length));
+      } else {
+        to = units.cwiseProduct(form.row(own).segment(variable, length).transpose());
+      }
     }
   }
 }
@@ -386,30 +435,22 @@ void StagewiseTranscription::linearise_to_first_order(int k, const VectorXd& ux)
   }
 }
 
-void StagewiseTranscription::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
+void StagewiseTranscription::add_condensed(int k, const MatrixXd& next_hessian, const VectorXd& weights,
+                                           MatrixXd& result) {
   Stage& stage = this->stage(k);
   Work& work = this->work(stage);
-  const Index size = stage.size.variables();
-  result.setZero(size, size);
-  if (stage.num_next() > 0) {
-    work.on_states.setZero(stage.num_next(), size);
-    for (Index j = 0; j < size; ++j) {
-      for (Entry entry(stage.next_slopes, j); entry; ++entry) {
-        work.on_states.col(j) += entry.value() * next_hessian.col(entry.row());
-      }
-    }
+  const int size = stage.size.variables(), next = stage.num_next();
+  if (next > 0) {
+    const auto& slopes = stage.next_slopes;
+    const SparseColumns columns = {slopes.outerIndexPtr(), slopes.innerIndexPtr(), slopes.valuePtr()};
+    work.on_states.resize(next, size);
+    kernels_.set_sparse_product(next, size, next_hessian.data(), next, columns, work.on_states.data(), next);
     work.on_states_transposed = work.on_states.transpose();
-    for (Index j = 0; j < size; ++j) {
-      for (Entry entry(stage.next_slopes, j); entry; ++entry) {
-        result.col(j).tail(size - j) += entry.value() * work.on_states_transposed.col(entry.row()).tail(size - j);
-      }
-    }
+    kernels_.add_lower_sparse_product(size, work.on_states_transposed.data(), size, columns, result.data(), size);
   }
-  const Index rows = stage.row_gradients.cols();
+  const int rows = static_cast<int>(stage.row_gradients.cols());
   work.weighted = stage.row_gradients * weights.head(rows).asDiagonal();
-  const int n = static_cast<int>(size);
-  kernels_.add_lower_product(n, static_cast<int>(rows), 1.0, stage.row_gradients.data(), n, work.weighted.data(), n,
-                             result.data(), n);
+  products_.add_lower(result, stage.row_gradients, work.weighted);
   for (Index i = 0; i < stage.bound_gradients.cols(); ++i) {
     for (Entry column(stage.bound_gradients, i); column; ++column) {
       const double factor = weights(rows + i) * column.value();
@@ -451,7 +492,9 @@ const StageDerivatives& StagewiseTranscription::derivatives(int k, const VectorX
 const MatrixXd& StagewiseTranscription::hessian(int k, const VectorXd& ux, double cost_factor,
                                                 const StageMultipliers& multipliers) {
   linearise(k, ux, cost_factor, multipliers);
-  return stage(k).hessian;
+  MatrixXd& hessian = stage(k).hessian;
+  hessian.triangularView<Eigen::StrictlyUpper>() = hessian.transpose();
+  return hessian;
 }
 
 std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {

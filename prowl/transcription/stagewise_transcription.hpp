@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "prowl/kernels/dense_kernels.hpp"
+#include "prowl/linear_algebra/matrix_products.hpp"
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/transcription/half_step.hpp"
@@ -46,8 +47,8 @@ class StagewiseTranscription : public StagewiseNlp {
   const Eigen::VectorXd& cost_gradient(int k) const override { return stage(k).cost_gradient; }
   const Eigen::MatrixXd& equality_slopes(int k) const override { return stage(k).equality_slopes; }
   const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return stage(k).hessian; }
-  void condense(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
-                Eigen::MatrixXd& result) override;
+  void add_condensed(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
+                     Eigen::MatrixXd& result) override;
   void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next, Eigen::VectorXd& inequalities) override;
   void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
                      Eigen::VectorXd& gradient) override;
@@ -64,7 +65,10 @@ class StagewiseTranscription : public StagewiseNlp {
   struct Work {
     NodeValues values;  ///< of the stage evaluated last
     Eigen::VectorXd on_rows, on_node, on_next, state;
-    Eigen::MatrixXd form, slopes, weighted, on_states, on_states_transposed;
+    Eigen::MatrixXd form, weighted, on_states, on_states_transposed;
+    /// (rows of the node | placement of the base | that of the next stage) in the node's variables, then in the
+    /// state's.
+    Eigen::MatrixXd slopes;
   };
   struct Stage {
     StageSize size;
@@ -83,6 +87,7 @@ class StagewiseTranscription : public StagewiseNlp {
     Eigen::VectorXd per_unit,
         next_per_unit;  ///< 1 / unit of the variables with bounds and of the states of the next stage
     std::vector<int> equalities, inequalities;  ///< indices into the functions
+    int num_first_equalities = 0;               ///< so many of them are the first rows, in order: the dynamics
     Eigen::VectorXd level;                      ///< equalities: function = level
     Eigen::VectorXd lower, upper;
 
@@ -96,7 +101,8 @@ class StagewiseTranscription : public StagewiseNlp {
 
     // Last linearisation, kept during evaluations elsewhere.
     Eigen::VectorXd cost_gradient;
-    Eigen::MatrixXd equality_slopes, hessian;
+    Eigen::MatrixXd equality_slopes;
+    Eigen::MatrixXd hessian;                      ///< its lower triangle
     Eigen::MatrixXd row_gradients;                ///< of the inequalities that are rows of the node, one per column
     Eigen::SparseMatrix<double> bound_gradients;  ///< of those that are bounds, which follow
     Eigen::SparseMatrix<double> next_slopes;
@@ -126,13 +132,21 @@ class StagewiseTranscription : public StagewiseNlp {
   void fill_values(int k, const NodeValues& node);
   void fill_slopes(int k, const NodeValues& node);
   void set_patterns(int k);
-  void fill_bounds_and_next(const Stage& stage, const Departure& departure, Eigen::MatrixXd& slopes) const;
+  /// Derivatives of bound i or of next state i in a variable of the state, without units, from those of the base in the
+  /// last rows of `slopes`.
+  double bound_slope(int k, const Eigen::MatrixXd& slopes, int i, int variable) const;
+  double next_slope(int k, const Eigen::MatrixXd& slopes, int i, int variable) const;
+  /// Entry of a row for the joint, or degree of freedom, `dof`.
+  double entry(int k, const Arrival::JointRow& row, int dof, int variable) const;
+  void fill_base_slopes(Stage& stage, Eigen::MatrixXd& slopes) const;
   /// Adds multipliers or a gradient of the next states at their positions among the node's
   /// variables.
   void add_on_next(const Stage& stage, const Eigen::VectorXd& on_next, Eigen::VectorXd& on_node) const;
+  /// The lower triangle, in the variables of the stage.
   static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
   const DenseKernels& kernels_;
+  MatrixProducts products_;
   NodeProgram& nodes_;
   const DiscreteProblem& discrete_;
   const DecisionLayout& layout_;

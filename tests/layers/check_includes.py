@@ -28,6 +28,7 @@ ALLOWED = {
     "prowl/guess": ["prowl/model", "prowl/dynamics", "prowl/trajectory", "prowl/mesh"],
     "prowl/transcription": [
         "prowl/kernels",
+        "prowl/linear_algebra",
         "prowl/model",
         "prowl/dynamics",
         "prowl/motion",
@@ -35,7 +36,7 @@ ALLOWED = {
         "prowl/nlp",
         "prowl/mesh",
     ],
-    "prowl/solvers": ["prowl/kernels", "prowl/nlp"],
+    "prowl/solvers": ["prowl/kernels", "prowl/linear_algebra", "prowl/nlp"],
     "prowl/feasibility": [
         "prowl/linear_algebra",
         "prowl/model",

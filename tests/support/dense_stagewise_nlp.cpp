@@ -16,9 +16,9 @@ void DenseStagewiseNlp::linearise_to_first_order(int k, const VectorXd& ux) {
   models_[k].slopes = derivatives(k, ux);
 }
 
-void DenseStagewiseNlp::condense(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
+void DenseStagewiseNlp::add_condensed(int k, const MatrixXd& next_hessian, const VectorXd& weights, MatrixXd& result) {
   const StageDerivatives& slopes = model(k).slopes;
-  result.noalias() = slopes.inequalities.transpose() * weights.asDiagonal() * slopes.inequalities;
+  result.noalias() += slopes.inequalities.transpose() * weights.asDiagonal() * slopes.inequalities;
   if (slopes.next.rows() > 0) result += slopes.next.transpose() * next_hessian * slopes.next;
 }
 

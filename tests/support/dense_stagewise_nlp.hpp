@@ -15,8 +15,8 @@ class DenseStagewiseNlp : public StagewiseNlp {
   const Eigen::VectorXd& cost_gradient(int k) const override { return model(k).slopes.cost_gradient; }
   const Eigen::MatrixXd& equality_slopes(int k) const override { return model(k).slopes.equalities; }
   const Eigen::MatrixXd& lagrangian_hessian(int k) const override { return model(k).hessian; }
-  void condense(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
-                Eigen::MatrixXd& result) override;
+  void add_condensed(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,
+                     Eigen::MatrixXd& result) override;
   void push_forward(int k, const Eigen::VectorXd& step, Eigen::VectorXd& next, Eigen::VectorXd& inequalities) override;
   void add_pull_back(int k, const Eigen::VectorXd& on_next, const Eigen::VectorXd& on_inequalities,
                      Eigen::VectorXd& gradient) override;

@@ -5,4 +5,5 @@ prowl_test(transcription/slope prowl::transcription prowl::guess prowl::certific
 prowl_test(transcription/limits prowl::transcription prowl::guess)
 prowl_test(transcription/flat_feet prowl::transcription prowl::guess prowl::solvers pinocchio::pinocchio_default prowl::ipopt)
 prowl_test(transcription/node_functions prowl::transcription)
+prowl_test(transcription/congruence prowl::transcription)
 prowl_test(transcription/cost_terms prowl::transcription prowl::guess)

@@ -132,7 +132,7 @@ void InteriorPoint::evaluate_stage(int k, const StageVectors& ux, Values& values
 /// first.
 void InteriorPoint::need_finite_slopes(int k) const {
   if (!nlp_.cost_gradient(k).allFinite()) throw NumericalError("the gradient of the cost is not finite");
-  if (!nlp_.equality_slopes(k).allFinite()) throw NumericalError("the derivatives of an equality are not finite");
+  if (!is_finite(nlp_.equality_slopes(k))) throw NumericalError("the derivatives of an equality are not finite");
 }
 
 void InteriorPoint::linearise() {

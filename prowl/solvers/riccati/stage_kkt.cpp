@@ -33,6 +33,17 @@ void add(double factor, const StageVectors& from, StageVectors& to) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];
 }
 
+double largest_or_nan(const MatrixXd& matrix) {
+  return matrix.size() > 0 ? matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
+}
+
+bool has_finite_lower_triangle(const MatrixXd& square) {
+  for (Index j = 0; j < square.cols(); ++j) {
+    if (!square.col(j).tail(square.rows() - j).allFinite()) return false;
+  }
+  return true;
+}
+
 int stride(const MatrixXd& matrix) { return static_cast<int>(matrix.outerStride()); }
 
 }  // namespace
@@ -90,20 +101,22 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
   }
 
   MatrixXd& condensed = work_.condensed.of_size(variables, variables);
-  nlp_.condense(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[k], condensed);
-  if (hessian_ == Hessian::lagrangian) condensed += nlp_.lagrangian_hessian(k);
-  condensed.diagonal().array() += delta_;
-  MatrixXd& N = work_.N.of_size(s.rest(), s.rest());
-  if (s.pivoted) {
-    MatrixXd& M = work_.M.of_size(variables, variables);
-    put_in_order(s, condensed, M);
-    eliminate(s, M, N);
+  if (hessian_ == Hessian::lagrangian) {
+    condensed = nlp_.lagrangian_hessian(k);
   } else {
-    eliminate(s, condensed, N);
+    condensed.setZero();
   }
-  if (minimise(s, N)) return Outcome::solvable;
+  nlp_.add_condensed(k, k + 1 < num_stages_ ? stage(k + 1).P : no_hessian_, weights_[k], condensed);
+  condensed.diagonal().array() += delta_;
+  MatrixXd* M = &condensed;
+  if (s.pivoted) {
+    M = &work_.M.of_size(variables, variables);
+    put_in_order(s, condensed, *M);
+  }
+  eliminate(s, *M);
+  if (minimise(s, M->bottomRightCorner(s.rest(), s.rest()))) return Outcome::solvable;
   // What is not finite in M or the equalities gets to L or P.
-  return equalities.allFinite() && condensed.allFinite() ? Outcome::indefinite : Outcome::not_finite;
+  return equalities.allFinite() && has_finite_lower_triangle(*M) ? Outcome::indefinite : Outcome::not_finite;
 }
 
 /// Own equalities and those on the next stage's state.
@@ -144,7 +157,7 @@ bool StageKkt::determine_first_inputs(Stage& s, const MatrixXd& equalities) {
     for (int i = 0; i < rank; ++i) K.col(i) = -equalities.row(s.rows[i]).tail(rest).transpose();
     kernels_.divide_by_upper(rest, rank, lu.data(), stride(lu), 1, true, K.data(), stride(K));   // by L'
     kernels_.divide_by_lower(rest, rank, lu.data(), stride(lu), 1, false, K.data(), stride(K));  // by U'
-    if (!lu.diagonal().allFinite() || !(K.array().abs() <= kLargestGain).all()) return false;
+    if (!lu.diagonal().allFinite() || !(largest_or_nan(K) <= kLargestGain)) return false;
   }
   s.rank = rank;
   s.lu = lu;
@@ -193,33 +206,30 @@ void StageKkt::put_in_order(const Stage& s, const MatrixXd& condensed, MatrixXd&
   M.bottomRightCorner(states, states) = condensed.bottomRightCorner(states, states);
 }
 
-/// M in the remaining variables: N = M_rr + M_rd K' + K M_dr + K M_dd K'.
-void StageKkt::eliminate(Stage& s, const MatrixXd& M, MatrixXd& N) {
+/// M in the remaining variables, in place: N = M_rr + M_rd K' + K M_dr + K M_dd K'.
+void StageKkt::eliminate(Stage& s, MatrixXd& M) {
   const int rank = s.rank, rest = s.rest();
-  N = M.bottomRightCorner(rest, rest);
   s.M_dd = M.topLeftCorner(rank, rank).selfadjointView<Eigen::Lower>();
-  MatrixXd& half = work_.KM_dd.of_size(rest, rank);
-  half.setZero();
-  kernels_.add_product(rest, rank, rank, 0.5, s.K.data(), stride(s.K), s.M_dd.data(), 1, stride(s.M_dd), half.data(),
-                       stride(half));
-  s.T = M.bottomLeftCorner(rest, rank) + half;
-  kernels_.add_lower_product(rest, rank, 1.0, s.T.data(), stride(s.T), s.K.data(), stride(s.K), N.data(), stride(N));
-  kernels_.add_lower_product(rest, rank, 1.0, s.K.data(), stride(s.K), s.T.data(), stride(s.T), N.data(), stride(N));
-  s.T += half;
+  const auto M_rd = M.bottomLeftCorner(rest, rank);
+  auto N = M.bottomRightCorner(rest, rest);
+  s.T = M_rd;  // and half of K M_dd, so that both sides get all of it
+  products_.add(s.T, s.K, s.M_dd, 0.5);
+  products_.add_lower(N, s.T, s.K);
+  products_.add_lower(N, s.K, s.T);
+  s.T = 2.0 * s.T - M_rd;
 }
 
 /// Over the free inputs, which leaves the cost-to-go. False if there is no minimum, or no finite one.
-bool StageKkt::minimise(Stage& s, const MatrixXd& N) {
+bool StageKkt::minimise(Stage& s, const Eigen::Ref<const MatrixXd>& N) {
   const int free = s.free(), states = s.size.states;
   s.L = N.topLeftCorner(free, free);
   s.G = N.bottomLeftCorner(states, free);
   s.P = N.bottomRightCorner(states, states);
   if (!kernels_.factorise_cholesky(free, s.L.data(), stride(s.L)) || !s.L.diagonal().allFinite()) return false;
   kernels_.divide_by_upper(states, free, s.L.data(), stride(s.L), 1, false, s.G.data(), stride(s.G));  // by L'
-  kernels_.add_lower_product(states, free, -1.0, s.G.data(), stride(s.G), s.G.data(), stride(s.G), s.P.data(),
-                             stride(s.P));
+  products_.add_lower(s.P, s.G, s.G, -1.0);
   s.P.triangularView<Eigen::StrictlyUpper>() = s.P.transpose();
-  return s.P.allFinite();
+  return is_finite(s.P);
 }
 
 /// Independent conditions on the state: from equalities that determine no input.
@@ -277,7 +287,9 @@ double StageKkt::find_residual(const StageVectors& gradient, const StageVectors&
   for (int k = 0; k < num_stages_; ++k) {
     const VectorXd& step = sum_.steps[k];
     VectorXd& violation = residual_gradient_[k];
-    if (hessian_ == Hessian::lagrangian) violation.noalias() += nlp_.lagrangian_hessian(k) * step;
+    if (hessian_ == Hessian::lagrangian) {
+      violation.noalias() += nlp_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step;
+    }
     violation += delta_ * step;
     violation.noalias() += nlp_.equality_slopes(k).transpose() * sum_.on_equalities[k];
     residual_inequalities_[k] = weights_[k].cwiseProduct(sum_.along_inequalities[k]);

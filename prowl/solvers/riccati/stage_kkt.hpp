@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "prowl/kernels/dense_kernels.hpp"
+#include "prowl/linear_algebra/matrix_products.hpp"
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/solvers/riccati/stage_vectors.hpp"
 
@@ -96,9 +97,7 @@ class StageKkt {
     Shared in_states;   ///< L^-1 times those in x, rows in pivot order
     Shared condensed;   ///< M in (u, x)
     Shared M;           ///< in the stage's order
-    Shared N;           ///< M in r, lower triangle
-    Shared KM_dd;
-    Shared lu, K;  ///< of the first inputs, until it is known that they serve
+    Shared lu, K;       ///< of the first inputs, until it is known that they serve
   };
 
   Stage& stage(int k) { return stages_[k]; }
@@ -106,8 +105,8 @@ class StageKkt {
   bool determine_first_inputs(Stage& stage, const Eigen::MatrixXd& equalities);
   void determine_any_inputs(Stage& stage, const Eigen::MatrixXd& equalities);
   void put_in_order(const Stage& stage, const Eigen::MatrixXd& condensed, Eigen::MatrixXd& M);
-  void eliminate(Stage& stage, const Eigen::MatrixXd& M, Eigen::MatrixXd& N);
-  bool minimise(Stage& stage, const Eigen::MatrixXd& N);
+  void eliminate(Stage& stage, Eigen::MatrixXd& M);
+  bool minimise(Stage& stage, const Eigen::Ref<const Eigen::MatrixXd>& N);
   void pass_conditions(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& in_states);
   /// Number of significant pivots of a stage's equalities; sets is_exact_.
   template <class Pivots>
@@ -121,6 +120,7 @@ class StageKkt {
 
   StagewiseNlp& nlp_;
   const DenseKernels& kernels_;
+  MatrixProducts products_;
   int num_stages_;
   std::vector<Stage> stages_;
   Work work_;

@@ -18,4 +18,7 @@ inline double largest(const StageVectors& vectors) {
   return result;
 }
 
+/// Whether all entries are finite: 0 x is 0 unless x is infinite or NaN. A sum uses vectors, unlike allFinite().
+inline bool is_finite(const Eigen::MatrixXd& matrix) { return (0.0 * matrix.array()).sum() == 0.0; }
+
 }  // namespace prowl

@@ -5,6 +5,7 @@
 
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
+#include "prowl/transcription/congruence.hpp"
 
 namespace prowl {
 
@@ -231,7 +232,7 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
     } else {
       const FrictionLimit& friction = friction_[i];
       const FrictionLimit::Slopes slopes = force_scale_ * friction.slopes(values.forces.segment<3>(3 * i));
-      jacobian.middleRows(row, friction.count()).noalias() = slopes.lazyProduct(force);
+      products_.set(jacobian.middleRows(row, friction.count()), slopes, force);
     }
   }
   auto limits = jacobian.bottomRows(num_rows(k) - torque_row(k));
@@ -265,25 +266,27 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
 
 void NodeFunctions::hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers, MatrixXd& result) {
   linearise(point, cost_factor, multipliers, unused_, result);
+  result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
 }
 
 void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
                               NodeValues& values, MatrixXd& hessian) {
   evaluate_with_derivatives(point, values);
-  hessian.setZero(num_columns(), num_columns());
-  add_cost_hessian(point, cost_factor, hessian);
+  hessian.resize(num_columns(), num_columns());
   Eigen::Vector3d pull = cost_factor * rotation_gradient_;  // total gradient in the tangent of the rotation
   if (hessian_kind_ == HessianKind::exact) {
-    add_force_hessian(point, cost_factor, multipliers, hessian);
+    set_force_hessian(point, cost_factor, multipliers, hessian);
     add_dynamics_hessian(point, multipliers, hessian);
     add_limits_hessian(point, multipliers, hessian);
     for (Index row = 0; row < multipliers.size(); ++row) pull += multipliers(row) * rotation_.row(row).transpose();
   } else {
     no_multipliers_.setZero(multipliers.size());
-    add_force_hessian(point, cost_factor, no_multipliers_, hessian);
+    set_force_hessian(point, cost_factor, no_multipliers_, hessian);
   }
-  turn_to_chart(point, pull, hessian);
-  hessian.triangularView<Eigen::StrictlyLower>() = hessian.transpose();
+  add_cost_hessian(point, cost_factor, hessian);
+  // From the tangent at R to theta, R = chart exp(theta): x = Jr dtheta + 1/2 (DJr[dtheta]) dtheta.
+  replace_block(hessian, 3, so3::right_jacobian(point.theta));
+  hessian.block<3, 3>(3, 3) += so3::right_jacobian_derivative(point.theta, pull);
 }
 
 // At fixed forces, plus the duration, to which the running cost is proportional.
@@ -292,20 +295,19 @@ void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor,
   if (!free_duration_) return;
   const int duration = num_variables();
   const double factor = cost_factor / point.duration;
-  result.col(duration).head(duration) += factor * force_slope_.head(duration);
-  result.col(duration).head(3 * nv_ + nu_) += factor * cost_derivatives_.running_gradient;
-  result.row(duration).tail(num_foothold_variables()) +=
-      factor * force_slope_.tail(num_foothold_variables()).transpose();
+  result.row(duration).head(duration) += factor * force_slope_.head(duration).transpose();
+  result.row(duration).head(3 * nv_ + nu_) += factor * cost_derivatives_.running_gradient.transpose();
+  result.col(duration).tail(num_foothold_variables()) += factor * force_slope_.tail(num_foothold_variables());
   result(duration, duration) += 2.0 * factor * force_slope_(duration);
 }
 
 // Curvature in the forces: cones and force cost, through f(q, v, a, tau, w, shared).
-void NodeFunctions::add_force_hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
+void NodeFunctions::set_force_hessian(const NodePoint& point, double cost_factor, const VectorXd& multipliers,
                                       MatrixXd& result) {
   const VectorXd& forces = dynamics_.forces();
   force_pull_ = cost_factor * cost_derivatives_.force_gradient;
-  bending_.resize(forces.size(), num_columns());
-  bent_.resize(forces.size(), num_columns());
+  bending_.resize(num_columns(), forces.size());
+  bent_.resize(num_columns(), forces.size());
   Index rows = 0;
   for (int i = 0; i < num_contacts(); ++i) {
     const Eigen::Vector3d force = forces.segment<3>(3 * i);
@@ -320,12 +322,11 @@ void NodeFunctions::add_force_hessian(const NodePoint& point, double cost_factor
       curvature += friction.curvature(force, on_rows);
     }
     if (curvature.isZero(0.0)) continue;
-    bending_.middleRows<3>(rows) = forces_jacobian_.middleRows<3>(3 * i);
-    bent_.middleRows<3>(rows).noalias() = curvature.lazyProduct(forces_jacobian_.middleRows<3>(3 * i));
+    bending_.middleCols<3>(rows) = forces_jacobian_.middleRows<3>(3 * i).transpose();
+    bent_.middleCols<3>(rows).noalias() = bending_.middleCols<3>(rows).lazyProduct(curvature);
     rows += 3;
   }
-  if (rows == 0) return;
-  result.triangularView<Eigen::Upper>() += bending_.topRows(rows).transpose() * bent_.topRows(rows);
+  products_.set_lower(result, bending_.leftCols(rows), bent_.leftCols(rows));
 }
 
 // Curvature of c and f.
@@ -334,23 +335,25 @@ void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd&
   const PointHessian& inner = dynamics_.hessian(at_, mu_, force_pull_);
   result.topLeftCorner(nv_, nv_) += inner.qq;
   result.block(nv_, nv_, nv_, nv_) += inner.vv;
-  auto q_rows = result.topRows(nv_);
-  q_rows.middleCols(nv_, nv_) += inner.qv;
-  q_rows.middleCols(2 * nv_, nv_) += inner.qa;
-  q_rows.middleCols(3 * nv_, nu_) += inner.qtau;
-  q_rows.middleCols(3 * nv_ + nu_, num_chosen_) += inner.qw;
+  auto q_columns = result.leftCols(nv_);
+  q_columns.middleRows(nv_, nv_) += inner.qv.transpose();
+  q_columns.middleRows(2 * nv_, nv_) += inner.qa.transpose();
+  q_columns.middleRows(3 * nv_, nu_) += inner.qtau.transpose();
+  q_columns.middleRows(3 * nv_ + nu_, num_chosen_) += inner.qw.transpose();
   for (std::size_t l = 0; l < landed_.size(); ++l) {
-    q_rows.middleCols<2>(first_foothold_variable() + static_cast<Index>(2 * l)) +=
-        inner.qe.middleCols<3>(3 * landed_[l]).lazyProduct(-at_.stabilisation.kp * landed_axes_[l]);
+    q_columns.middleRows<2>(first_foothold_variable() + static_cast<Index>(2 * l)) +=
+        (-at_.stabilisation.kp * landed_axes_[l])
+            .transpose()
+            .lazyProduct(inner.qe.middleCols<3>(3 * landed_[l]).transpose());
   }
   if (!free_duration_) return;
   const int duration = num_variables();
   const Eigen::Vector2d slope = gains(point, 1);
-  q_rows.col(duration).noalias() += inner.qgains.lazyProduct(slope);
-  result.col(duration).segment(nv_, nv_).noalias() += inner.vgains.lazyProduct(slope);
+  q_columns.row(duration) += slope.transpose().lazyProduct(inner.qgains.transpose());
+  result.row(duration).segment(nv_, nv_) += slope.transpose().lazyProduct(inner.vgains.transpose());
   for (std::size_t l = 0; l < landed_.size(); ++l) {
-    result.row(duration).segment<2>(first_foothold_variable() + static_cast<Index>(2 * l)) -=
-        slope(1) * inner.de.segment<3>(3 * landed_[l]).transpose() * landed_axes_[l];
+    result.col(duration).segment<2>(first_foothold_variable() + static_cast<Index>(2 * l)) -=
+        slope(1) * landed_axes_[l].transpose() * inner.de.segment<3>(3 * landed_[l]);
   }
   const Eigen::Vector2d on_gains(inner.vgains.col(0).dot(point.v),
                                  inner.de.dot(dynamics_.kinematics().positions() - point.anchors));
@@ -367,18 +370,7 @@ void NodeFunctions::add_limits_hessian(const NodePoint& point, const VectorXd& m
   result.diagonal().segment(6, nu_) += joints_;
   result.diagonal().segment(nv_ + 6, nu_) += rates_;
   placement_.add_hessian(k, multipliers.segment(placement_row(k), placement_.count(k)), result.topLeftCorner(nv_, nv_),
-                         result.block(0, nv_, nv_, nv_));
-}
-
-// From the tangent at R to theta, R = chart exp(theta): x = Jr dtheta + 1/2 (DJr[dtheta]) dtheta.
-void NodeFunctions::turn_to_chart(const NodePoint& point, const Eigen::Vector3d& pull, MatrixXd& result) const {
-  const Eigen::Matrix3d Jr = so3::right_jacobian(point.theta);
-  result.block<3, 3>(0, 3) = (result.block<3, 3>(0, 3) * Jr).eval();
-  const Eigen::Matrix3d rotation = result.block<3, 3>(3, 3).selfadjointView<Eigen::Upper>();
-  result.block<3, 3>(3, 3) = Jr.transpose() * rotation * Jr + so3::right_jacobian_derivative(point.theta, pull);
-  for (Index column = 6; column < result.cols(); ++column) {
-    result.col(column).segment<3>(3) = (Jr.transpose() * result.col(column).segment<3>(3)).eval();
-  }
+                         result.block(nv_, 0, nv_, nv_));
 }
 
 }  // namespace prowl

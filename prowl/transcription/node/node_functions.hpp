@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "prowl/dynamics/projected_residual.hpp"
+#include "prowl/linear_algebra/matrix_products.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/motion/friction_limit.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
@@ -91,7 +92,7 @@ class NodeFunctions {
   /// Hessian of cost_factor * cost + multipliers . rows, in all columns, symmetric.
   void hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
   /// Values, first derivatives and the Hessian of cost_factor * cost + multipliers . rows, with one
-  /// evaluation of the dynamics.
+  /// evaluation of the dynamics. Of the Hessian the lower triangle; above it it is undefined.
   void linearise(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers, NodeValues& values,
                  Eigen::MatrixXd& hessian);
 
@@ -117,15 +118,14 @@ class NodeFunctions {
   void fill_derivatives(const NodePoint& point, NodeValues& values);
   /// Copies derivatives of residual or forces into all columns.
   void gather(const PointDerivatives& derivatives, const NodePoint& point, Eigen::Ref<Eigen::MatrixXd> result) const;
-  // Parts of the Hessian, after fill_derivatives(). They fill the upper triangle; the lower one is
-  // set at the end.
-  void add_cost_hessian(const NodePoint& point, double cost_factor, Eigen::MatrixXd& result);
-  void add_force_hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers,
+  // Parts of the Hessian, after fill_derivatives(): its lower triangle.
+  void set_force_hessian(const NodePoint& point, double cost_factor, const Eigen::VectorXd& multipliers,
                          Eigen::MatrixXd& result);
+  void add_cost_hessian(const NodePoint& point, double cost_factor, Eigen::MatrixXd& result);
   void add_dynamics_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
   void add_limits_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
-  void turn_to_chart(const NodePoint& point, const Eigen::Vector3d& pull, Eigen::MatrixXd& result) const;
 
+  MatrixProducts products_;
   int nv_, nu_, num_chosen_, intervals_;
   HessianKind hessian_kind_ = HessianKind::exact;
   bool free_duration_;
@@ -147,7 +147,7 @@ class NodeFunctions {
   DynamicsPoint at_;
   NodeCost::Derivatives cost_derivatives_;
   Eigen::MatrixXd forces_jacobian_, placement_anchors_;
-  Eigen::MatrixXd bending_, bent_;                     ///< rows of forces_jacobian_ with curvature; times the curvature
+  Eigen::MatrixXd bending_, bent_;                     ///< gradients of forces with curvature; times the curvature
   Eigen::VectorXd force_slope_;                        ///< derivative of the cost with respect to the forces
   Eigen::Matrix<double, Eigen::Dynamic, 3> rotation_;  ///< of rows_jacobian, in the tangent of the rotation
   Eigen::Vector3d rotation_gradient_;                  ///< of the cost, likewise

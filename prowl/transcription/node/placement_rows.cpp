@@ -184,7 +184,7 @@ void PlacementRows::derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Re
 }
 
 void PlacementRows::add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers,
-                                Eigen::Ref<Eigen::MatrixXd> qq, Eigen::Ref<Eigen::MatrixXd> qv) {
+                                Eigen::Ref<Eigen::MatrixXd> qq, Eigen::Ref<Eigen::MatrixXd> vq) {
   if (count(k) == 0) return;
   on_position_.setZero(kinematics_.rows());
   on_velocity_.setZero(kinematics_.rows());
@@ -202,7 +202,7 @@ void PlacementRows::add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& 
   kinematics_.set_motion(at_rest_, v_);
   kinematics_.add_acceleration_hessian(on_velocity_, 0.0, second_);
   qq += second_.qq;
-  qv += second_.qa;  // J u is the acceleration of a = u at rest
+  vq += second_.qa.transpose();  // J u is the acceleration of a = u at rest
 }
 
 }  // namespace prowl

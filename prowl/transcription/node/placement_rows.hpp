@@ -48,10 +48,10 @@ class PlacementRows {
   /// entries.
   void derivatives(int k, Eigen::Ref<Eigen::MatrixXd> dq, Eigen::Ref<Eigen::MatrixXd> dv,
                    Eigen::Ref<Eigen::MatrixXd> danchors);
-  /// After derivatives() or evaluate(): adds the second derivatives of multipliers . rows; qv:
-  /// mixed block.
+  /// After derivatives() or evaluate(): adds the second derivatives of multipliers . rows; vq:
+  /// mixed block, one row per velocity.
   void add_hessian(int k, const Eigen::Ref<const Eigen::VectorXd>& multipliers, Eigen::Ref<Eigen::MatrixXd> qq,
-                   Eigen::Ref<Eigen::MatrixXd> qv);
+                   Eigen::Ref<Eigen::MatrixXd> vq);
 
  private:
   struct Row {
