@@ -60,6 +60,9 @@ class StagewiseTranscription : public StagewiseNlp {
   void use_threads(int count);  ///< see Nlp
 
  private:
+  /// Of Work::slopes, the last rows: placement of the base, and of the next stage's.
+  static constexpr int kBaseRows = 12;
+
   /// Work space in the variables of a node, one per thread. Stages of one shape share it: no
   /// reallocation.
   struct Work {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace prowl {
@@ -25,13 +24,6 @@ constexpr double kPivotRounding = 1e-12;
 /// 1e4 on HyQ, ANYmal and Go2, 2e4 on Talos, by its light wrists. At landings the first inputs barely tell the
 /// equalities apart: 1e5 to 1e9, with as many digits lost.
 constexpr double kLargestGain = 1e5;
-
-constexpr int kMostRefinements = 5;
-constexpr double kRefined = 1e-12;  ///< residual relative to the right-hand sides; refinement stops here
-
-void add(double factor, const StageVectors& from, StageVectors& to) {
-  for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];
-}
 
 double largest_or_nan(const MatrixXd& matrix) {
   return matrix.size() > 0 ? matrix.cwiseAbs().maxCoeff<Eigen::PropagateNaN>() : 0.0;
@@ -244,168 +236,6 @@ void StageKkt::pass_conditions(Stage& s, const MatrixXd& equalities, const Matri
     s.passed_rows.push_back(s.rank + static_cast<int>(qr.colsPermutation().indices()(i)));
     s.E.row(i) = in_states.row(s.passed_rows.back());
   }
-}
-
-void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links,
-                     double accuracy) {
-  solve_once(gradient, equalities, links);
-  // Large weights cost digits of the other curvature.
-  const bool weighs_little = largest(weights_) * std::numeric_limits<double>::epsilon() <= accuracy;
-  if (is_exact_ && weighs_little) return;
-  sum_.steps = steps_;
-  sum_.on_equalities = on_equalities_;
-  sum_.on_next = on_next_;
-  sum_.along_inequalities = along_inequalities_;
-  const double rounding = kRefined * std::max({largest(gradient), largest(equalities), largest(links)});
-  double last = std::numeric_limits<double>::infinity();
-  const auto add_correction = [this](double factor) {
-    add(factor, steps_, sum_.steps);
-    add(factor, on_equalities_, sum_.on_equalities);
-    add(factor, on_next_, sum_.on_next);
-    add(factor, along_inequalities_, sum_.along_inequalities);
-  };
-  for (int i = 0;; ++i) {
-    const double residual = find_residual(gradient, equalities, links);
-    if (!(residual < last)) add_correction(-1.0);  // undo: it increased the residual
-    if (!(residual > std::max(accuracy, rounding)) || !(residual <= 0.5 * last) || i == kMostRefinements) break;
-    last = residual;
-    solve_once(residual_gradient_, residual_equalities_, residual_links_);
-    add_correction(1.0);
-  }
-  steps_ = sum_.steps;
-  on_equalities_ = sum_.on_equalities;
-  on_next_ = sum_.on_next;
-  along_inequalities_ = sum_.along_inequalities;
-}
-
-/// Residual of the equations at the sum of the solutions so far.
-double StageKkt::find_residual(const StageVectors& gradient, const StageVectors& equalities,
-                               const StageVectors& links) {
-  residual_gradient_ = gradient;
-  residual_equalities_ = equalities;
-  residual_links_ = links;
-  for (int k = 0; k < num_stages_; ++k) {
-    const VectorXd& step = sum_.steps[k];
-    VectorXd& violation = residual_gradient_[k];
-    if (hessian_ == Hessian::lagrangian) {
-      violation.noalias() += nlp_.lagrangian_hessian(k).selfadjointView<Eigen::Lower>() * step;
-    }
-    violation += delta_ * step;
-    violation.noalias() += nlp_.equality_slopes(k).transpose() * sum_.on_equalities[k];
-    residual_inequalities_[k] = weights_[k].cwiseProduct(sum_.along_inequalities[k]);
-    nlp_.add_pull_back(k, sum_.on_next[k], residual_inequalities_[k], violation);
-    if (k > 0) violation.tail(stage(k).size.states) -= sum_.on_next[k - 1];
-    residual_equalities_[k].noalias() += nlp_.equality_slopes(k) * step;
-    if (k + 1 == num_stages_) continue;
-    VectorXd& next = residual_next_[k];
-    nlp_.push_forward(k, step, next, residual_inequalities_[k]);
-    residual_links_[k] += next - sum_.steps[k + 1].tail(next.size());
-  }
-  return std::max({largest(residual_gradient_), largest(residual_equalities_), largest(residual_links_)});
-}
-
-void StageKkt::solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
-  const auto link = [&](int k) { return k + 1 < num_stages_ ? &links[k] : nullptr; };
-  for (int k = num_stages_ - 1; k >= 0; --k) backward(k, gradient[k], equalities[k], link(k));
-  for (int k = 0; k < num_stages_; ++k) forward(k, link(k));
-}
-
-void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalities, const VectorXd* link) {
-  Stage& s = stage(k);
-  const int rank = s.rank, states = s.size.states;
-  s.gradient = gradient;
-  s.c.resize(s.num_equalities());
-  s.on_rows.resize(s.num_equalities());
-  s.c.head(s.size.equalities) = equalities;
-  if (link) {
-    const Stage& next = stage(k + 1);
-    VectorXd& on_next = on_next_[k];
-    on_next = next.p;
-    on_next.noalias() += next.P * *link;
-    nlp_.add_pull_back(k, on_next, nothing_, s.gradient);
-    if (s.carried > 0) {
-      s.c.tail(s.carried) = next.e;
-      s.c.tail(s.carried).noalias() += next.E * *link;
-    }
-  }
-  s.m.resize(s.gradient.size());
-  for (Index i = 0; i < s.m.size(); ++i) s.m(i) = s.gradient(s.order[i]);
-
-  s.r = s.m.tail(s.rest());
-  if (rank > 0) {
-    for (Index i = 0; i < s.c.size(); ++i) s.on_rows(i) = s.c(s.rows[i]);
-    s.c.swap(s.on_rows);
-    const auto square = s.lu.topRows(rank);
-    auto determining = s.c.head(rank);
-    square.triangularView<Eigen::UnitLower>().solveInPlace(determining);
-    const Index left = s.c.size() - rank;
-    s.c.tail(left).noalias() -= s.lu.bottomRows(left) * determining;
-    s.k = -determining;
-    square.triangularView<Eigen::Upper>().solveInPlace(s.k);
-    s.r.noalias() += s.K * s.m.head(rank);
-    s.r.noalias() += s.T * s.k;
-  }
-  s.e.resize(s.passed);
-  for (int i = 0; i < s.passed; ++i) s.e(i) = s.c(s.passed_rows[i]);
-  s.p = s.r.tail(states);
-  if (s.free() > 0) {
-    auto free = s.r.head(s.free());
-    s.L.triangularView<Eigen::Lower>().solveInPlace(free);
-    s.p.noalias() -= s.G * free;
-  }
-}
-
-void StageKkt::forward(int k, const VectorXd* link) {
-  Stage& s = stage(k);
-  VectorXd& step = steps_[k];
-  s.step.resize(step.size());
-  s.step.tail(s.size.states) = step.tail(s.size.states);
-  if (s.free() > 0) {
-    auto free = s.step.segment(s.rank, s.free());
-    free = -s.r.head(s.free());
-    free.noalias() -= s.G.transpose() * s.step.tail(s.size.states);
-    s.L.triangularView<Eigen::Lower>().transpose().solveInPlace(free);
-  }
-  if (s.rank > 0) {
-    s.step.head(s.rank) = s.k;
-    s.step.head(s.rank).noalias() += s.K.transpose() * s.step.tail(s.rest());
-  }
-  for (Index i = 0; i < step.size(); ++i) step(s.order[i]) = s.step(i);
-
-  find_multipliers(k);
-  nlp_.push_forward(k, step, on_next_[k], along_inequalities_[k]);
-  if (!link) return;
-  Stage& next = stage(k + 1);
-  auto dx = steps_[k + 1].tail(next.size.states);
-  dx = on_next_[k] + *link;
-  on_next_[k] = next.p;
-  on_next_[k].noalias() += next.P * dx;
-  if (s.carried > 0) on_next_[k].noalias() += next.E.transpose() * next.on_carried;
-}
-
-/// From the gradient in the determined inputs: M_dd k + T r + m + equalities' multipliers = 0. The
-/// stage before has set the multipliers of the conditions on the state.
-void StageKkt::find_multipliers(int k) {
-  Stage& s = stage(k);
-  const int rank = s.rank;
-  s.on_rows.setZero(s.num_equalities());
-  for (int i = 0; i < s.passed; ++i) s.on_rows(s.passed_rows[i]) = s.on_carried(i);
-  if (rank > 0) {
-    const auto square = s.lu.topRows(rank);
-    const Index left = s.on_rows.size() - rank;
-    auto on_determining = s.on_rows.head(rank);
-    on_determining = -s.m.head(rank);
-    on_determining.noalias() -= s.M_dd * s.k;
-    on_determining.noalias() -= s.T.transpose() * s.step.tail(s.rest());
-    square.triangularView<Eigen::Upper>().transpose().solveInPlace(on_determining);
-    on_determining.noalias() -= s.lu.bottomRows(left).transpose() * s.on_rows.tail(left);
-    square.triangularView<Eigen::UnitLower>().transpose().solveInPlace(on_determining);
-  }
-  s.c.resize(s.on_rows.size());
-  for (Index i = 0; i < s.on_rows.size(); ++i) s.c(s.rows[i]) = s.on_rows(i);
-  s.on_rows.swap(s.c);
-  on_equalities_[k] = s.on_rows.head(s.size.equalities);
-  if (s.carried > 0) stage(k + 1).on_carried = s.on_rows.tail(s.carried);
 }
 
 }  // namespace prowl
