@@ -1,5 +1,7 @@
 #include "prowl/dynamics/projector.hpp"
 
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "prowl/error.hpp"
@@ -10,8 +12,11 @@ namespace prowl {
 void Projector::compute(const Eigen::MatrixXd& J, double rank_threshold) {
   if (!J.allFinite()) throw NumericalError("the contact Jacobian is not finite: a configuration is NaN or too large");
   const Eigen::Index rows = J.rows();
-  transposed_ = J.transpose();
-  if (rows > 0) qr_.compute(transposed_);
+  qr_ = J.transpose();
+  tau_.resize(std::min(qr_.rows(), rows));
+  order_.resize(static_cast<std::size_t>(rows));
+  dense_kernels().factorise_qr(static_cast<int>(qr_.rows()), static_cast<int>(rows), qr_.data(),
+                               static_cast<int>(qr_.rows()), order_.data(), tau_.data());
   find_rank(rank_threshold);
   if (rank_ < rows) {
     factor_deficient();
@@ -26,21 +31,19 @@ void Projector::compute(const Eigen::MatrixXd& J, double rank_threshold) {
 
 // J' Π = V R, that is J = Π R' V': U = Π, T = R', (J J')⁻¹ = Π R⁻¹ R'⁻¹ Π'.
 void Projector::factor_full() {
-  const auto& R = qr_.matrixQR();
-  const Eigen::Index rows = transposed_.cols();
+  const Eigen::Index rows = qr_.cols();
   const int size = static_cast<int>(rows);
   inverse_factor_.resize(rows, rows);
   permuted_gram_.resize(rows, rows);
   gram_inverse_.resize(rows, rows);
   upper_inverse_.setIdentity(rows, rows);
-  dense_kernels().divide_by_upper(size, size, R.data(), 1, static_cast<int>(R.rows()), false, upper_inverse_.data(),
+  dense_kernels().divide_by_upper(size, size, qr_.data(), 1, static_cast<int>(qr_.rows()), false, upper_inverse_.data(),
                                   size);
   MatrixProducts().set_lower(permuted_gram_, upper_inverse_, upper_inverse_);
-  const auto& index = qr_.colsPermutation().indices();
   for (Eigen::Index i = 0; i < rows; ++i) {
-    inverse_factor_.col(index(i)) = upper_inverse_.row(i).transpose();
+    inverse_factor_.col(order_[i]) = upper_inverse_.row(i).transpose();
     for (Eigen::Index j = 0; j <= i; ++j) {
-      gram_inverse_(index(i), index(j)) = gram_inverse_(index(j), index(i)) = permuted_gram_(i, j);
+      gram_inverse_(order_[i], order_[j]) = gram_inverse_(order_[j], order_[i]) = permuted_gram_(i, j);
     }
   }
 }
@@ -52,8 +55,8 @@ void Projector::factor_full() {
 void Projector::find_rank(double threshold) {
   rank_ = 0;
   pivot_ratio_ = 1.0;
-  if (transposed_.cols() == 0) return;
-  const auto pivots = qr_.matrixQR().diagonal();
+  if (qr_.cols() == 0) return;
+  const auto pivots = qr_.diagonal();
   if (pivots(0) == 0.0) return;
   for (Eigen::Index i = 0; i < pivots.size(); ++i) {
     const double ratio = std::abs(pivots(i) / pivots(0));
@@ -67,22 +70,22 @@ void Projector::find_rank(double threshold) {
 // W.
 void Projector::factor_deficient() {
   if (rank_ == 0) {
-    inverse_factor_.setZero(0, transposed_.cols());
+    inverse_factor_.setZero(0, qr_.cols());
     return;
   }
   Eigen::MatrixXd trapezoid = Eigen::MatrixXd::Zero(qr_.cols(), rank_);
-  trapezoid.transpose().triangularView<Eigen::Upper>() = qr_.matrixQR().topRows(rank_);
+  trapezoid.transpose().triangularView<Eigen::Upper>() = qr_.topRows(rank_);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(trapezoid);
   Eigen::MatrixXd U = Eigen::MatrixXd::Identity(qr_.cols(), rank_);
   U.applyOnTheLeft(qr.householderQ());
-  U.applyOnTheLeft(qr_.colsPermutation());
-  inverse_factor_ = U.transpose();
+  inverse_factor_.resize(rank_, qr_.cols());
+  for (Eigen::Index i = 0; i < qr_.cols(); ++i) inverse_factor_.col(order_[i]) = U.row(i).transpose();
   qr.matrixQR().topRows(rank_).triangularView<Eigen::Upper>().solveInPlace(inverse_factor_);
 }
 
 Eigen::MatrixXd Projector::row_space() const {
-  Eigen::MatrixXd V = Eigen::MatrixXd::Identity(transposed_.rows(), rank_);
-  if (rank_ > 0) V.applyOnTheLeft(qr_.householderQ().setLength(rank_));
+  Eigen::MatrixXd V = Eigen::MatrixXd::Identity(qr_.rows(), rank_);
+  if (rank_ > 0) V.applyOnTheLeft(Eigen::householderSequence(qr_, tau_).setLength(rank_));
   return V;
 }
 

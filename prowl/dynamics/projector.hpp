@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
+#include <vector>
 
 namespace prowl {
 
@@ -40,8 +40,10 @@ class Projector {
   void factor_full();
   void factor_deficient();
 
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr_;  // of J'
-  Eigen::MatrixXd transposed_, gram_inverse_;
+  Eigen::MatrixXd qr_;      // of J', n × m, by DenseKernels::factorise_qr
+  Eigen::VectorXd tau_;     // its reflections
+  std::vector<int> order_;  // its columns
+  Eigen::MatrixXd gram_inverse_;
   Eigen::MatrixXd inverse_factor_;  // T⁻¹ U', rank × m
   Eigen::MatrixXd upper_inverse_, permuted_gram_;
   int rank_ = 0;

@@ -42,6 +42,11 @@ struct DenseKernels {
   /// positive.
   bool (*factorise_cholesky)(int size, double* a, int lda);
 
+  /// QR with column pivoting: column j of Q R is column order[j] of A (rows x cols), which R replaces on and above its
+  /// diagonal. Below it are the vectors v_j of Q = H_0 H_1 ..., H_j = I - tau[j] v_j v_j', v_j = (0 ... 0, 1, those).
+  /// tau: as many as the smaller of rows and cols.
+  void (*factorise_qr)(int rows, int cols, double* a, int lda, int* order, double* tau);
+
   /// X (rows x size) := X T^-1 for an upper triangular T, T(i, j) = t[i * t_row + j * t_col]; `unit`: with ones on its
   /// diagonal, which is not read.
   void (*divide_by_upper)(int rows, int size, const double* t, int t_row, int t_col, bool unit, double* x, int ldx);

@@ -180,5 +180,32 @@ TEST(DenseKernels, FactoriseBySquareRoots) {
   }
 }
 
+TEST(DenseKernels, FactoriseByReflections) {
+  std::mt19937 rng(6);
+  for (const DenseKernels* kernels : sets()) {
+    for (const int rows : kSizes) {
+      for (const int cols : kSizes) {
+        for (const int rank : {std::min(rows, cols), std::min({rows, cols, 2})}) {
+          const MatrixXd A = random_matrix(rng, rows, rank) * random_matrix(rng, rank, cols);
+          MatrixXd qr = padded(A);
+          const int steps = std::min(rows, cols);
+          std::vector<int> order(static_cast<std::size_t>(cols));
+          Eigen::VectorXd tau(steps);
+          kernels->factorise_qr(rows, cols, qr.data(), rows + 3, order.data(), tau.data());
+          expect_padding(qr);
+          const MatrixXd factors = qr.topRows(rows);
+          MatrixXd product = factors.triangularView<Eigen::Upper>();
+          product.applyOnTheLeft(Eigen::householderSequence(factors, tau).setLength(steps));
+          expect_near(product, A(Eigen::all, order), kernels->instruction_set);
+          for (int j = 1; j < steps; ++j) {
+            EXPECT_LE(std::abs(factors(j, j)), std::abs(factors(j - 1, j - 1)) * (1.0 + 1e-12)) << "not the largest";
+          }
+          for (int j = rank; j < steps; ++j) EXPECT_LT(std::abs(factors(j, j)), 1e-12 * (1.0 + A.norm()));
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace prowl
