@@ -145,7 +145,9 @@ void CentroidalNode::hessian(const CentroidalPoint& point, double cost_factor, c
   kinematics_.add_hessian(on_com, on_momentum, qq, qv);
   points_.add_position_hessian(multipliers.segment(first_row(k, positions), count(k, positions)), -1.0 / scale_.length,
                                qq);
-  placement_.add_hessian(k, multipliers.segment(first_row(k, placement), count(k, placement)), qq, qv);
+  MatrixXd vq = MatrixXd::Zero(nv_, nv_);
+  placement_.add_hessian(k, multipliers.segment(first_row(k, placement), count(k, placement)), qq, vq);
+  qv += vq.transpose();
 
   const Vector3d pull = cost_factor * rotation_gradient_ + rotation_.transpose() * multipliers;
   const Matrix3d Jr = so3::right_jacobian(point.x.segment<3>(3));

@@ -152,6 +152,7 @@ void ChartedNode::hessian(const Instant& at, const VectorXd& columns, double cos
   const NodePoint where = point(at, columns);
   const Index own = functions_.num_rows(at.node), extra = contact_rows_.count();
   functions_.linearise(where, cost_factor, multipliers.head(own), inner_, result);
+  result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
   // Total gradient in the tangent of the rotation.
   Vector3d pull = cost_factor * inner_.cost_gradient.segment<3>(3) +
                   inner_.rows_jacobian.middleCols<3>(3).transpose() * multipliers.head(own);

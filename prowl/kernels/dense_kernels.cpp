@@ -1,6 +1,9 @@
 #include "prowl/kernels/dense_kernels.hpp"
 
 #ifdef __x86_64__
+#ifdef __clang__
+#define _Bool bool  // a header in C, whose type GCC knows in C++ too
+#endif
 #include <sys/platform/x86.h>
 #endif
 
