@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "prowl/error.hpp"
+#include "prowl/kernels/dense_kernels.hpp"
 #include "prowl/linear_algebra/matrix_products.hpp"
 
 namespace prowl {

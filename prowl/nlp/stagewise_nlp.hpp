@@ -56,7 +56,8 @@ class StagewiseNlp {
   virtual void linearise_to_first_order(int k, const Eigen::VectorXd& ux) = 0;
   virtual const Eigen::VectorXd& cost_gradient(int k) const = 0;
   virtual const Eigen::MatrixXd& equality_slopes(int k) const = 0;
-  virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;  ///< lower triangle of hessian()
+  /// The lower triangle of hessian(); above it the matrix is undefined.
+  virtual const Eigen::MatrixXd& lagrangian_hessian(int k) const = 0;
   /// result += next' next_hessian next + inequalities' diag(weights) inequalities, with the derivatives of both: the
   /// lower triangle. Above it the result is undefined afterwards.
   virtual void add_condensed(int k, const Eigen::MatrixXd& next_hessian, const Eigen::VectorXd& weights,

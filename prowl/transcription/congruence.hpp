@@ -5,8 +5,8 @@
 namespace prowl {
 
 /// Congruences m -> A' m A of a symmetric matrix, in place: what becomes of a Hessian when some variables are replaced
-/// by functions of others. A is the identity but for one block. The lower triangle alone is read and written; above it
-/// m is undefined afterwards. `from` precedes `to`, and their blocks do not overlap. No heap allocation.
+/// by functions of others. A is the identity but for one block. Of m the lower triangle counts; above it m
+/// is undefined afterwards. `from` precedes `to`, and their blocks do not overlap. No heap allocation.
 
 /// A(from + i, to + i) = factor, i < count
 void add_multiple(Eigen::MatrixXd& m, Eigen::Index from, Eigen::Index to, Eigen::Index count, double factor);

@@ -44,8 +44,8 @@ class Arrival {
   };
   /// The same for such a row; `dof` (0 ... nv - 1): the entry, one of the base only if q = 0.
   JointRow pull_back(JointRow row, Eigen::Index dof) const;
-  /// The same for a quadratic form: m -> A' m A, A = d node / d state. Here and below, the lower triangle alone
-  /// is read and written.
+  /// The same for a quadratic form: m -> A' m A, A = d node / d state. Here and below, the lower triangle counts;
+  /// above it m is undefined afterwards.
   void pull_back_form(Eigen::MatrixXd& m) const;
   /// The same for the Hessian of a function with its gradient in the node's variables
   /// (overwritten).

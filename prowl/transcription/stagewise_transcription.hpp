@@ -90,7 +90,7 @@ class StagewiseTranscription : public StagewiseNlp {
     Eigen::VectorXd per_unit,
         next_per_unit;  ///< 1 / unit of the variables with bounds and of the states of the next stage
     std::vector<int> equalities, inequalities;  ///< indices into the functions
-    int num_first_equalities = 0;               ///< so many of them are the first rows, in order: the dynamics
+    int num_first_equalities = 0;               ///< so many of them are the first rows, in order: at least the dynamics
     Eigen::VectorXd level;                      ///< equalities: function = level
     Eigen::VectorXd lower, upper;
 

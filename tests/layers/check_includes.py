@@ -20,7 +20,7 @@ ALLOWED = {
     "prowl/kernels": [],
     "prowl/linear_algebra": ["prowl/kernels"],
     "prowl/model": ["prowl/text", "prowl/linear_algebra"],
-    "prowl/dynamics": ["prowl/linear_algebra", "prowl/model"],
+    "prowl/dynamics": ["prowl/kernels", "prowl/linear_algebra", "prowl/model"],
     "prowl/motion": ["prowl/model", "prowl/dynamics"],
     "prowl/trajectory": ["prowl/model"],
     "prowl/nlp": [],  # knows no robots

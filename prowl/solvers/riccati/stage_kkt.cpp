@@ -94,8 +94,8 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
 
   MatrixXd& condensed = work_.condensed.of_size(variables, variables);
   if (hessian_ == Hessian::lagrangian) {
-    const MatrixXd& bent = nlp_.lagrangian_hessian(k);  // half of it: on long chains it comes from main memory
-    for (int j = 0; j < variables; ++j) condensed.col(j).tail(variables - j) = bent.col(j).tail(variables - j);
+    const MatrixXd& lower = nlp_.lagrangian_hessian(k);  // above the diagonal it is undefined
+    for (int j = 0; j < variables; ++j) condensed.col(j).tail(variables - j) = lower.col(j).tail(variables - j);
   } else {
     condensed.setZero();
   }
