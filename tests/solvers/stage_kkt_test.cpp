@@ -129,6 +129,7 @@ void expect_dense_solution(RandomChain& chain, Hessian hessian, double delta, co
                            const std::string& what, const std::vector<double>& accuracies = {kNotRefined, 0.0}) {
   chain.linearise_all();
   StageKkt kkt(chain);
+  kkt.determine_inputs();
   ASSERT_EQ(kkt.factorise(hessian, delta, system.weights), Outcome::solvable) << what;
   const Dense dense(chain, hessian, delta, system);
   const VectorXd expected = dense.solution();
@@ -185,6 +186,7 @@ TEST(StageKkt, PivotsFullyOnlyWhereTheFirstInputsDoNotServe) {
   const auto pivoted = [&] {
     chain.linearise_all();
     StageKkt kkt(chain);
+    kkt.determine_inputs();
     EXPECT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
     return kkt.num_pivoted();
   };
@@ -202,6 +204,7 @@ TEST(StageKkt, SolvesForNewRightSidesWithTheSameFactors) {
   RandomChain chain(rng, kPassed);
   chain.linearise_all();
   StageKkt kkt(chain);
+  kkt.determine_inputs();
   const System first = random_system(rng, chain, 2.0);
   System second = random_system(rng, chain, 2.0);
   second.weights = first.weights;
@@ -213,6 +216,27 @@ TEST(StageKkt, SolvesForNewRightSidesWithTheSameFactors) {
   EXPECT_GT((steps_of(kkt) - steps).norm(), 0.1);
   kkt.solve(first.gradient, first.equalities, first.links);
   EXPECT_EQ(steps_of(kkt), steps);
+}
+
+TEST(StageKkt, KeepsDeterminedInputsBetweenFactorisations) {
+  std::mt19937 rng(14);
+  for (const auto& sizes : {kEqualities, kPassed}) {
+    RandomChain chain(rng, sizes);
+    chain.linearise_all();
+    const System system = random_system(rng, chain, 2.0);
+    const auto steps_of_last = [&](const std::vector<std::pair<Hessian, double>>& factorisations) {
+      StageKkt kkt(chain);
+      kkt.determine_inputs();
+      for (const auto& [hessian, delta] : factorisations) {
+        EXPECT_EQ(kkt.factorise(hessian, delta, system.weights), Outcome::solvable);
+      }
+      kkt.solve(system.gradient, system.equalities, system.links);
+      return steps_of(kkt);
+    };
+    const VectorXd steps = steps_of_last({{Hessian::lagrangian, 0.0}});
+    EXPECT_EQ(steps_of_last({{Hessian::identity, 0.7}, {Hessian::lagrangian, 3.0}, {Hessian::lagrangian, 0.0}}), steps);
+    EXPECT_GT((steps_of_last({{Hessian::lagrangian, 3.0}}) - steps).norm(), 1e-2);
+  }
 }
 
 /// As near the end of an interior point method: inequalities that hold tight, and others that do not matter.
@@ -230,6 +254,7 @@ TEST(StageKkt, TakesWeightsOfAllSizes) {
       const System system = random_system(rng, chain, 12.0);
       chain.linearise_all();
       StageKkt kkt(chain);
+      kkt.determine_inputs();
       ASSERT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
       kkt.solve(system.gradient, system.equalities, system.links);
       const VectorXd expected = Dense(chain, Hessian::lagrangian, 0.0, system).solution();
@@ -253,6 +278,7 @@ TEST(StageKkt, TakesFunctionsOfAllScales) {
     const System system = random_system(rng, chain, 2.0);
     chain.linearise_all();
     StageKkt kkt(chain);
+    kkt.determine_inputs();
     ASSERT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
     kkt.solve(system.gradient, system.equalities, system.links);
     const VectorXd expected = Dense(chain, Hessian::lagrangian, 0.0, system).solution();
@@ -289,6 +315,7 @@ TEST(StageKkt, LeavesOutEqualitiesThatDependOnOthers) {
 
     chain.linearise_all();
     StageKkt kkt(chain);
+    kkt.determine_inputs();
     ASSERT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
     kkt.solve(system.gradient, system.equalities, system.links);
     const Dense dense(chain, Hessian::lagrangian, 0.0, system);
@@ -312,6 +339,7 @@ TEST(StageKkt, RefinesWhereInputsBarelyTellEqualitiesApart) {
     expect_dense_solution(chain, Hessian::lagrangian, 0.0, system, 1e-10, "nearly dependent", {0.0});
 
     StageKkt kkt(chain);
+    kkt.determine_inputs();
     ASSERT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
     EXPECT_EQ(kkt.num_pivoted(), 1);
     const Dense dense(chain, Hessian::lagrangian, 0.0, system);
@@ -339,6 +367,7 @@ TEST(StageKkt, IsSolvableIfAndOnlyIfTheReducedHessianIsPositive) {
       chain.linearise_all();
       const double least = Dense(chain, Hessian::lagrangian, 0.0, system).least_curvature();
       StageKkt kkt(chain);
+      kkt.determine_inputs();
       for (const double delta : {0.0, -least + 1e-6, -least - 1e-6}) {
         const bool is_convex = least + delta > 0.0;
         ++counts[is_convex];
@@ -364,7 +393,9 @@ TEST(StageKkt, TellsWhatIsNotFinite) {
           const MatrixXd good = matrix;
           matrix(matrix.rows() - 1, matrix.cols() / 2) = bad;
           chain.linearise_all();
-          EXPECT_EQ(StageKkt(chain).factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::not_finite)
+          StageKkt kkt(chain);
+          kkt.determine_inputs();
+          EXPECT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::not_finite)
               << what << ", stage " << k << ": " << bad;
           matrix = good;
         };
@@ -376,7 +407,9 @@ TEST(StageKkt, TellsWhatIsNotFinite) {
       }
     }
     chain.linearise_all();
-    EXPECT_EQ(StageKkt(chain).factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
+    StageKkt kkt(chain);
+    kkt.determine_inputs();
+    EXPECT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights), Outcome::solvable);
   }
 }
 

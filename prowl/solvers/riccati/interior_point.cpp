@@ -6,6 +6,7 @@
 #include <cmath>
 #include <exception>
 #include <stdexcept>
+#include <utility>
 
 #include "prowl/error.hpp"
 #include "prowl/nlp/stopwatch.hpp"
@@ -137,6 +138,7 @@ void InteriorPoint::need_finite_slopes(int k) const {
 
 void InteriorPoint::linearise() {
   const Stopwatch stopwatch(times_.derivatives);
+  is_linearised_anew_ = true;
   threads_.for_each(num_stages_, [this](int k) {
     on_[k].inequalities = segment(lambda_, k);
     at_stage(k, [&] {
@@ -149,6 +151,7 @@ void InteriorPoint::linearise() {
 /// Without second derivatives.
 void InteriorPoint::linearise_to_first_order() {
   const Stopwatch stopwatch(times_.derivatives);
+  is_linearised_anew_ = true;
   threads_.for_each(num_stages_, [this](int k) {
     at_stage(k, [&] {
       nlp_.linearise_to_first_order(k, ux_[k]);
@@ -159,6 +162,7 @@ void InteriorPoint::linearise_to_first_order() {
 
 StageKkt::Outcome InteriorPoint::factorise(StageKkt::Hessian hessian, double delta) {
   const Stopwatch stopwatch(times_.linear_algebra);
+  if (std::exchange(is_linearised_anew_, false)) kkt_.determine_inputs();
   return kkt_.factorise(hessian, delta, weights_);
 }
 

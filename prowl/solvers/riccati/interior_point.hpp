@@ -106,6 +106,7 @@ class InteriorPoint {
   Eigen::VectorXd step_lambda_;
 
   double cost_scale_ = 1.0, mu_ = 0.0;
+  bool is_linearised_anew_ = false;  ///< since the latest factorisation
   double regularisation_ = 0.0, last_regularisation_ = 0.0;
   double theta_ = 0.0, phi_ = 0.0, slope_ = 0.0, largest_dual_violation_ = 0.0;
   double least_theta_ = 0.0;  ///< below it only the barrier function decides on a step

@@ -60,9 +60,23 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), kernels_(dense_kernels()), nu
   residual_inequalities_ = along_inequalities_;
 }
 
-StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const StageVectors& weights) {
+void StageKkt::determine_inputs() {
   is_exact_ = true;
   num_pivoted_ = 0;
+  for (int k = num_stages_ - 1; k >= 0; --k) {
+    Stage& s = stage(k);
+    const MatrixXd& equalities = gather_equalities(k);
+    s.passed = 0;
+    s.pivoted = !determine_first_inputs(s, equalities);
+    s.has_finite_equalities = !s.pivoted || equalities.allFinite();
+    if (!s.has_finite_equalities) return;
+    if (!s.pivoted) continue;
+    determine_any_inputs(s, equalities);
+    ++num_pivoted_;
+  }
+}
+
+StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const StageVectors& weights) {
   hessian_ = hessian;
   delta_ = delta;
   weights_ = weights;
@@ -82,16 +96,8 @@ MatrixXd& StageKkt::Shared::of_size(Index rows, Index cols) {
 
 StageKkt::Outcome StageKkt::factorise_stage(int k) {
   Stage& s = stage(k);
+  if (!s.has_finite_equalities) return Outcome::not_finite;
   const int variables = s.size.variables();
-  const MatrixXd& equalities = gather_equalities(k);
-  s.passed = 0;
-  s.pivoted = !determine_first_inputs(s, equalities);
-  if (s.pivoted) {
-    if (!equalities.allFinite()) return Outcome::not_finite;
-    determine_any_inputs(s, equalities);
-    ++num_pivoted_;
-  }
-
   MatrixXd& condensed = work_.condensed.of_size(variables, variables);
   if (hessian_ == Hessian::lagrangian) {
     const MatrixXd& lower = nlp_.lagrangian_hessian(k);  // above the diagonal it is undefined
@@ -108,8 +114,8 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
   }
   eliminate(s, *M);
   if (minimise(s, M->bottomRightCorner(s.rest(), s.rest()))) return Outcome::solvable;
-  // What is not finite in M or the equalities gets to L or P.
-  return equalities.allFinite() && has_finite_lower_triangle(*M) ? Outcome::indefinite : Outcome::not_finite;
+  return has_finite_lower_triangle(*M) ? Outcome::indefinite
+                                       : Outcome::not_finite;  // what is not finite gets to L or P
 }
 
 /// Own equalities and those on the next stage's state.

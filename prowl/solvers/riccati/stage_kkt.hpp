@@ -39,11 +39,15 @@ class StageKkt {
   enum class Hessian { lagrangian, identity };
   enum class Outcome { solvable, indefinite, not_finite };
 
+  /// Factorises the equalities in the inputs that they determine. Call it after each linearisation of the stages; the
+  /// factorisations after it differ in M alone.
+  void determine_inputs();
+
   /// `weights`: of the inequalities, one vector per stage. With `identity` M omits the Hessian of
   /// the Lagrangian.
   Outcome factorise(Hessian hessian, double delta, const StageVectors& weights);
   int last_stage() const { return last_stage_; }    ///< stage where the latest factorisation ended; 0 if solvable
-  int num_pivoted() const { return num_pivoted_; }  ///< its stages whose determined inputs full pivoting chose
+  int num_pivoted() const { return num_pivoted_; }  ///< stages whose determined inputs full pivoting chose
 
   /// Solves for g, c and b: one vector per stage, b without one for the last. `accuracy`: largest
   /// residual at which iterative refinement may stop.
@@ -64,6 +68,7 @@ class StageKkt {
     int rank = 0;                               ///< number of determined inputs
     int passed = 0;                             ///< conditions E of this stage
     bool pivoted = false;                       ///< full pivoting chose the determined inputs
+    bool has_finite_equalities = false;         ///< else nothing is determined
     std::vector<int> rows;                      ///< own and carried equalities; the first `rank` determine
     Eigen::MatrixXd lu;                         ///< their factors in the determined inputs, one row per equality
     Eigen::FullPivLU<Eigen::MatrixXd> full_lu;  ///< if pivoted
