@@ -9,7 +9,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/docs/third-party.md DESTINATION ${CMAKE_INST
 
 if(NOT BUILD_SHARED_LIBS)
   message(STATUS "Static build: no libraries to install, their users would need all of Prowl's own dependencies.")
-  install(TARGETS prowl_ipopt prowl_fatrop prowl_uno LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
+  install(TARGETS prowl_ipopt prowl_fatrop prowl_uno prowl_formulations LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime)
   return()
 endif()
 

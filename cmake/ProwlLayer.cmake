@@ -53,14 +53,19 @@ function(prowl_layer name)
   endif()
 endfunction()
 
-# prowl_solver(<name>): a solver of others, prowl/solvers/foreign/<name>_solver.cpp, as a library of its own that prowl_solvers loads
-# when it is asked for. Programs that name its class link prowl::<name>.
-function(prowl_solver name)
-  add_library(prowl_${name} SHARED solvers/foreign/${name}_solver.cpp)
+# prowl_module(<name> <sources>): a library that is loaded when it is asked for (prowl/files/shared_library.hpp). Programs that name
+# its classes link prowl::<name>.
+function(prowl_module name)
+  add_library(prowl_${name} SHARED ${ARGN})
   add_library(prowl::${name} ALIAS prowl_${name})
   target_compile_options(prowl_${name} PRIVATE ${PROWL_STRICT_WARNINGS})
+  set_target_properties(prowl_${name} PROPERTIES EXPORT_NAME ${name} DEFINE_SYMBOL "")
+endfunction()
+
+# prowl_solver(<name>): a solver of others, prowl/solvers/foreign/<name>_solver.cpp, as a module.
+function(prowl_solver name)
+  prowl_module(${name} solvers/foreign/${name}_solver.cpp)
   target_link_libraries(prowl_${name} PUBLIC prowl::solvers PRIVATE prowl_dep_${name} fmt::fmt ${CMAKE_DL_LIBS})
   target_compile_definitions(prowl_${name} PRIVATE PROWL_FATROP_VERSION="${PROWL_FATROP_VERSION}")
-  set_target_properties(prowl_${name} PROPERTIES EXPORT_NAME ${name} DEFINE_SYMBOL "")
   set_property(GLOBAL APPEND PROPERTY PROWL_LAYERS prowl_${name})
 endfunction()

@@ -167,6 +167,18 @@ TEST(Collocation, ForwardFormHasThePapersVariables) {
   EXPECT_EQ(nlp->num_constraints(), 5 * 36 + 6 * 4 + 5 * 4);
 }
 
+TEST(Collocation, IsThereForEachName) {
+  const DiscreteProblem discrete = one_phase();
+  const Trajectory guess = initial_guess(discrete);
+  const auto make = [&](const Formulation& formulation) { return make_collocation(formulation, discrete, guess); };
+  for (const std::string& name : dynamics_names()) EXPECT_TRUE(make({.dynamics = name})) << name;
+  for (const std::string& name : transcription_names()) {
+    EXPECT_TRUE(make({.dynamics = "forward", .transcription = name})) << name;
+  }
+  for (const std::string& name : contact_names()) EXPECT_TRUE(make({.contact = name})) << name;
+  for (const std::string& name : orientation_names()) EXPECT_TRUE(make({.orientation = name})) << name;
+}
+
 TEST(Collocation, RefusesWhatDoesNotGoTogether) {
   const DiscreteProblem discrete = two_phases();
   const Trajectory guess = initial_guess(discrete);

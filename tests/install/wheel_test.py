@@ -78,11 +78,13 @@ def test_it_has_types_and_licences(unpacked):
 def test_no_other_library_can_take_its_symbols(unpacked):
     for path in unpacked.glob("prowl.libs/*"):
         assert re.search(r"-[0-9a-f]{8}\.so", path.name), f"{path.name} may be mixed up with another version"
-    entries = {"prowl/_prowl*.so": "PyInit__prowl", "prowl/lib/libprowl_*.so": "prowl_make_solver"}
+    entries = {"prowl/_prowl*.so": "PyInit__prowl", "prowl/lib/libprowl_formulations.so": "prowl_make_formulation"}
+    entries |= {f"prowl/lib/libprowl_{solver}.so": "prowl_make_solver" for solver in ("ipopt", "fatrop", "uno")}
+    assert {*unpacked.glob("prowl/lib/*.so")} < {path for pattern in entries for path in unpacked.glob(pattern)}
     for pattern, entry in entries.items():
-        for module in unpacked.glob(pattern):
-            shown = run("nm", "--dynamic", "--defined-only", "--format=just-symbols", module).split()
-            assert shown == [entry], module
+        (module,) = unpacked.glob(pattern)
+        shown = run("nm", "--dynamic", "--defined-only", "--format=just-symbols", module).split()
+        assert shown == [entry], module
 
 
 SOLVE = "import prowl; p = prowl.solve('hyq/crouch', gains=False); print(p.q.tobytes().hex()[:4000], p.good)"
@@ -185,6 +187,13 @@ def test_python(machine):
     figures = "import prowl; prowl.figures('first')"
     missing = "\n".join(("try:", f"    {figures}", "except prowl.InputError as error: print(error)"))
     assert "prowl[figures]" in machine.run("python3", "-c", f"import prowl\n{missing}")
+
+
+def test_other_formulations(machine):
+    found = machine.run(
+        "prowl", "compare", "hyq/hold", "--formulation", "inverse,forward,centroidal", "--intervals", "5"
+    )
+    assert found.count("the Riccati solver needs a problem that is a chain of stages") == 2, "they are built; no solver"
 
 
 def test_a_solver_that_is_not_there(machine):

@@ -1,6 +1,6 @@
 prowl_test(tasks/free_duration prowl::prowl prowl::ipopt)
 prowl_test(tasks/solvers_agree prowl::prowl prowl::ipopt)
-prowl_test(tasks/formulations_agree prowl::alternatives prowl::prowl prowl::ipopt)
+prowl_test(tasks/formulations_agree prowl::formulations prowl::prowl prowl::ipopt)
 prowl_test(tasks/no_allocations prowl::prowl)
 prowl_test(tasks/threads prowl::prowl prowl::ipopt)
 prowl_test(tasks/solve_again prowl::prowl)
