@@ -170,7 +170,6 @@ int main(int argc, char** argv) {
   };
   open_standard_streams();
   try {
-    prowl::check_processor();
     return run(argc, argv);
   } catch (const prowl::InputError& error) {
     return report(error, kBadInput);

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <memory>
 #include <sstream>
-#include <string_view>
 
 #include "prowl/error.hpp"
 #include "prowl/kernels/dense_kernels.hpp"
@@ -56,13 +55,6 @@ std::string processor_features() {
   return features.empty() ? "" : features.substr(1);
 }
 
-void check_processor() {
-  const char* const needed = std::string_view(PROWL_SIMD) == "avx2" ? "AVX2 FMA" : "";
-  if (const auto reason = why_missing_instructions("this build of Prowl", needed, processor_features())) {
-    throw InputError(*reason + ": build with cmake -DPROWL_SIMD=baseline");
-  }
-}
-
 std::optional<std::string> why_no_mujoco() {
   return why_missing_instructions("libmujoco.so", "AVX", processor_features());
 }
@@ -89,8 +81,7 @@ std::map<std::string, std::string> versions() {
   return {{"prowl", PROWL_VERSION},
           {"MuJoCo", Physics::version()},
           {"Pinocchio", PROWL_PINOCCHIO_VERSION},
-          {"vector instructions", PROWL_SIMD},
-          {"kernel instructions", dense_kernels().instruction_set},
+          {"vector instructions", dense_kernels().instruction_set},
           {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)}};
 }
 

@@ -21,10 +21,6 @@ PackageSearch package_search(const std::filesystem::path& program, const std::ve
 /// "AVX AVX2 FMA".
 std::string processor_features();
 
-/// Throws InputError if this processor lacks the instructions of the build (PROWL_SIMD). Call it
-/// before any computation.
-void check_processor();
-
 /// Throws InputError if MuJoCo cannot run on this processor.
 void check_mujoco();
 /// The reason; nullopt if MuJoCo can run.

@@ -9,7 +9,6 @@ NB_MODULE(_prowl, module) {
   using namespace prowl::python;
   module.doc() = "Bindings of Prowl's library; use the package prowl.";
   bind_errors(module);
-  prowl::check_processor();
   bind_files(module);
   bind_robot(module);
   bind_task(module);
