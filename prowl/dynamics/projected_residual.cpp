@@ -61,11 +61,11 @@ void ProjectedResidual::compute_forces(const DynamicsPoint& point) {
   e_ = kinematics_.acceleration() + point.stabilisation.kp * (kinematics_.positions() - point.anchors);
   Jt_ = J.transpose();
   work_f_ = -contact_weight_ * e_;
-  products_.add(work_f_, J, r_);
+  kernels_.add(work_f_, J, r_);
   f_.resize(J.rows());
-  products_.set(f_, gram_inverse_, work_f_);
+  kernels_.set(f_, gram_inverse_, work_f_);
   c_ = r_;
-  products_.add(c_, Jt_, f_, -1.0);
+  kernels_.add(c_, Jt_, f_, -1.0);
   for (std::size_t i = 0; i < chosen_rows_.size(); ++i) {
     f_(chosen_rows_[i]) = point.chosen_forces(static_cast<Eigen::Index>(i));
   }
@@ -94,7 +94,7 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   A_q_ = terms_.dq();
   kinematics_.add_force_derivative(work_f_, A_q_);
   K_.resize(J.rows(), J.cols());
-  products_.set(K_, W, J);
+  kernels_.set(K_, W, J);
 
   // J c = s J J⁺ e: differentiate, solve for df = (J J')⁺ (J A + dJ c - s de). Both dJ c and s de come from one chain
   // pass, since the acceleration is linear in its second argument.
@@ -102,37 +102,37 @@ void ProjectedResidual::evaluate_with_derivatives(const DynamicsPoint& point) {
   kinematics_.set_motion(point.v, work_v_);
   kinematics_.acceleration_dq(work_m_);
   rhs_ = -contact_weight_ * (work_m_ + kp * kinematics_.positions_dq());
-  products_.add(rhs_, J, A_q_);
+  kernels_.add(rhs_, J, A_q_);
   df_.q.resizeLike(rhs_);
-  products_.set(df_.q, W, rhs_);
+  kernels_.set(df_.q, W, rhs_);
   kinematics_.acceleration_dv(work_m_);
   rhs_ = -contact_weight_ * (work_m_ + kd * J);
-  products_.add(rhs_, J, terms_.dv());
+  kernels_.add(rhs_, J, terms_.dv());
   df_.v.resizeLike(rhs_);
-  products_.set(df_.v, W, rhs_);
+  kernels_.set(df_.v, W, rhs_);
   df_.a = -contact_weight_ * K_;
-  products_.add(df_.a, K_, terms_.mass_matrix());
+  kernels_.add(df_.a, K_, terms_.mass_matrix());
   df_.tau = -K_.rightCols(nu);
   df_.e = -contact_weight_ * W;
 
   // dc = A - J' df
   dc_.q = A_q_;
-  products_.add(dc_.q, Jt_, df_.q, -1.0);
+  kernels_.add(dc_.q, Jt_, df_.q, -1.0);
   dc_.v = terms_.dv();
-  products_.add(dc_.v, Jt_, df_.v, -1.0);
+  kernels_.add(dc_.v, Jt_, df_.v, -1.0);
   dc_.a = terms_.mass_matrix();
-  products_.add(dc_.a, Jt_, df_.a, -1.0);
+  kernels_.add(dc_.a, Jt_, df_.a, -1.0);
   dc_.tau.setZero(terms_.nv(), nu);
   dc_.tau.bottomRows(nu).diagonal().setConstant(-1.0);
-  products_.add(dc_.tau, Jt_, df_.tau, -1.0);
+  kernels_.add(dc_.tau, Jt_, df_.tau, -1.0);
   dc_.e = contact_weight_ * K_.transpose();
 
   const auto chosen = static_cast<Eigen::Index>(chosen_rows_.size());
   dc_.w.resize(terms_.nv(), chosen);
   for (Eigen::Index i = 0; i < chosen; ++i) dc_.w.col(i) = -J.row(chosen_rows_[i]);
   df_.w.resize(J.rows(), chosen);
-  products_.set(df_.w, K_, dc_.w);
-  products_.add(dc_.w, Jt_, df_.w, -1.0);
+  kernels_.set(df_.w, K_, dc_.w);
+  kernels_.add(dc_.w, Jt_, df_.w, -1.0);
   for (Eigen::Index i = 0; i < chosen; ++i) df_.w(chosen_rows_[i], i) = 1.0;
 
   e_gains_.resize(J.rows(), 2);
@@ -171,11 +171,11 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   //   d2(mu.c + nu.f) = l1.d2r + s l2.d2e - f.d2J l1 - l2.d2J c - 2 df.dJ l1 - 2 l2.dJ dc.
   // A chosen row enters only by its force w in r: l2 is zero there.
   work_f_ = -nu;
-  products_.add(work_f_, J, mu);
+  kernels_.add(work_f_, J, mu);
   l2_.resize(J.rows());
-  products_.set(l2_, gram_inverse_, work_f_);
+  kernels_.set(l2_, gram_inverse_, work_f_);
   l1_ = mu;
-  products_.add(l1_, Jt_, l2_, -1.0);
+  kernels_.add(l1_, Jt_, l2_, -1.0);
   h.de = contact_weight_ * l2_;
 
   h.set_zero();
@@ -193,31 +193,31 @@ const PointHessian& ProjectedResidual::hessian(const DynamicsPoint& point, const
   kinematics_.acceleration_dq(work_m_);  // d(J l1)/dq
   work_n_.setZero(terms_.nv(), terms_.nv());
   kinematics_.add_force_derivative(l2_, work_n_);
-  products_.add(work_m_, J, work_n_, -1.0);
+  kernels_.add(work_m_, J, work_n_, -1.0);
   const Eigen::Index turning = terms_.nv() - 3, joints = point.tau.size();
   Gt_ = work_m_.rightCols(turning).transpose();
   Nt_ = work_n_.rightCols(turning).transpose();
   cross_.resize(turning, terms_.nv());
-  products_.set(cross_, Gt_, df_.q);
-  products_.add(cross_, Nt_, A_q_);
+  kernels_.set(cross_, Gt_, df_.q);
+  kernels_.add(cross_, Nt_, A_q_);
   h.qq.bottomRows(turning) -= cross_;
   h.qq.rightCols(turning) -= cross_.transpose();
   auto qv = h.qv.bottomRows(turning);
-  products_.add(qv, Gt_, df_.v, -1.0);
-  products_.add(qv, Nt_, terms_.dv(), -1.0);
+  kernels_.add(qv, Gt_, df_.v, -1.0);
+  kernels_.add(qv, Nt_, terms_.dv(), -1.0);
   auto qa = h.qa.bottomRows(turning);
-  products_.add(qa, Gt_, df_.a, -1.0);
-  products_.add(qa, Nt_, terms_.mass_matrix(), -1.0);
+  kernels_.add(qa, Gt_, df_.a, -1.0);
+  kernels_.add(qa, Nt_, terms_.mass_matrix(), -1.0);
   h.qtau.resize(terms_.nv(), joints);
   h.qtau.topRows(3).setZero();
   h.qtau.bottomRows(turning) = Nt_.rightCols(joints);
-  products_.add(h.qtau.bottomRows(turning), Gt_, df_.tau, -1.0);
+  kernels_.add(h.qtau.bottomRows(turning), Gt_, df_.tau, -1.0);
   h.qe.resize(terms_.nv(), J.rows());
   h.qe.topRows(3).setZero();
-  products_.set(h.qe.bottomRows(turning), Gt_, df_.e, -1.0);
+  kernels_.set(h.qe.bottomRows(turning), Gt_, df_.e, -1.0);
   h.qw.resize(terms_.nv(), df_.w.cols());  // A_w = -J' of the chosen rows, whose own 1 in df adds J' again
   h.qw.topRows(3).setZero();
-  products_.set(h.qw.bottomRows(turning), Gt_, df_.w, -1.0);
+  kernels_.set(h.qw.bottomRows(turning), Gt_, df_.w, -1.0);
 
   h.qgains.noalias() = h.qe * e_gains_;
   h.qgains.col(0).noalias() += contact_weight_ * (work_n_.transpose() * point.v);  // l2.d(J v)

@@ -6,7 +6,7 @@
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/projector.hpp"
 #include "prowl/dynamics/rigid_body_terms.hpp"
-#include "prowl/linear_algebra/matrix_products.hpp"
+#include "prowl/linear_algebra/matrix_kernels.hpp"
 
 namespace prowl {
 
@@ -92,7 +92,7 @@ class ProjectedResidual {
   void compute_gram_inverse();
   void add_redundancy();
 
-  MatrixProducts products_;
+  MatrixKernels kernels_;
   double contact_weight_;
   RigidBodyTerms terms_;
   ContactKinematics kinematics_;

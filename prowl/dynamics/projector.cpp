@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "prowl/error.hpp"
-#include "prowl/kernels/dense_kernels.hpp"
-#include "prowl/linear_algebra/matrix_products.hpp"
+#include "prowl/linear_algebra/matrix_kernels.hpp"
 
 namespace prowl {
 
@@ -14,10 +13,7 @@ void Projector::compute(const Eigen::MatrixXd& J, double rank_threshold) {
   if (!J.allFinite()) throw NumericalError("the contact Jacobian is not finite: a configuration is NaN or too large");
   const Eigen::Index rows = J.rows();
   qr_ = J.transpose();
-  tau_.resize(std::min(qr_.rows(), rows));
-  order_.resize(static_cast<std::size_t>(rows));
-  dense_kernels().factorise_qr(static_cast<int>(qr_.rows()), static_cast<int>(rows), qr_.data(),
-                               static_cast<int>(qr_.rows()), order_.data(), tau_.data());
+  MatrixKernels().factorise_qr(qr_, order_, tau_);
   find_rank(rank_threshold);
   if (rank_ < rows) {
     factor_deficient();
@@ -33,14 +29,12 @@ void Projector::compute(const Eigen::MatrixXd& J, double rank_threshold) {
 // J' Π = V R, that is J = Π R' V': U = Π, T = R', (J J')⁻¹ = Π R⁻¹ R'⁻¹ Π'.
 void Projector::factor_full() {
   const Eigen::Index rows = qr_.cols();
-  const int size = static_cast<int>(rows);
   inverse_factor_.resize(rows, rows);
   permuted_gram_.resize(rows, rows);
   gram_inverse_.resize(rows, rows);
   upper_inverse_.setIdentity(rows, rows);
-  dense_kernels().divide_by_upper(size, size, qr_.data(), 1, static_cast<int>(qr_.rows()), false, upper_inverse_.data(),
-                                  size);
-  MatrixProducts().set_lower(permuted_gram_, upper_inverse_, upper_inverse_);
+  MatrixKernels().divide_by_upper(upper_inverse_, qr_);
+  MatrixKernels().set_lower(permuted_gram_, upper_inverse_, upper_inverse_);
   for (Eigen::Index i = 0; i < rows; ++i) {
     inverse_factor_.col(order_[i]) = upper_inverse_.row(i).transpose();
     for (Eigen::Index j = 0; j <= i; ++j) {

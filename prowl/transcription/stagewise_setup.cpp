@@ -17,11 +17,7 @@ using Eigen::VectorXd;
 }  // namespace
 
 StagewiseTranscription::StagewiseTranscription(NodeProgram& nodes)
-    : kernels_(dense_kernels()),
-      nodes_(nodes),
-      discrete_(nodes.discrete()),
-      layout_(nodes.layout()),
-      stages_(nodes.num_nodes()) {
+    : nodes_(nodes), discrete_(nodes.discrete()), layout_(nodes.layout()), stages_(nodes.num_nodes()) {
   for (int k = 0; k < num_stages(); ++k) set_variables(k);
   for (int k = 0; k < num_stages(); ++k) set_functions(k);
   for (int k = 0; k < num_stages(); ++k) set_patterns(k);

@@ -260,15 +260,14 @@ void StagewiseTranscription::add_condensed(int k, const MatrixXd& next_hessian, 
   const int size = stage.size.variables(), next = stage.num_next();
   if (next > 0) {
     const auto& slopes = stage.next_slopes;
-    const SparseColumns columns = {slopes.outerIndexPtr(), slopes.innerIndexPtr(), slopes.valuePtr()};
     work.on_states.resize(next, size);
-    kernels_.set_sparse_product(next, size, next_hessian.data(), next, columns, work.on_states.data(), next);
+    kernels_.set_sparse(work.on_states, next_hessian, slopes);
     work.on_states_transposed = work.on_states.transpose();
-    kernels_.add_lower_sparse_product(size, work.on_states_transposed.data(), size, columns, result.data(), size);
+    kernels_.add_lower_sparse(result, work.on_states_transposed, slopes);
   }
   const int rows = static_cast<int>(stage.row_gradients.cols());
   work.weighted = stage.row_gradients * weights.head(rows).asDiagonal();
-  products_.add_lower(result, stage.row_gradients, work.weighted);
+  kernels_.add_lower(result, stage.row_gradients, work.weighted);
   for (Index i = 0; i < stage.bound_gradients.cols(); ++i) {
     for (Entry column(stage.bound_gradients, i); column; ++column) {
       const double factor = weights(rows + i) * column.value();

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "prowl/kernels/dense_kernels.hpp"
-#include "prowl/linear_algebra/matrix_products.hpp"
+#include "prowl/linear_algebra/matrix_kernels.hpp"
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/transcription/half_step.hpp"
@@ -148,8 +147,7 @@ class StagewiseTranscription : public StagewiseNlp {
   /// The lower triangle, in the variables of the stage.
   static void gather(const Stage& stage, const Eigen::MatrixXd& form, Eigen::MatrixXd& result);
 
-  const DenseKernels& kernels_;
-  MatrixProducts products_;
+  MatrixKernels kernels_;
   NodeProgram& nodes_;
   const DiscreteProblem& discrete_;
   const DecisionLayout& layout_;

@@ -36,11 +36,9 @@ bool has_finite_lower_triangle(const MatrixXd& square) {
   return true;
 }
 
-int stride(const MatrixXd& matrix) { return static_cast<int>(matrix.outerStride()); }
-
 }  // namespace
 
-StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), kernels_(dense_kernels()), num_stages_(nlp.num_stages()) {
+StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages()) {
   stages_.resize(static_cast<std::size_t>(num_stages_));
   for (int k = 0; k < num_stages_; ++k) {
     Stage& s = stage(k);
@@ -150,12 +148,12 @@ bool StageKkt::determine_first_inputs(Stage& s, const MatrixXd& equalities) {
   if (rank > s.size.inputs) return false;
   MatrixXd &lu = work_.lu.of_size(rank, rank), &K = work_.K.of_size(rest, rank);
   lu = equalities.leftCols(rank);
-  s.rows.resize(static_cast<std::size_t>(rank));
+  s.rows.clear();
   if (rank > 0) {
-    if (!(kernels_.factorise_lu(rank, lu.data(), stride(lu), s.rows.data()) > 0.0)) return false;
+    if (!(kernels_.factorise_lu(lu, s.rows) > 0.0)) return false;
     for (int i = 0; i < rank; ++i) K.col(i) = -equalities.row(s.rows[i]).tail(rest).transpose();
-    kernels_.divide_by_upper(rest, rank, lu.data(), stride(lu), 1, true, K.data(), stride(K));   // by L'
-    kernels_.divide_by_lower(rest, rank, lu.data(), stride(lu), 1, false, K.data(), stride(K));  // by U'
+    kernels_.divide_by_upper(K, lu.transpose(), MatrixKernels::Diagonal::ones);  // by L'
+    kernels_.divide_by_lower(K, lu.transpose());                                 // by U'
     if (!lu.diagonal().allFinite() || !(largest_or_nan(K) <= kLargestGain)) return false;
   }
   s.rank = rank;
@@ -189,7 +187,7 @@ void StageKkt::determine_any_inputs(Stage& s, const MatrixXd& equalities) {
     in_states.bottomRows(rows - s.rank).noalias() -= s.lu.bottomRows(rows - s.rank) * determining;
     s.K.topRows(s.free()) = -s.full_lu.matrixLU().block(0, s.rank, s.rank, s.free()).transpose();
     s.K.bottomRows(states) = -determining.transpose();
-    kernels_.divide_by_lower(s.rest(), s.rank, s.lu.data(), stride(s.lu), 1, false, s.K.data(), stride(s.K));  // by U'
+    kernels_.divide_by_lower(s.K, s.lu.transpose());  // by U'
   }
   pass_conditions(s, equalities, in_states);
 }
@@ -212,9 +210,9 @@ void StageKkt::eliminate(Stage& s, MatrixXd& M) {
   const auto M_rd = M.bottomLeftCorner(rest, rank);
   auto N = M.bottomRightCorner(rest, rest);
   s.T = M_rd;  // and half of K M_dd, so that both sides get all of it
-  products_.add(s.T, s.K, s.M_dd, 0.5);
-  products_.add_lower(N, s.T, s.K);
-  products_.add_lower(N, s.K, s.T);
+  kernels_.add(s.T, s.K, s.M_dd, 0.5);
+  kernels_.add_lower(N, s.T, s.K);
+  kernels_.add_lower(N, s.K, s.T);
   s.T = 2.0 * s.T - M_rd;
 }
 
@@ -224,9 +222,9 @@ bool StageKkt::minimise(Stage& s, const Eigen::Ref<const MatrixXd>& N) {
   s.L = N.topLeftCorner(free, free);
   s.G = N.bottomLeftCorner(states, free);
   s.P = N.bottomRightCorner(states, states);
-  if (!kernels_.factorise_cholesky(free, s.L.data(), stride(s.L)) || !s.L.diagonal().allFinite()) return false;
-  kernels_.divide_by_upper(states, free, s.L.data(), stride(s.L), 1, false, s.G.data(), stride(s.G));  // by L'
-  products_.add_lower(s.P, s.G, s.G, -1.0);
+  if (!kernels_.factorise_cholesky(s.L) || !s.L.diagonal().allFinite()) return false;
+  kernels_.divide_by_upper(s.G, s.L.transpose());
+  kernels_.add_lower(s.P, s.G, s.G, -1.0);
   s.P.triangularView<Eigen::StrictlyUpper>() = s.P.transpose();
   return is_finite(s.P);
 }

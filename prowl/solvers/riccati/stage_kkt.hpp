@@ -6,8 +6,7 @@
 #include <deque>
 #include <vector>
 
-#include "prowl/kernels/dense_kernels.hpp"
-#include "prowl/linear_algebra/matrix_products.hpp"
+#include "prowl/linear_algebra/matrix_kernels.hpp"
 #include "prowl/nlp/stagewise_nlp.hpp"
 #include "prowl/solvers/riccati/stage_vectors.hpp"
 
@@ -124,8 +123,7 @@ class StageKkt {
   double find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
 
   StagewiseNlp& nlp_;
-  const DenseKernels& kernels_;
-  MatrixProducts products_;
+  MatrixKernels kernels_;
   int num_stages_;
   std::vector<Stage> stages_;
   Work work_;

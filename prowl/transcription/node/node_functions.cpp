@@ -232,7 +232,7 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
     } else {
       const FrictionLimit& friction = friction_[i];
       const FrictionLimit::Slopes slopes = force_scale_ * friction.slopes(values.forces.segment<3>(3 * i));
-      products_.set(jacobian.middleRows(row, friction.count()), slopes, force);
+      kernels_.set(jacobian.middleRows(row, friction.count()), slopes, force);
     }
   }
   auto limits = jacobian.bottomRows(num_rows(k) - torque_row(k));
@@ -326,7 +326,7 @@ void NodeFunctions::set_force_hessian(const NodePoint& point, double cost_factor
     bent_.middleCols<3>(rows).noalias() = bending_.middleCols<3>(rows).lazyProduct(curvature);
     rows += 3;
   }
-  products_.set_lower(result, bending_.leftCols(rows), bent_.leftCols(rows));
+  kernels_.set_lower(result, bending_.leftCols(rows), bent_.leftCols(rows));
 }
 
 // Curvature of c and f.

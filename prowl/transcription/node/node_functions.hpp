@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "prowl/dynamics/projected_residual.hpp"
-#include "prowl/linear_algebra/matrix_products.hpp"
+#include "prowl/linear_algebra/matrix_kernels.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/motion/friction_limit.hpp"
 #include "prowl/transcription/hessian_kind.hpp"
@@ -125,7 +125,7 @@ class NodeFunctions {
   void add_dynamics_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
   void add_limits_hessian(const NodePoint& point, const Eigen::VectorXd& multipliers, Eigen::MatrixXd& result);
 
-  MatrixProducts products_;
+  MatrixKernels kernels_;
   int nv_, nu_, num_chosen_, intervals_;
   HessianKind hessian_kind_ = HessianKind::exact;
   bool free_duration_;
