@@ -26,7 +26,9 @@ constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3
 constexpr double kLargestEstimate = 1e3;  ///< larger estimates are discarded
 constexpr double kNearlyFeasibleRows = 1e-2, kHugeMultiplier = 1e5;
 constexpr double kLargestCostSlope = 100.0;
-constexpr double kStepAccuracy = 1e-2;  ///< residual of Newton's equations over the tolerance
+/// Residual of Newton's equations over the tolerance, and over the error of the iterate: far from the solution the next
+/// error is that of the linearisation, and refining the step costs as much as half a factorisation.
+constexpr double kStepAccuracy = 1e-2, kFarStepAccuracy = 1e-4;
 
 /// First mu times the number of stages. The cost is an integral, the barrier a sum over stages: for
 /// equal weights on each mesh mu must scale with the step (HyQ rear, cold start, 350 intervals: 59
@@ -318,7 +320,8 @@ void InteriorPoint::solve_direction(double cost_scale, const VectorXd& residual)
   slacks_.pull(mu_, beta_);
   step_lambda_ = beta_ + sigma_.cwiseProduct(residual);
   set_gradient(cost_scale, step_lambda_);
-  kkt_.solve(gradient_, right_equalities_, right_links_, kStepAccuracy * options_.tolerance);
+  const double accuracy = std::max(kStepAccuracy * options_.tolerance, kFarStepAccuracy * error(0.0));
+  kkt_.solve(gradient_, right_equalities_, right_links_, accuracy);
   for (int k = 0; k < num_stages_; ++k) segment(ds_, k) = kkt_.along_inequalities()[k];
   ds_ += residual;
   step_lambda_ = beta_ + sigma_.cwiseProduct(ds_);

@@ -59,7 +59,7 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
 }
 
 void StageKkt::determine_inputs() {
-  is_exact_ = true;
+  neglected_ = 0.0;
   num_pivoted_ = 0;
   for (int k = num_stages_ - 1; k >= 0; --k) {
     Stage& s = stage(k);
@@ -138,7 +138,8 @@ int StageKkt::count_independent(const MatrixXd& equalities, const Pivots& pivots
   const double scale = equalities.cwiseAbs().maxCoeff();
   int count = 0;
   while (count < pivots.size() && std::abs(pivots(count)) > kDependent * scale) ++count;
-  is_exact_ = is_exact_ && (count == pivots.size() || std::abs(pivots(count)) < kPivotRounding * scale);
+  const double next = count < pivots.size() ? std::abs(pivots(count)) : 0.0;
+  if (!(next < kPivotRounding * scale)) neglected_ = std::max(neglected_, next);
   return count;
 }
 

@@ -112,13 +112,14 @@ class StageKkt {
   void eliminate(Stage& stage, Eigen::MatrixXd& M);
   bool minimise(Stage& stage, const Eigen::Ref<const Eigen::MatrixXd>& N);
   void pass_conditions(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& in_states);
-  /// Number of significant pivots of a stage's equalities; sets is_exact_.
+  /// Number of significant pivots of a stage's equalities; updates neglected_.
   template <class Pivots>
   int count_independent(const Eigen::MatrixXd& equalities, const Pivots& pivots);
   Outcome factorise_stage(int k);
   void backward(int k, const Eigen::VectorXd& gradient, const Eigen::VectorXd& equalities, const Eigen::VectorXd* link);
   void forward(int k, const Eigen::VectorXd* link);
   void find_multipliers(int k);
+  double left_out() const;
   void solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
   double find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
 
@@ -129,7 +130,7 @@ class StageKkt {
   Work work_;
   StageVectors steps_, on_equalities_, on_next_, along_inequalities_;
   int last_stage_ = 0, num_pivoted_ = 0;
-  bool is_exact_ = true;  ///< only rounding was left out
+  double neglected_ = 0.0;  ///< largest coefficient that was left out of an equality; 0 if only rounding was
   Hessian hessian_ = Hessian::lagrangian;
   double delta_ = 0.0;
   StageVectors weights_;

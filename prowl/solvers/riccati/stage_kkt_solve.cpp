@@ -25,7 +25,7 @@ void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalitie
   solve_once(gradient, equalities, links);
   // Large weights cost digits of the other curvature.
   const bool weighs_little = largest(weights_) * std::numeric_limits<double>::epsilon() <= accuracy;
-  if (is_exact_ && weighs_little) return;
+  if (left_out() <= accuracy && weighs_little) return;
   sum_.steps = steps_;
   sum_.on_equalities = on_equalities_;
   sum_.on_next = on_next_;
@@ -50,6 +50,16 @@ void StageKkt::solve(const StageVectors& gradient, const StageVectors& equalitie
   on_equalities_ = sum_.on_equalities;
   on_next_ = sum_.on_next;
   along_inequalities_ = sum_.along_inequalities;
+}
+
+/// A bound on the residual by coefficients that determine_inputs() neglects.
+double StageKkt::left_out() const {
+  if (neglected_ == 0.0) return 0.0;
+  double largest_sum = 0.0;
+  for (int k = 0; k < num_stages_; ++k) {
+    largest_sum = std::max({largest_sum, steps_[k].lpNorm<1>(), stages_[k].on_rows.lpNorm<1>()});
+  }
+  return neglected_ * largest_sum;
 }
 
 /// Residual of the equations at the sum of the solutions so far.
