@@ -20,14 +20,13 @@ ALLOWED = {
     "prowl/kernels": [],
     "prowl/linear_algebra": ["prowl/kernels"],
     "prowl/model": ["prowl/text", "prowl/linear_algebra"],
-    "prowl/dynamics": ["prowl/kernels", "prowl/linear_algebra", "prowl/model"],
+    "prowl/dynamics": ["prowl/linear_algebra", "prowl/model"],
     "prowl/motion": ["prowl/model", "prowl/dynamics"],
     "prowl/trajectory": ["prowl/model"],
     "prowl/nlp": [],  # knows no robots
     "prowl/mesh": ["prowl/motion", "prowl/trajectory", "prowl/nlp"],
     "prowl/guess": ["prowl/model", "prowl/dynamics", "prowl/trajectory", "prowl/mesh"],
     "prowl/transcription": [
-        "prowl/kernels",
         "prowl/linear_algebra",
         "prowl/model",
         "prowl/dynamics",
@@ -36,7 +35,7 @@ ALLOWED = {
         "prowl/nlp",
         "prowl/mesh",
     ],
-    "prowl/solvers": ["prowl/kernels", "prowl/linear_algebra", "prowl/nlp"],
+    "prowl/solvers": ["prowl/files", "prowl/linear_algebra", "prowl/nlp"],
     "prowl/feasibility": [
         "prowl/linear_algebra",
         "prowl/model",
