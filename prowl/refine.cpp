@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "prowl/mesh/first_mesh.hpp"
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/mesh/mesh_refinement.hpp"
 #include "prowl/nlp/stopwatch.hpp"
@@ -52,7 +53,7 @@ struct Candidate {
 class Meshes {
  public:
   Meshes(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options)
-      : asked_(asked), solver_(solver), options_(options), coarse_first_(options.coarse_first) {
+      : asked_(asked), solver_(solver), options_(options) {
     options_.coarse_first = false;
   }
 
@@ -79,11 +80,10 @@ class Meshes {
     options_.warm_start_multipliers.clear();
     return solve(mesh);
   }
-  /// The first mesh that converges, from the coarsest on; each starts from the one before, as in make_plan().
-  Candidate begin(const Mesh& mesh) {
-    const bool from_coarse = coarse_first_ && options_.warm_start.empty();
+  /// The first of these meshes that converges; each starts from the one before, as in make_plan().
+  Candidate begin(const std::vector<Mesh>& meshes) {
     std::optional<Candidate> first;
-    for (const Mesh& level : from_coarse ? mesh_levels(asked_.problem, mesh) : std::vector{mesh}) {
+    for (const Mesh& level : meshes) {
       const bool goes_on = first && is_worth_going_on_from(first->plan.result.status);
       first = goes_on ? solve_from(first->plan, level) : solve(level);
       const SolveStatus status = first->plan.result.status;
@@ -107,7 +107,6 @@ class Meshes {
   const DiscreteProblem& asked_;
   const NlpSolver& solver_;
   PlanOptions options_;
-  bool coarse_first_;
   double begin_ = wall_seconds();
   SolveResult total_;
   std::vector<LevelResult> levels_;
@@ -133,6 +132,13 @@ class Progress {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
+/// Meshes to begin on, until one converges.
+std::vector<Mesh> first_meshes(const DiscreteProblem& asked, const PlanOptions& options, const RefineOptions& refine) {
+  if (!options.coarse_first || !options.warm_start.empty()) return {asked.mesh};
+  if (refine.ends_when_met) return {asked.mesh, split(asked.mesh, 2), split(asked.mesh, 4)};
+  return mesh_levels(asked.problem, asked.mesh);
+}
+
 std::string hint(const Candidate& best, const std::string& stopped) {
   return fmt::format(
       "mesh refinement stopped, {}: errors of {} of {} intervals exceed the tolerance, the worst is {:.3g} times the "
@@ -146,7 +152,7 @@ RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& sol
                               const RefineOptions& refine) {
   Meshes meshes(asked, solver, options);
   Progress progress;
-  Candidate now = meshes.begin(asked.mesh);
+  Candidate now = meshes.begin(first_meshes(asked, options, refine));
   std::optional<Candidate> best;
   std::string stopped;
   for (int round = 1; now.plan.result.status == SolveStatus::converged; ++round) {
@@ -159,7 +165,8 @@ RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& sol
     if (!best || now.is_better_than(*best)) best = now;
     const Mesh next = refined(asked.problem, now.plan.mesh, now.parts);
     const int intervals = next.num_intervals();
-    if (now.meets_tolerance && intervals > kWorthMerging * now.intervals()) break;
+    const bool is_enough = refine.ends_when_met ? certificate.passed : intervals > kWorthMerging * now.intervals();
+    if (now.meets_tolerance && is_enough) break;
     if (progress.is_over(now)) stopped = fmt::format("no progress in {} rounds", kPatience);
     if (round >= refine.max_rounds) stopped = fmt::format("after {} meshes", round);
     if (intervals > kMostIntervals) stopped = fmt::format("the next mesh would have {} intervals", intervals);

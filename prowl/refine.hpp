@@ -17,6 +17,9 @@ struct RefineRound {
 
 struct RefineOptions {
   MeshTolerance tolerance;
+  /// Ends at the first plan that passes and meets the tolerance, rather than saving more intervals. The mesh of the
+  /// problem is only a start: where its solve fails, halves of its intervals are tried, then quarters.
+  bool ends_when_met = false;
   int max_rounds = 12;                                    ///< solved meshes, including the first
   std::function<void(const RefineRound&)> on_round = {};  ///< after each mesh that converged; may be empty
 };
@@ -28,9 +31,9 @@ struct RefinedPlan {
 };
 
 /// Repeats make_plan() on meshes that follow the errors measured on the one before (mesh_refinement.hpp), each from the
-/// motion of the last. Starts on the coarsest mesh of make_plan(); ends when the motion meets the tolerance and the
-/// next mesh would save less than a fifth of the intervals. SolverOptions::max_seconds is for all meshes and
-/// certificates: no mesh begins after it.
+/// motion of the last. Starts on the coarsest mesh of make_plan(); ends when the motion meets the tolerance and,
+/// without ends_when_met, the next mesh would save less than a fifth of the intervals. SolverOptions::max_seconds is
+/// for all meshes and certificates: no mesh begins after it.
 ///
 /// Returns the plan with the fewest intervals among those that meet the tolerance, preferring those that pass their
 /// certificate; otherwise the plan nearest to the tolerance. A mesh without convergence, or an interrupt, ends it.

@@ -94,9 +94,11 @@ std::string plan_summary(const PlanRecord& record, const std::string& when) {
     return text;
   }
   std::string text = fmt::format("{} {}{}: {}\n", problem.robot.name(), problem.name, when, in_words(result.status));
-  text += fmt::format("  mesh         {} phase{}, {} intervals, {:g} s; {} variables, {} constraints\n",
+  const bool is_refined = !record.task.has_intervals && record.plan.levels.size() > 1;
+  const std::string from = is_refined ? fmt::format(", refined from {}", record.plan.levels.front().intervals) : "";
+  text += fmt::format("  mesh         {} phase{}, {} intervals{}, {:g} s; {} variables, {} constraints\n",
                       problem.phases.size(), problem.phases.size() == 1 ? "" : "s", record.plan.mesh.num_intervals(),
-                      duration, record.plan.num_variables, record.plan.num_constraints);
+                      from, duration, record.plan.num_variables, record.plan.num_constraints);
   text += fmt::format("  solver       {}: {}, {:.2f} s (problem {:.2f} s)\n", record.plan.solver,
                       iterations_in_words(record.plan), result.seconds, result.times.evaluation());
   if (!record.warm_start.empty()) text += fmt::format("  started from {}\n", record.warm_start);

@@ -42,7 +42,8 @@ PlanRecord read_resumable(const std::string& folder, const PackageSearch& search
                           Task& task) {
   PlanRecord record = read_plan(folder, search);
   std::vector<Mesh> meshes;
-  if (!request.refine) {
+  const bool is_refined = refinement_goal(request, task).has_value();
+  if (!is_refined) {
     meshes = request.coarse_first ? mesh_levels(task.problem, task.mesh) : std::vector{task.mesh};
   }
   try {
@@ -50,7 +51,7 @@ PlanRecord read_resumable(const std::string& folder, const PackageSearch& search
   } catch (const InputError& error) {
     throw InputError(fmt::format("--resume {}: {}", folder, error.what()));
   }
-  if (request.refine) task.mesh = record.plan.mesh;
+  if (is_refined) task.mesh = record.plan.mesh;
   return record;
 }
 

@@ -86,7 +86,11 @@ std::vector<ComparedRun> combinations(const CompareArguments& arguments, const M
 /// The task on each mesh.
 std::vector<Task> read_tasks(const CompareArguments& arguments) {
   const PackageSearch search = package_search(arguments.package_dirs);
-  if (arguments.intervals.empty()) return {read_task_file(arguments.task, search, arguments.overrides)};
+  if (arguments.intervals.empty()) {
+    Task task = read_task_file(arguments.task, search, arguments.overrides);
+    if (task.has_intervals) return {std::move(task)};
+    throw InputError(arguments.task + ": no intervals; need --intervals: all formulations are compared on one mesh");
+  }
   std::vector<Task> tasks;
   for (const int intervals : arguments.intervals) {
     TaskOverrides overrides = arguments.overrides;

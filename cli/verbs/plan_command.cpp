@@ -106,7 +106,7 @@ std::optional<PlanRecord> read_earlier_plan(const PlanArguments& arguments, cons
 void advise(const PlanArguments& arguments, const PlannedTask& planned, int status, const std::filesystem::path& out) {
   const bool may_go_on = !is_good(planned.record.plan) && (status == kLimit || status == kInterrupted);
   const int reached = planned.record.plan.mesh.num_intervals(), wanted = planned.record.task.mesh.num_intervals();
-  if (may_go_on && !arguments.request.refine && reached < wanted) {
+  if (may_go_on && !refinement_goal(arguments.request, planned.record.task) && reached < wanted) {
     print_note(fmt::format("stopped on a coarse mesh of {} intervals instead of {}; the certificate is for that mesh",
                            reached, wanted));
   }
@@ -136,7 +136,8 @@ int run_plan(const PlanArguments& arguments) {
   ProgressPrinter progress;
   progress.watch(request);
   request.interrupt = &interrupted;
-  request.on_round = [&](const RefineRound& round) { print_progress(in_words(round, *request.refine)); };
+  const std::optional<MeshTolerance> tolerance = refinement_goal(request, task);
+  request.on_round = [&](const RefineRound& round) { print_progress(in_words(round, *tolerance)); };
   std::optional<ProgressBar> gains;
   request.on_gain = [&](int done, int samples) {
     if (!gains) gains.emplace("gains", samples, ProgressBar::Opening::if_long);

@@ -7,8 +7,10 @@
 
 namespace prowl {
 
-constexpr double kIntervalsPerSecond = 50.0;  ///< default of gaits [1/s]
-constexpr int kMostIntervals = 10000;         ///< of a motion; more would be a typing mistake, and gigabytes of memory
+constexpr int kMostIntervals = 10000;  ///< of a motion; more would be a typing mistake, and gigabytes of memory
+
+/// Largest ratio of a step to the one before it in its phase: the gains of contacts allow no more (node_functions.cpp).
+constexpr double kMostGrowth = 4.0;
 
 /// Division of a phase of any duration into mesh intervals. Node k = 0 ... intervals() is the end of interval k - 1.
 class PhaseMesh {

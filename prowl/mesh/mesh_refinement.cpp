@@ -15,8 +15,6 @@ constexpr int kMost = 4;  // pieces of an interval, or intervals in one: an erro
 constexpr double kMergeBelow = 0.25;
 constexpr double kLongest = 0.25;         // of a phase, for merged intervals: a swing must lift off, pass and land
 constexpr double kLengthRounding = 1e-9;  // of a phase
-/// Ratio of a step to the one before: the gains of contacts allow no more (node_functions.cpp).
-constexpr double kMostGrowth = 4.0;
 
 /// Splits and merges the intervals of one phase.
 class PhaseIntervals {

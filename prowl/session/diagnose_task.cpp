@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "prowl/error.hpp"
+#include "prowl/mesh/first_mesh.hpp"
 #include "prowl/solvers/make_solver.hpp"
 
 namespace prowl {
@@ -17,7 +18,9 @@ Diagnosis diagnose_task(const Task& task, DiagnosisOptions options) {
   solver.interrupt = options.solver.interrupt;
   solver.on_iteration = std::move(options.solver.on_iteration);
   options.solver = std::move(solver);
-  return diagnose({task.problem, task.mesh}, *make_solver(solver_names().front()), *make_solver("ipopt"), options);
+  // What prowl plan ends with is about as fine.
+  const Mesh mesh = task.has_intervals ? task.mesh : split(task.mesh, 4);
+  return diagnose({task.problem, mesh}, *make_solver(solver_names().front()), *make_solver("ipopt"), options);
 }
 
 }  // namespace prowl

@@ -83,6 +83,11 @@ const std::string& solver_name(const PlanRequest& request) {
   return request.solver.empty() ? solver_names().front() : request.solver;
 }
 
+std::optional<MeshTolerance> refinement_goal(const PlanRequest& request, const Task& task) {
+  if (request.refine || task.has_intervals) return request.refine;
+  return mesh_tolerance(CertificateGrade::draft);
+}
+
 void check(const PlanRequest& request) {
   if (request.threads < 1 || request.threads > kMostThreads) {
     throw InputError(fmt::format("threads: {} is not allowed; need 1 to {}", request.threads, kMostThreads));
@@ -95,6 +100,13 @@ void check(const PlanRequest& request) {
 
 PlannedTask plan_task(Task task, const PlanRequest& request) {
   check(request);
+  const std::optional<MeshTolerance> tolerance = refinement_goal(request, task);
+  if (!task.has_intervals && !request.coarse_first) {
+    throw InputError("one mesh: the task has no intervals; need --intervals, or intervals in its phases");
+  }
+  const RefineOptions refine{.tolerance = tolerance.value_or(MeshTolerance{}),
+                             .ends_when_met = !task.has_intervals && !request.refine,
+                             .on_round = request.on_round};
   const DiscreteProblem asked(task.problem, task.mesh);
   const std::unique_ptr<NlpSolver> solver = make_solver(solver_name(request));
   std::unique_ptr<NlpSolver> hint_solver;
@@ -119,9 +131,8 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
                                  .warm_start = request.warm_start.folder},
                       .why_no_gains = {}};
   Plan& plan = planned.record.plan;
-  if (request.refine) {
-    RefinedPlan refined =
-        make_refined_plan(asked, *solver, options, {.tolerance = *request.refine, .on_round = request.on_round});
+  if (tolerance) {
+    RefinedPlan refined = make_refined_plan(asked, *solver, options, refine);
     plan = std::move(refined.plan);
     planned.interrupted = refined.interrupted;
   } else {

@@ -23,8 +23,9 @@ struct PlanRequest {
   std::string solver;  ///< one of solver_names(); "" for the first
   int threads = 1;     ///< 1 to kMostThreads
   HessianKind hessian = HessianKind::exact;
-  bool coarse_first = true;                  ///< false: solve on the mesh of the task only
-  std::optional<MeshTolerance> refine = {};  ///< refine the mesh until its errors meet this
+  bool coarse_first = true;  ///< false: solve on the mesh of the task only
+  /// Refine the mesh until its errors meet this; nullopt: that of grade draft if the task has no intervals, else not.
+  std::optional<MeshTolerance> refine = {};
   WarmStart warm_start = {};
   bool gains = true;  ///< design feedback gains for a plan that is good
 
@@ -46,6 +47,9 @@ struct PlannedTask {
 };
 
 const std::string& solver_name(const PlanRequest& request);  ///< of the request or the default
+
+/// What the mesh is refined to; nullopt: it is not.
+std::optional<MeshTolerance> refinement_goal(const PlanRequest& request, const Task& task);
 
 /// Throws InputError for an unknown solver or more threads than it can use. plan_task() calls it,
 /// too; call it earlier to fail before the task is read.

@@ -25,6 +25,7 @@ struct TaskOverrides {
 struct Task {
   MotionProblem problem;
   Mesh mesh;
+  bool has_intervals = true;  ///< false: `mesh` is first_mesh(), which planning refines
   SolverOptions solver;
   TrackingOptions tracking;
   SuccessCriteria success = {};                   ///< of simulations

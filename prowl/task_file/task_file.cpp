@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "prowl/error.hpp"
+#include "prowl/mesh/first_mesh.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/motion/duration_limits.hpp"
@@ -156,10 +157,11 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
   return contacts;
 }
 
-/// Phases of the file and their mesh; for phases with free steps their key `steps`.
+/// Phases of the file and their intervals, empty if the file does not say; for phases with free steps their key
+/// `steps`.
 struct FilePhases {
   std::vector<Phase> phases;
-  Mesh mesh;
+  std::vector<int> intervals;
   std::vector<std::optional<TomlValue>> free_steps;
 };
 
@@ -176,9 +178,11 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
     phase.contacts = read_phase_contacts(table.need("contacts"), names);
     const TomlBounds duration = table.need("duration_s").as_range();
     phase.duration = {duration.lower, duration.upper};
-    read.mesh.phases.emplace_back(table.need("intervals").as_integer());
+    const auto intervals = table.find("intervals");
+    if (intervals) read.intervals.push_back(intervals->as_integer());
     auto steps = table.find("steps");
     if (steps && steps->as_choice("kind of steps") == "equal") steps.reset();
+    if (steps && !intervals) steps->fail("free steps need the key intervals: each interval has a duration of its own");
     if (steps && phase.duration.is_fixed()) {
       steps->fail("a fixed duration has no free steps; need duration_s = [min, max]");
     }
@@ -186,6 +190,12 @@ FilePhases read_phases(const TomlTable& root, const ContactNames& names) {
     read.free_steps.push_back(steps);
   }
   if (read.phases.empty()) root.need("phase").fail("an empty list is not allowed; need one phase or more");
+  if (!read.intervals.empty() && read.intervals.size() < read.phases.size()) {
+    for (const TomlTable& table : root.find_tables("phase")) {
+      if (!table.find("intervals"))
+        table.value().fail("no intervals, which other phases have; need all of them or none");
+    }
+  }
   return read;
 }
 
@@ -198,7 +208,7 @@ Mesh mesh_of(const std::vector<int>& intervals) {
 
 /// Splits a phase with free steps into phases of one interval: each step is a duration between the
 /// phase's bounds / intervals. Conditions stay at their nodes.
-void split_free_steps(FilePhases& read, std::vector<BoundaryConstraint>& constraints) {
+void split_free_steps(FilePhases& read, Mesh& mesh_of_file, std::vector<BoundaryConstraint>& constraints) {
   std::vector<Phase> pieces;
   Mesh mesh;
   std::vector<int> first;
@@ -207,10 +217,10 @@ void split_free_steps(FilePhases& read, std::vector<BoundaryConstraint>& constra
     first.push_back(static_cast<int>(pieces.size()));
     if (!read.free_steps[p]) {
       pieces.push_back(phase);
-      mesh.phases.push_back(read.mesh.phases[p]);
+      mesh.phases.push_back(mesh_of_file.phases[p]);
       continue;
     }
-    const int n = read.mesh.phases[p].intervals();
+    const int n = mesh_of_file.phases[p].intervals();
     if (n > kMostFreeSteps) {
       read.free_steps[p]->fail(
           fmt::format("{} free steps are not allowed; need at most {}: each is a phase of its own", n, kMostFreeSteps));
@@ -226,23 +236,26 @@ void split_free_steps(FilePhases& read, std::vector<BoundaryConstraint>& constra
   }
   for (BoundaryConstraint& constraint : constraints) {
     const auto p = static_cast<std::size_t>(constraint.at.phase);
-    const int node = read.free_steps[p] ? read.mesh.phases[p].node_at(constraint.at.fraction).value() : 0;
+    const int node = read.free_steps[p] ? mesh_of_file.phases[p].node_at(constraint.at.fraction).value() : 0;
     constraint.at =
         node == 0 ? PhaseFraction{first[p], constraint.at.fraction} : PhaseFraction::end_of(first[p] + node - 1);
   }
   read.phases = std::move(pieces);
-  read.mesh = std::move(mesh);
+  mesh_of_file = std::move(mesh);
 }
 
 void check_lengths(const TomlTable& root, const FilePhases& read) {
   double seconds = 0.0;
   for (const Phase& phase : read.phases) seconds += phase.duration.max;
-  if (const int total = read.mesh.num_intervals(); total > kMostIntervals) {
-    root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
-  }
   if (seconds > kLongestMotion) {
     root.value().fail(
         fmt::format("phases of {:g} s in all are not allowed; need at most {:g} s", seconds, kLongestMotion));
+  }
+}
+
+void check_intervals(const TomlTable& root, const Mesh& mesh) {
+  if (const int total = mesh.num_intervals(); total > kMostIntervals) {
+    root.value().fail(fmt::format("{} mesh intervals in all are not allowed; need at most {}", total, kMostIntervals));
   }
 }
 
@@ -277,6 +290,7 @@ SolverOptions read_solver(const TomlTable& root, const TaskOverrides& overrides)
 struct FileProblem {
   MotionProblem problem;
   Mesh mesh;
+  bool has_intervals;
   std::vector<int> file_intervals;  ///< see Task
 };
 
@@ -288,20 +302,33 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
   const TaskStart start = read_start(root, robot, robot_file, surfaces);
   const std::optional<TaskGait> gait = read_gait(root, robot, surfaces, start);
-  FilePhases read = gait ? FilePhases{gait->phases, gait->mesh, {}} : read_phases(root, names);
+  FilePhases read = gait ? FilePhases{gait->phases, gait->intervals, {}} : read_phases(root, names);
   read.free_steps.resize(read.phases.size());
-  std::vector<int> file_intervals;
-  for (const PhaseMesh& phase : read.mesh.phases) file_intervals.push_back(phase.intervals());
-  if (overrides.intervals) read.mesh = mesh_of(share_intervals(file_intervals, *overrides.intervals));
   check_lengths(root, read);
+  const bool has_intervals = !read.intervals.empty() || overrides.intervals;
+  std::vector<int> file_intervals = read.intervals;
+  if (file_intervals.empty()) {
+    for (const PhaseMesh& phase : first_mesh(read.phases, {}).phases) file_intervals.push_back(phase.intervals());
+  }
+  std::optional<Mesh> equal_steps;
+  if (overrides.intervals) {
+    equal_steps = mesh_of(share_intervals(file_intervals, *overrides.intervals));
+  } else if (has_intervals) {
+    equal_steps = mesh_of(file_intervals);
+  }
+  if (equal_steps) check_intervals(root, *equal_steps);
 
   std::vector<BoundaryConstraint> constraints = {start_constraint(robot, start.q)};
-  for (BoundaryConstraint& goal : read_goals(root, robot, start, read.phases, read.mesh))
+  for (BoundaryConstraint& goal : read_goals(root, robot, start, read.phases, equal_steps))
     constraints.push_back(std::move(goal));
   if (gait && gait->displacement) {
     constraints.push_back(arrival(robot, start, *gait->displacement, static_cast<int>(read.phases.size())));
   }
-  split_free_steps(read, constraints);
+  std::vector<PhaseFraction> moments;
+  for (const BoundaryConstraint& constraint : constraints) moments.push_back(constraint.at);
+  Mesh mesh = equal_steps ? std::move(*equal_steps) : first_mesh(read.phases, moments);
+  check_intervals(root, mesh);
+  split_free_steps(read, mesh, constraints);
 
   MotionProblem problem{.name = "",
                         .robot = std::move(robot),
@@ -321,7 +348,7 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
         model->as_choice("friction model") == "cone" ? FrictionModel::cone : FrictionModel::pyramid;
   }
   read_costs(root, problem);
-  return {std::move(problem), std::move(read.mesh), std::move(file_intervals)};
+  return {std::move(problem), std::move(mesh), has_intervals, std::move(file_intervals)};
 }
 
 std::filesystem::path robot_path(const TomlDocument& document, const SourceText& task_file, const TomlTable& root) {
@@ -364,7 +391,7 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
   check_overrides(task_file, overrides);
   const SolverOptions solver = read_solver(root, overrides);
   const TaskSimulation simulation = read_simulation(root);
-  auto [problem, mesh, file_intervals] =
+  auto [problem, mesh, has_intervals, file_intervals] =
       read_problem(root, robot_of(document, robot_file, search, urdf), robot_file, overrides);
   const auto name = root.find("name");
   problem.name = name ? name->as_name() : name_of_file(task_file.path);
@@ -376,6 +403,7 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
   TrackingOptions tracking = read_tracking(root, problem.robot);
   return {.problem = std::move(problem),
           .mesh = std::move(mesh),
+          .has_intervals = has_intervals,
           .solver = solver,
           .tracking = std::move(tracking),
           .success = simulation.success,

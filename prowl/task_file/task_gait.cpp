@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/gait.hpp"
 
 namespace prowl {
@@ -56,10 +57,11 @@ Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
   return gait;
 }
 
-/// Reads intervals_per_second [1/s], for phases at their longest.
-double read_intervals_per_second(const TomlTable& table, const Gait& gait) {
+/// Reads intervals_per_second [1/s], for phases at their longest; nullopt if the file does not say.
+std::optional<double> read_intervals_per_second(const TomlTable& table, const Gait& gait) {
   const auto value = table.find("intervals_per_second");
-  const double rate = value ? value->as_number() : kIntervalsPerSecond;
+  if (!value) return std::nullopt;
+  const double rate = value->as_number();
   const double seconds = gait.start + gait.strides * gait.stride.max + gait.settle;
   if (const double intervals = seconds * rate; intervals > kMostIntervals) {
     table.value().fail(fmt::format("{:.0f} mesh intervals, {:g} s of {:g} a second, are not allowed; need at most {}",
@@ -93,10 +95,13 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
   if (root.find("phase")) table->value().fail("the file also has [[phase]]; need one of the two");
   const Feet feet = need_feet(*table, robot);
   const Gait gait = read_values(*table, surfaces);
-  const double rate = read_intervals_per_second(*table, gait);
+  const std::optional<double> rate = read_intervals_per_second(*table, gait);
   std::vector<Phase> phases = expand(gait, robot, feet);
-  Mesh mesh = mesh_with_rate(phases, rate);
-  return TaskGait{std::move(phases), std::move(mesh),
+  std::vector<int> intervals;
+  if (rate) {
+    for (const PhaseMesh& phase : mesh_with_rate(phases, *rate).phases) intervals.push_back(phase.intervals());
+  }
+  return TaskGait{std::move(phases), std::move(intervals),
                   read_displacement(root, *table, gait, surfaces[gait.surface], start)};
 }
 

@@ -4,16 +4,15 @@
 #include <optional>
 #include <vector>
 
-#include "prowl/mesh/mesh.hpp"
 #include "prowl/task_file/task_goals.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
 
 namespace prowl {
 
-/// Phases, mesh and displacement of [gait].
+/// Phases, intervals and displacement of [gait].
 struct TaskGait {
   std::vector<Phase> phases;
-  Mesh mesh;
+  std::vector<int> intervals;                   ///< of each phase; empty if the file does not say
   std::optional<Eigen::Vector3d> displacement;  ///< of the base, world frame [m]; nullopt if the file has goals
 };
 

@@ -29,16 +29,22 @@ std::vector<NodeTime> node_times(const std::vector<Phase>& phases, const Mesh& m
   return nodes;
 }
 
-PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& phases, const Mesh& mesh) {
+PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& phases,
+                             const std::optional<Mesh>& mesh) {
   constexpr double kSameTime = 1e-6;  // [s]; decimal fractions in files are not exact node times
   const double time = value.as_number();
-  const std::vector<NodeTime> nodes = node_times(phases, mesh);
+  const Mesh ends{std::vector(phases.size(), PhaseMesh(1))};
+  const std::vector<NodeTime> nodes = node_times(phases, mesh.value_or(ends));
   const auto after =
       std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
   if (after == nodes.end()) {
     value.fail(fmt::format("{:g} is after the end; need 0 < time <= {:g} [s]", time, nodes.back().time));
   }
   if (after->time <= time + kSameTime) return after->at;
+  if (!mesh) {
+    const double left = after->time - time;
+    return {after->at.phase, 1.0 - left / phases[after->at.phase].duration.min};
+  }
   if (after == nodes.begin()) {
     value.fail(
         fmt::format("{:g} is not at a node of the mesh; the first after the start is {:.6g} [s]", time, after->time));
@@ -59,7 +65,7 @@ double fraction_at_node(const TomlValue& value, const PhaseMesh& mesh) {
   return mesh.node_time(static_cast<int>(std::lround(node)), 1.0);
 }
 
-PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phases, const Mesh& mesh) {
+PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phases, const std::optional<Mesh>& mesh) {
   const auto time = goal.find("time_s");
   const auto phase = goal.find("phase");
   const auto fraction = goal.find("fraction");
@@ -71,13 +77,14 @@ PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phase
     }
     return moment_at_time(*time, phases, mesh);
   }
-  if (!phase) return moment_at_time(goal.need("time_s"), phases, mesh);  // perhaps misspelt
+  if (!phase) return PhaseFraction::end_of(static_cast<int>(phases.size()) - 1);
   std::vector<std::string> names;
   for (const Phase& p : phases) names.push_back(p.name);
   const auto found = std::find(names.begin(), names.end(), phase->as_text());
   if (found == names.end()) phase->fail_unknown_name("phase", names);
   const auto index = static_cast<int>(found - names.begin());
-  return {index, fraction ? fraction_at_node(*fraction, mesh.phases[index]) : 1.0};
+  if (!fraction) return PhaseFraction::end_of(index);
+  return {index, mesh ? fraction_at_node(*fraction, mesh->phases[index]) : fraction->as_number()};
 }
 
 /// Reads bounds of three entries, minus `origin`, into rows first ... first + 2 of lower and upper.
@@ -208,7 +215,7 @@ BoundaryConstraint arrival(const RobotModel& robot, const TaskStart& start, cons
 }
 
 std::vector<BoundaryConstraint> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
-                                           const std::vector<Phase>& phases, const Mesh& mesh) {
+                                           const std::vector<Phase>& phases, const std::optional<Mesh>& mesh) {
   std::vector<BoundaryConstraint> goals;
   for (const TomlTable& goal : root.find_tables("goal")) {
     const std::string name = fmt::format("goal {}", goals.size() + 1);

@@ -1,6 +1,8 @@
 #pragma once
 
 // Reads [[goal]] of a task file. Not installed: exposes toml++.
+#include <optional>
+
 #include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
@@ -21,8 +23,8 @@ BoundaryConstraint start_constraint(const RobotModel& robot, const Eigen::Vector
 BoundaryConstraint arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
                            int num_phases);
 
-/// One condition per [[goal]], at a node of the mesh. `mesh` has equal steps in each phase.
+/// One condition per [[goal]], at a node of the mesh, which has equal steps in each phase; at any time without a mesh.
 std::vector<BoundaryConstraint> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,
-                                           const std::vector<Phase>& phases, const Mesh& mesh);
+                                           const std::vector<Phase>& phases, const std::optional<Mesh>& mesh);
 
 }  // namespace prowl

@@ -18,6 +18,11 @@ using test::kHold;
 using test::kPhase;
 using test::Outcome;
 
+/// Down and forward, in legs that bend faster and faster.
+const std::string kBow =
+    "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.03, 0, -0.1]\nbase_linear_velocity_mps = [0, 0, 0]\n"
+    "[cost]\njoint_velocity = 0.1\njoint_acceleration = 0.01\ntorque = 1e-4\n";
+
 /// Without the line breaks that fit text to a screen.
 std::string unwrapped(const std::string& text) {
   std::istringstream input(text);
@@ -293,7 +298,7 @@ TEST_F(Command, PrintsPhasesInPlaceOfPlanning) {
                 "stride_length_m = 0.1\n");
   const Outcome text = run("$prowl plan walk.toml $dirs --print-phases");
   EXPECT_EQ(text.status, 0) << text.error;
-  EXPECT_THAT(text.out, StartsWith("HyQ walk: 9 phases, 194 intervals, 2.9 to 3.85 s\n"));
+  EXPECT_THAT(text.out, StartsWith("HyQ walk: 9 phases, 46 intervals, 2.9 to 3.85 s\n"));
   EXPECT_THAT(text.out, HasSubstr("stride 1: lh_foot swings"));
   EXPECT_EQ(text.error, "") << "progress of a solve";
   const Outcome json = run("$prowl plan walk.toml $dirs --print-phases --json --intervals 40");
@@ -371,12 +376,21 @@ TEST_F(Command, GoesFromACoarseMeshToAFineOne) {
   EXPECT_THAT(result.out, HasSubstr(" iterations on 13, 50, 200 intervals"));
 }
 
+TEST_F(Command, ChoosesTheMesh) {
+  folder_.write("bow.toml", test::replaced(test::kPhase, "intervals = 5\n", "") + kBow);
+  const Outcome result = run("$prowl plan bow.toml $dirs --out out --no-gains");
+  EXPECT_EQ(result.status, 0) << result.out << result.error;
+  EXPECT_THAT(result.out, HasSubstr(" intervals, refined from 20, 2 s;"));
+  const Outcome one_mesh = run("$prowl plan bow.toml $dirs --one-mesh");
+  EXPECT_EQ(one_mesh.status, 2);
+  EXPECT_THAT(one_mesh.error, HasSubstr("one mesh: the task has no intervals; need --intervals"));
+  EXPECT_THAT(run("$prowl compare bow.toml $dirs").error, HasSubstr("no intervals; need --intervals"));
+  EXPECT_THAT(unwrapped(run("$prowl diagnose bow.toml $dirs").out), HasSubstr("the task has a plan, and it passes"));
+}
+
 /// Crouching needs steps that differ; its plan is read back with them.
 TEST_F(Command, RefinesTheMesh) {
-  folder_.write("bow.toml", test::kPhase +
-                                "[[goal]]\ntime_s = 2.0\nbase_displacement_m = [0.03, 0, -0.1]\n"
-                                "base_linear_velocity_mps = [0, 0, 0]\n[cost]\njoint_velocity = "
-                                "0.1\njoint_acceleration = 0.01\ntorque = 1e-4\n");
+  folder_.write("bow.toml", test::kPhase + kBow);
   const Outcome result = run("$prowl plan bow.toml $dirs --out out --refine");
   EXPECT_EQ(result.status, 0) << result.out << result.error;
   EXPECT_THAT(result.error, HasSubstr("5 intervals, "));

@@ -1,5 +1,6 @@
 prowl_test(mesh/mesh prowl::mesh)
 prowl_test(mesh/discrete_problem prowl::mesh)
+prowl_test(mesh/first_mesh prowl::mesh)
 prowl_test(mesh/mesh_levels prowl::mesh)
 prowl_test(mesh/mesh_refinement prowl::mesh)
 prowl_test(mesh/resample prowl::mesh)

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "prowl/mesh/first_mesh.hpp"
 #include "prowl/model/configuration.hpp"
 #include "tests/support/task_test.hpp"
 
@@ -69,6 +70,37 @@ TEST_F(TaskFile, FreeStepsAreDurationsOfTheirOwn) {
               HasSubstr("phase[0].steps: 201 free steps are not allowed; need at most 200"));
   EXPECT_THAT(message("duration_s = 2.0", "duration_s = 2.0\nsteps = \"free\""),
               HasSubstr("steps: a fixed duration has no free steps; need duration_s = [min, max]"));
+}
+
+TEST_F(TaskFile, LeavesTheMeshToProwlWithoutIntervals) {
+  const std::string file = test::replaced(kTaskFile, "intervals = 5\n", "");
+  EXPECT_TRUE(read(kTaskFile).has_intervals);
+  const Task task = read(file);
+  EXPECT_FALSE(task.has_intervals);
+  EXPECT_EQ(task.mesh, first_mesh(task.problem.phases, {}));
+
+  const Task between = read(test::replaced(file, "time_s = 2.0", "time_s = 0.777"));
+  const PhaseFraction at = between.problem.boundary_constraints[1].at;
+  EXPECT_NEAR(at.fraction, 0.777 / 2.0, 1e-12);
+  EXPECT_TRUE(between.mesh.phases[0].node_at(at.fraction)) << "a goal has a node at any time";
+  const std::string part = test::replaced(file, "time_s = 2.0", "phase = \"stand\"\nfraction = 0.123");
+  EXPECT_EQ(read(part).problem.boundary_constraints[1].at.fraction, 0.123);
+
+  const Task chosen = read(file, kHyqFile, {.intervals = 30});
+  EXPECT_TRUE(chosen.has_intervals);
+  EXPECT_EQ(chosen.mesh.phases[0], PhaseMesh(30));
+
+  EXPECT_EQ(message_of(test::replaced(file, "time_s = 2.0", "time_s = 2.5")),
+            "task.toml:8:10: goal[0].time_s: 2.5 is after the end; need 0 < time <= 2 [s]");
+  const std::string second = "[[phase]]\ncontacts = \"all\"\nduration_s = 1\n\n[[goal]]";
+  EXPECT_THAT(message("[[goal]]", second), HasSubstr("phase[1]: no intervals, which other phases have; need all"));
+  EXPECT_THAT(message_of(test::replaced(file, "duration_s = 2.0", "duration_s = [1.0, 2.0]\nsteps = \"free\"")),
+              HasSubstr("phase[0].steps: free steps need the key intervals"));
+}
+
+TEST_F(TaskFile, GoalIsAtTheEndUnlessItSaysWhen) {
+  EXPECT_EQ(read(test::replaced(kTaskFile, "time_s = 2.0\n", "")).problem.boundary_constraints[1].at,
+            PhaseFraction::end_of(0));
 }
 
 TEST_F(TaskFile, StartIsFixedAndGoalBindsWhatIsNamed) {

@@ -38,13 +38,14 @@ TEST_F(TaskGait, StandsForPhasesAndAGoal) {
   ASSERT_EQ(problem.phases.size(), 1u + 3 * 4 - 1 + 1);
   EXPECT_EQ(problem.phases[1].name, "stride 1: lf_foot and rh_foot swing");
   EXPECT_NEAR(problem.phases[1].duration.min, 0.4 * 0.8, 1e-12);
-  EXPECT_EQ(task.mesh.phases[1].intervals(), 16);
+  EXPECT_FALSE(task.has_intervals);
+  EXPECT_EQ(task.mesh.phases[1].intervals(), 4);
 
   ASSERT_EQ(problem.boundary_constraints.size(), 2u);
   const BoundaryConstraint& goal = problem.boundary_constraints[1];
   EXPECT_EQ(goal.name, "goal 1");
   EXPECT_EQ(goal.at, PhaseFraction::end_of(12));
-  EXPECT_EQ(task.mesh.phases[12].intervals(), 25);
+  EXPECT_EQ(task.mesh.phases[12].intervals(), 5);
   const Eigen::VectorXd moved = difference(problem.start_configuration(), goal.q_ref);
   EXPECT_NEAR((moved.head<3>() - Eigen::Vector3d(0.6, 0.0, 0.0)).norm(), 0.0, 1e-12);
   EXPECT_NEAR(moved.tail(15).norm(), 0.0, 1e-12);
@@ -126,12 +127,14 @@ intervals_per_second = 20
   EXPECT_EQ(problem.phases[5].duration.max, 0.7);
   EXPECT_EQ(problem.phases[1].duration.min, 0.5);
   EXPECT_EQ(problem.phases[1].duration.max, 0.75);
+  EXPECT_TRUE(task.has_intervals);
   EXPECT_EQ(task.mesh.phases[1].intervals(), 15);
   EXPECT_EQ(problem.phases[1].contacts[0].surface, 1);
 }
 
 TEST_F(TaskGait, OverridesShareOutItsIntervals) {
-  const Task task = read(kGaitFile, test::kHyqFile, {.intervals = 352});
+  const std::string with_rate = test::replaced(kGaitFile, "strides = 3", "strides = 3\nintervals_per_second = 50");
+  const Task task = read(with_rate, test::kHyqFile, {.intervals = 352});
   EXPECT_EQ(task.file_intervals.size(), task.problem.phases.size());
   int intervals = 0;
   for (const int count : task.file_intervals) intervals += count;
@@ -173,7 +176,7 @@ TEST_F(TaskGait, RefusesWhatIsNoGait) {
 }
 
 TEST_F(TaskGait, RefusesMoreIntervalsThanFitInMemory) {
-  EXPECT_EQ(message("stride_s = 0.8", "stride_s = 400"),
+  EXPECT_EQ(message("stride_s = 0.8", "stride_s = 400\nintervals_per_second = 50"),
             "task.toml:2:1: gait: 60050 mesh intervals, 1201 s of 50 a second, are not allowed; need at most 10000");
 }
 

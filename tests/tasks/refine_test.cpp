@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 #include <random>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,15 @@ Task read(const std::string& name, std::optional<int> intervals = std::nullopt) 
   return read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml", test::test_search(),
                         {.intervals = intervals});
 }
+
+/// A shipped task without its intervals.
+Task read_without_intervals(const std::string& name) {
+  SourceText file = read_text_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/" + name + ".toml");
+  file.text = std::regex_replace(file.text, std::regex("\nintervals[^\n]*"), "");
+  return read_task_text(file, test::test_search(), {});
+}
+
+const RefineOptions kUntilItPasses{.tolerance = mesh_tolerance(CertificateGrade::draft), .ends_when_met = true};
 
 RefinedPlan refine(const Task& task, const NlpSolver& solver = RiccatiSolver(), PlanOptions options = {},
                    RefineOptions refine = {.tolerance = mesh_tolerance(CertificateGrade::draft)}) {
@@ -55,6 +65,31 @@ TEST(Refine, MeetsTheToleranceWithFewerIntervalsThanEqualSteps) {
     const Plan plan = make_plan({equal.problem, equal.mesh}, RiccatiSolver(), {.solver = equal.solver});
     EXPECT_GT(mesh_errors(plan.certificate).local, mesh_tolerance(CertificateGrade::draft).local) << name;
   }
+}
+
+TEST(Refine, FindsAMeshWhereTheTaskHasNone) {
+  for (const char* name : {"crouch", "step", "jump"}) {
+    const Task task = read_without_intervals(name);
+    EXPECT_FALSE(task.has_intervals);
+    const RefinedPlan found = refine(task, RiccatiSolver(), {}, kUntilItPasses);
+    EXPECT_TRUE(found.meets_tolerance) << name;
+    EXPECT_TRUE(is_good(found.plan)) << name;
+    EXPECT_LT(found.plan.mesh.num_intervals(), read(name).mesh.num_intervals()) << name << ": fewer than by hand";
+    EXPECT_LE(found.plan.levels.size(), 5u) << name;
+  }
+}
+
+TEST(Refine, BeginsOnAFinerMeshWhereTheFirstHasNoSolution) {
+  const Task task = read_without_intervals("crouch");
+  const test::FailingSolver fails_once(0, SolveStatus::infeasible, 1);
+  const RefinedPlan found = refine(task, fails_once, {}, kUntilItPasses);
+  EXPECT_TRUE(is_good(found.plan));
+  ASSERT_GE(found.plan.levels.size(), 2u);
+  EXPECT_EQ(found.plan.levels[1].intervals, 2 * task.mesh.num_intervals());
+
+  const RefinedPlan none = refine(task, test::FailingSolver(0, SolveStatus::infeasible), {}, kUntilItPasses);
+  EXPECT_EQ(none.plan.result.status, SolveStatus::infeasible);
+  EXPECT_EQ(none.plan.mesh.num_intervals(), 4 * task.mesh.num_intervals());
 }
 
 TEST(Refine, GoalsKeepTheirTimes) {

@@ -158,12 +158,13 @@ void add_phase(FileKeys& keys) {
   phase.add({.name = "intervals",
              .form = "integer",
              .range = {.lower = 1, .upper = kMostIntervals},
+             .fallback = "chosen and refined by Prowl, in all phases",
              .meaning = "number of mesh intervals"});
   phase.add({.name = "steps",
              .choices = {"equal", "free"},
              .fallback = "\"equal\"",
              .meaning = "lengths of the intervals; if free, the optimiser chooses each within the bounds of the "
-                        "duration / intervals"});
+                        "duration / intervals, a key that it needs"});
 
   Table contacts(keys, "phase.contacts");
   contacts.add({.name = "contact", .form = "string", .meaning = "name of a contact of the robot"});
@@ -249,7 +250,7 @@ void add_gait(FileKeys& keys) {
             .form = "number",
             .range = kPositive,
             .unit = "1/s",
-            .fallback = number_text(kIntervalsPerSecond),
+            .fallback = "chosen and refined by Prowl",
             .meaning = "mesh intervals per second; at least 2 in each phase"});
 }
 
@@ -259,14 +260,15 @@ void add_goal(FileKeys& keys) {
             .form = "number",
             .range = kPositive,
             .unit = "s",
-            .meaning = "time of the goal, at a node of the mesh; either this or phase"});
+            .fallback = "the end of the motion",
+            .meaning = "time of the goal, at a node if the phases have intervals; either this or phase"});
   goal.add({.name = "phase", .form = "string", .meaning = "the goal holds at the end of the phase with this name"});
   goal.add({.name = "fraction",
             .form = "number",
             .range = {.lower = 0.0, .upper = 1.0},
             .unit = "-",
             .fallback = "1",
-            .meaning = "part of the phase at which the goal holds, at a node of the mesh, instead of its end"});
+            .meaning = "part of the phase at which the goal holds, at a node if it has intervals, instead of its end"});
   goal.add({.name = "base_position_m", .form = kBounds3, .unit = "m", .meaning = "position of the base, world frame"});
   goal.add({.name = "base_displacement_m",
             .form = kBounds3,
