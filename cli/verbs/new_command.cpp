@@ -142,11 +142,10 @@ int run_new_task(const NewTaskArguments& arguments) {
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});
     return kPassed;
   }
-  const GaitEvidence evidence = gait_evidence(task.pattern);
-  const std::string next =
-      *evidence.failures
-          ? fmt::format("note: a {} may fail: {}, without it none", arguments.kind, evidence.failures)
-          : fmt::format("next: prowl plan {}{}", out.string(), evidence.needs_refining ? " --refine" : "");
+  const std::string failures = failures_of_gait(task.pattern);
+  const std::string next = failures.empty()
+                               ? fmt::format("next: prowl plan {}", out.string())
+                               : fmt::format("note: a {} may fail: of this task {}", arguments.kind, failures);
   print_result(fmt::format("{} {}: written to {}\n{}\n", robot.name(), arguments.kind, out.string(), next));
   return kPassed;
 }

@@ -1,9 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "prowl/model/configuration.hpp"
 #include "prowl/motion/gait.hpp"
 #include "prowl/starter/new_task.hpp"
@@ -28,30 +25,25 @@ constexpr const char* kOnePhase = R"(# Phases: times with one set of contacts. H
 [[phase]]
 contacts = "all"
 duration_s = {duration:.1f}
-intervals = {intervals}   # of the mesh. Too few fail the certificate; `prowl plan` then tells how many suffice
 
 )";
 
 constexpr const char* kStepsText =
     R"(# Phases: times with one set of contacts. Contacts open and land between phases.
-# intervals: of the mesh. Too few fail the certificate by integration errors; `prowl plan` then tells how many suffice.
 [[phase]]
 name = "shift"   # the weight shifts over the other feet
 contacts = "all"
 duration_s = {shift}
-intervals = {shift_intervals}
 
 [[phase]]
 name = "swing"
 contacts = [{stay}]
 duration_s = {swing}
-intervals = {swing_intervals}
 
 [[phase]]
 name = "settle"
 contacts = [{landed}, {stay}]
 duration_s = {settle}
-intervals = {settle_intervals}
 
 )";
 
@@ -62,8 +54,7 @@ kind = "{kind}"
 strides = {strides}
 stride_s = {stride:.4g}          # of one stride, in which each foot swings once
 stride_length_m = {length:.3g}   # forward; heading_rad turns the direction
-{duty}intervals_per_second = {rate:.0f}   # of the mesh. {mesh}
-
+{duty}
 )";
 
 constexpr const char* kGoalsNote =
@@ -124,13 +115,6 @@ joint_acceleration = {joints}
 constexpr const char* kDuty = "duty_factor = {:.3g}       # fraction of the stride for which each foot stands\n";
 constexpr int kStrides = 2;
 
-/// What to know about the mesh of a gait.
-std::string mesh_note(const GaitEvidence& evidence) {
-  if (*evidence.failures) return fmt::format("They fail the certificate; {}", evidence.failures);
-  if (evidence.needs_refining) return "They fail the certificate unless refined: plan with --refine";
-  return "Too few fail the certificate; `prowl plan` then tells how many suffice";
-}
-
 std::string vector(const Eigen::Vector3d& v) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x() + 0.0, v.y() + 0.0, v.z() + 0.0);
 }
@@ -156,27 +140,16 @@ std::string what(const NewTask& task) {
   return "";
 }
 
-/// Enough for grade draft on the robots of docs/adding-a-robot.md; even, for a goal halfway.
-int intervals_of(const NewTask& task, std::size_t contacts) {
-  if (task.kind == NewTaskKind::hold) return task.soles ? 80 : 40;
-  if (task.soles) return 200;
-  return contacts < 3 ? 240 : 120;  // two points: balancing on a line
-}
-
 std::string step_phases(const NewTask& task) {
   // Only the first corner of a sole gets a foothold: the foot fixes the others.
   std::string landed = fmt::format("{{ contact = \"{}\", place_m = {} }}", task.swing.front(), vector(task.foothold));
   for (std::size_t i = 1; i < task.swing.size(); ++i) landed += ", \"" + task.swing[i] + '"';
-  const auto phases = [&](const char* shift, int i, const char* swing, int j, const char* settle, int k) {
+  const auto phases = [&](const char* shift, const char* swing, const char* settle) {
     return fmt::format(fmt::runtime(kStepsText), fmt::arg("stay", quoted(task.stay)), fmt::arg("landed", landed),
-                       fmt::arg("shift", shift), fmt::arg("shift_intervals", i), fmt::arg("swing", swing),
-                       fmt::arg("swing_intervals", j), fmt::arg("settle", settle), fmt::arg("settle_intervals", k));
+                       fmt::arg("shift", shift), fmt::arg("swing", swing), fmt::arg("settle", settle));
   };
-  // Smaller robots move faster; fitted to G1 (base at 0.76 m) and Talos (1.03 m).
-  const double finer = std::max(1.0, std::pow(1.1 / task.height, 1.5));
-  const auto intervals = [&](int at_one_metre) { return static_cast<int>(std::ceil(finer * at_one_metre)); };
-  return task.soles ? phases("1.2", intervals(120), "0.8", intervals(100), "1.2", intervals(60))
-                    : phases("[0.3, 1.2]   # the optimiser chooses", 70, "[0.25, 0.6]", 80, "[0.3, 1.2]", 70);
+  return task.soles ? phases("1.2", "0.8", "1.2")
+                    : phases("[0.3, 1.2]   # the optimiser chooses", "[0.25, 0.6]", "[0.3, 1.2]");
 }
 
 std::string gait(const NewTask& task) {
@@ -187,9 +160,7 @@ std::string gait(const NewTask& task) {
   }
   return fmt::format(fmt::runtime(kGait), fmt::arg("others", fmt::join(others, ", ")), fmt::arg("kind", task.pattern),
                      fmt::arg("strides", kStrides), fmt::arg("stride", task.stride_duration),
-                     fmt::arg("length", task.stride_length), fmt::arg("duty", duty),
-                     fmt::arg("rate", task.intervals_per_second),
-                     fmt::arg("mesh", mesh_note(gait_evidence(task.pattern))));
+                     fmt::arg("length", task.stride_length), fmt::arg("duty", duty));
 }
 
 /// Roll, pitch and yaw of `rpy` followed by `turn` about the world's axes [rad].
@@ -236,14 +207,13 @@ std::string cost(const NewTask& task) {
 
 std::string task_template(const NewTask& task, const RobotModel& robot, const std::string& robot_file) {
   const double duration = task.kind == NewTaskKind::hold ? 1.0 : task.soles ? 2.4 : 2.0;
-  const int intervals = intervals_of(task, robot.contacts().size());
   std::string text = fmt::format(fmt::runtime(kTaskHead), fmt::arg("what", what(task)), fmt::arg("robot", robot.name()),
                                  fmt::arg("mass", robot.mass()), fmt::arg("height", task.height),
                                  fmt::arg("kind", kind_name(task)), fmt::arg("file", toml_string(robot_file)));
   if (task.kind == NewTaskKind::gait) return text + gait(task) + cost(task);
   text += task.kind == NewTaskKind::step
               ? step_phases(task)
-              : fmt::format(fmt::runtime(kOnePhase), fmt::arg("duration", duration), fmt::arg("intervals", intervals));
+              : fmt::format(fmt::runtime(kOnePhase), fmt::arg("duration", duration));
   text += kGoalsNote;
   text += goals(task, robot.description().nominal_base_rpy, duration);
   return text + cost(task);

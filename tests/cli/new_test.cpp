@@ -196,11 +196,11 @@ TEST_F(NewRobot, WritesNothingForWhatIsNoLeggedRobot) {
 class NewTask : public NewRobot {
  protected:
   /// Robot, task and plan, as a new user makes them one after the other.
-  void expect_that_it_plans(const Urdf& urdf, const std::string& kind, const std::string& options = "") const {
+  void expect_that_it_plans(const Urdf& urdf, const std::string& kind) const {
     ASSERT_EQ(make(urdf.path, "new.toml").status, 0);
     const Outcome task = run("$prowl new task new.toml $dirs --kind " + kind + " --out tasks/new.toml");
     ASSERT_EQ(task.status, 0) << task.error;
-    const Outcome plan = run("$prowl plan tasks/new.toml $dirs --out out --no-gains " + options);
+    const Outcome plan = run("$prowl plan tasks/new.toml $dirs --out out --no-gains");
     EXPECT_EQ(plan.status, 0) << urdf.name << " " << kind << plan.out << plan.error;
   }
 };
@@ -234,7 +234,7 @@ TEST_F(NewTask, TrotOfB1GoesFromUrdfToReport) {
 TEST_F(NewTask, TrotOfGo2Passes) { expect_that_it_plans(kUrdfs[2], "trot"); }
 TEST_F(NewTask, WalkOfHyqPasses) { expect_that_it_plans(kUrdfs[0], "walk"); }
 TEST_F(NewTask, WalkOfAnymalPasses) { expect_that_it_plans(kUrdfs[1], "walk"); }
-TEST_F(NewTask, PaceOfB1PassesOnARefinedMesh) { expect_that_it_plans(kUrdfs[8], "pace", "--refine"); }
+TEST_F(NewTask, PaceOfB1Passes) { expect_that_it_plans(kUrdfs[8], "pace"); }
 
 // Each gait that a task file may have is written as a task that can be read, and says how to plan it.
 TEST_F(NewTask, KnowsEveryGait) {
@@ -242,9 +242,8 @@ TEST_F(NewTask, KnowsEveryGait) {
   for (const std::string gait : {"walk", "trot", "pace", "bound"}) {
     const Outcome made = run("$prowl new task b1.toml $dirs --kind " + gait + " --out " + gait + ".toml");
     EXPECT_EQ(made.status, 0) << made.error;
-    const std::string next = gait == "bound"  ? "\nnote: a bound may fail: "
-                             : gait == "pace" ? "\nnext: prowl plan pace.toml --refine\n"
-                                              : "\nnext: prowl plan " + gait + ".toml\n";
+    const std::string next =
+        gait == "bound" ? "\nnote: a bound may fail: " : "\nnext: prowl plan " + gait + ".toml\n";
     EXPECT_THAT(made.out, HasSubstr(next));
     EXPECT_EQ(made.out.find("next: ") == std::string::npos, gait == "bound") << made.out;
     EXPECT_THAT(test::read_file(folder_.path() / (gait + ".toml")), HasSubstr("kind = \"" + gait + "\""));
