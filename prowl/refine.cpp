@@ -80,6 +80,12 @@ class Meshes {
     options_.warm_start_multipliers.clear();
     return solve(mesh);
   }
+  Candidate solve_from_task(const Mesh& mesh) {
+    options_.warm_start = {};
+    options_.warm_start_multipliers.clear();
+    options_.resume = false;
+    return solve(mesh);
+  }
   /// The first of these meshes that converges; each starts from the one before, as in make_plan().
   Candidate begin(const std::vector<Mesh>& meshes) {
     std::optional<Candidate> first;
@@ -132,6 +138,10 @@ class Progress {
   double least_ = std::numeric_limits<double>::infinity();
 };
 
+bool has_failed(SolveStatus status) {
+  return status != SolveStatus::converged && status != SolveStatus::interrupted && status != SolveStatus::time_limit;
+}
+
 /// Meshes to begin on, until one converges.
 std::vector<Mesh> first_meshes(const DiscreteProblem& asked, const PlanOptions& options, const RefineOptions& refine) {
   if (!options.coarse_first || !options.warm_start.empty()) return {asked.mesh};
@@ -173,6 +183,7 @@ RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& sol
     if (meshes.is_time_over()) stopped = "out of time";
     if (!stopped.empty()) break;
     now = meshes.solve_from(now.plan, next);
+    if (refine.ends_when_met && has_failed(now.plan.result.status)) now = meshes.solve_from_task(next);
   }
   const SolveStatus status = now.plan.result.status;  // of the last mesh
   if (status != SolveStatus::converged) {

@@ -18,7 +18,8 @@ struct RefineRound {
 struct RefineOptions {
   MeshTolerance tolerance;
   /// Ends at the first plan that passes and meets the tolerance, rather than saving more intervals. The mesh of the
-  /// problem is only a start: where its solve fails, halves of its intervals are tried, then quarters.
+  /// problem is only a start: where its solve fails, halves of its intervals are tried, then quarters. A finer mesh
+  /// that fails from the motion before is solved from the task again.
   bool ends_when_met = false;
   int max_rounds = 12;                                    ///< solved meshes, including the first
   std::function<void(const RefineRound&)> on_round = {};  ///< after each mesh that converged; may be empty

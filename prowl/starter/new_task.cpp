@@ -185,7 +185,7 @@ struct GaitScale {
   const char* failures;  ///< see failures_of_gait()
 };
 constexpr const char* kAllPass = "";
-constexpr const char* kSomePass = "three of six robots pass";
+constexpr const char* kSomePass = "four of six robots pass";
 constexpr GaitScale kGaitScales[] = {{"walk", 3.0, 0.4, 0.0, kAllPass},
                                      {"trot", 0.8, 0.35, 0.55, kAllPass},
                                      {"pace", 0.7, 0.2, 0.0, kAllPass},

@@ -42,7 +42,7 @@ std::string task_template(const NewTask& task, const RobotModel& robot, const st
 
 std::string kind_name(const NewTask& task);  ///< "hold", "trot" ...
 
-/// How many of HyQ, ANYmal C, Go2, Solo12, B1 and A1 pass with the unedited task of a gait: "three of six robots pass";
+/// How many of HyQ, ANYmal C, Go2, Solo12, B1 and A1 pass with the unedited task of a gait: "four of six robots pass";
 /// "" if all do.
 std::string failures_of_gait(const std::string& pattern);
 

@@ -211,9 +211,8 @@ std::string task_template(const NewTask& task, const RobotModel& robot, const st
                                  fmt::arg("mass", robot.mass()), fmt::arg("height", task.height),
                                  fmt::arg("kind", kind_name(task)), fmt::arg("file", toml_string(robot_file)));
   if (task.kind == NewTaskKind::gait) return text + gait(task) + cost(task);
-  text += task.kind == NewTaskKind::step
-              ? step_phases(task)
-              : fmt::format(fmt::runtime(kOnePhase), fmt::arg("duration", duration));
+  text += task.kind == NewTaskKind::step ? step_phases(task)
+                                         : fmt::format(fmt::runtime(kOnePhase), fmt::arg("duration", duration));
   text += kGoalsNote;
   text += goals(task, robot.description().nominal_base_rpy, duration);
   return text + cost(task);

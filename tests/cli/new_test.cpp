@@ -242,8 +242,7 @@ TEST_F(NewTask, KnowsEveryGait) {
   for (const std::string gait : {"walk", "trot", "pace", "bound"}) {
     const Outcome made = run("$prowl new task b1.toml $dirs --kind " + gait + " --out " + gait + ".toml");
     EXPECT_EQ(made.status, 0) << made.error;
-    const std::string next =
-        gait == "bound" ? "\nnote: a bound may fail: " : "\nnext: prowl plan " + gait + ".toml\n";
+    const std::string next = gait == "bound" ? "\nnote: a bound may fail: " : "\nnext: prowl plan " + gait + ".toml\n";
     EXPECT_THAT(made.out, HasSubstr(next));
     EXPECT_EQ(made.out.find("next: ") == std::string::npos, gait == "bound") << made.out;
     EXPECT_THAT(test::read_file(folder_.path() / (gait + ".toml")), HasSubstr("kind = \"" + gait + "\""));

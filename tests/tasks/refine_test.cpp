@@ -92,6 +92,15 @@ TEST(Refine, BeginsOnAFinerMeshWhereTheFirstHasNoSolution) {
   EXPECT_EQ(none.plan.mesh.num_intervals(), 4 * task.mesh.num_intervals());
 }
 
+TEST(Refine, SolvesFromTheTaskAgainWhereAFinerMeshFails) {
+  const test::FailingSolver fails_second(1, SolveStatus::solver_failed, 1);
+  const RefinedPlan found = refine(read_without_intervals("crouch"), fails_second, {}, kUntilItPasses);
+  EXPECT_TRUE(is_good(found.plan));
+  ASSERT_GE(found.plan.levels.size(), 3u);
+  EXPECT_EQ(found.plan.levels[2].intervals, found.plan.levels[1].intervals);
+  EXPECT_NE(fails_second.guesses[2], fails_second.guesses[1]);
+}
+
 TEST(Refine, GoalsKeepTheirTimes) {
   const Task task = read("rear");  // a goal in the middle of a phase
   const Mesh mesh = refine(task).plan.mesh;
