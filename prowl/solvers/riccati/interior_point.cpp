@@ -320,7 +320,8 @@ void InteriorPoint::solve_direction(double cost_scale, const VectorXd& residual)
   slacks_.pull(mu_, beta_);
   step_lambda_ = beta_ + sigma_.cwiseProduct(residual);
   set_gradient(cost_scale, step_lambda_);
-  const double accuracy = std::max(kStepAccuracy * options_.tolerance, kFarStepAccuracy * error(0.0));
+  const double far = kFarStepAccuracy * error(0.0);  // infinite during a restoration, which evaluates no dual violation
+  const double accuracy = std::max(kStepAccuracy * options_.tolerance, std::isfinite(far) ? far : 0.0);
   kkt_.solve(gradient_, right_equalities_, right_links_, accuracy);
   for (int k = 0; k < num_stages_; ++k) segment(ds_, k) = kkt_.along_inequalities()[k];
   ds_ += residual;
