@@ -13,7 +13,7 @@ Mesh first_mesh(const std::vector<Phase>& phases, const std::vector<PhaseFractio
 
 /// Enough intervals to find a motion; what its errors ask for, refinement adds.
 constexpr double kFirstRate = 10.0;  ///< [1/s]
-constexpr int kFewestFirst = 4;      ///< a swing must lift off, pass and land
+constexpr int kFewestFirst = 4;      ///< of a phase, on any coarse mesh: a swing must lift off, pass and land
 
 /// Each interval in `pieces` equal ones.
 Mesh split(const Mesh& mesh, int pieces);

@@ -4,12 +4,13 @@
 #include <cassert>
 #include <numeric>
 
+#include "prowl/mesh/first_mesh.hpp"
+
 namespace prowl {
 
 namespace {
 
 constexpr int kCoarser = 4;
-constexpr int kLeastIntervals = 4;  // enough for a swing to lift off, pass and land
 
 /// A mesh up to this size is solved directly: a coarser one takes more time than its start saves (docs/solvers.md).
 constexpr int kSmallMesh = 48;
@@ -33,7 +34,7 @@ Mesh coarsened(const MotionProblem& problem, const Mesh& mesh, const std::functi
   Mesh coarse;
   for (std::size_t p = 0; p < mesh.phases.size(); ++p) {
     const int intervals = mesh.phases[p].intervals();
-    const int least = std::max(wanted(intervals), kLeastIntervals);
+    const int least = std::max(wanted(intervals), kFewestFirst);
     const int multiple = divisors[p] * ((least + divisors[p] - 1) / divisors[p]);
     coarse.phases.push_back(mesh.phases[p].with_intervals(std::min(intervals, multiple)));
   }
