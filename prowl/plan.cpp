@@ -115,9 +115,6 @@ void solve(Transcription& nlp, const Trajectory& guess, const Mesh& mesh, const 
   plan.num_constraints = nlp.num_constraints();
 }
 
-/// After an interrupt or the time limit no finer mesh is begun: its first iterates are farther off and worse to resume.
-bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
-
 /// Computes Plan::hints.
 std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, const NlpSolver& solver,
                                const PlanOptions& options) {
@@ -129,6 +126,8 @@ std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, c
 }
 
 }  // namespace
+
+bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
 
 bool is_worth_going_on_from(SolveStatus status) {
   return status != SolveStatus::infeasible && status != SolveStatus::evaluation_failed &&

@@ -67,6 +67,9 @@ struct PlanOptions {
   std::function<void(Plan iterate)> on_iterate = {};
 };
 
+/// True after an interrupt or the time limit: no finer mesh is begun, its first iterates are worse to resume.
+bool is_stopped(SolveStatus status);
+
 /// True if a finer mesh may start from the result of this solve; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status);
 

@@ -23,6 +23,8 @@ bool is_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
          errors.reintegration <= tolerance.reintegration;
 }
 
+bool has_failed(SolveStatus status) { return status != SolveStatus::converged && !is_stopped(status); }
+
 /// A plan with the errors of its mesh.
 struct Candidate {
   Plan plan;
@@ -91,11 +93,8 @@ class Meshes {
     std::optional<Candidate> first;
     for (const Mesh& level : meshes) {
       const bool goes_on = first && is_worth_going_on_from(first->plan.result.status);
-      first = goes_on ? solve_from(first->plan, level) : solve(level);
-      const SolveStatus status = first->plan.result.status;
-      const bool is_end = status == SolveStatus::converged || status == SolveStatus::interrupted;
-      if (is_end || status == SolveStatus::time_limit || !first->plan.reasons.empty()) break;
-      options_.warm_start = {};
+      first = goes_on ? solve_from(first->plan, level) : first ? solve_from_task(level) : solve(level);
+      if (!has_failed(first->plan.result.status) || !first->plan.reasons.empty()) break;
     }
     return std::move(*first);
   }
@@ -137,10 +136,6 @@ class Progress {
   int shortest_ = kMost, fewest_ = kMost, rounds_without_ = 0;
   double least_ = std::numeric_limits<double>::infinity();
 };
-
-bool has_failed(SolveStatus status) {
-  return status != SolveStatus::converged && status != SolveStatus::interrupted && status != SolveStatus::time_limit;
-}
 
 /// Meshes to begin on, until one converges.
 std::vector<Mesh> first_meshes(const DiscreteProblem& asked, const PlanOptions& options, const RefineOptions& refine) {
