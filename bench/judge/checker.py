@@ -123,7 +123,9 @@ def judge(task: MotionTask, motion: Motion) -> Verdict:
     dynamics = [ContactDynamics(robot, phase.contacts) for phase in task.phases]
     anchors: dict[str, np.ndarray] = {}
     ends, errors, cost = [], [], 0.0
-    findings["start"].see(np.abs(np.append(difference(task.start, motion.q[0]), motion.v[0])).max(), 0.0, "start")
+    findings["start"].see(
+        np.abs(np.append(difference(task.start, motion.q[0]), motion.v[0] - task.velocity)).max(), 0.0, "start"
+    )
 
     for k in range(len(motion.time) - 1):
         phase, step = int(motion.phase[k]), motion.time[k + 1] - motion.time[k]

@@ -17,6 +17,10 @@ from judge.robot import Robot, read_robot
 CLEARANCE = 0.05  # default swing clearance over the standing height of the base: docs/reference.md
 
 
+PEERS_RATE = 40  # intervals in a second, where the task leaves the mesh to Prowl; even numbers: a node in the middle
+BASE_VELOCITY = ("base_linear_velocity_mps", "base_angular_velocity_radps")
+
+
 @dataclass(frozen=True)
 class Phase:
     name: str
@@ -57,6 +61,7 @@ class MotionTask:
     name: str
     robot: Robot
     start: np.ndarray
+    velocity: np.ndarray  # at the start
     friction: float
     floor: float  # height of the ground over the world's origin [m]
     normal: np.ndarray  # of the ground, unit length
@@ -153,7 +158,7 @@ def _read_phase(table: dict, index: int, robot: Robot, where: str) -> Phase:
         frozenset(names),
         (low + high) / 2,
         (low, high),
-        table["intervals"],
+        table.get("intervals", 2 * round(0.5 * PEERS_RATE * (low + high) / 2)),
         places,
     )
 
@@ -234,6 +239,10 @@ def _put_on(normal: np.ndarray, point: np.ndarray, level: np.ndarray) -> np.ndar
     return q
 
 
+def _base_velocity(placed: dict) -> np.ndarray:
+    return np.concatenate([np.array(placed.get(key, [0, 0, 0]), dtype=float) for key in BASE_VELOCITY])
+
+
 def parse_task(table: dict, folder: pathlib.Path, package_dirs: list[pathlib.Path], where: str) -> MotionTask:
     """`folder`: that paths are relative to. `where`: for messages."""
     _known(
@@ -247,7 +256,7 @@ def parse_task(table: dict, folder: pathlib.Path, package_dirs: list[pathlib.Pat
     phases = [_read_phase(phase, i, robot, where) for i, phase in enumerate(table["phase"])]
 
     placed = table.get("start", {})
-    _known(placed, {"on"}, f"{where}: start")
+    _known(placed, {"on", *BASE_VELOCITY}, f"{where}: start")
     if normal[2] < 1.0 and ("on" not in placed or any(phase.contacts != phases[0].contacts for phase in phases)):
         raise SystemExit(
             f"bench: {where}: of tasks that do not begin with [start] on = their slope, or where contacts open, "
@@ -261,6 +270,7 @@ def parse_task(table: dict, folder: pathlib.Path, package_dirs: list[pathlib.Pat
         table.get("name", where),
         robot,
         start,
+        robot.moving(start, _base_velocity(placed), phases[0].contacts),
         ground.get("friction", 0.5),
         float(normal @ point / normal[2]),
         normal,

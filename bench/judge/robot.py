@@ -50,6 +50,23 @@ class Robot:
         pin.framesForwardKinematics(self.model, data, q)
         return {contact.name: data.oMf[contact.frame].translation.copy() for contact in self.contacts}
 
+    def moving(self, q: np.ndarray, base: np.ndarray, held: frozenset[str]) -> np.ndarray:
+        """Velocity with this twist of the base whose joint rates keep the held contacts where they are."""
+        v = np.concatenate([base, np.zeros(self.model.nv - 6)])
+        if not base.any() or not held:
+            return v
+        data = self.model.createData()
+        pin.computeJointJacobians(self.model, data, q)
+        pin.updateFramePlacements(self.model, data)
+        jacobian = np.vstack(
+            [
+                pin.getFrameJacobian(self.model, data, self.contact(name).frame, pin.LOCAL_WORLD_ALIGNED)[:3]
+                for name in sorted(held)
+            ]
+        )
+        v[6:] = -np.linalg.pinv(jacobian[:, 6:], rcond=1e-6) @ (jacobian[:, :6] @ base)
+        return v
+
 
 def limit_curve(table: list[list[float]]) -> BSpline:
     """The curve of prowl/model/limit_curve.hpp: a cubic B-spline through the points, its knots averages of theirs."""

@@ -43,7 +43,8 @@ class ShootingProblem:
         self.robot, self.model = task.robot, task.robot.model
         self.state = crocoddyl.StateMultibody(self.model)
         self.actuation = crocoddyl.ActuationModelFloatingBase(self.state)
-        self.start, self.places = np.concatenate([task.start, np.zeros(self.model.nv)]), self.robot.places(task.start)
+        self.start, self.places = np.concatenate([task.start, task.velocity]), self.robot.places(task.start)
+        self.rest = np.concatenate([task.start, np.zeros(self.model.nv)])
         self.nodes = make_nodes(task, step)
         self.base = self.model.getFrameId(self.model.frames[2].name)  # the root link, which the free flyer moves
         models = [self._action(node) for node in self.nodes]
@@ -51,8 +52,8 @@ class ShootingProblem:
 
     def guess(self) -> tuple[list, list]:
         """The start at every node, and the torques that hold it there."""
-        running = [self.start] * self.problem.T
-        return running + [self.start], list(self.problem.quasiStatic(running))
+        running = [self.rest] * self.problem.T
+        return running + [self.rest], list(self.problem.quasiStatic(running))
 
     def motion(self, states, inputs) -> Motion:
         """Solution as nodes with held torques, two at each phase switch."""
@@ -124,7 +125,7 @@ class ShootingProblem:
         self._add(
             costs,
             "state",
-            crocoddyl.ResidualModelState(self.state, self.start, nu),
+            crocoddyl.ResidualModelState(self.state, self.rest, nu),
             np.concatenate([cost.configuration, cost.velocity]),
         )
         if self.inverse:
@@ -287,7 +288,7 @@ class ShootingProblem:
                 scale,
             )
         if speed.any():
-            target = self.start.copy()
+            target = self.rest.copy()
             target[self.model.nq : self.model.nq + 6] = np.nan_to_num(goal.velocity)
             weights = np.zeros(2 * self.model.nv)
             weights[self.model.nv : self.model.nv + 6] = VELOCITY * speed

@@ -58,14 +58,15 @@ def standing_still(task: MotionTask) -> Motion:
     )
 
 
-def test_peers_have_goal_slope_friction_time_and_mesh_of_the_document():
+def test_peers_have_goal_slope_friction_time_and_start_of_the_document():
     for _, document, task in drawn(20):
         surface, phase, (there, back) = document["surface"][0], document["phase"][0], document["goal"]
         assert task.friction == surface["friction"] and np.allclose(task.normal, surface["normal"], atol=1e-12)
+        start = document["start"]
+        for key, rows in (("base_linear_velocity_mps", slice(0, 3)), ("base_angular_velocity_radps", slice(3, 6))):
+            assert np.allclose(task.velocity[rows], start.get(key, [0, 0, 0]))
         nodes = make_nodes(task, task.duration / task.intervals)
-        assert len(nodes) == phase["intervals"] + 1 and sum(node.step for node in nodes) == pytest.approx(
-            phase["duration_s"]
-        )
+        assert sum(node.step for node in nodes) == pytest.approx(phase["duration_s"])
         for goal, wanted, fraction in zip(task.goals, (there, back), (0.5, 1.0), strict=True):
             assert goal.fraction == pytest.approx(fraction) and any(abs(node.share - fraction) < 1e-9 for node in nodes)
             assert np.allclose(goal.position - task.start[:3], wanted["base_displacement_m"])

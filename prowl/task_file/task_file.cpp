@@ -8,8 +8,6 @@
 
 #include "prowl/error.hpp"
 #include "prowl/mesh/first_mesh.hpp"
-#include "prowl/model/configuration.hpp"
-#include "prowl/model/so3.hpp"
 #include "prowl/motion/duration_limits.hpp"
 #include "prowl/task_file/interval_shares.hpp"
 #include "prowl/task_file/problem_fields.hpp"
@@ -18,6 +16,7 @@
 #include "prowl/task_file/task_gait.hpp"
 #include "prowl/task_file/task_goals.hpp"
 #include "prowl/task_file/task_simulation.hpp"
+#include "prowl/task_file/task_start.hpp"
 #include "prowl/task_file/task_tracking.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
 #include "prowl/text/name_check.hpp"
@@ -60,70 +59,6 @@ std::vector<Surface> read_surfaces(const TomlTable& root) {
   }
   if (surfaces.empty()) surfaces.emplace_back();
   return surfaces;
-}
-
-/// Throws InputError with the joint and the location of its position if the posture violates a
-/// joint limit.
-void check_start(const RobotModel& robot, const Eigen::VectorXd& q, const std::optional<TomlValue>& joints,
-                 const SourceText& robot_file) {
-  for (int j = 0; j < robot.nu(); ++j) {
-    const double position = q(7 + j);
-    if (position >= robot.position_lower()(j) && position <= robot.position_upper()(j)) continue;
-    const std::string& name = robot.joint_names()[j];
-    const std::string message = fmt::format("the start posture has {:g} rad, outside the joint's limits [{:g}, {:g}]",
-                                            position, robot.position_lower()(j), robot.position_upper()(j));
-    if (joints) {
-      for (const auto& [key, value] : joints->as_named_values(robot.joint_names(), "joint")) {
-        if (key == name) value.fail(message);
-      }
-    }
-    const std::string path = "nominal.joints." + name;
-    throw InputError(fmt::format("{}{}: {}", locate(robot_file, path), path, message));
-  }
-}
-
-int find_name(const TomlValue& value, const std::string& what, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), value.as_text());
-  if (found == names.end()) value.fail_unknown_name(what, names);
-  return static_cast<int>(found - names.begin());
-}
-
-/// Moves a posture from level ground, z = 0, to a surface: by the shortest rotation, the origin to
-/// its point.
-void put_on(const Surface& surface, TaskStart& start) {
-  const Eigen::Matrix3d turn = so3::shortest_rotation(Eigen::Vector3d::UnitZ(), surface.normal);
-  const Eigen::Matrix3d R = turn * base_rotation(start.q);
-  start.q.head<3>() = (surface.point + turn * start.q.head<3>()).eval();
-  set_base_rotation(start.q, R);
-  start.rpy = rpy_from_rotation(R);
-}
-
-TaskStart read_start(const TomlTable& root, const RobotModel& robot, const SourceText& robot_file,
-                     const std::vector<Surface>& surfaces) {
-  TaskStart start{robot.nominal_configuration(), robot.description().nominal_base_rpy};
-  std::optional<TomlValue> joints;
-  if (const auto table = root.find_table("start")) {
-    RobotDescription posture = robot.description();
-    joints = table->find("joints");
-    if (joints) {
-      for (const auto& [name, value] : joints->as_named_values(robot.joint_names(), "joint")) {
-        posture.nominal_joints[name] = value.as_number();
-      }
-    }
-    if (const auto rpy = table->find("base_rpy_rad")) posture.nominal_base_rpy = rpy->as_vector3();
-    // RobotModel puts its nominal posture on the ground.
-    start = {RobotModel(posture).nominal_configuration(), posture.nominal_base_rpy};
-    const auto position = table->find("base_position_m");
-    if (position) start.q.head<3>() = position->as_vector3();
-    if (const auto on = table->find("on")) {
-      if (position) on->fail("need either on or base_position_m, not both");
-      std::vector<std::string> names;
-      for (const Surface& surface : surfaces) names.push_back(surface.name);
-      put_on(surfaces[find_name(*on, "surface", names)], start);
-    }
-  }
-  check_start(robot, start.q, joints, robot_file);
-  return start;
 }
 
 struct ContactNames {
@@ -300,11 +235,12 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   ContactNames names;
   for (const ContactPoint& contact : robot.contacts()) names.contacts.push_back(contact.name);
   for (const Surface& surface : surfaces) names.surfaces.push_back(surface.name);
-  const TaskStart start = read_start(root, robot, robot_file, surfaces);
+  TaskStart start = read_start(root, robot, robot_file, surfaces);
   const std::optional<TaskGait> gait = read_gait(root, robot, surfaces, start);
   FilePhases read = gait ? FilePhases{gait->phases, gait->intervals, {}} : read_phases(root, names);
   read.free_steps.resize(read.phases.size());
   check_lengths(root, read);
+  fit_contacts(root, robot, surfaces, read.phases.front(), start);
   const bool has_intervals = !read.intervals.empty() || overrides.intervals;
   std::vector<int> file_intervals = read.intervals;
   if (file_intervals.empty()) {
@@ -318,7 +254,7 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   }
   if (equal_steps) check_intervals(root, *equal_steps);
 
-  std::vector<BoundaryConstraint> constraints = {start_constraint(robot, start.q)};
+  std::vector<BoundaryConstraint> constraints = {start_constraint(robot, start)};
   for (BoundaryConstraint& goal : read_goals(root, robot, start, read.phases, equal_steps))
     constraints.push_back(std::move(goal));
   if (gait && gait->displacement) {

@@ -193,15 +193,6 @@ BoundaryConstraint read_goal(const TomlTable& goal, const std::string& name, con
 
 }  // namespace
 
-BoundaryConstraint start_constraint(const RobotModel& robot, const Eigen::VectorXd& q) {
-  BoundaryConstraint start = BoundaryConstraint::unbounded(robot, "start", PhaseFraction::start_of(0), q);
-  start.configuration_lower.setZero();
-  start.configuration_upper.setZero();
-  start.velocity_lower.setZero();
-  start.velocity_upper.setZero();
-  return start;
-}
-
 BoundaryConstraint arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
                            int num_phases) {
   BoundaryConstraint goal =

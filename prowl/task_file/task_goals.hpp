@@ -5,18 +5,10 @@
 
 #include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/motion_problem.hpp"
+#include "prowl/task_file/task_start.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
 
 namespace prowl {
-
-/// Start of the motion, the reference of goals.
-struct TaskStart {
-  Eigen::VectorXd q;    ///< nq
-  Eigen::Vector3d rpy;  ///< of the base [rad]; used for "free" angles of a goal
-};
-
-/// Boundary condition that fixes the start at q, at rest.
-BoundaryConstraint start_constraint(const RobotModel& robot, const Eigen::VectorXd& q);
 
 /// Goal of a gait: at the end of the last phase the base is at rest, displaced from the start
 /// (world frame [m]), with its start orientation; legs are free.

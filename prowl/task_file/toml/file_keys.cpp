@@ -63,7 +63,7 @@ void add_top(FileKeys& keys) {
   top.add({.name = "start",
            .form = "[start]",
            .fallback = "the robot's nominal posture",
-           .meaning = "where the motion begins, at rest"});
+           .meaning = "where the motion begins"});
   top.add({.name = "phase",
            .form = "[[phase]], one or more, or [gait]",
            .meaning = "periods with one set of contacts, in order"});
@@ -139,6 +139,21 @@ void add_start(FileKeys& keys) {
              .fallback = "the robot's nominal ones",
              .meaning =
                  "orientation of the base, R = Rz(yaw) Ry(pitch) Rx(roll); with on, before the turn with the surface"});
+  start.add({.name = "base_linear_velocity_mps",
+             .form = "3 numbers",
+             .unit = "m/s",
+             .fallback = "0",
+             .meaning = "velocity of the base, base frame"});
+  start.add({.name = "base_angular_velocity_radps",
+             .form = "3 numbers",
+             .unit = "rad/s",
+             .fallback = "0",
+             .meaning = "angular velocity of the base, base frame"});
+  start.add({.name = "joint_velocity_radps",
+             .form = "{joint = number}",
+             .unit = "rad/s",
+             .fallback = "those that keep the contacts of the first phase still",
+             .meaning = "joint velocities; corrected where contacts move at up to 0.05 m/s"});
 }
 
 void add_phase(FileKeys& keys) {
