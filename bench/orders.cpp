@@ -12,8 +12,9 @@ int main() {
        {Formulation{.transcription = "trapezoid"}, Formulation{.transcription = "hermite-simpson"},
         Formulation{.dynamics = "forward", .transcription = "rk4"}}) {
     for (const int intervals : {4, 8, 16, 32}) {
-      const auto [q, v] = test::state_error(test::end_of_given_motion(formulation, intervals), truth);
-      fmt::print("{},{},{:.6e},{:.6e}\n", formulation.transcription, test::kGivenDuration / intervals, q, v);
+      const test::StateError error = test::state_error(test::end_of_given_motion(formulation, intervals), truth);
+      fmt::print("{},{},{:.6e},{:.6e}\n", formulation.transcription, test::kGivenDuration / intervals, error.q,
+                 error.v);
     }
   }
 }

@@ -1,6 +1,6 @@
 // Plans a task file and says what came of it:  plan_task TASK.toml [FOLDER of robot packages]
 #include <iostream>
-#include <prowl/plan.hpp>
+#include <prowl/refine.hpp>
 #include <prowl/solvers/riccati/riccati_solver.hpp>
 #include <prowl/task_file/task_file.hpp>
 
@@ -10,7 +10,10 @@ int main(int count, char** arguments) try {
 
   const prowl::Task task = prowl::read_task_file(arguments[1], packages);
   const prowl::DiscreteProblem problem(task.problem, task.mesh);
-  const prowl::Plan plan = prowl::make_plan(problem, prowl::RiccatiSolver(), {.solver = task.solver});
+  const prowl::RefineOptions until_draft{.tolerance = prowl::mesh_tolerance(prowl::CertificateGrade::draft),
+                                         .mesh_is_open = !task.has_intervals};
+  const prowl::Plan plan =
+      prowl::make_refined_plan(problem, prowl::RiccatiSolver(), {.solver = task.solver}, until_draft).plan;
   if (plan.result.status != prowl::SolveStatus::converged || !plan.certificate.passed) {
     std::cerr << "no good plan: " << prowl::to_string(plan.result.status) << '\n';
     return 1;

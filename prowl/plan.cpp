@@ -134,7 +134,7 @@ bool is_worth_going_on_from(SolveStatus status) {
          status != SolveStatus::solver_failed;
 }
 
-Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
+Plan solve_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
   Plan plan;
   plan.trajectory = options.warm_start;
   plan.solver = solver.name();
@@ -148,14 +148,24 @@ Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const Plan
     problem = level < coarser.size() ? &coarser[level] : &asked;
     const bool from_task = plan.trajectory.empty() || (level > 0 && !is_worth_going_on_from(plan.result.status));
     const Trajectory guess = from_task ? initial_guess(*problem) : resample(plan.trajectory, *problem);
-    Transcription nlp(*problem, guess);
+    const bool is_corrected = options.corrected && !from_task;
+    Transcription nlp(*problem, guess, is_corrected ? deferred_corrections(*problem, guess) : Corrections{});
     nlp.use_hessian(options.hessian);
     if (const auto reason = solver.why_unsupported(nlp)) throw InputError(*reason);
     solve(nlp, guess, problem->mesh, solver, options, options_of_level(options, plan, from_task), plan);
   } while (level++ < coarser.size() && !is_stopped(plan.result.status));
+  return plan;
+}
 
-  plan.certificate = certify(*problem, plan.trajectory);
+void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options, Plan& plan) {
+  plan.certificate = plan.mesh == asked.mesh ? certify(asked, plan.trajectory)
+                                             : certify(DiscreteProblem(asked.problem, plan.mesh), plan.trajectory);
   plan.hints = hints(asked, plan, solver, options);
+}
+
+Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
+  Plan plan = solve_plan(asked, solver, options);
+  judge(asked, solver, options, plan);
   return plan;
 }
 

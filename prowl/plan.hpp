@@ -60,6 +60,8 @@ struct PlanOptions {
   /// failure, because it may load a library. Empty, or nullptr returned: the solver of the plan.
   std::function<const NlpSolver*()> hint_solver = {};
   HessianKind hessian = HessianKind::exact;
+  /// Adds deferred_corrections() along warm_start: the motion becomes one of fourth order, with cubics between nodes.
+  bool corrected = false;
   bool coarse_first = true;                          ///< false: only on the requested mesh
   std::function<void(int intervals)> on_level = {};  ///< called before a mesh is solved; may be empty
   /// Receives each iterate as the plan of a solve interrupted there, without certificate and times of evaluations.
@@ -72,6 +74,11 @@ bool is_stopped(SolveStatus status);
 
 /// True if a finer mesh may start from the result of this solve; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status);
+
+/// The steps of make_plan(): a motion without certificate and hints, and these for it. `asked` may have another mesh
+/// than the plan.
+Plan solve_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options);
+void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options, Plan& plan);
 
 /// Plans a motion and certifies it. Throws InputError if bounds contradict each other or warm_start does not fit,
 /// NumericalError if the model cannot be evaluated at the initial guess. A hard problem gives a status in the result.

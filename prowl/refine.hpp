@@ -11,18 +11,17 @@ namespace prowl {
 struct RefineRound {
   int intervals = 0;
   int iterations = 0;
-  MeshTolerance errors;  ///< worst of the motion
-  int too_coarse = 0;    ///< intervals with errors above the tolerance
+  double error = 0.0;  ///< largest local integration error, estimated by step_errors() [-]
+  int too_coarse = 0;  ///< intervals that need shorter steps
 };
 
 struct RefineOptions {
   MeshTolerance tolerance;
-  /// Ends at the first plan that passes and meets the tolerance, rather than saving more intervals. The mesh of the
-  /// problem is only a start: where its solve fails, halves of its intervals are tried, then quarters. A finer mesh
-  /// that fails from the motion before is solved from the task again.
-  bool ends_when_met = false;
-  int max_rounds = 12;                                    ///< solved meshes, including the first
-  std::function<void(const RefineRound&)> on_round = {};  ///< after each mesh that converged; may be empty
+  /// The mesh of the problem is only a start (first_mesh()): where its solve fails, halves of its intervals are tried,
+  /// then quarters. False: it is a user's, and the coarsest mesh of make_plan() is the start.
+  bool mesh_is_open = false;
+  int max_rounds = 24;                                    ///< solves, including the first
+  std::function<void(const RefineRound&)> on_round = {};  ///< after each solve that converged; may be empty
 };
 
 struct RefinedPlan {
@@ -31,13 +30,13 @@ struct RefinedPlan {
   bool interrupted = false;      ///< before the refinement ended; the plan may still be good
 };
 
-/// Repeats make_plan() on meshes that follow the errors measured on the one before (mesh_refinement.hpp), each from the
-/// motion of the last. Starts on the coarsest mesh of make_plan(); ends when the motion meets the tolerance and,
-/// without ends_when_met, the next mesh would save less than a fifth of the intervals. SolverOptions::max_seconds is
-/// for all meshes and certificates: no mesh begins after it.
+/// Solves on one mesh after the other until the motion meets the tolerance and passes its certificate. Each solve
+/// starts from the motion before, with its deferred_corrections(), and is loose until that motion nearly meets the
+/// tolerance. Intervals whose step_errors() a correction does not remove are split. So are those where another check of
+/// the certificate fails, or errors do not fall. A mesh that fails from the motion before is solved from the task
+/// again. SolverOptions::max_seconds is for all solves and certificates: no solve begins after it.
 ///
-/// Returns the plan with the fewest intervals among those that meet the tolerance, preferring those that pass their
-/// certificate; otherwise the plan nearest to the tolerance. A mesh without convergence, or an interrupt, ends it.
+/// Without success, returns the motion with the least errors. A solve without convergence, or an interrupt, ends it.
 RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options,
                               const RefineOptions& refine);
 

@@ -37,13 +37,14 @@ std::string mesh_advice(const PlanRecord& record) {
   if (record.plan.result.status != SolveStatus::converged || worst == errors.end() || !std::isfinite(worst->error))
     return "";
   if (!fails_by_mesh_only(record.plan.certificate)) return "";
-  const bool is_even = record.plan.mesh.is_even();
+  // With other steps, or corrections, equal steps of the trapezoid are no remedy.
+  const bool is_plain = record.plan.mesh.is_even() && record.plan.trajectory.interpolation == Interpolation::trapezoid;
   std::string text;
   const auto advise = [&](const char* grade, double goal) {
     if (worst->error <= goal) return;
     std::string option = fmt::format("--refine {}", grade);
-    if (!is_even) option += " --warm-start with the folder of this plan";  // from where it stopped
-    if (is_even) {
+    if (!is_plain) option += " --warm-start with the folder of this plan";  // from where it stopped
+    if (is_plain) {
       const double needed = static_cast<double>(errors.size()) * std::cbrt(kMargin * worst->error / goal);
       const std::optional<int> intervals = intervals_option(record.task, needed);
       option = fmt::format("{}, or {}",
@@ -56,9 +57,7 @@ std::string mesh_advice(const PlanRecord& record) {
   advise("draft", CertificateLimits::integration_error_draft);
   advise("certified", CertificateLimits::integration_error_certified);
   if (text.empty()) return "";
-  return fmt::format("local integration error {:.1e} with {} intervals (cubic in the step size):\n", worst->error,
-                     errors.size()) +
-         text;
+  return fmt::format("local integration error {:.1e} with {} intervals:\n", worst->error, errors.size()) + text;
 }
 
 }  // namespace prowl

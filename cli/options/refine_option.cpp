@@ -40,11 +40,8 @@ void add_refine(CLI::App& verb, std::optional<MeshTolerance>& tolerance) {
 }
 
 std::string in_words(const RefineRound& round, const MeshTolerance& tolerance) {
-  return fmt::format(
-      "{} intervals, {} iterations: re-integration {:.1e} of {:.1e}, local error {:.1e} of {:.1e}, "
-      "in a second {:.1e} of {:.1e}; {} too coarse\n",
-      round.intervals, round.iterations, round.errors.reintegration, tolerance.reintegration, round.errors.local,
-      tolerance.local, round.errors.second, tolerance.second, round.too_coarse);
+  return fmt::format("{} intervals, {} iterations: local error about {:.1e} of {:.1e}; {} too coarse\n",
+                     round.intervals, round.iterations, round.error, tolerance.local, round.too_coarse);
 }
 
 }  // namespace prowl::cli

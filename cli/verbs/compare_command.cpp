@@ -17,6 +17,7 @@
 #include "prowl/error.hpp"
 #include "prowl/files/atomic_folder.hpp"
 #include "prowl/session/environment.hpp"
+#include "prowl/session/equal_steps.hpp"
 #include "prowl/solvers/foreign/snopt_solver.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/task_file/task_file.hpp"
@@ -88,8 +89,11 @@ std::vector<Task> read_tasks(const CompareArguments& arguments) {
   const PackageSearch search = package_search(arguments.package_dirs);
   if (arguments.intervals.empty()) {
     Task task = read_task_file(arguments.task, search, arguments.overrides);
-    if (task.has_intervals) return {std::move(task)};
-    throw InputError(arguments.task + ": no intervals; need --intervals: all formulations are compared on one mesh");
+    if (!task.has_intervals) {
+      task.mesh = equal_steps_for_draft(task);
+      print_note(fmt::format("on {} intervals, with which the trapezoid meets grade draft", task.mesh.num_intervals()));
+    }
+    return {std::move(task)};
   }
   std::vector<Task> tasks;
   for (const int intervals : arguments.intervals) {

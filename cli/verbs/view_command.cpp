@@ -62,7 +62,7 @@ int view_plan(const ViewArguments& arguments, const std::atomic<bool>& interrupt
 }
 
 /// Solves the task and sends every iterate to the server.
-PlanRecord solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, Task task, ViewServer& server) {
+PlannedTask solve(const ViewArguments& arguments, const std::atomic<bool>& interrupted, Task task, ViewServer& server) {
   const MotionProblem problem = task.problem;
   PlanRequest request{.solver = arguments.solver, .coarse_first = !arguments.one_mesh, .gains = false};
   request.interrupt = &interrupted;
@@ -78,7 +78,7 @@ PlanRecord solve(const ViewArguments& arguments, const std::atomic<bool>& interr
     print(at);
   };
   request.on_iterate = [&](const Plan& iterate) { server.publish("iterate", report_iterate(problem, iterate, now)); };
-  return plan_task(std::move(task), request).record;
+  return plan_task(std::move(task), request);
 }
 
 int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupted) {
@@ -101,12 +101,14 @@ int view_task(const ViewArguments& arguments, const std::atomic<bool>& interrupt
   };
   show(PageState::solving);
   say_where(server, arguments.json);
-  record = solve(arguments, interrupted, record.task, server);
+  PlannedTask planned = solve(arguments, interrupted, record.task, server);
+  record = std::move(planned.record);
   if (!arguments.out.empty()) write_plan(arguments.out, record);
   show(PageState::solved);
   server.publish("solved", "{}");
   print_message(plan_report(record) + (arguments.out.empty() ? "" : fmt::format("written to {}\n", arguments.out)));
-  const int status = exit_status(record.plan.result.status, record.plan.certificate);
+  const int status =
+      planned.interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   serve_until(interrupted);
   return status;
 }

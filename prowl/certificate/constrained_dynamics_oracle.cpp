@@ -7,6 +7,7 @@
 #include <pinocchio/algorithm/jacobian.hpp>
 #include <pinocchio/algorithm/kinematics.hpp>
 #include <pinocchio/algorithm/rnea.hpp>
+#include <utility>
 
 #include "prowl/model/pinocchio_model.hpp"
 
@@ -17,6 +18,9 @@ namespace {
 // (light ends of a robot of 80 kg) is 1e-4. Some rows are dependent only in the plane of the motion (knee and foot of
 // both hind legs); a plan stays in that plane to its solver's tolerance and leaves 1e-8 to 1e-7.
 constexpr double kRankThreshold = 1e-6;
+/// Rows with pivots above this, over the largest, are surely independent: A A' then gives ten digits at a fraction of
+/// the time of an orthogonal decomposition.
+constexpr double kIndependent = 1e-3;
 
 }  // namespace
 
@@ -28,8 +32,10 @@ struct ConstrainedDynamicsOracle::Workspace {
   std::vector<int> contacts;
   Eigen::LLT<Eigen::MatrixXd> mass;  // M = L L'
   Eigen::Matrix<double, 6, Eigen::Dynamic> frame_jacobian;
-  Eigen::MatrixXd A_transposed;  // L⁻¹ J'
-  Factors factors;               // of A_transposed
+  Eigen::MatrixXd A_transposed;      // L⁻¹ J'
+  Eigen::LLT<Eigen::MatrixXd> gram;  // of A A'
+  bool is_independent = false;       // rows of A
+  Factors factors;                   // of A_transposed, otherwise
 
   Workspace(const PinocchioModel& model, const std::vector<int>& held)
       : pinocchio(model),
@@ -52,8 +58,21 @@ struct ConstrainedDynamicsOracle::Workspace {
                                   pinocchio::LOCAL_WORLD_ALIGNED, frame_jacobian);
       A_transposed.middleCols<3>(3 * static_cast<Eigen::Index>(i)) = frame_jacobian.topRows<3>().transpose();
     }
-    mass.matrixL().solveInPlace(A_transposed);
-    factors.compute(A_transposed);
+    for (auto column : A_transposed.colwise()) mass.matrixL().solveInPlace(column);
+    gram.compute(A_transposed.transpose().lazyProduct(A_transposed));
+    const auto pivots = gram.matrixLLT().diagonal();
+    is_independent = gram.info() == Eigen::Success && pivots.minCoeff() > kIndependent * pivots.maxCoeff();
+    if (!is_independent) factors.compute(A_transposed);
+  }
+
+  /// Forces f with A A' f = x, and A' f.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> forces_for(const Eigen::VectorXd& x) const {
+    if (is_independent) {
+      Eigen::VectorXd force = gram.solve(x), push = A_transposed * force;
+      return {std::move(force), std::move(push)};
+    }
+    Eigen::VectorXd push = factors.transpose().solve(x), force = factors.solve(push);
+    return {std::move(force), std::move(push)};
   }
 
   // J a + J̇v from kinematics, without J.
@@ -97,9 +116,9 @@ ConstrainedDynamicsOracle::Motion ConstrainedDynamicsOracle::evaluate(const Eige
   motion.force = w.of_robot(Eigen::VectorXd::Zero(w.A_transposed.cols()));
   if (!w.contacts.empty()) {
     const Eigen::VectorXd drift = w.contact_acceleration(q, v, Eigen::VectorXd::Zero(v.size()));
-    const Eigen::VectorXd push = w.factors.transpose().solve(-drift - w.A_transposed.transpose() * x);
+    const auto [force, push] = w.forces_for(-drift - w.A_transposed.transpose() * x);
     x += push;
-    motion.force = w.of_robot(w.factors.solve(push));
+    motion.force = w.of_robot(force);
   }
   w.mass.matrixU().solveInPlace(x);
   motion.a = std::move(x);
@@ -115,7 +134,8 @@ Eigen::VectorXd ConstrainedDynamicsOracle::internal_part(const Eigen::VectorXd& 
   for (std::size_t i = 0; i < w.contacts.size(); ++i) {
     held.segment<3>(3 * static_cast<Eigen::Index>(i)) = force.segment<3>(3 * w.contacts[i]);
   }
-  if (w.contacts.empty() || w.factors.rank() == held.size()) return w.of_robot(Eigen::VectorXd::Zero(held.size()));
+  if (w.contacts.empty() || w.is_independent || w.factors.rank() == held.size())
+    return w.of_robot(Eigen::VectorXd::Zero(held.size()));
   return w.of_robot(held - w.factors.solve(w.A_transposed * held));  // A'⁺ A' projects on the forces with an effect
 }
 

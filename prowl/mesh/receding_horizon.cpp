@@ -110,6 +110,7 @@ ShiftedHorizon shift_horizon(const DiscreteProblem& problem, const Trajectory& m
   next.boundary_constraints = shifted_constraints(problem, nodes[1], mesh);
   ShiftedHorizon result{DiscreteProblem(std::move(next), std::move(mesh)), {}, {}};
 
+  result.warm_start.interpolation = motion.interpolation;
   result.warm_start.nodes.assign(nodes.begin() + 1, nodes.end());
   result.warm_start.nodes.push_back(nodes.back());
   result.warm_start.nodes.back().time += last_step;

@@ -15,7 +15,10 @@ std::vector<Trajectory> motions_of_phases(const Trajectory& motion, const Motion
   const std::size_t num_phases = problem.phases.size();
   std::vector<Trajectory> phases;
   for (const TrajectoryPoint& node : motion.nodes) {
-    if (phases.empty() || phases.back().nodes.back().phase != node.phase) phases.emplace_back();
+    if (phases.empty() || phases.back().nodes.back().phase != node.phase) {
+      phases.emplace_back();
+      phases.back().interpolation = motion.interpolation;
+    }
     phases.back().nodes.push_back(node);
   }
   if (phases.size() != num_phases) {

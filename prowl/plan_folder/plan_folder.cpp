@@ -69,7 +69,7 @@ PlanRecord read_plan(const std::filesystem::path& directory, const PackageSearch
   PlanRecord record = plan_from_json(read_text_file(directory / kPlan, kLongestPlan), search);
   const SourceText nodes =
       read_text_file(directory / kNodes, longest_trajectory(record.task.problem, record.plan.mesh));
-  record.plan.trajectory = trajectory_from_csv(record.task.problem, record.plan.mesh, nodes);
+  record.plan.trajectory.nodes = trajectory_from_csv(record.task.problem, record.plan.mesh, nodes).nodes;
   return record;
 }
 

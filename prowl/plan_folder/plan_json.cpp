@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
-constexpr int kSchemaVersion = 4;
+constexpr int kSchemaVersion = 5;
 constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
@@ -51,6 +51,7 @@ Json problem_to_json(const PlanRecord& record) {
   return {{"robot", problem.robot.name()},
           {"joints", problem.robot.joint_names()},
           {"phases", phases},
+          {"interpolation", to_string(record.plan.trajectory.interpolation)},
           {"variables", record.plan.num_variables},
           {"constraints", record.plan.num_constraints}};
 }
@@ -288,6 +289,15 @@ Mesh read_mesh(const Reader& plan, const MotionProblem& problem) {
   return mesh;
 }
 
+Interpolation read_interpolation(const Reader& problem) {
+  const std::string name = problem.text("interpolation");
+  for (const Interpolation rule : {Interpolation::trapezoid, Interpolation::hermite}) {
+    if (name == to_string(rule)) return rule;
+  }
+  problem.fail("interpolation",
+               fmt::format("{} or {}", to_string(Interpolation::trapezoid), to_string(Interpolation::hermite)));
+}
+
 TaskOverrides read_overrides(const Reader& json) {
   TaskOverrides overrides;
   if (json.has("intervals")) overrides.intervals = json.integer("intervals");
@@ -473,6 +483,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   record.plan.certificate = read_certificate(plan.object("certificate"), version);
   record.plan.reasons = plan.texts("reasons");
   record.plan.hints = plan.texts("hints");
+  if (version >= 5) record.plan.trajectory.interpolation = read_interpolation(plan.object("problem"));
   record.plan.num_variables = plan.object("problem").integer("variables");
   record.plan.num_constraints = plan.object("problem").integer("constraints");
   const Reader versions = plan.object("versions");

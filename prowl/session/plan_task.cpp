@@ -77,6 +77,15 @@ std::string add_gains(const PlanRequest& request, PlanRecord& record) {
   }
 }
 
+/// Where the mesh is open, an earlier plan brings its own, if goals have nodes there.
+Mesh mesh_to_begin_on(const Task& task, const PlanRecord* earlier) {
+  if (task.has_intervals || !earlier || earlier->plan.mesh.phases.size() != task.mesh.phases.size()) return task.mesh;
+  const auto has_node = [&](const BoundaryConstraint& constraint) {
+    return earlier->plan.mesh.phases[constraint.at.phase].node_at(constraint.at.fraction).has_value();
+  };
+  return std::ranges::all_of(task.problem.boundary_constraints, has_node) ? earlier->plan.mesh : task.mesh;
+}
+
 }  // namespace
 
 const std::string& solver_name(const PlanRequest& request) {
@@ -105,9 +114,9 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
     throw InputError("one mesh: the task has no intervals; need --intervals, or intervals in its phases");
   }
   const RefineOptions refine{.tolerance = tolerance.value_or(MeshTolerance{}),
-                             .ends_when_met = !task.has_intervals && !request.refine,
+                             .mesh_is_open = !task.has_intervals,
                              .on_round = request.on_round};
-  const DiscreteProblem asked(task.problem, task.mesh);
+  const DiscreteProblem asked(task.problem, mesh_to_begin_on(task, request.warm_start.record));
   const std::unique_ptr<NlpSolver> solver = make_solver(solver_name(request));
   std::unique_ptr<NlpSolver> hint_solver;
   PlanOptions options{.solver = task.solver,
@@ -119,6 +128,7 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
                             return hint_solver.get();
                           },
                       .hessian = request.hessian,
+                      .corrected = tolerance && request.warm_start.record && !request.warm_start.resume,
                       .coarse_first = request.coarse_first,
                       .on_iterate = request.on_iterate};
   options.solver.threads = request.threads;

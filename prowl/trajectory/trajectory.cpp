@@ -9,6 +9,10 @@
 
 namespace prowl {
 
+const char* to_string(Interpolation interpolation) {
+  return interpolation == Interpolation::trapezoid ? "trapezoid" : "hermite";
+}
+
 Eigen::VectorXd tangent_rate(const TrajectoryPoint& point) {
   Eigen::VectorXd rate = point.v;
   rate.head<3>() = base_rotation(point.q) * point.v.head<3>();

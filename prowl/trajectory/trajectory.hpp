@@ -20,6 +20,8 @@ enum class Interpolation {
   hermite,    ///< cubics, see hermite_interval.hpp
 };
 
+const char* to_string(Interpolation interpolation);
+
 /// A motion at the nodes of its mesh, phase by phase: a phase transition has two nodes at one time.
 struct Trajectory {
   std::vector<TrajectoryPoint> nodes;

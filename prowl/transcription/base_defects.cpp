@@ -19,16 +19,17 @@ std::array<double, 4> slopes(double half) { return {-half, -1.0, 1.0, -half}; }
 
 }  // namespace
 
-BaseDefects::BaseDefects(const BaseState& start, const BaseState& end, double h)
-    : half_(0.5 * h), product_(product(start, end, half_)) {
+BaseDefects::BaseDefects(const BaseState& start, const BaseState& end, double h, const Vector3d& turn)
+    : half_(0.5 * h), product_(product(start, end, half_, turn)) {
   const Matrix3d R0 = start.chart * so3::exp(start.theta);
   const Matrix3d R1 = end.chart * so3::exp(end.theta);
   position_ = end.position - start.position - half_ * (R0 * start.linear_velocity + R1 * end.linear_velocity);
 }
 
-BaseDefects::Product BaseDefects::product(const BaseState& start, const BaseState& end, double half) {
+BaseDefects::Product BaseDefects::product(const BaseState& start, const BaseState& end, double half,
+                                          const Vector3d& turn) {
   const Matrix3d one = Matrix3d::Identity();
-  return Product({{{one, -half * start.angular_velocity},
+  return Product({{{so3::exp(-turn), -half * start.angular_velocity},
                    {one, -start.theta},
                    {start.chart.transpose() * end.chart, end.theta},
                    {one, -half * end.angular_velocity}}});

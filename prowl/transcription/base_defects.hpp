@@ -27,7 +27,8 @@ class BaseDefects {
   using Matrix3x12 = Eigen::Matrix<double, 3, 12>;
   using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
-  BaseDefects(const BaseState& start, const BaseState& end, double h);
+  BaseDefects(const BaseState& start, const BaseState& end, double h,
+              const Eigen::Vector3d& turn = Eigen::Vector3d::Zero());
 
   const Eigen::Vector3d& position() const { return position_; }
   const Eigen::Vector3d& rotation() const { return product_.value(); }
@@ -39,7 +40,7 @@ class BaseDefects {
 
  private:
   using Product = RotationProduct<4>;
-  static Product product(const BaseState& start, const BaseState& end, double half);
+  static Product product(const BaseState& start, const BaseState& end, double half, const Eigen::Vector3d& turn);
 
   double half_;
   Eigen::Vector3d position_;

@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 using Turn = RotationProduct<2>;
 
 /// theta' = log(charts exp(theta) exp(s omega)).
-Turn turn(const Matrix3d& charts, const Vector3d& theta, double s, const Vector3d& omega) {
-  return Turn({{{charts, theta}, {Matrix3d::Identity(), s * omega}}});
+Turn turn(const Matrix3d& charts, const Vector3d& theta, const Matrix3d& between, double s, const Vector3d& omega) {
+  return Turn({{{charts, theta}, {between, s * omega}}});
 }
 
 /// Adds a block to a Hessian above its diagonal, that is, its transpose below it. `block` may be an expression,
@@ -69,13 +69,17 @@ void substitute_three(Columns&& columns, const Matrix3d& by) {
 
 }  // namespace
 
-void Arrival::set(const Matrix3d& chart, int nv, const HalfTime& time, const VectorXd& state) {
+void Arrival::set(const Matrix3d& chart, int nv, const HalfTime& time, const VectorXd& state,
+                  const VectorXd& correction) {
   chart_ = chart;
   nv_ = nv;
   time_ = time;
   node_ = state;
+  node_.head<3>() += correction.head<3>();
+  node_.segment(6, 2 * nv_ - 6) += correction.tail(2 * nv_ - 6);
   node_.segment(nv_, nv_) += time.s * state.segment(2 * nv_, nv_);
-  turn_ = turn(Matrix3d::Identity(), state.segment<3>(3), time.s, node_.segment<3>(nv_ + 3));
+  turn_ = turn(Matrix3d::Identity(), state.segment<3>(3), so3::exp(correction.segment<3>(3)), time.s,
+               node_.segment<3>(nv_ + 3));
   slope_ = turn_.derivative();
   world_ = WorldVelocity(chart, turn_.value(), node_.segment<3>(nv_));
   node_.segment<3>(3) = turn_.value();
@@ -83,13 +87,16 @@ void Arrival::set(const Matrix3d& chart, int nv, const HalfTime& time, const Vec
   node_.segment(6, nv_ - 6) += time.s * node_.segment(nv_ + 6, nv_ - 6);
 }
 
-VectorXd Arrival::state(const Matrix3d& chart, int nv, double s, const VectorXd& node) {
+VectorXd Arrival::state(const Matrix3d& chart, int nv, double s, const VectorXd& node, const VectorXd& correction) {
   VectorXd state = node;
   const WorldVelocity world(chart, node.segment<3>(3), node.segment<3>(nv));
   state.head<3>() -= s * world.value;
-  state.segment<3>(3) = so3::log(so3::exp(node.segment<3>(3)) * so3::exp(-s * node.segment<3>(nv + 3)));
+  state.segment<3>(3) = so3::log(so3::exp(node.segment<3>(3)) * so3::exp(-s * node.segment<3>(nv + 3)) *
+                                 so3::exp(-correction.segment<3>(3)));
   state.segment(6, nv - 6) -= s * node.segment(nv + 6, nv - 6);
   state.segment(nv, nv) -= s * node.segment(2 * nv, nv);
+  state.head<3>() -= correction.head<3>();
+  state.segment(6, 2 * nv - 6) -= correction.tail(2 * nv - 6);
   return state;
 }
 
@@ -211,7 +218,8 @@ void Departure::set(const Matrix3d& chart, const Matrix3d& next_chart, int nv, c
   nv_ = nv;
   time_ = time;
   node_ = node;
-  turn_ = turn(next_chart.transpose() * chart, node.segment<3>(3), time.s, node.segment<3>(nv + 3));
+  turn_ =
+      turn(next_chart.transpose() * chart, node.segment<3>(3), Matrix3d::Identity(), time.s, node.segment<3>(nv + 3));
   slope_ = turn_.derivative();
   world_ = WorldVelocity(chart, node.segment<3>(3), node.segment<3>(nv));
 }

@@ -28,12 +28,14 @@ struct HalfTime {
 class Arrival {
  public:
   /// Sets the state at which the rest is evaluated.
-  void set(const Eigen::Matrix3d& chart, int nv, const HalfTime& time, const Eigen::VectorXd& state);
+  void set(const Eigen::Matrix3d& chart, int nv, const HalfTime& time, const Eigen::VectorXd& state,
+           const Eigen::VectorXd& correction);
 
   /// Variables of the node.
   const Eigen::VectorXd& node() const { return node_; }
   /// Inverse map: the state that leads to these variables of a node.
-  static Eigen::VectorXd state(const Eigen::Matrix3d& chart, int nv, double s, const Eigen::VectorXd& node);
+  static Eigen::VectorXd state(const Eigen::Matrix3d& chart, int nv, double s, const Eigen::VectorXd& node,
+                               const Eigen::VectorXd& correction);
 
   /// Turns derivatives in the node's variables (one row per function) into those in the state's.
   void pull_back(Eigen::MatrixXd& rows) const;

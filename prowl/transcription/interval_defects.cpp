@@ -6,13 +6,14 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-IntervalDefects::IntervalDefects(IntervalEnd start, IntervalEnd end, double h)
+IntervalDefects::IntervalDefects(IntervalEnd start, IntervalEnd end, double h, const VectorXd& correction)
     : start_(std::move(start)),
       end_(std::move(end)),
       h_(h),
+      correction_(correction.size() > 0 ? correction : VectorXd::Zero(2 * start_.v.size())),
       nv_(start_.v.size()),
       nu_(nv_ - 6),
-      base_(start_.base(), end_.base(), h) {}
+      base_(start_.base(), end_.base(), h, correction_.segment<3>(3)) {}
 
 VectorXd IntervalDefects::value() const {
   VectorXd value(2 * nv_);
@@ -20,6 +21,8 @@ VectorXd IntervalDefects::value() const {
   value.segment<3>(3) = base_.rotation();
   value.segment(6, nu_) = (end_.q - start_.q - 0.5 * h_ * (start_.v + end_.v)).tail(nu_);
   value.tail(nv_) = end_.v - start_.v - 0.5 * h_ * (start_.a + end_.a);
+  value.head<3>() -= correction_.head<3>();
+  value.tail(2 * nv_ - 6) -= correction_.tail(2 * nv_ - 6);
   return value;
 }
 

@@ -19,7 +19,8 @@ struct IntervalEnd {
 ///   joints   q1 - q0 - h/2 (v0 + v1),   v1 - v0 - h/2 (a0 + a1),   the base as in BaseDefects
 class IntervalDefects {
  public:
-  IntervalDefects(IntervalEnd start, IntervalEnd end, double h);
+  /// `correction`: what the rule adds to the step (2 nv, a row of Corrections); empty: nothing.
+  IntervalDefects(IntervalEnd start, IntervalEnd end, double h, const Eigen::VectorXd& correction = {});
 
   Eigen::VectorXd value() const;
   Eigen::VectorXd d_step() const;  ///< derivative in h
@@ -45,6 +46,7 @@ class IntervalDefects {
 
   IntervalEnd start_, end_;
   double h_;
+  Eigen::VectorXd correction_;
   Eigen::Index nv_, nu_;
   BaseDefects base_;
 };

@@ -36,14 +36,18 @@ std::vector<NodeFunctions> NodeProgram::functions_of_phases() const {
   return functions;
 }
 
-NodeProgram::NodeProgram(const DiscreteProblem& discrete, const Trajectory& guess)
+NodeProgram::NodeProgram(const DiscreteProblem& discrete, const Trajectory& guess, Corrections corrections)
     : discrete_(discrete),
       contacts_(contacts_of_phases(discrete, guess)),
       functions_(one_thread(functions_of_phases())),
       anchor_origins_(anchor_origins(discrete)),
       layout_(layout_of(discrete, functions_.front())),
       bounds_(variable_bounds(discrete, layout_)),
-      charts_(rotation_charts(discrete, guess)) {
+      charts_(rotation_charts(discrete, guess)),
+      is_corrected_(!corrections.empty()),
+      corrections_(std::move(corrections)),
+      none_(VectorXd::Zero(2 * discrete.problem.robot.nv())) {
+  corrections_.resize(discrete.nodes.size());
   for (int p = 0; p < static_cast<int>(contacts_.size()); ++p) {
     std::vector<int>& shared = shared_.emplace_back();
     if (layout_.duration(p) >= 0) shared.push_back(layout_.duration(p));

@@ -9,6 +9,7 @@
 #include "prowl/nlp/thread_team.hpp"
 #include "prowl/trajectory/trajectory.hpp"
 #include "prowl/transcription/decision_layout.hpp"
+#include "prowl/transcription/deferred_correction.hpp"
 #include "prowl/transcription/node/node_functions.hpp"
 #include "prowl/transcription/transcription_bounds.hpp"
 
@@ -24,7 +25,7 @@ class NodeProgram {
  public:
   /// `guess` (one point per node) fixes the chart of the base rotation at each node. `discrete`
   /// must outlive the program. Throws InputError for contradictory bounds.
-  NodeProgram(const DiscreteProblem& discrete, const Trajectory& guess);
+  NodeProgram(const DiscreteProblem& discrete, const Trajectory& guess, Corrections corrections = {});
   NodeProgram(const NodeProgram&) = delete;
   NodeProgram& operator=(const NodeProgram&) = delete;
 
@@ -34,6 +35,9 @@ class NodeProgram {
   int num_nodes() const { return layout_.num_nodes(); }
   int phase_of(int k) const { return discrete_.nodes[k].phase; }
   const Eigen::Matrix3d& chart(int k) const { return charts_[k]; }
+  /// Of the interval that ends at node k (2 nv); zero if there are none.
+  const Eigen::VectorXd& correction(int k) const { return corrections_[k].size() > 0 ? corrections_[k] : none_; }
+  bool is_corrected() const { return is_corrected_; }
 
   const NodeFunctions& functions(int k) const { return functions_.front()[phase_of(k)]; }
   /// Functions of node k for the calling thread.
@@ -72,7 +76,10 @@ class NodeProgram {
   std::vector<Eigen::VectorXd> anchor_origins_;        ///< per phase: anchors at zero foothold coordinates
   DecisionLayout layout_;
   VariableBounds bounds_;
-  std::vector<Eigen::Matrix3d> charts_;   ///< per node
+  std::vector<Eigen::Matrix3d> charts_;  ///< per node
+  bool is_corrected_;
+  Corrections corrections_;               ///< per node
+  Eigen::VectorXd none_;                  ///< zero
   std::vector<std::vector<int>> shared_;  ///< per phase
 };
 

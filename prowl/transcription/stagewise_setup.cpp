@@ -163,7 +163,8 @@ void StagewiseTranscription::set_patterns(int k) {
   const Index size = stage.fixed.size(), variables = stage.size.variables();
   VectorXd state(size);
   for (Index i = 0; i < size; ++i) state(i) = std::sin(static_cast<double>(i + 1));
-  stage.arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state);
+  stage.arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state,
+                    nodes_.correction(k));
   if (stage.num_next() > 0) {
     const HalfTime time = half_time(k, discrete_.nodes[k].node, stage.node());
     stage.departure.set(nodes_.chart(k), nodes_.chart(k + 1), layout_.nv(), time, stage.node());

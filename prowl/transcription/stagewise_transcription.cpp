@@ -32,7 +32,8 @@ void StagewiseTranscription::set_arrival(int k, const VectorXd& ux, VectorXd& st
   for (std::size_t i = 0; i < stage.variables.size(); ++i) {
     state(stage.variables[i]) = ux(static_cast<Index>(i)) * stage.unit(static_cast<Index>(i));
   }
-  arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state);
+  arrival.set(nodes_.chart(k), layout_.nv(), half_time(k, discrete_.nodes[k].node - 1, state), state,
+              nodes_.correction(k));
 }
 
 void StagewiseTranscription::move_to(int k, const VectorXd& ux) {
@@ -320,7 +321,7 @@ std::vector<VectorXd> StagewiseTranscription::stages(const VectorXd& z) const {
     VectorXd node(stage(k).fixed.size());
     for (Index i = 0; i < node.size(); ++i) node(i) = z(nodes_.column(k, static_cast<int>(i)));
     const double s = half_time(k, discrete_.nodes[k].node - 1, node).s;
-    const VectorXd state = Arrival::state(nodes_.chart(k), layout_.nv(), s, node);
+    const VectorXd state = Arrival::state(nodes_.chart(k), layout_.nv(), s, node, nodes_.correction(k));
     result.push_back(state(stage(k).variables).cwiseQuotient(stage(k).unit));
   }
   return result;

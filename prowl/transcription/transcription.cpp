@@ -18,8 +18,8 @@ using Eigen::VectorXd;
 
 }  // namespace
 
-Transcription::Transcription(const DiscreteProblem& discrete, const Trajectory& guess)
-    : MotionNlp(discrete), nodes_(discrete, guess), layout_(nodes_.layout()) {
+Transcription::Transcription(const DiscreteProblem& discrete, const Trajectory& guess, Corrections corrections)
+    : MotionNlp(discrete), nodes_(discrete, guess, std::move(corrections)), layout_(nodes_.layout()) {
   variable_lower_ = nodes_.bounds().lower;
   variable_upper_ = nodes_.bounds().upper;
   values_.resize(nodes_.num_nodes());
@@ -95,7 +95,7 @@ IntervalEnd Transcription::interval_end(const VectorXd& z, int k) const {
 }
 
 IntervalDefects Transcription::interval(const VectorXd& z, int k) const {
-  return {interval_end(z, k), interval_end(z, k + 1), step(z, k)};
+  return {interval_end(z, k), interval_end(z, k + 1), step(z, k), nodes_.correction(k + 1)};
 }
 
 void Transcription::evaluate_all(const VectorXd& z, bool with_derivatives) {
@@ -348,6 +348,7 @@ Trajectory Transcription::unpack(const VectorXd& z) {
     }
     append(std::move(point), trajectory);
   }
+  if (nodes_.is_corrected()) trajectory.interpolation = Interpolation::hermite;
   return trajectory;
 }
 

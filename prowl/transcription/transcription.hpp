@@ -26,7 +26,7 @@ class Transcription : public MotionNlp {
  public:
   /// `guess` (one point per node) fixes the chart of the base rotation at each node. `discrete`
   /// must outlive the program. Throws InputError for contradictory bounds.
-  Transcription(const DiscreteProblem& discrete, const Trajectory& guess);
+  Transcription(const DiscreteProblem& discrete, const Trajectory& guess, Corrections corrections = {});
   ~Transcription() override;
 
   Eigen::VectorXd pack(const Trajectory& trajectory) const override;

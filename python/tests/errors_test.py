@@ -93,7 +93,7 @@ def test_what_a_callback_raises_ends_the_solve(crouch):
 
 def long_task() -> prowl.Task:
     """One that takes seconds."""
-    return prowl.read_task("hyq/walk", tolerance=1e-10)
+    return prowl.read_task("hyq/walk", intervals=1232, tolerance=1e-10)
 
 
 def press_ctrl_c(after: float) -> list[float]:

@@ -79,7 +79,7 @@ def test_export_warns_of_a_mesh_that_cannot_be_read(hyq, tmp_path):
 
 
 def test_export_warns_of_a_plan_that_is_not_good(tmp_path):
-    task = prowl.read_task("hyq/step", max_iterations=2)
+    task = prowl.read_task("hyq/step", intervals=250, max_iterations=2)
     prowl.solve(task, coarse_first=False, progress=False).write(tmp_path / "plan")
     with pytest.warns(UserWarning, match="^this plan is not good: iteration_limit, certificate failed"):
         assert not prowl.export(tmp_path / "plan", "csv").has_gains

@@ -38,7 +38,7 @@ def test_the_command_finds_the_same_plan_bit_for_bit(crouch, tmp_path):
 def test_arrays_hold_what_the_file_holds(crouch, tmp_path):
     crouch.write(tmp_path / "plan")
     file = tmp_path / "plan/trajectory.csv"
-    assert crouch.t.shape == (len(crouch),) and len(crouch) == 81
+    assert crouch.t.shape == (len(crouch),) and len(crouch) == 41
     np.testing.assert_array_equal(columns(file, "time_s")[:, 0], crouch.t)
     np.testing.assert_array_equal(
         np.hstack([columns(file, "base_p"), columns(file, "base_q"), columns(file, "q_")]), crouch.q
@@ -89,7 +89,7 @@ def test_samples_between_nodes_lie_on_the_motion(crouch):
     np.testing.assert_allclose(crouch.at(crouch.t[:-1]).q, crouch.q[:-1], atol=1e-12)
     middle = crouch.at(0.5 * (crouch.t[:-1] + crouch.t[1:]))
     between = 0.5 * (crouch.q[:-1] + crouch.q[1:])
-    assert 0 < np.abs(middle.q - between).max() < 1e-3
+    assert 0 < np.abs(middle.q - between).max() < 0.05**2 / 8 * np.abs(crouch.a).max(), "by the curvature"
     with pytest.raises(prowl.InputError, match="need 0 <= t"):
         crouch.at([crouch.duration + 1.0])
 
@@ -150,9 +150,9 @@ def test_progress_tells_every_iteration(crouch, capsys):
     plan = prowl.solve(
         crouch.task, progress=True, on_iteration=lambda p: seen.append((p.intervals, p.iteration, p.cost))
     )
-    assert {intervals for intervals, _, _ in seen} == {20, 80}
+    assert {intervals for intervals, _, _ in seen} == {20, 40}
     assert len(seen) == plan.iterations
-    assert seen[-1][2] == pytest.approx(plan.cost, rel=1e-6)
+    assert seen[-1][2] == pytest.approx(plan.cost, rel=1e-4)  # a step before the end
     assert f"{len(seen)} iterations" in capsys.readouterr().err
 
 
@@ -162,7 +162,7 @@ def test_iterates_have_their_motion(crouch):
     np.testing.assert_array_equal(plan.q, crouch.q, err_msg="who watches changes nothing")
     assert [(at.intervals, at.iteration) for at in iterates] == [(p.intervals, p.iteration) for p in progress]
     assert all(isinstance(at, prowl.Progress) and len(at.motion) == at.intervals + 1 for at in iterates)
-    np.testing.assert_allclose(iterates[-1].motion.q, plan.q, atol=1e-6)
+    np.testing.assert_allclose(iterates[-1].motion.q, plan.q, atol=1e-5)  # a step before the end
     assert np.abs(iterates[0].motion.tau - iterates[3].motion.tau).max() > 1e-3, "they differ on the way"
     motion = iterates[0].motion
     first = motion.q.copy()

@@ -106,7 +106,7 @@ def test_a_point_is_judged(crouch):
     assert not guess.certificate.passed and guess.constraint_violation > 1e-3
     assert isinstance(guess.worst_check, prowl.Check)
     assert guess.check("contact drift").unit == "m" and guess.check("nothing") is None
-    assert guess.motion.q.shape == crouch.q.shape
+    assert guess.motion.q.shape == (sum(phase.intervals for phase in crouch.task.phases) + 1, 19)
     np.testing.assert_allclose(guess.cost, program.cost(z))
     rows = program.constraints(z)
     outside = max((program.constraint_lower - rows).max(), (rows - program.constraint_upper).max())

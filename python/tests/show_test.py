@@ -120,7 +120,7 @@ def test_a_notebook_shows_result_cost_and_certificate_of_a_plan(crouch):
 
 
 def test_a_notebook_shows_what_fails():
-    failed = prowl.solve(prowl.read_task("hyq/step", max_iterations=2), coarse_first=False)
+    failed = prowl.solve(prowl.read_task("hyq/step", intervals=250, max_iterations=2), coarse_first=False)
     text = failed._repr_html_()
     assert "not good" in text and "iteration limit" in text and "<details open><summary>Certificate" in text
     rows = re.findall(r"<tr>(.*?)</tr>", failed.certificate._repr_html_())

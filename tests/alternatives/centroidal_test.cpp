@@ -34,8 +34,9 @@ constexpr std::size_t kContacts = 4;
 
 CentroidalNlp make_nlp(const DiscreteProblem& discrete) { return {discrete, initial_guess(discrete)}; }
 
-MeshedProblem task_problem(const std::string& name) {
-  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test::test_search());
+MeshedProblem task_problem(const std::string& name, int intervals) {
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test::test_search(),
+                                   {.intervals = intervals});
   return {task.problem, task.mesh};
 }
 
@@ -160,7 +161,7 @@ TEST(Formulations, CountsOfANodeBesideThoseOfThePaper) {
 
 /// The sums of both lists are Prowl's counts above.
 TEST(CentroidalNlp, GroupsOfANodeSayWhatItsCountsAre) {
-  const DiscreteProblem discrete = task_problem("hyq/crouch").discrete();
+  const DiscreteProblem discrete = task_problem("hyq/crouch", 80).discrete();
   CentroidalNlp nlp = make_nlp(discrete);
   const std::vector<RowGroup> variables = nlp.variable_groups(7), constraints = nlp.constraint_groups(7);
   EXPECT_THAT(variables,
@@ -294,7 +295,7 @@ double drift(const MotionProblem& problem, const Trajectory& motion) {
 
 TEST(CentroidalNlp, StandsAndCrouchesWithTheForcesThatItsMomentumNeeds) {
   for (const char* name : {"hyq/stand", "hyq/crouch"}) {
-    const auto [problem, mesh] = task_problem(name);
+    const auto [problem, mesh] = task_problem(name, 60);
     const FormulationRun run = solve({problem, mesh}, "centroidal");
     ASSERT_EQ(run.result.status, SolveStatus::converged) << name;
     expect_balance(problem, run.motion);
@@ -315,7 +316,7 @@ TEST(CentroidalNlp, StandsAndCrouchesWithTheForcesThatItsMomentumNeeds) {
 /// Its motion costs a whole robot hardly more than the best that a whole-body program finds, and what it leaves on the
 /// base goes down with the step.
 TEST(CentroidalNlp, InverseDynamicsAgreeWithItBetterOnAFinerMesh) {
-  auto [problem, mesh] = task_problem("hyq/stand");
+  auto [problem, mesh] = task_problem("hyq/stand", 40);
   const FormulationRun whole_body = solve({problem, mesh}, "inverse");
   const InverseDynamicsCheck itself = check_by_inverse_dynamics(problem, whole_body.motion);
   EXPECT_NEAR(itself.cost, whole_body.result.cost, 1e-5 * whole_body.result.cost);
@@ -332,10 +333,9 @@ TEST(CentroidalNlp, InverseDynamicsAgreeWithItBetterOnAFinerMesh) {
   EXPECT_LT(fine.cost, coarse.cost);
 }
 
-/// A fifth of the step's mesh: its contact opens, swings over its clearance, and lands at rest where the task has it.
+/// Its contact opens, swings over its clearance, and lands at rest where the task has it.
 TEST(CentroidalNlp, Steps) {
-  auto [problem, mesh] = task_problem("hyq/step");
-  for (PhaseMesh& phase : mesh.phases) phase = PhaseMesh(phase.intervals() / 5);
+  const auto [problem, mesh] = task_problem("hyq/step", 50);
   const DiscreteProblem discrete(problem, mesh);
   const FormulationRun run = solve(discrete, "centroidal");
   ASSERT_EQ(run.result.status, SolveStatus::converged);

@@ -1,6 +1,6 @@
 prowl_test(alternatives/base_chart prowl::formulations)
 prowl_test(alternatives/collocation prowl::formulations nlp_support)
-prowl_test(alternatives/order prowl::formulations prowl::solvers prowl::ipopt)
+prowl_test(alternatives/order prowl::formulations prowl::solvers prowl::certificate prowl::ipopt Boost::headers)
 prowl_test(alternatives/contact_motion prowl::alternatives)
 prowl_test(alternatives/run_formulation prowl::formulations prowl::prowl prowl::ipopt)
 prowl_test(alternatives/centroidal_kinematics prowl::formulations pinocchio::pinocchio_default)

@@ -32,7 +32,6 @@ def plan(task: str, out: pathlib.Path, *options: str) -> dict[str, bytes]:
         str(out),
         "--package-dir",
         PACKAGE_DIR,
-        "--one-mesh",
         *options,
     ]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=500)

@@ -47,7 +47,17 @@ class ExportCommand(unittest.TestCase):
     def test_a_plan_without_gains_that_is_not_finished(self):
         plan = self.plan.with_name("unfinished")
         self.assertEqual(
-            prowl("plan", ROOT / "tasks/hyq/step.toml", "--max-iterations", 2, "--one-mesh", "--out", plan).returncode,
+            prowl(
+                "plan",
+                ROOT / "tasks/hyq/step.toml",
+                "--max-iterations",
+                2,
+                "--one-mesh",
+                "--intervals",
+                250,
+                "--out",
+                plan,
+            ).returncode,
             6,
         )
         done = run_or_fail("export", plan, "--format", "csv,npz,mcap")

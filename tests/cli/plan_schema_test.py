@@ -53,7 +53,12 @@ class PlanSchema(unittest.TestCase):
         for name, task, options, status in (
             ("crouch", ROOT / "tasks/hyq/crouch.toml", ["--intervals", 60], (0, 7)),
             ("gait", ROOT / "tasks/hyq/trot.toml", [], (0,)),
-            ("unfinished", ROOT / "tasks/hyq/step.toml", ["--max-iterations", 2, "--one-mesh"], (6,)),
+            (
+                "unfinished",
+                ROOT / "tasks/hyq/step.toml",
+                ["--max-iterations", 2, "--one-mesh", "--intervals", 250],
+                (6,),
+            ),
             ("infeasible", too_far, [], (3,)),
             ("refined", ROOT / "tasks/hyq/step.toml", ["--refine"], (0,)),
         ):
@@ -76,7 +81,10 @@ class PlanSchema(unittest.TestCase):
         self.assertEqual(self.plans["crouch"]["overrides"], {"intervals": 60})
         self.assertEqual(self.plans["unfinished"]["status"], "iteration_limit")
         self.assertTrue(self.plans["infeasible"]["reasons"])
-        for phase in self.plans["refined"]["problem"]["phases"]:
+        self.assertEqual(self.plans["refined"]["problem"]["interpolation"], "hermite")
+        uneven = [phase for phase in self.plans["refined"]["problem"]["phases"] if phase["shares"]]
+        self.assertTrue(uneven)
+        for phase in uneven:
             self.assertEqual(len(phase["shares"]), phase["intervals"])
             self.assertAlmostEqual(sum(phase["shares"]), 1.0, 12)
 
@@ -100,7 +108,7 @@ class PlanSchema(unittest.TestCase):
     def test_refuses_values_of_the_wrong_kind(self):
         for path, value in (
             ("schema_version", 3),
-            ("schema_version", 5),
+            ("schema_version", 6),
             ("status", "fine"),
             ("good", "yes"),
             ("certificate.grade", "A"),
@@ -150,7 +158,7 @@ class PlanSchema(unittest.TestCase):
             (1, 0, ""),
             (2, 2, "cpu_seconds: missing"),
             (3, 2, "shares: missing"),
-            (5, 2, "written by a newer Prowl"),
+            (6, 2, "written by a newer Prowl"),
             (0, 2, "plan again with prowl plan"),
         ):
             plan["schema_version"] = version

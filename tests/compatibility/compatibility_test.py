@@ -97,7 +97,9 @@ class Compatibility(unittest.TestCase):
             with self.subTest(case=name):
                 new = self.outcomes[name].facts
                 if "cost" in old:
-                    self.assertAlmostEqual(new.pop("cost") / old.pop("cost"), 1.0, delta=1e-3)
+                    # Since 0f26b62 a refined mesh has fewer nodes, so that the best torques on it cost a little more.
+                    delta = 1e-2 if name == "plan_refined" else 1e-3
+                    self.assertAlmostEqual(new.pop("cost") / old.pop("cost"), 1.0, delta=delta)
                 self.assertEqual(new, old)
 
     def test_every_key_is_in_a_file_that_was_read(self):

@@ -75,14 +75,16 @@ TEST_F(MeshAdvice, SpeaksOfWhatIsMissingOnly) {
               HasSubstr("for grade draft (0.0001) about more than 10000 intervals, or --refine draft\n"));
 }
 
-/// Of a mesh of steps that differ no number of equal ones follows.
-TEST_F(MeshAdvice, OfAnUnevenMeshIsToRefineIt) {
-  PlanRecord plan = record(5e-5);
-  plan.plan.mesh.phases[0] = PhaseMesh({1.0, 1.0, 1.0, 1.0, 2.0});
-  EXPECT_THAT(
-      mesh_advice(plan),
-      testing::EndsWith(
-          "step size):\nfor grade certified (1e-06) --refine certified --warm-start with the folder of this plan\n"));
+/// Of steps that differ, or of a corrected motion, no number of equal steps of the trapezoid follows.
+TEST_F(MeshAdvice, OfARefinedPlanIsToRefineIt) {
+  PlanRecord uneven = record(5e-5), corrected = record(5e-5);
+  uneven.plan.mesh.phases[0] = PhaseMesh({1.0, 1.0, 1.0, 1.0, 2.0});
+  corrected.plan.trajectory.interpolation = Interpolation::hermite;
+  for (const PlanRecord* plan : {&uneven, &corrected}) {
+    EXPECT_THAT(mesh_advice(*plan),
+                testing::EndsWith("intervals:\nfor grade certified (1e-06) --refine certified --warm-start with the "
+                                  "folder of this plan\n"));
+  }
 }
 
 TEST_F(MeshAdvice, SaysNothingOfAPlanThatDidNotConverge) {

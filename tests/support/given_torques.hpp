@@ -20,18 +20,29 @@ namespace prowl::test {
 
 constexpr double kGivenDuration = 0.4;  // [s]
 
-/// HyQ sinks, leans and turns.
+/// HyQ sinks, leans and turns; without contacts it only moves its legs.
 inline Eigen::VectorXd given_torques(const MotionProblem& problem, double t) {
   const std::vector<int> contacts = contact_indices(problem.phases[0].contacts);
+  if (contacts.empty()) return t / kGivenDuration * Eigen::VectorXd::LinSpaced(problem.robot.nu(), -0.4, 0.6);
   Eigen::VectorXd tau = static_equilibrium(problem.robot, problem.start_configuration(), contacts).tau;
   const Eigen::VectorXd change = Eigen::VectorXd::LinSpaced(tau.size(), -4.0, 6.0);
   return 0.95 * tau + t / kGivenDuration * change;
 }
 
-inline DiscreteProblem given_motion(int intervals) {
+enum class Given { standing, tumbling };
+
+inline DiscreteProblem given_motion(int intervals, Given given_start = Given::standing) {
   MotionProblem problem = standing_problem(hyq(), 0.0, 2.0);
   problem.phases[0].duration = {kGivenDuration, kGivenDuration};
   BoundaryConstraint& start = problem.boundary_constraints.front();
+  if (given_start == Given::tumbling) {
+    problem.phases[0].contacts.clear();
+    start.q_ref(2) += 2.0;
+    Eigen::VectorXd v = Eigen::VectorXd::Zero(problem.robot.nv());
+    v.head<3>() << 0.5, -0.3, 1.0;
+    v.segment<3>(3) << 1.2, -0.8, 1.6;
+    start.velocity_lower = start.velocity_upper = v;
+  }
   start.torque_lower = start.torque_upper = given_torques(problem, 0.0);
   for (int k = 1; k <= intervals; ++k) {
     auto given =
@@ -87,8 +98,9 @@ struct GivenTorques : MotionNlp {
 };
 
 /// Where the motion is at its end. Throws std::runtime_error if the equations are not solved.
-inline TrajectoryPoint end_of_given_motion(const Formulation& formulation, int intervals) {
-  const DiscreteProblem discrete = given_motion(intervals);
+inline TrajectoryPoint end_of_given_motion(const Formulation& formulation, int intervals,
+                                           Given start = Given::standing) {
+  const DiscreteProblem discrete = given_motion(intervals, start);
   const Trajectory guess = initial_guess(discrete);
   GivenTorques nlp(make_collocation(formulation, discrete, guess), discrete);
   const SolveResult result = IpoptSolver().solve(nlp, nlp.pack(guess), {.tolerance = 1e-11, .max_iterations = 60});
@@ -98,12 +110,13 @@ inline TrajectoryPoint end_of_given_motion(const Formulation& formulation, int i
 }
 
 struct StateError {
-  double q, v;
+  double q, v, force;
 };
 
 /// The largest differences.
 inline StateError state_error(const TrajectoryPoint& a, const TrajectoryPoint& b) {
-  return {difference(a.q, b.q).cwiseAbs().maxCoeff(), (a.v - b.v).cwiseAbs().maxCoeff()};
+  return {difference(a.q, b.q).cwiseAbs().maxCoeff(), (a.v - b.v).cwiseAbs().maxCoeff(),
+          (a.force - b.force).cwiseAbs().maxCoeff()};
 }
 
 }  // namespace prowl::test

@@ -54,6 +54,7 @@ class PlannedTask {
   const RobotModel& robot() const { return record_.task.problem.robot; }
   std::vector<TrajectoryPoint>& nodes() { return record_.plan.trajectory.nodes; }
   const std::vector<TrajectoryPoint>& nodes() const { return record_.plan.trajectory.nodes; }
+  TrajectoryPoint at(double time) const { return sample(record_.plan.trajectory, time); }
   const TrajectoryPoint& start() const { return nodes().front(); }
   const TrajectoryPoint& end() const { return nodes().back(); }
 
@@ -355,7 +356,7 @@ inline void jumps(const PlannedTask& task, Misses& misses) {
   const auto flight = task.phase("flight");
   const double shortest = task.phase_in_file("flight")["duration_s"][0].value<double>().value();
   misses.at_least("time in the air", flight.back().time - flight.front().time, std::max(0.2, shortest) - 1e-6);
-  const TrajectoryPoint& middle = flight[flight.size() / 2];
+  const TrajectoryPoint middle = task.at(0.5 * (flight.front().time + flight.back().time));
   for (const std::string& foot : task.contacts()) {
     misses.at_least("height of " + foot, task.height(middle, foot), task.clearance() - 1e-3);
     misses.at_least("height of " + foot, task.height(middle, foot), 0.15 - 1e-3);

@@ -70,7 +70,7 @@ DiscreteProblem with_goal_moved(const Task& task, int axis, double by) {
 
 /// Each direction of the goal, also those in which a filter would halve Newton's first step.
 TEST(SolveAgain, TakesFewIterationsWithTheGoalElsewhere) {
-  const Task task = read("balance", 120);
+  const Task task = read("balance", 160);
   const Plan plan = solve(task);
   ASSERT_EQ(plan.result.status, SolveStatus::converged);
   for (int axis = 0; axis < 3; ++axis) {
@@ -117,7 +117,7 @@ TEST(ShiftHorizon, GoesOnInFewIterations) {
 }
 
 TEST(ShiftHorizon, MultipliersHelp) {
-  const Task task = read("balance", 120);
+  const Task task = read("balance", 160);
   const std::vector<int> with = run_three_steps(task, true), without = run_three_steps(task, false);
   for (std::size_t i = 0; i < with.size(); ++i) EXPECT_LT(with[i], without[i]) << "step " << i;
 }

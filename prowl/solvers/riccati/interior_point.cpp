@@ -35,7 +35,7 @@ constexpr double kStepAccuracy = 1e-2, kFarStepAccuracy = 1e-4;
 /// iterations with mu = 1e-3, 22 with this; 23 intervals: 16 and 16). Near a solution with known
 /// multipliers these place the slacks, and mu can start near its final value: HyQ balance with the
 /// goal moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
-constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-4, kKnownBarrier = 3e-5;
+constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-3, kKnownBarrier = 3e-5;
 constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< distance of slacks from their bounds
 /// If no fraction of a step is acceptable: regularise more, at most so many times.
 constexpr double kFailureGrowth = 100.0;
@@ -364,7 +364,7 @@ bool InteriorPoint::compute_direction(double least_regularisation, std::string& 
   return false;
 }
 
-InteriorPoint::Ending InteriorPoint::run(const StageVectors& guess, const Watch& watch) {
+InteriorPoint::Ending InteriorPoint::run(const StageVectors& guess, const Watch& watch, const Test& is_feasible) {
   using enum SolveStatus;
   ux_ = guess;
   if (!evaluate(ux_, values_)) return {evaluation_failed, failure_};
@@ -387,7 +387,7 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& guess, const Watch&
       update_dual_violation();
       update_figures();
       if (!std::isfinite(figures_.dual_violation)) return {evaluation_failed, "the iterate is not finite"};
-      if (error(0.0) <= options_.tolerance && figures_.violation <= options_.tolerance) {
+      if (error(0.0) <= options_.tolerance && figures_.violation <= options_.tolerance && is_feasible(ux_)) {
         return {converged, "optimal within tolerance"};
       }
       if (const auto ending = watch(iterations_, figures_)) return *ending;

@@ -31,7 +31,9 @@ class InteriorPoint {
   };
   /// Called once per iteration; a returned Ending stops the solve.
   using Watch = std::function<std::optional<Ending>(int iteration, const IterateFigures& figures)>;
-  Ending run(const StageVectors& guess, const Watch& watch);
+  /// The caller's own test of feasibility, in the units of the program: those of the stages differ.
+  using Test = std::function<bool(const StageVectors& stages)>;
+  Ending run(const StageVectors& guess, const Watch& watch, const Test& is_feasible);
 
   int iterations() const { return iterations_; }
   int pivoted_stages() const { return kkt_.num_pivoted(); }  ///< of the latest factorisation

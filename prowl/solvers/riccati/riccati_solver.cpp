@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "prowl/nlp/constraint_violation.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solvers/arguments.hpp"
 #include "prowl/solvers/remeasure_result.hpp"
@@ -57,9 +58,15 @@ SolveResult RiccatiSolver::solve(Nlp& nlp, const VectorXd& z_guess, const Solver
     if (iteration >= options.max_iterations) return {{iteration_limit, "iteration limit reached"}};
     return std::nullopt;
   };
+  const auto is_feasible = [&](const StageVectors& at) {
+    const Eigen::VectorXd z = stages.flat(at);
+    Eigen::VectorXd rows(nlp.num_constraints());
+    nlp.constraints(z, rows);
+    return constraint_violation(nlp, z, rows) <= options.tolerance;
+  };
   InteriorPoint::Ending ending{SolveStatus::solver_failed, ""};
   try {
-    ending = method.run(stages.stages(z_guess), watch);
+    ending = method.run(stages.stages(z_guess), watch, is_feasible);
   } catch (...) {
     ending.message = thrown_error();
   }
