@@ -244,7 +244,9 @@ RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& sol
     if (!best || now.is_better_than(*best)) best = now;
     if (now.is_good()) break;
     const auto [mesh, is_exact] = refinement.next(now);
-    if (refinement.is_without_progress(now)) stopped = fmt::format("no progress in {} rounds", kPatience);
+    // Where only other checks fail, each round splits their intervals: errors need not fall.
+    if (!now.meets_tolerance && refinement.is_without_progress(now))
+      stopped = fmt::format("no progress in {} rounds", kPatience);
     if (round >= refine.max_rounds) stopped = fmt::format("after {} solves", round);
     if (mesh.num_intervals() > kMostIntervals)
       stopped = fmt::format("the next mesh would have {} intervals", mesh.num_intervals());
