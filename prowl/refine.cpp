@@ -173,11 +173,11 @@ class Refinement {
     }
   }
 
-  /// The next solve; false ends the refinement, with the reason.
   struct Next {
     Mesh mesh;
     bool is_exact = false;
   };
+  /// The next solve: exact once no interval needs splitting.
   Next next(const Candidate& now) {
     const bool is_fine_enough = largest(now.parts) <= 1.0;
     exact_mesh_ = now.is_exact ? now.plan.mesh : Mesh{};

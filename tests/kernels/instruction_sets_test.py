@@ -18,7 +18,7 @@ MASK = {"GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2"}
 
 
 def plan(task, folder, environment):
-    command = [PROWL, "plan", TASKS / f"{task}.toml", "--one-mesh", "--intervals", "80", "--quiet", "--out", folder]
+    command = [PROWL, "plan", TASKS / f"{task}.toml", "--one-mesh", "--intervals", "250", "--quiet", "--out", folder]
     subprocess.run(command, check=True, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"} | environment)
     record = json.loads((folder / "plan.json").read_text())
     with open(folder / "trajectory.csv", newline="") as file:
