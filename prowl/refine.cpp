@@ -111,10 +111,7 @@ class Meshes {
     }
     return std::move(*first);
   }
-  void judge(Plan& plan) const {
-    PlanOptions options = options_;
-    prowl::judge(asked_, solver_, options, plan);
-  }
+  void judge(Plan& plan) const { prowl::judge(asked_, solver_, options_, plan); }
   /// Replaces times and iterations of one mesh by those of all.
   void enter_books(Plan& plan) const {
     plan.levels = levels_;

@@ -107,6 +107,7 @@ void put_contacts_down(const RobotModel& robot, const std::vector<Surface>& surf
 }
 
 void stop_contacts(const TomlTable& root, const RobotModel& robot, const Phase& first, TaskStart& start) {
+  if (start.v.isZero(0.0)) return;
   const Footing footing(robot, first, start);
   const auto table = root.find_table("start");
   if (!table || footing.largest_slip() == 0.0) return;

@@ -1,6 +1,7 @@
 #include "prowl/transcription/deferred_correction.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/model/configuration.hpp"
@@ -14,21 +15,27 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-/// The accelerations that torques cause, by phase.
+/// The accelerations that torques cause. Phases with the same contacts share one work space: a gait has few sets.
 class TrueAccelerations {
  public:
   explicit TrueAccelerations(const MotionProblem& problem) {
-    for (const Phase& phase : problem.phases)
-      phases_.emplace_back(problem.robot, contact_indices(phase.contacts), kContactRankThreshold);
+    for (const Phase& phase : problem.phases) {
+      const std::vector<int> held = contact_indices(phase.contacts);
+      of_phase_.push_back(&of_contacts_.try_emplace(held, problem.robot, held, kContactRankThreshold).first->second);
+    }
   }
+  TrueAccelerations(const TrueAccelerations&) = delete;
+  TrueAccelerations& operator=(const TrueAccelerations&) = delete;
+
   const VectorXd& at(const TrajectoryPoint& point) {
-    ForwardDynamics& dynamics = phases_[point.phase];
+    ForwardDynamics& dynamics = *of_phase_[point.phase];
     dynamics.evaluate(point.q, point.v, point.tau);
     return dynamics.acceleration();
   }
 
  private:
-  std::vector<ForwardDynamics> phases_;
+  std::map<std::vector<int>, ForwardDynamics> of_contacts_;
+  std::vector<ForwardDynamics*> of_phase_;
 };
 
 VectorXd simpson_less_trapezoid(double h, const VectorXd& left, const VectorXd& middle, const VectorXd& right) {

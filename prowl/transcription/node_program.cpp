@@ -44,10 +44,8 @@ NodeProgram::NodeProgram(const DiscreteProblem& discrete, const Trajectory& gues
       layout_(layout_of(discrete, functions_.front())),
       bounds_(variable_bounds(discrete, layout_)),
       charts_(rotation_charts(discrete, guess)),
-      is_corrected_(!corrections.empty()),
       corrections_(std::move(corrections)),
       none_(VectorXd::Zero(2 * discrete.problem.robot.nv())) {
-  corrections_.resize(discrete.nodes.size());
   for (int p = 0; p < static_cast<int>(contacts_.size()); ++p) {
     std::vector<int>& shared = shared_.emplace_back();
     if (layout_.duration(p) >= 0) shared.push_back(layout_.duration(p));

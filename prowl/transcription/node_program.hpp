@@ -36,8 +36,10 @@ class NodeProgram {
   int phase_of(int k) const { return discrete_.nodes[k].phase; }
   const Eigen::Matrix3d& chart(int k) const { return charts_[k]; }
   /// Of the interval that ends at node k (2 nv); zero if there are none.
-  const Eigen::VectorXd& correction(int k) const { return corrections_[k].size() > 0 ? corrections_[k] : none_; }
-  bool is_corrected() const { return is_corrected_; }
+  const Eigen::VectorXd& correction(int k) const {
+    return is_corrected() && corrections_[k].size() > 0 ? corrections_[k] : none_;
+  }
+  bool is_corrected() const { return !corrections_.empty(); }
 
   const NodeFunctions& functions(int k) const { return functions_.front()[phase_of(k)]; }
   /// Functions of node k for the calling thread.
@@ -76,8 +78,7 @@ class NodeProgram {
   std::vector<Eigen::VectorXd> anchor_origins_;        ///< per phase: anchors at zero foothold coordinates
   DecisionLayout layout_;
   VariableBounds bounds_;
-  std::vector<Eigen::Matrix3d> charts_;  ///< per node
-  bool is_corrected_;
+  std::vector<Eigen::Matrix3d> charts_;   ///< per node
   Corrections corrections_;               ///< per node
   Eigen::VectorXd none_;                  ///< zero
   std::vector<std::vector<int>> shared_;  ///< per phase

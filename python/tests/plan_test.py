@@ -83,13 +83,20 @@ def test_a_plan_tells_itself_as_json(crouch, tmp_path):
     assert json.loads(prowl.read_plan(tmp_path / "out").to_json())["directory"] == str(tmp_path / "out")
 
 
-def test_samples_between_nodes_lie_on_the_motion(crouch):
+@pytest.fixture(scope="module")
+def equal_steps() -> prowl.Plan:
+    """HyQ's crouch on a mesh by hand."""
+    return prowl.solve(prowl.read_task("hyq/crouch", intervals=80), progress=False)
+
+
+def test_samples_between_nodes_lie_on_the_motion(equal_steps):
+    crouch = equal_steps
     motion = crouch.sample(0.01)
     assert len(motion) == 201 and motion.t[-1] == crouch.duration
     np.testing.assert_allclose(crouch.at(crouch.t[:-1]).q, crouch.q[:-1], atol=1e-12)
     middle = crouch.at(0.5 * (crouch.t[:-1] + crouch.t[1:]))
     between = 0.5 * (crouch.q[:-1] + crouch.q[1:])
-    assert 0 < np.abs(middle.q - between).max() < 0.05**2 / 8 * np.abs(crouch.a).max(), "by the curvature"
+    assert 0 < np.abs(middle.q - between).max() < 1e-3
     with pytest.raises(prowl.InputError, match="need 0 <= t"):
         crouch.at([crouch.duration + 1.0])
 
@@ -145,24 +152,25 @@ def test_what_comes_with_prowl(tmp_path):
     assert (robot.nq, robot.nv, robot.nu) == (19, 18, 12) and robot.torque_limit[0] == 150.0
 
 
-def test_progress_tells_every_iteration(crouch, capsys):
+def test_progress_tells_every_iteration(equal_steps, capsys):
     seen = []
     plan = prowl.solve(
-        crouch.task, progress=True, on_iteration=lambda p: seen.append((p.intervals, p.iteration, p.cost))
+        equal_steps.task, progress=True, on_iteration=lambda p: seen.append((p.intervals, p.iteration, p.cost))
     )
-    assert {intervals for intervals, _, _ in seen} == {20, 40}
+    assert {intervals for intervals, _, _ in seen} == {20, 80}
     assert len(seen) == plan.iterations
-    assert seen[-1][2] == pytest.approx(plan.cost, rel=1e-4)  # a step before the end
+    assert seen[-1][2] == pytest.approx(plan.cost, rel=1e-6)
     assert f"{len(seen)} iterations" in capsys.readouterr().err
 
 
-def test_iterates_have_their_motion(crouch):
+def test_iterates_have_their_motion(equal_steps):
+    crouch = equal_steps
     progress, iterates = [], []
     plan = prowl.solve(crouch.task, on_iteration=progress.append, on_iterate=iterates.append)
     np.testing.assert_array_equal(plan.q, crouch.q, err_msg="who watches changes nothing")
     assert [(at.intervals, at.iteration) for at in iterates] == [(p.intervals, p.iteration) for p in progress]
     assert all(isinstance(at, prowl.Progress) and len(at.motion) == at.intervals + 1 for at in iterates)
-    np.testing.assert_allclose(iterates[-1].motion.q, plan.q, atol=1e-5)  # a step before the end
+    np.testing.assert_allclose(iterates[-1].motion.q, plan.q, atol=1e-6)
     assert np.abs(iterates[0].motion.tau - iterates[3].motion.tau).max() > 1e-3, "they differ on the way"
     motion = iterates[0].motion
     first = motion.q.copy()
