@@ -2,6 +2,7 @@ prowl_test(certificate/constrained_dynamics_oracle prowl::certificate null_space
 prowl_test(certificate/contact_states prowl::certificate)
 prowl_test(certificate/ground_distance prowl::certificate)
 prowl_test(certificate/integration_error prowl::certificate)
+prowl_test(certificate/cubic_errors prowl::certificate)
 prowl_test(certificate/sampled_limits prowl::certificate)
 prowl_test(certificate/mesh_errors prowl::certificate)
 prowl_test(certificate/certificate prowl::certificate)
