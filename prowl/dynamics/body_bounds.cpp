@@ -1,5 +1,6 @@
 #include "prowl/dynamics/body_bounds.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
@@ -17,17 +18,23 @@ struct Chain {
   int first_joint = -1;
 };
 
+bool is_prismatic(const RobotModel& robot, int joint) {
+  return robot.joint_is_prismatic()[static_cast<std::size_t>(joint)];
+}
+
+/// How far a joint moves what it carries from its origin: 0 if it turns [m].
+double largest_travel(const RobotModel& robot, int joint) {
+  if (!is_prismatic(robot, joint)) return 0.0;
+  return std::max(std::abs(robot.position_lower()(joint)), std::abs(robot.position_upper()(joint)));
+}
+
 Chain chain_to(const RobotModel& robot, pinocchio::JointIndex joint) {
   const pinocchio::Model& model = robot.pinocchio().model;
   Chain chain;
   for (; joint != kBaseJoint; joint = model.parents[joint]) {
     const Eigen::Vector3d& step = model.jointPlacements[joint].translation();
     chain.first_joint = model.idx_vs[joint] - 6;
-    const auto j = static_cast<std::size_t>(chain.first_joint);
-    if (robot.joint_is_prismatic()[j]) {
-      chain.length += std::max(std::abs(robot.position_lower()(chain.first_joint)),
-                               std::abs(robot.position_upper()(chain.first_joint)));
-    }
+    chain.length += largest_travel(robot, chain.first_joint);
     if (model.parents[joint] == kBaseJoint) {
       chain.root = step;
     } else {
@@ -46,6 +53,20 @@ ContactReach contact_reach(const RobotModel& robot, int contact) {
   if (frame.parentJoint == kBaseJoint) return {tip, 0.0, -1};
   const Chain chain = chain_to(robot, frame.parentJoint);
   return {chain.root, chain.length + tip.norm(), chain.first_joint};
+}
+
+std::vector<JointLever> joint_levers(const RobotModel& robot, int contact) {
+  const PinocchioModel& pin = robot.pinocchio();
+  const pinocchio::Frame& frame = pin.model.frames[pin.contact_frames[contact]];
+  std::vector<JointLever> levers;
+  double length = frame.placement.translation().norm();  // from the joint's origin to the point
+  for (pinocchio::JointIndex joint = frame.parentJoint; joint != kBaseJoint; joint = pin.model.parents[joint]) {
+    const int own = pin.model.idx_vs[joint] - 6;
+    levers.push_back({own, is_prismatic(robot, own) ? 1.0 : length});
+    length += largest_travel(robot, own) + pin.model.jointPlacements[joint].translation().norm();
+  }
+  std::ranges::reverse(levers);
+  return levers;
 }
 
 MassMotion centre_of_mass(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v) {

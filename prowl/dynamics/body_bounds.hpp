@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "prowl/model/robot_model.hpp"
 
@@ -18,6 +19,14 @@ struct ContactReach {
   int first_joint = -1;  ///< index into RobotModel::joint_names(); -1 for a contact on the base itself
 };
 ContactReach contact_reach(const RobotModel& robot, int contact);
+
+/// A joint between the base and a contact point, and how fast it moves that point at most.
+struct JointLever {
+  int joint = 0;        ///< index into RobotModel::joint_names()
+  double length = 0.0;  ///< |dp/dq| is at most this [m/rad]; 1 [-] for a prismatic joint
+};
+/// From the base outwards; a length is infinite if a prismatic joint without limits follows.
+std::vector<JointLever> joint_levers(const RobotModel& robot, int contact);
 
 /// Centre of mass and its velocity, world frame [m, m/s].
 struct MassMotion {

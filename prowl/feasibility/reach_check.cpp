@@ -1,12 +1,16 @@
 #include "prowl/feasibility/reach_check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "prowl/dynamics/body_bounds.hpp"
+#include "prowl/dynamics/inverse_kinematics.hpp"
+#include "prowl/feasibility/joint_range_check.hpp"
 #include "prowl/feasibility/prescribed_footholds.hpp"
+#include "prowl/model/configuration.hpp"
 #include "prowl/model/surface.hpp"
 
 namespace prowl {
@@ -19,6 +23,7 @@ constexpr double kReachMargin = 5e-3;  // [m]; above the tolerances of goals and
 
 /// A contact that a phase holds.
 struct Held {
+  int index;  ///< into RobotModel::contacts()
   const ContactPoint& contact;
   const Surface& surface;
   ContactReach leg;
@@ -33,7 +38,7 @@ std::vector<Held> held_in(const MotionProblem& problem, const ContactSchedule& s
   for (int i = 0; i < static_cast<int>(phase.contacts.size()); ++i) {
     const PhaseContact& contact = phase.contacts[i];
     const ContactReach leg = contact_reach(problem.robot, contact.contact);
-    held.push_back({problem.robot.contacts()[contact.contact], problem.surfaces[contact.surface], leg,
+    held.push_back({contact.contact, problem.robot.contacts()[contact.contact], problem.surfaces[contact.surface], leg,
                     leg.first_joint < 0 ? "the base" : problem.robot.joint_names()[leg.first_joint],
                     footholds[schedule.stance(p, i)]});
   }
@@ -129,6 +134,32 @@ std::string why_the_group_is_out_of_reach(const std::vector<Held>& held, const B
   return "";
 }
 
+/// Legs that do not reach within the limits of their joints, where the condition fixes the base and the place of the
+/// contact is known; with the numbers of the farthest.
+std::string too_far_for_the_joints(const MotionProblem& problem, const std::vector<Held>& held,
+                                   const BoundaryConstraint& constraint) {
+  const auto bound = constraint.configuration_lower.head<6>();
+  if (bound != constraint.configuration_upper.head<6>()) return "";
+  Eigen::VectorXd tangent = Eigen::VectorXd::Zero(problem.robot.nv());
+  tangent.head<6>() = bound;
+  const Eigen::VectorXd q = integrate(constraint.q_ref, tangent);
+  std::vector<std::string> names;
+  double farthest = 0.0;
+  for (const Held& one : held) {
+    if (!one.foothold) continue;
+    const ContactTarget target{one.index, *one.foothold};
+    if (inverse_kinematics(problem.robot, q, {target}).residual <= kReachMargin) continue;
+    const Vector3d from_base = base_rotation(q).transpose() * (*one.foothold - base_position(q));
+    const double distance = least_distance_within_limits(problem.robot, one.index, from_base, kReachMargin);
+    if (distance == 0.0) continue;
+    names.push_back(one.contact.name);
+    farthest = std::max(farthest, distance);
+  }
+  if (names.empty()) return "";
+  return fmt::format("the joints' limits keep {} {} {:.2g} m or more from {}", names.size() == 1 ? "contact" : "contacts",
+                     fmt::join(names, ", "), farthest, names.size() == 1 ? "its foothold" : "their footholds");
+}
+
 }  // namespace
 
 std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, const ContactSchedule& schedule) {
@@ -144,8 +175,9 @@ std::vector<std::string> contacts_out_of_reach(const MotionProblem& problem, con
         const double distance = least_distance(one, constraint);
         if (distance > one.leg.length + kReachMargin) too_far.push_back({&one, distance});
       }
-      const std::string reason =
+      std::string reason =
           too_far.empty() ? why_the_group_is_out_of_reach(held, constraint) : too_far_in_words(too_far, held.size());
+      if (reason.empty()) reason = too_far_for_the_joints(problem, held, constraint);
       if (!reason.empty()) reasons.push_back(fmt::format("{}, phase '{}': {}", constraint.name, phase, reason));
     }
     for (std::size_t i = 0; i < held.size(); ++i) {

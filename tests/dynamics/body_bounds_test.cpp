@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
+#include "prowl/model/leg_kinematics.hpp"
 #include "tests/support/random_states.hpp"
 #include "tests/support/robots.hpp"
 
@@ -37,6 +38,22 @@ TEST(CentreOfMass, MovesAtItsVelocity) {
     const Vector3d ahead = centre_of_mass(robot, integrate(q, step * tangent), v).position;
     const Vector3d behind = centre_of_mass(robot, integrate(q, -step * tangent), v).position;
     EXPECT_LT((centre_of_mass(robot, q, v).velocity - (ahead - behind) / (2.0 * step)).norm(), 1e-6);
+  }
+}
+
+TEST(JointLevers, BoundHowFastAJointMovesAContact) {
+  for (const RobotModel& robot : robots()) {
+    test::RandomStates states(robot, 12);
+    LegKinematics legs(robot);
+    for (int i = 0; i < 200; ++i) {
+      legs.update(states.configuration().tail(robot.nu()));
+      for (int c = 0; c < static_cast<int>(robot.contacts().size()); ++c) {
+        Eigen::VectorXd bound = Eigen::VectorXd::Zero(robot.nu());
+        for (const auto& [joint, length] : joint_levers(robot, c)) bound(joint) = length;
+        const Eigen::VectorXd speeds = legs.linear(c).colwise().norm().transpose();
+        EXPECT_LE((speeds - bound).maxCoeff(), 1e-9) << robot.name();
+      }
+    }
   }
 }
 

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include "prowl/dynamics/inverse_kinematics.hpp"
+#include "prowl/feasibility/joint_range_check.hpp"
 #include "prowl/feasibility/prescribed_footholds.hpp"
+#include "prowl/model/leg_kinematics.hpp"
 #include "prowl/model/so3.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/standing_problem.hpp"
@@ -34,9 +36,47 @@ MotionProblem stepping() {
 
 TEST(ReachCheck, LetsPassWhatTheLegsReach) {
   EXPECT_THAT(contacts_out_of_reach(test::standing_problem()), IsEmpty());
-  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.1, 0.0, -0.15})), IsEmpty());
-  // Straight legs: HyQ stands at 0.61 m, its legs are 0.78 m.
+  EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.05, 0.0, -0.1})), IsEmpty());
   EXPECT_THAT(contacts_out_of_reach(test::with_base_goal(test::standing_problem(), {0.0, 0.0, 0.1})), IsEmpty());
+}
+
+// The legs are long enough, but the hips do not turn so far.
+TEST(ReachCheck, KnowsTheLimitsOfTheJoints) {
+  const MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.1, 0.0, -0.15});
+  EXPECT_THAT(contacts_out_of_reach(problem),
+              testing::ElementsAre(AllOf(HasSubstr("goal 1, phase 'stand': the joints' limits keep contacts lf_foot, rf_foot 0.011 "),
+                                         HasSubstr("m or more from their footholds"))));
+  MotionProblem aside = problem;
+  aside.boundary_constraints[1].configuration_upper(0) = 0.1;  // nothing is certain of a base that is not fixed
+  EXPECT_THAT(contacts_out_of_reach(aside), IsEmpty());
+}
+
+TEST(ReachCheck, BoundsTheDistanceThatLimitsLeave) {
+  std::mt19937 rng(13);
+  constexpr double kMargin = 5e-3;
+  int out_of_reach = 0;
+  for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2()}) {
+    LegKinematics leg(robot);
+    const double size = robot.nominal_configuration()(2);
+    for (int i = 0; i < 40; ++i) {
+      const int contact = i % 4;
+      leg.update(robot.nominal_configuration().tail(robot.nu()));
+      const Eigen::Vector3d target = leg.position(contact) + test::random_vector(rng, 3, 0.8 * size);
+      const double least = least_distance_within_limits(robot, contact, target, kMargin);
+      out_of_reach += least > 0.0;
+      for (int n = 0; n < 500; ++n) {  // postures within the limits
+        const Eigen::VectorXd share = 0.5 * (test::random_vector(rng, robot.nu(), 1.0).array() + 1.0);
+        const Eigen::VectorXd range = robot.position_upper() - robot.position_lower();
+        leg.update(robot.position_lower() + share.cwiseProduct(range));
+        ASSERT_GE((leg.position(contact) - target).norm(), least - 1e-9) << robot.name();
+        if (n > 0) continue;
+        ASSERT_EQ(least_distance_within_limits(robot, contact, leg.position(contact), kMargin), 0.0)
+            << "a place that a posture reaches";
+      }
+    }
+  }
+  EXPECT_GT(out_of_reach, 40);
+  EXPECT_LT(out_of_reach, 140);
 }
 
 TEST(ReachCheck, NamesGoalPhaseContactAndLeg) {
