@@ -92,7 +92,7 @@ class Plans:
                     '"x":[' + ",".join(["{" + ",".join(f'"k{i}":1' for i in range(200)) + "}"] * 9000) + "]"
                 )
             },
-            status=3,
+            status=6 if json.loads(self.text)["status"] == "iteration_limit" else 3,
         )
         yield bad("plan.json, 9 million numbers", first('"x":[' + "0," * 9_000_000 + "0]"), "values")
         yield bad("plan.json, NaN", self.text.replace('"seconds": ', '"seconds": NaN, "s": ', 1))

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "prowl/solvers/foreign/ipopt_solver.hpp"
 #include "tests/solvers/cart.hpp"
@@ -98,6 +99,57 @@ TEST(RiccatiSolver, GoesAwayFromMaxima) {
   const SolveResult result = RiccatiSolver().solve(nlp, Vector2d(-0.999, 0.04), {});
   ASSERT_EQ(result.status, SolveStatus::converged) << result.message;
   EXPECT_LT((result.z - VectorXd(Vector2d(1.0, 0.0))).norm(), 1e-5);
+}
+
+/// One state without a condition on it; its cost falls for ever, and hardly.
+class OnASlope : public test::TestNlp, public test::DenseStagewiseNlp {
+ public:
+  explicit OnASlope(double slope) : slope_(slope) {
+    z_lower.setConstant(1, -kInfinity);
+    z_upper.setConstant(1, kInfinity);
+  }
+  StagewiseNlp* stagewise() override { return this; }
+  double cost(const VectorXd& z) override { return -slope_ * z(0); }
+  void cost_gradient(const VectorXd&, Eigen::Ref<VectorXd> gradient) override { gradient << -slope_; }
+  void constraints(const VectorXd&, Eigen::Ref<VectorXd>) override {}
+  void jacobian(const VectorXd&, Eigen::Ref<VectorXd>) override {}
+  void hessian(const VectorXd&, double, const VectorXd&, Eigen::Ref<VectorXd>) override {}
+
+  int num_stages() const override { return 1; }
+  const StageSize& size(int) const override { return size_; }
+  const VectorXd& lower(int) const override { return none_; }
+  const VectorXd& upper(int) const override { return none_; }
+  const StageValues& values(int, const VectorXd& z) override {
+    values_.cost = cost(z);
+    return values_;
+  }
+  const StageDerivatives& derivatives(int, const VectorXd&) override {
+    derivatives_ = {VectorXd::Constant(1, -slope_), MatrixXd(0, 1), MatrixXd(0, 1), MatrixXd(0, 1)};
+    return derivatives_;
+  }
+  const MatrixXd& hessian(int, const VectorXd&, double, const StageMultipliers&) override { return hessian_; }
+  std::vector<VectorXd> stages(const VectorXd& z) const override { return {z}; }
+  VectorXd flat(const std::vector<VectorXd>& stages) const override { return stages[0]; }
+  std::string describe_stage(int) const override { return "the slope"; }
+
+ private:
+  double slope_;
+  StageSize size_{0, 1, 0, 0};
+  VectorXd none_;
+  StageValues values_;
+  StageDerivatives derivatives_;
+  MatrixXd hessian_ = MatrixXd::Zero(1, 1);
+};
+
+/// It would take hundreds of iterations for digits that nobody needs.
+TEST(RiccatiSolver, EndsAmongIteratesThatAreAsGoodAsOptimal) {
+  OnASlope gentle(1e-5), steep(1e-3);
+  const SolverOptions options{.tolerance = 1e-6, .max_iterations = 50};
+  const SolveResult near = RiccatiSolver().solve(gentle, VectorXd::Zero(1), options);
+  EXPECT_EQ(near.status, SolveStatus::converged) << near.message;
+  EXPECT_NE(near.message.find("100 times the tolerance"), std::string::npos) << near.message;
+  EXPECT_LT(near.iterations, 20);
+  EXPECT_EQ(RiccatiSolver().solve(steep, VectorXd::Zero(1), options).status, SolveStatus::iteration_limit);
 }
 
 }  // namespace

@@ -36,7 +36,16 @@ constexpr double kStepAccuracy = 1e-2, kFarStepAccuracy = 1e-4;
 /// multipliers these place the slacks, and mu can start near its final value: HyQ balance with the
 /// goal moved by 2 cm takes 7 iterations with 3e-4 and 4 with 3e-5 (medians).
 constexpr double kFirstBarrier = 3e-2, kNearBarrier = 3e-3, kKnownBarrier = 3e-5;
+/// Until mu falls for the first time, a step that the nearest bound cuts to less than this share shows a barrier too
+/// weak to keep the motion off its bounds: mu grows, up to so many times the first one. HyQ walk, 4 strides of 1.2 m:
+/// 195 iterations instead of 417.
+constexpr double kCutShort = 0.05, kBarrierGrowth = 3.0, kMostGrowth = 10.0;
 constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< distance of slacks from their bounds
+/// Along directions in which the cost hardly changes, or bends down a little, regularised steps take hundreds of
+/// iterations for the last digits of the gradient: after so many feasible iterates with an error within so many times
+/// the tolerance, the solve ends.
+constexpr double kNearTolerance = 100.0;
+constexpr int kMostNearIterates = 10;
 /// If no fraction of a step is acceptable: regularise more, at most so many times.
 constexpr double kFailureGrowth = 100.0;
 constexpr int kMostFailures = 4;
@@ -220,7 +229,25 @@ bool InteriorPoint::update_barrier() {
   const double least = options_.tolerance / (kKappaEpsilon + 1.0);
   if (mu_ <= least || error(mu_) > kKappaEpsilon * mu_) return false;
   mu_ = std::max(least, std::min(kKappaMu * mu_, std::pow(mu_, kThetaMu)));
+  has_barrier_fallen_ = true;
   return true;
+}
+
+bool InteriorPoint::raise_barrier() {
+  const double most = kMostGrowth * kFirstBarrier / num_stages_;
+  if (iterations_ == 0 || has_barrier_fallen_ || longest_ >= kCutShort || mu_ >= most) return false;
+  mu_ = std::min(most, kBarrierGrowth * mu_);
+  return true;
+}
+
+std::optional<InteriorPoint::Ending> InteriorPoint::has_converged(const Test& is_feasible) {
+  const double error = this->error(0.0);
+  if (error > kNearTolerance * options_.tolerance || figures_.violation > options_.tolerance) return std::nullopt;
+  const bool is_optimal = error <= options_.tolerance;
+  if ((++near_iterates_ < kMostNearIterates && !is_optimal) || !is_feasible(ux_)) return std::nullopt;
+  if (is_optimal) return Ending{SolveStatus::converged, "optimal within tolerance"};
+  return Ending{SolveStatus::converged,
+                fmt::format("optimal within {:g} times the tolerance, in {} iterates", kNearTolerance, near_iterates_)};
 }
 
 void InteriorPoint::scale_cost() {
@@ -387,11 +414,9 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& guess, const Watch&
       update_dual_violation();
       update_figures();
       if (!std::isfinite(figures_.dual_violation)) return {evaluation_failed, "the iterate is not finite"};
-      if (error(0.0) <= options_.tolerance && figures_.violation <= options_.tolerance && is_feasible(ux_)) {
-        return {converged, "optimal within tolerance"};
-      }
+      if (const auto ending = has_converged(is_feasible)) return *ending;
       if (const auto ending = watch(iterations_, figures_)) return *ending;
-      bool new_barrier = false;
+      bool new_barrier = raise_barrier();
       while (update_barrier()) new_barrier = true;
       if (new_barrier) filter_.reset(largest_theta);
       std::string failure;

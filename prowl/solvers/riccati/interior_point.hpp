@@ -64,6 +64,8 @@ class InteriorPoint {
   void update_dual_violation();
   double error(double mu) const;
   void update_figures();
+  std::optional<Ending> has_converged(const Test& is_feasible);
+  bool raise_barrier();
   bool update_barrier();
 
   StageKkt::Outcome factorise(StageKkt::Hessian hessian, double delta);
@@ -110,6 +112,9 @@ class InteriorPoint {
   double cost_scale_ = 1.0, mu_ = 0.0;
   bool is_linearised_anew_ = false;  ///< since the latest factorisation
   double regularisation_ = 0.0, last_regularisation_ = 0.0;
+  int near_iterates_ = 0;  ///< feasible ones with an error not far above the tolerance
+  bool has_barrier_fallen_ = false;
+  double longest_ = 1.0;  ///< share of the latest step that the bounds allow
   double theta_ = 0.0, phi_ = 0.0, slope_ = 0.0, largest_dual_violation_ = 0.0;
   double least_theta_ = 0.0;  ///< below it only the barrier function decides on a step
   Filter filter_;

@@ -110,6 +110,7 @@ bool InteriorPoint::search_line() {
   phi_ = barrier_function(values_, slacks_);
   const double tau = std::max(kTauMin, 1.0 - mu_);
   const double longest = slacks_.longest_primal(tau, ds_), longest_dual = slacks_.longest_dual(tau);
+  longest_ = longest;
   double least = kGammaTheta;
   if (slope_ < 0.0) {
     least = std::min(least, kGammaPhi * theta_ / -slope_);
