@@ -162,11 +162,11 @@ class Refinement {
     now.parts = error_parts(certificate, options_.tolerance);
     if (!now.meets_tolerance) return;
     for (const CertificateCheck& check : certificate.checks) {
-      if (check.passed) continue;
-      const auto at = std::ranges::find_if(certificate.interval_errors,
-                                           [&](const IntervalError& interval) { return check.time <= interval.end; });
-      if (at != certificate.interval_errors.end())
-        now.parts[static_cast<std::size_t>(at - certificate.interval_errors.begin())] = kInTwo;
+      for (const double time : check.failures) {
+        const auto at = std::ranges::lower_bound(certificate.interval_errors, time, {}, &IntervalError::end);
+        if (at != certificate.interval_errors.end())
+          now.parts[static_cast<std::size_t>(at - certificate.interval_errors.begin())] = kInTwo;
+      }
     }
   }
 

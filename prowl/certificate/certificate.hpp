@@ -49,7 +49,8 @@ struct CertificateCheck {
   double time = 0.0;   ///< when the worst happens [s]
   std::string where;   ///< contact or joint or coordinate, "" if none
   bool passed = false;
-  double certified_limit = 0.0;  ///< limit of grade certified; <= limit, usually equal
+  double certified_limit = 0.0;       ///< limit of grade certified; <= limit, usually equal
+  std::vector<double> failures = {};  ///< all times at which a value was beyond `limit` [s]; not in files
 };
 
 /// Errors of one mesh interval, of its worst coordinate, scaled [-].

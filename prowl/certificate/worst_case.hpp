@@ -22,9 +22,13 @@ class WorstCase {
     check_.certified_limit = certified_limit;
   }
 
-  void record(double value, double time, std::string_view where) { moment_.record(value, time, where); }
+  void record(double value, double time, std::string_view where) {
+    note_failure(value, time);
+    moment_.record(value, time, where);
+  }
   /// The same for a check of several kinds of quantities: it has the unit of its worst.
   void record(double value, double time, std::string_view where, std::string_view unit) {
+    note_failure(value, time);
     if (moment_.record(value, time, where)) check_.unit = unit;
   }
 
@@ -43,6 +47,11 @@ class WorstCase {
   }
 
  private:
+  void note_failure(double value, double time) {
+    if (!(value <= check_.limit) && (check_.failures.empty() || check_.failures.back() != time))
+      check_.failures.push_back(time);
+  }
+
   CertificateCheck check_;
   WorstMoment moment_;
 };
