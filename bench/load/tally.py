@@ -5,7 +5,8 @@ from collections.abc import Callable
 
 from load.quantiles import quantiles
 
-SETTLED = 50  # tasks, after which memory has to stay where it is
+SETTLED = 100  # tasks, after which memory has to stay where it is: all robots have had their longest by then
+REFUSED = "refused before the solve"
 GROWTH = 0.05
 
 
@@ -36,13 +37,14 @@ class Tally:
         self.diagnosed: list[int] = []
         self.thrown: list[str] = []
         self.memory: list[int] = []
+        self.opinions: dict[int, str] = {}
 
     def add(self, number: int, task, plan, seconds: float) -> str:
         reason = "" if plan.good else why(plan)
         outcome = (
             "good"
             if plan.good
-            else "refused before the solve"
+            else REFUSED
             if plan.reasons
             else "converged, certificate failed"
             if plan.status == "converged"
@@ -54,6 +56,20 @@ class Tally:
         self.outcomes[outcome] += 1
         self.seconds["solved" if plan.good else "not solved"].append(seconds)
         return f"{outcome}: {reason}" if reason else outcome
+
+    def add_opinion(self, number: int, solved: str) -> None:
+        """Of a task without plan or proof: who solved it on a finer mesh, "" if no solver did."""
+        self.opinions[number] = solved
+
+    def feasible(self) -> str:
+        solved = [number for number, who in self.opinions.items() if who]
+        without = [number for number, who in self.opinions.items() if not who]
+        good = self.outcomes["good"]
+        return (
+            f"{good} of {good + len(solved)} tasks that may have a motion, {100.0 * good / max(good + len(solved), 1):.1f} %; "
+            f"{self.outcomes[REFUSED]} with a proof that they have none\n"
+            f"solved on a finer mesh only: {solved}\nsolved by none: {without}"
+        )
 
     def failures(self) -> list[str]:
         found = [f"task {number} failed and does not say why" for number in self.silent] + self.thrown
@@ -67,6 +83,8 @@ class Tally:
         total = sum(self.outcomes.values())
         for outcome, count in self.outcomes.most_common():
             print(f"{outcome:32} {count:5}  {100.0 * count / total:5.1f} %")
+        if self.opinions:
+            print(self.feasible())
         print(f"{'why: only a diagnosis says':32} {len(self.diagnosed):5}")
         for name, seconds in self.seconds.items():
             print(f"time of those {name:11} [s]  {in_words(seconds)}")

@@ -13,8 +13,8 @@ namespace prowl {
 
 namespace {
 
-constexpr int kMostBoxes = 20000;    // 5 us each
-constexpr double kTightness = 0.8;   // of the distance at some posture: a tighter bound tells no more
+constexpr int kMostBoxes = 20000;   // 5 us each
+constexpr double kTightness = 0.8;  // of the distance at some posture: a tighter bound tells no more
 
 /// Positions of the joints of one leg: within `half` of `centre`.
 struct Box {

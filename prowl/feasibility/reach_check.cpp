@@ -156,8 +156,10 @@ std::string too_far_for_the_joints(const MotionProblem& problem, const std::vect
     farthest = std::max(farthest, distance);
   }
   if (names.empty()) return "";
-  return fmt::format("the joints' limits keep {} {} {:.2g} m or more from {}", names.size() == 1 ? "contact" : "contacts",
-                     fmt::join(names, ", "), farthest, names.size() == 1 ? "its foothold" : "their footholds");
+  return fmt::format("{} out of reach within the limits of the joints, by {:.2g} m or more",
+                     names.size() == 1 ? fmt::format("contact {} is", names.front())
+                                       : fmt::format("contacts {} are", fmt::join(names, ", ")),
+                     farthest);
 }
 
 }  // namespace

@@ -200,14 +200,13 @@ TEST_F(DiagnosisTest, NamesOneMeshWhereThatWasSeenToDo) {
 
 /// A task that takes longer than its part of the time may have a plan, whatever a coarse mesh says.
 TEST_F(DiagnosisTest, OfATaskThatWasCutOffIsThatItIsNotKnown) {
-  const DiscreteProblem stiff =
-      prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
-  const Diagnosis found = diagnose(stiff, test::FailingSolver(0, SolveStatus::time_limit), IpoptSolver(), {});
+  const DiscreteProblem weak = prepared(kCrouch, test::kWeakHyqFile);
+  const Diagnosis found = diagnose(weak, test::FailingSolver(0, SolveStatus::time_limit), IpoptSolver(), {});
   EXPECT_TRUE(found.is_undecided());
-  EXPECT_THAT(diagnosis_headline(found, stiff.problem),
+  EXPECT_THAT(diagnosis_headline(found, weak.problem),
               AllOf(testing::StartsWith("not known whether the task has a plan, time ran out after "),
                     HasSubstr("on 8 mesh intervals phase 1 'crouch', "), HasSubstr("beyond its bound")));
-  EXPECT_THAT(diagnosis_json(found, stiff.problem), HasSubstr("\"solvable\": null"));
+  EXPECT_THAT(diagnosis_json(found, weak.problem), HasSubstr("\"solvable\": null"));
 }
 
 TEST_F(DiagnosisTest, GoesOnWithATaskThatWasCutOff) {
@@ -255,11 +254,10 @@ TEST(ChangeSearch, TakesNoMotionInWhichFeetDrift) {
 
 /// The limit of iterations is no property of the task.
 TEST_F(DiagnosisTest, OfTooFewIterationsIsThatItIsNotKnown) {
-  const DiscreteProblem stiff =
-      prepared(kCrouch, test::kHyqFile + "[limits.lh_kfe_joint]\nposition_rad = [1.4, 1.55]\n");
+  const DiscreteProblem weak = prepared(kCrouch, test::kWeakHyqFile);
   DiagnosisOptions options;
   options.solver.max_iterations = 2;
-  EXPECT_THAT(diagnosis_headline(diagnose(stiff, RiccatiSolver(), IpoptSolver(), options), stiff.problem),
+  EXPECT_THAT(diagnosis_headline(diagnose(weak, RiccatiSolver(), IpoptSolver(), options), weak.problem),
               testing::StartsWith("not known whether the task has a plan, stopped at solver.max_iterations (2); "));
   const Diagnosis found = diagnose(prepared(kCrouch), RiccatiSolver(), IpoptSolver(), options);
   EXPECT_TRUE(found.solvable) << "the search has iterations of its own";

@@ -43,9 +43,10 @@ TEST(ReachCheck, LetsPassWhatTheLegsReach) {
 // The legs are long enough, but the hips do not turn so far.
 TEST(ReachCheck, KnowsTheLimitsOfTheJoints) {
   const MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.1, 0.0, -0.15});
-  EXPECT_THAT(contacts_out_of_reach(problem),
-              testing::ElementsAre(AllOf(HasSubstr("goal 1, phase 'stand': the joints' limits keep contacts lf_foot, rf_foot 0.011 "),
-                                         HasSubstr("m or more from their footholds"))));
+  EXPECT_THAT(
+      contacts_out_of_reach(problem),
+      testing::ElementsAre(AllOf(HasSubstr("goal 1, phase 'stand': contacts lf_foot, rf_foot are out of reach within "),
+                                 HasSubstr("by 0.011 m or more"))));
   MotionProblem aside = problem;
   aside.boundary_constraints[1].configuration_upper(0) = 0.1;  // nothing is certain of a base that is not fixed
   EXPECT_THAT(contacts_out_of_reach(aside), IsEmpty());
