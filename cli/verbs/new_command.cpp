@@ -142,11 +142,8 @@ int run_new_task(const NewTaskArguments& arguments) {
     print_json({.verb = "new", .written = {out}, .result = json_text(result)});
     return kPassed;
   }
-  const std::string failures = failures_of_gait(task.pattern);
-  const std::string next = failures.empty()
-                               ? fmt::format("next: prowl plan {}", out.string())
-                               : fmt::format("note: a {} may fail: of this task {}", arguments.kind, failures);
-  print_result(fmt::format("{} {}: written to {}\n{}\n", robot.name(), arguments.kind, out.string(), next));
+  print_result(
+      fmt::format("{0} {1}: written to {2}\nnext: prowl plan {2}\n", robot.name(), arguments.kind, out.string()));
   return kPassed;
 }
 
@@ -157,7 +154,7 @@ void add_new_task(CLI::App& verb, int& status) {
   task->add_option("robot", arguments->robot, "Robot file (docs/robot-file.md)")->required()->type_name("ROBOT.toml");
   task->add_option("--kind", arguments->kind,
                    "hold: stand still; stand: move the base a little; crouch: down and up (default); step: one step "
-                   "forward; walk, trot, pace, bound: two strides of that gait on four legs")
+                   "forward; walk, trot, pace, bound, pronk: two strides of that gait on four legs")
       ->check(one_of(new_task_kinds()))
       ->type_name("NAME");
   add_new_file(*task, arguments->file, "tasks/ROBOT/KIND.toml");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
@@ -83,31 +84,67 @@ const std::vector<GaitPattern>& gait_patterns() {
   // A duty factor above the least leaves time in which all feet stand. Without it, standing feet would lose their force
   // at the moment at which the next ones land.
   static const std::vector<GaitPattern> patterns = {
-      {"walk", {{lh}, {lf}, {rh}, {rf}}, 0.8},
-      {"trot", {{lf, rh}, {rf, lh}}, 0.6},
-      {"pace", {{lf, lh}, {rf, rh}}, 0.6},
-      {"bound", {{lh, rh}, {lf, rf}}, 0.6},
+      {"walk", {{lh}, {lf}, {rh}, {rf}}, 0.8, 0.65, 6.0, 1.6}, {"trot", {{lf, rh}, {rf, lh}}, 0.6, 0.55, 3.2, 1.2},
+      {"pace", {{lf, lh}, {rf, rh}}, 0.6, 0.6, 2.8, 1.0},      {"bound", {{lh, rh}, {lf, rf}}, 0.6, 0.3, 2.8, 1.0},
+      {"pronk", {{lf, rf, lh, rh}}, 0.7, 0.7, 2.8, 1.0},
   };
   return patterns;
 }
 
+double GaitPattern::default_stride(double height, double speed) const {
+  const double usual = stride * std::sqrt(height / RobotModel::kGravity);
+  return speed > 0.0 ? std::min(usual, longest * height / speed) : usual;
+}
+
+double GaitPattern::default_duty_factor(double height, double speed) const {
+  constexpr double kFast = 0.1;  // of sqrt(gravity height)
+  return speed > kFast * std::sqrt(RobotModel::kGravity * height) ? fast_duty_factor : slow_duty_factor;
+}
+
 std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet) {
-  constexpr double kShortestStand = 1e-6;  // [s]
+  constexpr double kShortestPhase = 1e-6;  // [s]
   const auto& swings = gait.pattern.swings;
-  const double swing = 1.0 - gait.duty_factor, stand = gait.duty_factor - gait.pattern.least_duty_factor();
+  struct Event {
+    double time;  ///< in strides
+    int stride;
+    std::size_t group;
+    bool lifts;
+  };
+  std::vector<Event> events;
+  for (int stride = 0; stride < gait.strides; ++stride) {
+    for (std::size_t group = 0; group < swings.size(); ++group) {
+      const double lift = stride + static_cast<double>(group) / static_cast<double>(swings.size());
+      events.push_back({lift, stride, group, true});
+      events.push_back({lift + 1.0 - gait.duty_factor, stride, group, false});
+    }
+  }
+  std::ranges::stable_sort(events, {}, &Event::time);
+
   PhaseList phases(gait, robot, feet);
   phases.add("start", {}, {gait.start, gait.start});
-  for (int stride = 1; stride <= gait.strides; ++stride) {
-    for (std::size_t i = 0; i < swings.size(); ++i) {
-      phases.add(fmt::format("stride {}: {}", stride, phases.sentence(swings[i], "swing")), swings[i],
-                 phases.share(swing));
-      const bool is_last = stride == gait.strides && i + 1 == swings.size();
-      if (is_last || stand * gait.stride.max < kShortestStand) continue;
-      phases.add(fmt::format("stride {}: {}", stride, phases.sentence(swings[i], "land")), {}, phases.share(stand));
-    }
+  std::set<std::size_t> in_the_air;
+  const Event* begins = nullptr;  // what the phase is named after: a lift-off rather than a landing at the same time
+  for (std::size_t i = 0; i + 1 < events.size(); ++i) {
+    const Event& event = events[i];
+    event.lifts ? (void)in_the_air.insert(event.group) : (void)in_the_air.erase(event.group);
+    if (!begins || event.lifts) begins = &event;
+    const double part = events[i + 1].time - event.time;
+    if (part * gait.stride.max < kShortestPhase) continue;
+    std::vector<Foot> swinging;
+    for (const std::size_t group : in_the_air)
+      swinging.insert(swinging.end(), swings[group].begin(), swings[group].end());
+    phases.add(fmt::format("stride {}: {}", begins->stride + 1,
+                           phases.sentence(swings[begins->group], begins->lifts ? "swing" : "land")),
+               swinging, phases.share(part));
+    begins = nullptr;
   }
   phases.add("settle", {}, {gait.settle, gait.settle});
   return phases.take();
+}
+
+Vector3d along_arc(const Surface& surface, double heading, double length, double turn) {
+  const double half = 0.5 * turn, chord = half == 0.0 ? 1.0 : std::sin(half) / half;
+  return along_surface(surface, heading + half, chord * length);
 }
 
 Vector3d along_surface(const Surface& surface, double heading, double length) {

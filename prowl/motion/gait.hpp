@@ -26,33 +26,43 @@ std::optional<Feet> find_feet(const RobotModel& robot);
 struct GaitPattern {
   std::string name;
   std::vector<std::vector<Foot>> swings;
-  double duty_factor = 0.75;  ///< default part of a stride in which a foot stands [-]
+  double slow_duty_factor = 0.8, fast_duty_factor = 0.6;  ///< defaults, see default_duty_factor() [-]
+  double stride = 3.0;   ///< default duration of a stride, times sqrt(height / gravity) [-]
+  double longest = 1.0;  ///< default strides of fast gaits are shorter: at most so many heights [-]
 
-  /// Below this, two groups would be in the air at once [-].
+  /// Below this, two groups are in the air at once [-].
   double least_duty_factor() const { return 1.0 - 1.0 / static_cast<double>(swings.size()); }
+  /// Default duration of a stride [s], and default part of it in which a foot stands [-], at this height of the base
+  /// [m] and speed [m/s]. Robots of equal Froude number, speed² / (gravity height), move alike.
+  double default_stride(double height, double speed) const;
+  double default_duty_factor(double height, double speed) const;
 };
 
-/// walk (lateral sequence), trot, pace, bound.
+/// walk (lateral sequence), trot, pace, bound, pronk.
 const std::vector<GaitPattern>& gait_patterns();
 
-/// Strides on one surface. In a stride, each group of feet of the pattern swings for (1 - duty_factor) of its duration;
-/// the remaining time is divided equally into stands of all feet, one after each swing.
+/// Strides on one surface. Each group of feet lifts off an equal part of a stride after the one before, and swings for
+/// (1 - duty_factor) of a stride. Above pattern.least_duty_factor() all feet stand after each swing; below it swings
+/// overlap, and no foot stands between some of them.
 struct Gait {
   GaitPattern pattern;
   int strides = 1;
   Duration stride;            ///< of one stride; each phase has its share of both bounds [s]
-  double duty_factor = 0.75;  ///< at least pattern.least_duty_factor(), below 1 [-]
+  double duty_factor = 0.75;  ///< above 0, below 1 [-]
   double start = 0.5;         ///< all feet stand before the first stride [s]
   double settle = 0.5;        ///< the same from the last landing to the end, in place of the last stand of a stride [s]
   int surface = 0;            ///< index into MotionProblem::surfaces
 };
 
-/// The phases of a gait: "start", swings and stands of every stride, "settle". Footholds of
-/// landings are free. A stand shorter than a microsecond is left out.
+/// The phases of a gait: "start", one from each lift-off and landing to the next, "settle" from the last landing.
+/// Footholds of landings are free. A phase shorter than a microsecond is left out.
 std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet);
 
 /// A displacement along a surface, world frame [m]: seen from above it has this heading [rad, about world z from world
 /// x]. The surface must not be vertical.
 Eigen::Vector3d along_surface(const Surface& surface, double heading, double length);
+
+/// The chord of an arc along a surface, of this length, that begins with the heading and turns by `turn` [rad].
+Eigen::Vector3d along_arc(const Surface& surface, double heading, double length, double turn);
 
 }  // namespace prowl

@@ -174,30 +174,7 @@ void choose_step(const RobotModel& robot, NewTask& task) {
   task.foothold.z() = 0.0;
 }
 
-/// Strides scale with the height h of the base, times with sqrt(h) (equal Froude numbers). These
-/// are for h = 0.6 m.
-constexpr double kReferenceHeight = 0.6;
-struct GaitScale {
-  const char* pattern;
-  double stride;         ///< [s]
-  double length;         ///< of the height [-]
-  double duty_factor;    ///< 0: that of the pattern
-  const char* failures;  ///< see failures_of_gait()
-};
-constexpr const char* kAllPass = "";
-constexpr const char* kSomePass = "four of six robots pass";
-constexpr GaitScale kGaitScales[] = {{"walk", 3.0, 0.4, 0.0, kAllPass},
-                                     {"trot", 0.8, 0.35, 0.55, kAllPass},
-                                     {"pace", 0.7, 0.2, 0.0, kAllPass},
-                                     {"bound", 0.7, 0.2, 0.0, kSomePass}};
-constexpr GaitScale kOtherGait = {"", 0.8, 0.2, 0.0, kSomePass};
-
-const GaitScale& scale_of(const std::string& pattern) {
-  const auto* const known =
-      std::ranges::find_if(kGaitScales, [&](const GaitScale& scale) { return pattern == scale.pattern; });
-  return known == std::end(kGaitScales) ? kOtherGait : *known;
-}
-
+constexpr double kGaitSpeed = 0.15;      // of sqrt(gravity height)
 constexpr double kHyqGaitWeight = 1e-4;  // of torques
 
 void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& task) {
@@ -207,13 +184,8 @@ void choose_gait(const RobotModel& robot, const std::string& pattern, NewTask& t
         "has {}; no --kind {}",
         robot.name(), robot.contacts().size(), pattern));
   }
-  const GaitScale& scale = scale_of(pattern);
-  const double time = std::sqrt(task.height / kReferenceHeight);
-  constexpr double kTimeStep = 0.05;  // [s], rounding
   task.pattern = pattern;
-  task.stride_duration = kTimeStep * std::max(1.0, std::round(scale.stride * time / kTimeStep));
-  task.stride_length = std::max(0.01, hundredths(scale.length * task.height));
-  task.duty_factor = scale.duty_factor;
+  task.speed = hundredths(kGaitSpeed * std::sqrt(RobotModel::kGravity * task.height));
   task.torque_weight = one_digit(kHyqGaitWeight * std::pow(kHyqMass / robot.mass(), 2));
 }
 
@@ -242,10 +214,6 @@ std::vector<std::string> new_task_kinds() {
 std::string kind_name(const NewTask& task) {
   const auto found = std::ranges::find(standing_kinds(), task.kind, [](const auto& kind) { return kind.second; });
   return found == standing_kinds().end() ? task.pattern : found->first;
-}
-
-std::string failures_of_gait(const std::string& pattern) {
-  return pattern.empty() ? kAllPass : scale_of(pattern).failures;
 }
 
 NewTask new_task(const RobotModel& robot, const std::string& name) {

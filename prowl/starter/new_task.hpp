@@ -22,9 +22,7 @@ struct NewTask {
   Eigen::Vector3d foothold = Eigen::Vector3d::Zero();  ///< step: foothold of the first of `swing`, world frame
   double length = 0.0;                                 ///< step: length
   std::string pattern;                                 ///< gait: its name, as in gait_patterns()
-  double stride_duration = 0.0;                        ///< gait [s]
-  double stride_length = 0.0;                          ///< gait
-  double duty_factor = 0.0;                            ///< gait; 0: default of the pattern
+  double speed = 0.0;                                  ///< gait [m/s]
   double torque_weight = 0.0;
 };
 
@@ -41,9 +39,5 @@ NewTask new_task(const RobotModel& robot, const std::string& kind);
 std::string task_template(const NewTask& task, const RobotModel& robot, const std::string& robot_file);
 
 std::string kind_name(const NewTask& task);  ///< "hold", "trot" ...
-
-/// How many of HyQ, ANYmal C, Go2, Solo12, B1 and A1 pass with the unedited task of a gait: "four of six robots pass";
-/// "" if all do.
-std::string failures_of_gait(const std::string& pattern);
 
 }  // namespace prowl

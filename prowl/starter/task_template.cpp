@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "prowl/model/configuration.hpp"
 #include "prowl/motion/gait.hpp"
 #include "prowl/starter/new_task.hpp"
@@ -52,9 +54,9 @@ constexpr const char* kGait =
 [gait]
 kind = "{kind}"
 strides = {strides}
-stride_s = {stride:.4g}          # of one stride, in which each foot swings once
-stride_length_m = {length:.3g}   # forward; heading_rad turns the direction
-{duty}
+speed_mps = {speed:.3g}   # forward; heading_rad turns the direction
+# By the robot's height and the speed, unless given: stride_s = {stride:.2f}, duty_factor = {duty:.3g}
+
 )";
 
 constexpr const char* kGoalsNote =
@@ -112,7 +114,6 @@ base_angular_acceleration = 0.1
 joint_acceleration = {joints}
 )";
 
-constexpr const char* kDuty = "duty_factor = {:.3g}       # fraction of the stride for which each foot stands\n";
 constexpr int kStrides = 2;
 
 std::string vector(const Eigen::Vector3d& v) {
@@ -135,7 +136,7 @@ std::string what(const NewTask& task) {
       return fmt::format("A step of {:.0f} cm forward with {}.", 100.0 * task.length,
                          task.soles ? "the left foot" : task.swing.front());
     case NewTaskKind::gait:
-      return fmt::format("{} strides of {:.0f} cm, gait: {}.", kStrides, 100.0 * task.stride_length, task.pattern);
+      return fmt::format("{} strides at {:.2g} m/s, gait: {}.", kStrides, task.speed, task.pattern);
   }
   return "";
 }
@@ -153,14 +154,16 @@ std::string step_phases(const NewTask& task) {
 }
 
 std::string gait(const NewTask& task) {
-  const std::string duty = task.duty_factor > 0.0 ? fmt::format(fmt::runtime(kDuty), task.duty_factor) : "";
+  const auto& patterns = gait_patterns();
+  const GaitPattern& pattern = *std::ranges::find(patterns, task.pattern, &GaitPattern::name);
   std::vector<std::string> others;
-  for (const GaitPattern& pattern : gait_patterns()) {
-    if (pattern.name != task.pattern) others.push_back(pattern.name);
+  for (const GaitPattern& other : patterns) {
+    if (other.name != task.pattern) others.push_back(other.name);
   }
   return fmt::format(fmt::runtime(kGait), fmt::arg("others", fmt::join(others, ", ")), fmt::arg("kind", task.pattern),
-                     fmt::arg("strides", kStrides), fmt::arg("stride", task.stride_duration),
-                     fmt::arg("length", task.stride_length), fmt::arg("duty", duty));
+                     fmt::arg("strides", kStrides), fmt::arg("speed", task.speed),
+                     fmt::arg("stride", pattern.default_stride(task.height, task.speed)),
+                     fmt::arg("duty", pattern.default_duty_factor(task.height, task.speed)));
 }
 
 /// Roll, pitch and yaw of `rpy` followed by `turn` about the world's axes [rad].

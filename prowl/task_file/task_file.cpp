@@ -257,8 +257,9 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   std::vector<BoundaryConstraint> constraints = {start_constraint(robot, start)};
   for (BoundaryConstraint& goal : read_goals(root, robot, start, read.phases, equal_steps))
     constraints.push_back(std::move(goal));
-  if (gait && gait->displacement) {
-    constraints.push_back(arrival(robot, start, *gait->displacement, static_cast<int>(read.phases.size())));
+  if (gait && gait->travel) {
+    const auto& [displacement, rotation] = *gait->travel;
+    constraints.push_back(arrival(robot, start, displacement, rotation, static_cast<int>(read.phases.size())));
   }
   std::vector<PhaseFraction> moments;
   for (const BoundaryConstraint& constraint : constraints) moments.push_back(constraint.at);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "prowl/mesh/mesh.hpp"
 #include "prowl/motion/gait.hpp"
@@ -38,19 +39,23 @@ int read_surface(const TomlTable& table, const std::vector<Surface>& surfaces) {
   return static_cast<int>(index);
 }
 
-Gait read_values(const TomlTable& table, const std::vector<Surface>& surfaces) {
+Gait read_values(const TomlTable& table, const RobotModel& robot, const std::vector<Surface>& surfaces) {
   Gait gait;
   gait.pattern = read_pattern(table);
   gait.strides = table.need("strides").as_integer();
-  const TomlBounds stride = table.need("stride_s").as_range();
-  gait.stride = {stride.lower, stride.upper};
-  gait.duty_factor = gait.pattern.duty_factor;
-  if (const auto value = table.find("duty_factor")) {
-    NumberRange range = value->key().range;
-    // Of a kind that is a mistake, nothing is known about its least duty factor.
-    if (table.need("kind").as_text() == gait.pattern.name) range.lower = gait.pattern.least_duty_factor();
-    gait.duty_factor = value->as_number(range);
+  const auto speed = table.find("speed_mps"), stride = table.find("stride_s");
+  const double height = robot.nominal_configuration()(2);
+  const double given_speed = speed ? speed->as_number() : 0.0;
+  if (const auto length = table.find("stride_length_m"); speed && length)
+    length->fail("gait.speed_mps sets the length of a stride, too; need one of the two");
+  const double usual = gait.pattern.default_stride(height, given_speed);
+  gait.stride = {usual, usual};
+  if (stride) {
+    const TomlBounds bounds = stride->as_range();
+    gait.stride = {bounds.lower, bounds.upper};
   }
+  const auto duty_factor = table.find("duty_factor");
+  gait.duty_factor = duty_factor ? duty_factor->as_number() : gait.pattern.default_duty_factor(height, given_speed);
   if (const auto value = table.find("start_s")) gait.start = value->as_number();
   if (const auto value = table.find("settle_s")) gait.settle = value->as_number();
   gait.surface = read_surface(table, surfaces);
@@ -70,20 +75,35 @@ std::optional<double> read_intervals_per_second(const TomlTable& table, const Ga
   return rate;
 }
 
-/// Displacement of the base over all strides, world frame [m]; nullopt if the file has goals.
-std::optional<Eigen::Vector3d> read_displacement(const TomlTable& root, const TomlTable& table, const Gait& gait,
-                                                 const Surface& surface, const TaskStart& start) {
+/// Angle by which all strides turn the base [rad].
+double read_turn(const TomlTable& table, const Gait& gait) {
+  constexpr double kMostTurned = 3.0;  // [rad]; further round, the shortest way to the end orientation is the other one
+  const auto value = table.find("turn_rad");
+  const double turn = value ? gait.strides * value->as_number() : 0.0;
+  if (std::abs(turn) > kMostTurned) {
+    value->fail(fmt::format("{} strides turn the base by {:.3g} rad; need at most {:g} in all", gait.strides, turn,
+                            kMostTurned));
+  }
+  return turn;
+}
+
+std::optional<Travel> read_travel(const TomlTable& root, const TomlTable& table, const Gait& gait,
+                                  const Surface& surface, const TaskStart& start) {
   if (root.find("goal")) {
-    for (const char* key : {"stride_length_m", "heading_rad"}) {
+    for (const char* key : {"stride_length_m", "speed_mps", "heading_rad", "turn_rad"}) {
       if (const auto value = table.find(key)) {
         value->fail("has no effect beside [[goal]], which sets the target; need one of the two");
       }
     }
     return std::nullopt;
   }
-  const double length = table.need("stride_length_m").as_number();
+  const auto speed = table.find("speed_mps");
+  const double length = speed ? speed->as_number() * 0.5 * (gait.stride.min + gait.stride.max)
+                              : table.need("stride_length_m").as_number();
   const auto heading = table.find("heading_rad");
-  return along_surface(surface, heading ? heading->as_number() : start.rpy.z(), gait.strides * length);
+  const double turn = read_turn(table, gait);
+  return Travel{along_arc(surface, heading ? heading->as_number() : start.rpy.z(), gait.strides * length, turn),
+                turn * surface.normal};
 }
 
 }  // namespace
@@ -94,7 +114,7 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
   if (!table) return std::nullopt;
   if (root.find("phase")) table->value().fail("the file also has [[phase]]; need one of the two");
   const Feet feet = need_feet(*table, robot);
-  const Gait gait = read_values(*table, surfaces);
+  const Gait gait = read_values(*table, robot, surfaces);
   const std::optional<double> rate = read_intervals_per_second(*table, gait);
   std::vector<Phase> phases = expand(gait, robot, feet);
   std::vector<int> intervals;
@@ -102,7 +122,7 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
     for (const PhaseMesh& phase : mesh_with_rate(phases, *rate).phases) intervals.push_back(phase.intervals());
   }
   return TaskGait{std::move(phases), std::move(intervals),
-                  read_displacement(root, *table, gait, surfaces[gait.surface], start)};
+                  read_travel(root, *table, gait, surfaces[gait.surface], start)};
 }
 
 }  // namespace prowl

@@ -9,11 +9,17 @@
 
 namespace prowl {
 
-/// Phases, intervals and displacement of [gait].
+/// Where the strides of a gait take the base: the sum of all, world frame.
+struct Travel {
+  Eigen::Vector3d displacement;  ///< [m]
+  Eigen::Vector3d rotation;      ///< rotation vector, before the start orientation [rad]
+};
+
+/// Phases, intervals and travel of [gait].
 struct TaskGait {
   std::vector<Phase> phases;
-  std::vector<int> intervals;                   ///< of each phase; empty if the file does not say
-  std::optional<Eigen::Vector3d> displacement;  ///< of the base, world frame [m]; nullopt if the file has goals
+  std::vector<int> intervals;    ///< of each phase; empty if the file does not say
+  std::optional<Travel> travel;  ///< nullopt if the file has goals
 };
 
 /// Nullopt if the file has no [gait]. Throws InputError for errors in it, for an additional

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/so3.hpp"
 
 namespace prowl {
 namespace {
@@ -194,10 +195,11 @@ BoundaryConstraint read_goal(const TomlTable& goal, const std::string& name, con
 }  // namespace
 
 BoundaryConstraint arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
-                           int num_phases) {
+                           const Eigen::Vector3d& rotation, int num_phases) {
   BoundaryConstraint goal =
       BoundaryConstraint::unbounded(robot, "goal 1", PhaseFraction::end_of(num_phases - 1), start.q);
   goal.q_ref.head<3>() += displacement;
+  set_base_rotation(goal.q_ref, so3::exp(rotation) * base_rotation(start.q));
   goal.configuration_lower.head<6>().setZero();
   goal.configuration_upper.head<6>().setZero();
   goal.velocity_lower.head<6>().setZero();

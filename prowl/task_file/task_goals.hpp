@@ -11,9 +11,9 @@
 namespace prowl {
 
 /// Goal of a gait: at the end of the last phase the base is at rest, displaced from the start
-/// (world frame [m]), with its start orientation; legs are free.
+/// (world frame [m]) and turned by a rotation vector (world frame [rad]); legs are free.
 BoundaryConstraint arrival(const RobotModel& robot, const TaskStart& start, const Eigen::Vector3d& displacement,
-                           int num_phases);
+                           const Eigen::Vector3d& rotation, int num_phases);
 
 /// One condition per [[goal]], at a node of the mesh, which has equal steps in each phase; at any time without a mesh.
 std::vector<BoundaryConstraint> read_goals(const TomlTable& root, const RobotModel& robot, const TaskStart& start,

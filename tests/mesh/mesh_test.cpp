@@ -116,7 +116,7 @@ TEST(MeshWithRate, IsNoCoarserThanAskedFor) {
   const RobotModel robot = test::hyq();
   Gait gait{
       .pattern = *std::ranges::find(gait_patterns(), "walk", &GaitPattern::name), .strides = 2, .stride = {0.8, 0.8}};
-  gait.duty_factor = gait.pattern.duty_factor;
+  gait.duty_factor = gait.pattern.slow_duty_factor;
   const std::vector<Phase> phases = expand(gait, robot, *find_feet(robot));
   const Mesh mesh = mesh_with_rate(phases, 30.0);
   ASSERT_EQ(mesh.phases.size(), phases.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "prowl/model/configuration.hpp"
+#include "prowl/motion/gait.hpp"
 #include "tests/support/task_test.hpp"
 
 namespace prowl {
@@ -156,21 +157,50 @@ TEST_F(TaskGait, RefusesAGoalOfItsOwnBesideGoals) {
   EXPECT_EQ(
       message("stride_length_m = 0.2\n", ""),
       "task.toml:2:1: gait.stride_length_m: missing; need number >= 0 [m]: distance that the base moves along the "
-      "surface in each stride; not with [[goal]]");
+      "surface in each stride, in place of a speed; not with [[goal]]");
+}
+
+TEST_F(TaskGait, FollowsFromKindAndSpeedAlone) {
+  const Task task = read(
+      test::replaced(test::replaced(kGaitFile, "stride_s = 0.8\n", ""), "stride_length_m = 0.2", "speed_mps = 0.5"));
+  const GaitPattern& trot = gait_patterns()[1];
+  const double height = task.problem.robot.nominal_configuration()(2), stride = trot.default_stride(height, 0.5);
+  EXPECT_NEAR(stride, 3.2 * std::sqrt(height / RobotModel::kGravity), 1e-12);
+  EXPECT_NEAR(task.problem.phases[1].duration.min, (1.0 - trot.fast_duty_factor) * stride, 1e-12);
+  const Eigen::VectorXd moved =
+      difference(task.problem.start_configuration(), task.problem.boundary_constraints[1].q_ref);
+  EXPECT_NEAR(moved(0), 3 * 0.5 * stride, 1e-12);
+}
+
+TEST_F(TaskGait, TurnsTheBaseWithItsWay) {
+  const Task task = read(test::replaced(kGaitFile, "strides = 3", "strides = 3\nturn_rad = 0.2"));
+  const Eigen::VectorXd moved =
+      difference(task.problem.start_configuration(), task.problem.boundary_constraints[1].q_ref);
+  EXPECT_NEAR(moved(5), 0.6, 1e-12);
+  EXPECT_NEAR(std::atan2(moved(1), moved(0)), 0.3, 1e-12) << "half of it: the chord of an arc";
+  EXPECT_NEAR(moved.head<2>().norm(), 0.6 * std::sin(0.3) / 0.3, 1e-12);
+  EXPECT_EQ(message("strides = 3", "strides = 3\nturn_rad = 1.1"),
+            "task.toml:5:12: gait.turn_rad: 3 strides turn the base by 3.3 rad; need at most 3 in all");
+}
+
+TEST_F(TaskGait, RefusesASpeedBesideALength) {
+  EXPECT_EQ(
+      message("strides = 3", "strides = 3\nspeed_mps = 0.2"),
+      "task.toml:7:19: gait.stride_length_m: gait.speed_mps sets the length of a stride, too; need one of the two");
 }
 
 TEST_F(TaskGait, RefusesWhatIsNoGait) {
-  EXPECT_EQ(message("\"trot\"", "\"trott\""),
-            "task.toml:3:8: gait.kind: unknown gait \"trott\"; did you mean 'trot'? Known: walk, trot, pace, bound");
+  EXPECT_EQ(
+      message("\"trot\"", "\"trott\""),
+      "task.toml:3:8: gait.kind: unknown gait \"trott\"; did you mean 'trot'? Known: walk, trot, pace, bound, pronk");
   EXPECT_THAT(message("\"trot\"", "\"trott\"\nduty_factor = 0.55"), Not(HasSubstr("duty_factor")))
       << "right for a trot";
   EXPECT_THAT(message("strides = 3", "strides = 0"), StartsWith("task.toml:4:11: gait.strides: 0 is not allowed"));
   EXPECT_THAT(message("stride_s = 0.8", "stride_s = [0.9, 0.8]"),
               StartsWith("task.toml:5:12: gait.stride_s: min > max is not allowed"));
   EXPECT_THAT(message("stride_s = 0.8", "stride_s = 0"), HasSubstr("need a number from 0.001 to 600 [s]"));
-  EXPECT_EQ(message("strides = 3", "strides = 3\nduty_factor = 0.4"),
-            "task.toml:5:15: gait.duty_factor: 0.4 is not allowed; need a number from 0.5 to 0.99; with less, swings "
-            "overlap: write the phases as [[phase]]");
+  EXPECT_EQ(message("strides = 3", "strides = 3\nduty_factor = 0.1"),
+            "task.toml:5:15: gait.duty_factor: 0.1 is not allowed; need a number from 0.2 to 0.99");
   EXPECT_THAT(message("strides = 3", "strides = 3\nstrids = 1"), HasSubstr("did you mean 'strides'?"));
   EXPECT_THAT(message("stride_length_m = 0.2", "stride_length_m = -0.2"), StartsWith("task.toml:6:19: "));
 }

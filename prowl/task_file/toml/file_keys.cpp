@@ -218,33 +218,44 @@ void add_gait(FileKeys& keys) {
             .form = kOneOrRange,
             .range = kDuration,
             .unit = "s",
+            .fallback = "by the height of the robot, shorter for high speeds",
             .meaning = "duration of a stride; between two bounds the optimiser chooses each phase within its share "
                        "of both"});
+  gait.add({.name = "speed_mps",
+            .form = "number",
+            .range = kNonnegative,
+            .unit = "m/s",
+            .meaning = "mean speed of the base along the surface in a stride; not with [[goal]] or stride_length_m"});
   gait.add({.name = "stride_length_m",
             .form = "number",
             .range = kNonnegative,
             .unit = "m",
-            .meaning = "distance that the base moves along the surface in each stride; not with [[goal]]"});
+            .meaning = "distance that the base moves along the surface in each stride, in place of a speed; not with "
+                       "[[goal]]"});
   gait.add({.name = "heading_rad",
             .form = "number",
             .range = kAngle,
             .unit = "rad",
             .fallback = "where the base faces at the start",
             .meaning = "walking direction, angle about the world's z from its x"});
-  constexpr double kLargestDutyFactor = 0.99;  // a swing takes time
-  const auto least = [](const GaitPattern& pattern) { return pattern.least_duty_factor(); };
-  const std::vector<GaitPattern>& patterns = gait_patterns();
-  const GaitPattern& loosest = *std::min_element(patterns.begin(), patterns.end(),
-                                                 [&](const auto& a, const auto& b) { return least(a) < least(b); });
+  gait.add({.name = "turn_rad",
+            .form = "number",
+            .range = kAngle,
+            .unit = "rad",
+            .fallback = "0",
+            .meaning = "turn of the base in each stride, about the surface's normal; its way bends as much"});
+  // Both a stance and a swing take time; feet that stand for less carry five times the weight.
+  constexpr double kLeastDutyFactor = 0.2, kLargestDutyFactor = 0.99;
   gait.add(
       {.name = "duty_factor",
        .form = "number",
-       .range = {.lower = least(loosest),
-                 .upper = kLargestDutyFactor,
-                 .hint = "; with less, swings overlap: write the phases as [[phase]]"},
+       .range = {.lower = kLeastDutyFactor, .upper = kLargestDutyFactor},
        .unit = "-",
-       .fallback = of_each_gait([](const GaitPattern& pattern) { return pattern.duty_factor; }),
-       .meaning = fmt::format("fraction of the stride for which each foot stands; at least {}", of_each_gait(least))});
+       .fallback = fmt::format("{}; with a speed_mps above 0.1 sqrt(gravity x height) {}",
+                               of_each_gait([](const GaitPattern& pattern) { return pattern.slow_duty_factor; }),
+                               of_each_gait([](const GaitPattern& pattern) { return pattern.fast_duty_factor; })),
+       .meaning = fmt::format("fraction of the stride for which each foot stands; swings overlap below {}",
+                              of_each_gait([](const GaitPattern& pattern) { return pattern.least_duty_factor(); }))});
   gait.add({.name = "start_s",
             .form = "number",
             .range = kDuration,
