@@ -11,7 +11,7 @@ namespace prowl {
 
 /// Proofs that no motion solves the problem, one line each in the words of the task: phase, goal, contact or surface,
 /// by how much. They follow from lengths, friction and time: a solvable problem gives none. Most infeasible problems
-/// give none either, and the solver has to find out. Takes milliseconds.
+/// give none either, and the solver has to find out. Takes milliseconds; 0.1 s a leg where joint limits decide.
 std::vector<std::string> proofs_of_infeasibility(const MotionProblem& problem, const ContactSchedule& schedule);
 
 /// Doubts about a problem that a solver did not solve, one line each, from the postures of the initial guess at the

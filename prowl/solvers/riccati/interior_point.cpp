@@ -43,7 +43,7 @@ constexpr double kCutShort = 0.05, kBarrierGrowth = 3.0, kMostGrowth = 10.0;
 constexpr double kFirstPush = 1e-2, kNearPush = 1e-4;  ///< distance of slacks from their bounds
 /// Along directions in which the cost hardly changes, or bends down a little, regularised steps take hundreds of
 /// iterations for the last digits of the gradient: after so many feasible iterates with an error within so many times
-/// the tolerance, the solve ends.
+/// the tolerance, mu being within it, the solve ends.
 constexpr double kNearTolerance = 100.0;
 constexpr int kMostNearIterates = 10;
 /// If no fraction of a step is acceptable: regularise more, at most so many times.
@@ -244,7 +244,8 @@ std::optional<InteriorPoint::Ending> InteriorPoint::has_converged(const Test& is
   const double error = this->error(0.0);
   if (error > kNearTolerance * options_.tolerance || figures_.violation > options_.tolerance) return std::nullopt;
   const bool is_optimal = error <= options_.tolerance;
-  if ((++near_iterates_ < kMostNearIterates && !is_optimal) || !is_feasible(ux_)) return std::nullopt;
+  if (mu_ <= options_.tolerance) ++near_iterates_;
+  if ((near_iterates_ < kMostNearIterates && !is_optimal) || !is_feasible(ux_)) return std::nullopt;
   if (is_optimal) return Ending{SolveStatus::converged, "optimal within tolerance"};
   return Ending{SolveStatus::converged,
                 fmt::format("optimal within {:g} times the tolerance, in {} iterates", kNearTolerance, near_iterates_)};
