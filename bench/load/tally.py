@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from load.quantiles import quantiles
 
-SETTLED = 100  # tasks, after which memory has to stay where it is: all robots have had their longest by then
+SETTLED = 50  # tasks, after which memory has to stay where it is
 REFUSED = "refused before the solve"
 GROWTH = 0.05
 
