@@ -34,22 +34,18 @@ TEST(RiccatiSolver, NeedsNoBounds) {
   EXPECT_NEAR(result.cost, IpoptSolver().solve(cart, Cart::zeros(), {}).cost, 1e-6);
 }
 
-/// One stage of two states and an equality:  minimise cost(x)  subject to  |x|^2 = 1. Also an Nlp.
-class OnACircle : public test::TestNlp, public test::DenseStagewiseNlp {
+/// One stage of states alone, without inequalities. Also an Nlp.
+class OneStage : public test::TestNlp, public test::DenseStagewiseNlp {
  public:
-  OnACircle() {
-    z_lower.setConstant(2, -kInfinity);
-    z_upper.setConstant(2, kInfinity);
-    g_lower = g_upper = VectorXd::Ones(1);
+  OneStage(int states, int equalities) : size_{0, states, equalities, 0} {
+    z_lower.setConstant(states, -kInfinity);
+    z_upper.setConstant(states, kInfinity);
   }
   StagewiseNlp* stagewise() override { return this; }
   void cost_gradient(const VectorXd&, Eigen::Ref<VectorXd>) override {}
-  void constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) override { g << z.squaredNorm(); }
+  void constraints(const VectorXd&, Eigen::Ref<VectorXd>) override {}
   void jacobian(const VectorXd&, Eigen::Ref<VectorXd>) override {}
   void hessian(const VectorXd&, double, const VectorXd&, Eigen::Ref<VectorXd>) override {}
-
-  /// Powell 1986 (the Maratos effect): full steps towards (1, 0) raise both the cost and the violation.
-  double cost(const VectorXd& z) override { return 2.0 * (z.squaredNorm() - 1.0) - z(0); }
 
   int num_stages() const override { return 1; }
   const StageSize& size(int) const override { return size_; }
@@ -57,27 +53,42 @@ class OnACircle : public test::TestNlp, public test::DenseStagewiseNlp {
   const VectorXd& upper(int) const override { return none_; }
   const StageValues& values(int, const VectorXd& z) override {
     values_.cost = cost(z);
-    values_.equalities = VectorXd::Constant(1, z.squaredNorm() - 1.0);
     return values_;
+  }
+  std::vector<VectorXd> stages(const VectorXd& z) const override { return {z}; }
+  VectorXd flat(const std::vector<VectorXd>& stages) const override { return stages[0]; }
+  std::string describe_stage(int) const override { return "the stage"; }
+
+ protected:
+  StageSize size_;
+  VectorXd none_;
+  StageValues values_;
+  StageDerivatives derivatives_;
+  MatrixXd hessian_;
+};
+
+/// Two states and an equality:  minimise cost(x)  subject to  |x|^2 = 1.
+class OnACircle : public OneStage {
+ public:
+  OnACircle() : OneStage(2, 1) { g_lower = g_upper = VectorXd::Ones(1); }
+  void constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) override { g << z.squaredNorm(); }
+
+  /// Powell 1986 (the Maratos effect): full steps towards (1, 0) raise both the cost and the violation.
+  double cost(const VectorXd& z) override { return 2.0 * (z.squaredNorm() - 1.0) - z(0); }
+
+  const StageValues& values(int k, const VectorXd& z) override {
+    values_.equalities = VectorXd::Constant(1, z.squaredNorm() - 1.0);
+    return OneStage::values(k, z);
   }
   const StageDerivatives& derivatives(int, const VectorXd& z) override {
     derivatives_ = {4.0 * z - VectorXd(Vector2d(1.0, 0.0)), MatrixXd(0, 2), 2.0 * z.transpose(), MatrixXd(0, 2)};
     return derivatives_;
   }
+  using OneStage::hessian;
   const MatrixXd& hessian(int, const VectorXd&, double cost_factor, const StageMultipliers& on) override {
     hessian_ = (4.0 * cost_factor + 2.0 * on.equalities(0)) * MatrixXd::Identity(2, 2);
     return hessian_;
   }
-  std::vector<VectorXd> stages(const VectorXd& z) const override { return {z}; }
-  VectorXd flat(const std::vector<VectorXd>& stages) const override { return stages[0]; }
-  std::string describe_stage(int) const override { return "the circle"; }
-
- private:
-  StageSize size_{0, 2, 1, 0};
-  VectorXd none_;
-  StageValues values_;
-  StageDerivatives derivatives_;
-  MatrixXd hessian_;
 };
 
 /// Whole steps, by second order corrections, are as fast as Newton's method; half steps are not.
@@ -102,43 +113,20 @@ TEST(RiccatiSolver, GoesAwayFromMaxima) {
 }
 
 /// One state without a condition on it; its cost falls for ever, and hardly.
-class OnASlope : public test::TestNlp, public test::DenseStagewiseNlp {
+class OnASlope : public OneStage {
  public:
-  explicit OnASlope(double slope) : slope_(slope) {
-    z_lower.setConstant(1, -kInfinity);
-    z_upper.setConstant(1, kInfinity);
-  }
-  StagewiseNlp* stagewise() override { return this; }
+  explicit OnASlope(double slope) : OneStage(1, 0), slope_(slope) { hessian_ = MatrixXd::Zero(1, 1); }
   double cost(const VectorXd& z) override { return -slope_ * z(0); }
   void cost_gradient(const VectorXd&, Eigen::Ref<VectorXd> gradient) override { gradient << -slope_; }
-  void constraints(const VectorXd&, Eigen::Ref<VectorXd>) override {}
-  void jacobian(const VectorXd&, Eigen::Ref<VectorXd>) override {}
-  void hessian(const VectorXd&, double, const VectorXd&, Eigen::Ref<VectorXd>) override {}
-
-  int num_stages() const override { return 1; }
-  const StageSize& size(int) const override { return size_; }
-  const VectorXd& lower(int) const override { return none_; }
-  const VectorXd& upper(int) const override { return none_; }
-  const StageValues& values(int, const VectorXd& z) override {
-    values_.cost = cost(z);
-    return values_;
-  }
   const StageDerivatives& derivatives(int, const VectorXd&) override {
     derivatives_ = {VectorXd::Constant(1, -slope_), MatrixXd(0, 1), MatrixXd(0, 1), MatrixXd(0, 1)};
     return derivatives_;
   }
+  using OneStage::hessian;
   const MatrixXd& hessian(int, const VectorXd&, double, const StageMultipliers&) override { return hessian_; }
-  std::vector<VectorXd> stages(const VectorXd& z) const override { return {z}; }
-  VectorXd flat(const std::vector<VectorXd>& stages) const override { return stages[0]; }
-  std::string describe_stage(int) const override { return "the slope"; }
 
  private:
   double slope_;
-  StageSize size_{0, 1, 0, 0};
-  VectorXd none_;
-  StageValues values_;
-  StageDerivatives derivatives_;
-  MatrixXd hessian_ = MatrixXd::Zero(1, 1);
 };
 
 /// It would take hundreds of iterations for digits that nobody needs.
