@@ -22,14 +22,10 @@ class WorstCase {
     check_.certified_limit = certified_limit;
   }
 
-  void record(double value, double time, std::string_view where) {
-    note_failure(value, time);
-    moment_.record(value, time, where);
-  }
+  void record(double value, double time, std::string_view where) { is_worst(value, time, where); }
   /// The same for a check of several kinds of quantities: it has the unit of its worst.
   void record(double value, double time, std::string_view where, std::string_view unit) {
-    note_failure(value, time);
-    if (moment_.record(value, time, where)) check_.unit = unit;
+    if (is_worst(value, time, where)) check_.unit = unit;
   }
 
   CertificateCheck check() const {
@@ -47,9 +43,11 @@ class WorstCase {
   }
 
  private:
-  void note_failure(double value, double time) {
+  /// Records the value, and its time if it fails.
+  bool is_worst(double value, double time, std::string_view where) {
     if (!(value <= check_.limit) && (check_.failures.empty() || check_.failures.back() != time))
       check_.failures.push_back(time);
+    return moment_.record(value, time, where);
   }
 
   CertificateCheck check_;

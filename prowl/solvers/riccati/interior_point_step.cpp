@@ -109,8 +109,8 @@ bool InteriorPoint::search_line() {
   theta_ = violation(values_, s_);
   phi_ = barrier_function(values_, slacks_);
   const double tau = std::max(kTauMin, 1.0 - mu_);
-  const double longest = slacks_.longest_primal(tau, ds_), longest_dual = slacks_.longest_dual(tau);
-  longest_ = longest;
+  const double longest_dual = slacks_.longest_dual(tau);
+  longest_ = slacks_.longest_primal(tau, ds_);
   double least = kGammaTheta;
   if (slope_ < 0.0) {
     least = std::min(least, kGammaPhi * theta_ / -slope_);
@@ -120,7 +120,7 @@ bool InteriorPoint::search_line() {
   step_on_equalities_ = kkt_.on_equalities();
   step_on_next_ = kkt_.on_next();
   const bool takes_it_whole = whole_steps_from_.has_value();
-  for (double alpha = longest; alpha > least; alpha *= 0.5) {
+  for (double alpha = longest_; alpha > least; alpha *= 0.5) {
     const bool is_good = try_step(alpha, step_, ds_);
     if (is_good && takes_it_whole) {
       accept(alpha, longest_dual);
@@ -133,7 +133,7 @@ bool InteriorPoint::search_line() {
       accept(alpha, longest_dual);
       return true;
     }
-    if (is_good && alpha == longest && theta >= theta_ && correct_second_order(alpha, theta)) {
+    if (is_good && alpha == longest_ && theta >= theta_ && correct_second_order(alpha, theta)) {
       accept(alpha, longest_dual);
       return true;
     }
