@@ -91,6 +91,10 @@ const std::vector<GaitPattern>& gait_patterns() {
   return patterns;
 }
 
+const GaitPattern& gait_pattern(const std::string& name) {
+  return *std::ranges::find(gait_patterns(), name, &GaitPattern::name);
+}
+
 double GaitPattern::default_stride(double height, double speed) const {
   const double usual = stride * std::sqrt(height / RobotModel::kGravity);
   return speed > 0.0 ? std::min(usual, longest * height / speed) : usual;

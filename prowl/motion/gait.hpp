@@ -40,6 +40,8 @@ struct GaitPattern {
 
 /// walk (lateral sequence), trot, pace, bound, pronk.
 const std::vector<GaitPattern>& gait_patterns();
+/// The one of this name, which must be among them.
+const GaitPattern& gait_pattern(const std::string& name);
 
 /// Strides on one surface. Each group of feet lifts off an equal part of a stride after the one before, and swings for
 /// (1 - duty_factor) of a stride. Above pattern.least_duty_factor() all feet stand after each swing; below it swings

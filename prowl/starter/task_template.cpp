@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "prowl/model/configuration.hpp"
 #include "prowl/motion/gait.hpp"
 #include "prowl/starter/new_task.hpp"
@@ -154,10 +152,9 @@ std::string step_phases(const NewTask& task) {
 }
 
 std::string gait(const NewTask& task) {
-  const auto& patterns = gait_patterns();
-  const GaitPattern& pattern = *std::ranges::find(patterns, task.pattern, &GaitPattern::name);
+  const GaitPattern& pattern = gait_pattern(task.pattern);
   std::vector<std::string> others;
-  for (const GaitPattern& other : patterns) {
+  for (const GaitPattern& other : gait_patterns()) {
     if (other.name != task.pattern) others.push_back(other.name);
   }
   return fmt::format(fmt::runtime(kGait), fmt::arg("others", fmt::join(others, ", ")), fmt::arg("kind", task.pattern),

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "prowl/mesh/mesh.hpp"
@@ -21,12 +20,6 @@ Feet need_feet(const TomlTable& table, const RobotModel& robot) {
                   robot.contacts().size(), robot.name()));
 }
 
-GaitPattern read_pattern(const TomlTable& table) {
-  const std::string& kind = table.need("kind").as_choice("gait");
-  return *std::find_if(gait_patterns().begin(), gait_patterns().end(),
-                       [&](const GaitPattern& pattern) { return pattern.name == kind; });
-}
-
 int read_surface(const TomlTable& table, const std::vector<Surface>& surfaces) {
   std::vector<std::string> names;
   for (const Surface& surface : surfaces) names.push_back(surface.name);
@@ -41,7 +34,7 @@ int read_surface(const TomlTable& table, const std::vector<Surface>& surfaces) {
 
 Gait read_values(const TomlTable& table, const RobotModel& robot, const std::vector<Surface>& surfaces) {
   Gait gait;
-  gait.pattern = read_pattern(table);
+  gait.pattern = gait_pattern(table.need("kind").as_choice("gait"));
   gait.strides = table.need("strides").as_integer();
   const auto speed = table.find("speed_mps"), stride = table.find("stride_s");
   const double height = robot.nominal_configuration()(2);

@@ -114,8 +114,7 @@ TEST(Mesh, CountsTheNodesOfAllPhasesInOrder) {
 
 TEST(MeshWithRate, IsNoCoarserThanAskedFor) {
   const RobotModel robot = test::hyq();
-  Gait gait{
-      .pattern = *std::ranges::find(gait_patterns(), "walk", &GaitPattern::name), .strides = 2, .stride = {0.8, 0.8}};
+  Gait gait{.pattern = gait_pattern("walk"), .strides = 2, .stride = {0.8, 0.8}};
   gait.duty_factor = gait.pattern.slow_duty_factor;
   const std::vector<Phase> phases = expand(gait, robot, *find_feet(robot));
   const Mesh mesh = mesh_with_rate(phases, 30.0);

@@ -17,12 +17,8 @@ namespace {
 
 using testing::ElementsAre;
 
-const GaitPattern& pattern(const std::string& name) {
-  return *std::ranges::find(gait_patterns(), name, &GaitPattern::name);
-}
-
 Gait gait_of(const std::string& name, int strides = 2) {
-  Gait gait{.pattern = pattern(name), .strides = strides, .stride = {0.8, 0.8}};
+  Gait gait{.pattern = gait_pattern(name), .strides = strides, .stride = {0.8, 0.8}};
   gait.duty_factor = 0.85;
   return gait;
 }
