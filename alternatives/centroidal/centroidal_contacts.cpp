@@ -58,6 +58,11 @@ CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phas
                                   fmt::format("{}, sliding along axis {} of {}", point.name, axis + 1, surface.name)});
       }
     }
+    const bool starts = !landed && !landing[i].foothold.empty();
+    for (const int axis : starts ? std::vector<int>{0, 1} : std::vector<int>{}) {
+      result.landing.push_back({i, axes.col(axis), axes.col(axis).dot(terms.contact_position(contact.contact)),
+                                fmt::format("{}, start along axis {} of {}", point.name, axis + 1, surface.name)});
+    }
     if (!schedule.lands(phase, i)) continue;
     for (const int axis : landing[i].foothold) {
       if (axis != kNormal && !contact.foothold) continue;

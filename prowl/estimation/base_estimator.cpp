@@ -18,12 +18,14 @@ Eigen::Index foot_row(std::size_t foot) { return kFeet + 3 * static_cast<Eigen::
 
 }  // namespace
 
-BaseEstimator::BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const std::vector<bool>& in_contact,
-                             const EstimatorNoise& noise)
+BaseEstimator::BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                             const std::vector<bool>& in_contact, const EstimatorNoise& noise)
     : noise_(noise),
       legs_(robot),
       position_(base_position(q)),
+      velocity_(base_rotation(q) * v.head<3>()),
       rotation_(base_rotation(q)),
+      angular_velocity_(v.segment<3>(3)),
       feet_(robot.contacts().size()) {
   covariance_.setZero(foot_row(feet_.size()), foot_row(feet_.size()));
   constexpr double kKnown = 1e-5;  // the start is known, to rounding

@@ -36,9 +36,9 @@ struct EstimatorNoise {
 /// noise is left out; if it stays off, it gets a new position.
 class BaseEstimator {
  public:
-  /// Starts at the known state q, at rest, with `in_contact` (one per contact of the robot) on the ground.
-  BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const std::vector<bool>& in_contact,
-                const EstimatorNoise& noise);
+  /// Starts at the known state (q, v), with `in_contact` (one per contact of the robot) on the ground.
+  BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                const std::vector<bool>& in_contact, const EstimatorNoise& noise);
 
   /// Advances by dt [s] with the IMU's means over that time, then corrects with the encoders. `joint_rates` [rad/s]
   /// determine how feet roll on ground with these normals (one per contact, unit vectors, world frame).
@@ -73,9 +73,9 @@ class BaseEstimator {
 
   EstimatorNoise noise_;
   LegKinematics legs_;
-  Eigen::Vector3d position_, velocity_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position_, velocity_;
   Eigen::Matrix3d rotation_;
-  Eigen::Vector3d angular_velocity_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity_;
   Eigen::Vector3d gyro_bias_ = Eigen::Vector3d::Zero(), accelerometer_bias_ = Eigen::Vector3d::Zero();
   std::vector<Foot> feet_;
   Eigen::MatrixXd covariance_;

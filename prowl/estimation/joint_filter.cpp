@@ -2,11 +2,8 @@
 
 namespace prowl {
 
-JointFilter::JointFilter(const Eigen::VectorXd& positions, double noise, double density)
-    : variance_(noise * noise),
-      density_(density),
-      positions_(positions),
-      rates_(Eigen::VectorXd::Zero(positions.size())) {}
+JointFilter::JointFilter(const Eigen::VectorXd& positions, const Eigen::VectorXd& rates, double noise, double density)
+    : variance_(noise * noise), density_(density), positions_(positions), rates_(rates) {}
 
 void JointFilter::update(double dt, const Eigen::VectorXd& acceleration, const Eigen::VectorXd& encoders) {
   positions_ += dt * rates_ + 0.5 * dt * dt * acceleration;

@@ -13,8 +13,8 @@ namespace prowl {
 /// rad/s for 1 mrad at 1 kHz.
 class JointFilter {
  public:
-  /// Starts at known positions and at rest. `noise` σ > 0 [rad] a sample, `density` S.
-  JointFilter(const Eigen::VectorXd& positions, double noise, double density);
+  /// Starts at known positions and rates. `noise` σ > 0 [rad] a sample, `density` S.
+  JointFilter(const Eigen::VectorXd& positions, const Eigen::VectorXd& rates, double noise, double density);
 
   /// Advances by dt [s] with the expected acceleration, then corrects with a sample of the encoders.
   void update(double dt, const Eigen::VectorXd& acceleration, const Eigen::VectorXd& encoders);

@@ -5,13 +5,13 @@
 
 namespace prowl {
 
-StateEstimator::StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Stand& stand,
-                               const EstimatorNoise& noise, double joint_density)
+StateEstimator::StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                               const Stand& stand, const EstimatorNoise& noise, double joint_density)
     : robot_(robot),
-      joints_(q.tail(robot.nu()), noise.encoder, joint_density),
-      base_(robot, q, stand.in_contact, noise),
+      joints_(q.tail(robot.nu()), v.tail(robot.nu()), noise.encoder, joint_density),
+      base_(robot, q, v, stand.in_contact, noise),
       q_(q),
-      v_(Eigen::VectorXd::Zero(robot.nv())) {}
+      v_(v) {}
 
 void StateEstimator::update(double dt, const SensorReading& reading, const Eigen::VectorXd& tau, const Stand& stand) {
   joints_.update(dt, acceleration(q_, v_, tau, stand).tail(robot_.nu()), reading.encoders);

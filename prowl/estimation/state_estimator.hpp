@@ -26,9 +26,9 @@ struct Stand {
 /// delay of the torques swing legs would shake.
 class StateEstimator {
  public:
-  /// Starts at the known state q, at rest. `joint_density` [rad²/s³]: noise density S of JointFilter.
-  StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Stand& stand, const EstimatorNoise& noise,
-                 double joint_density);
+  /// Starts at the known state (q, v). `joint_density` [rad²/s³]: noise density S of JointFilter.
+  StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Stand& stand,
+                 const EstimatorNoise& noise, double joint_density);
 
   /// Advances by dt [s]. `tau` (nu): commanded joint torques over that time.
   void update(double dt, const SensorReading& reading, const Eigen::VectorXd& tau, const Stand& stand);

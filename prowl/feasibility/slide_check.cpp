@@ -80,6 +80,7 @@ std::vector<Hold> holds_of_phase(const MotionProblem& problem, const ContactSche
 }  // namespace
 
 std::optional<std::string> why_it_slides(const MotionProblem& problem, const ContactSchedule& schedule) {
+  if (!problem.start().fixes_configuration() || !problem.start().fixes_velocity()) return std::nullopt;
   const MassMotion start = centre_of_mass(problem.robot, problem.start_configuration(), problem.start().velocity_lower);
   std::set<int> touched;
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {

@@ -61,14 +61,14 @@ void PosturePath::add(const BoundaryConstraint& constraint, const VectorXd& q, d
     const auto coordinate = static_cast<Eigen::Index>(i);  // 0 ... 2 base position, then joints
     const Eigen::Index index = i < 3 ? coordinate : coordinate + 4;
     const Eigen::Index tangent = i < 3 ? coordinate : coordinate + 3;
-    if (!binds(constraint, tangent)) continue;
-    // Two conditions at one time (a phase transition): the later one includes the earlier.
     auto& points = waypoints[i];
+    if (!binds(constraint, tangent) && !points.empty()) continue;
+    // Two conditions at one time (a phase transition): the later one includes the earlier.
     if (!points.empty() && points.back().time >= time) points.pop_back();
     points.push_back({time, q(index), std::nullopt});
     if (i < 3 && base_velocity) points.back().slope = (*base_velocity)(coordinate);
   }
-  if (binds(constraint, 3) || binds(constraint, 4) || binds(constraint, 5)) {
+  if (turns_.empty() || binds(constraint, 3) || binds(constraint, 4) || binds(constraint, 5)) {
     if (!turns_.empty() && turns_.back().time >= time) turns_.pop_back();
     Eigen::Quaterniond rotation = base_quaternion(q);
     // The sign that continues without a jump.

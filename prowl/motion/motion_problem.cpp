@@ -197,7 +197,10 @@ void check_start_contacts(const MotionProblem& problem, const RigidBodyTerms& te
   const Phase& phase = problem.phases.front();
   ContactKinematics kinematics(contact_indices(phase.contacts));
   kinematics.set_configuration(terms);
-  const VectorXd velocities = kinematics.jacobian() * problem.start().velocity_lower;
+  const BoundaryConstraint& start = problem.start();
+  const bool is_fixed = start.fixes_configuration() && start.fixes_velocity();
+  const VectorXd velocities =
+      kinematics.jacobian() * (is_fixed ? start.velocity_lower : VectorXd::Zero(problem.robot.nv()));
 
   for (std::size_t i = 0; i < phase.contacts.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(3 * i);
@@ -258,11 +261,8 @@ void check_start(const MotionProblem& problem) {
         "boundary_constraints[0].at: phase {}, fraction {} is not allowed; the first condition is the start, need 0, 0",
         start.at.phase, start.at.fraction);
   }
-  if (!start.configuration_lower.isZero(0.0) || !start.configuration_upper.isZero(0.0)) {
-    refuse("boundary_constraints[0].configuration: the start must be fixed at its q_ref; need bounds of 0");
-  }
-  if (start.velocity_lower != start.velocity_upper) {
-    refuse("boundary_constraints[0].velocity: the start must be fixed; need equal bounds");
+  if (start.fixes_configuration() && !start.configuration_lower.isZero(0.0)) {
+    refuse("boundary_constraints[0].configuration: a fixed start is its q_ref; need bounds of 0");
   }
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(problem.start_configuration());

@@ -18,7 +18,9 @@ namespace prowl {
 ///                                                   rotation vector in the frame of q_ref, joints)
 ///   velocity_lower <= v <= velocity_upper (nv),   torque_lower <= tau <= torque_upper (nu)
 ///
-/// The start of a motion is one of these at the start of the first phase; a goal is one at any moment.
+/// The start of a motion is one of these at the start of the first phase; a goal is one at any moment. Contacts of the
+/// first phase stand where q_ref of the start puts them: where the bounds leave a choice, the optimiser moves the body
+/// over these places.
 struct BoundaryConstraint {
   std::string name;  ///< "start", "goal 1", ... for messages
   PhaseFraction at;
@@ -30,6 +32,8 @@ struct BoundaryConstraint {
   /// A condition without bounds, about q_ref.
   static BoundaryConstraint unbounded(const RobotModel& robot, std::string name, PhaseFraction at,
                                       const Eigen::VectorXd& q_ref);
+  bool fixes_configuration() const { return configuration_lower == configuration_upper; }
+  bool fixes_velocity() const { return velocity_lower == velocity_upper; }
 };
 
 /// Tolerances of the certificate on goals [m, rad, m/s and rad/s].
@@ -50,7 +54,7 @@ struct MotionProblem {
   RobotModel robot;
   std::vector<Surface> surfaces;
   std::vector<Phase> phases;
-  std::vector<BoundaryConstraint> boundary_constraints;  ///< the first is the start and fixes all of q and v
+  std::vector<BoundaryConstraint> boundary_constraints;  ///< the first is the start
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
   FrictionModel friction_model = FrictionModel::cone;
@@ -62,8 +66,8 @@ struct MotionProblem {
 };
 
 /// Throws InputError that names the field unless sizes, indices, ranges and finiteness are right and the start is
-/// fixed, inside the joint limits, with the contacts of the first phase on their surfaces (within 1 mm) and at rest (1
-/// mm/s).
+/// inside the joint limits, with the contacts of the first phase on their surfaces (within 1 mm) and, where it is
+/// fixed, at rest (1 mm/s).
 void validate(const MotionProblem& problem);
 
 }  // namespace prowl

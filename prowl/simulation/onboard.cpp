@@ -35,6 +35,14 @@ std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& trac
   return stands;
 }
 
+/// Knows the state of the plan at its start, which may move.
+StateEstimator make_estimator(const MotionProblem& problem, const Tracker& tracker, const Stand& stand,
+                              const SimulationOptions& options) {
+  Eigen::VectorXd q(problem.robot.nq()), v(problem.robot.nv());
+  tracker.reference(tracker.start(), q, v);
+  return {problem.robot, q, v, stand, estimator_noise(options.noise, options.noise_scale), kJointDensity};
+}
+
 }  // namespace
 
 Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options, double period)
@@ -42,8 +50,7 @@ Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const Sim
       options_(options),
       period_(period),
       stands_(make_stands(problem, tracker)),
-      estimator_(problem.robot, problem.start_configuration(), stands_.front(),
-                 estimator_noise(options.noise, options.noise_scale), kJointDensity),
+      estimator_(make_estimator(problem, tracker, stands_.front(), options)),
       feedforward_(problem.robot.nu()),
       feedback_(problem.robot.nu()),
       command_(problem.robot.nu()) {

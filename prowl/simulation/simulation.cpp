@@ -84,10 +84,10 @@ class Run {
                    first_torque(tracker)),
         measures_(problem, tracker, end_),
         slip_(problem.robot.contacts().size()) {
-    physics_.set_state(problem.start_configuration(), Eigen::VectorXd::Zero(problem.robot.nv()));
-    const auto nq = problem.robot.nq(), nv = problem.robot.nv();
-    sample_.q_ref.resize(nq);
-    sample_.v_ref.resize(nv);
+    sample_.q_ref.resize(problem.robot.nq());
+    sample_.v_ref.resize(problem.robot.nv());
+    tracker.reference(tracker.start(), sample_.q_ref, sample_.v_ref);
+    physics_.set_state(sample_.q_ref, sample_.v_ref);
   }
 
   SimulationResult operator()(const std::function<void(double, double)>& on_time) {

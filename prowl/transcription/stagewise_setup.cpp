@@ -78,7 +78,7 @@ void StagewiseTranscription::set_variables(int k) {
   };
 
   stage.fixed.setZero(all);
-  std::vector<int> carried_here;
+  std::vector<int> carried_here, free_start;
   for (int i = 0; i < all; ++i) {
     if (i < states && k > 0) continue;
     const auto [lower, upper] = bounds(k, i);
@@ -86,11 +86,15 @@ void StagewiseTranscription::set_variables(int k) {
       stage.fixed(i) = lower;
       continue;
     }
-    if (i < states) throw InputError("the start must fix all positions and velocities");
+    if (i < states) {
+      free_start.push_back(i);
+      continue;
+    }
     const bool is_shared = i >= own;
     (is_shared && is_shared_with(k - 1, i) ? carried_here : stage.variables).push_back(i);
     if (is_shared && is_shared_with(k + 1, i)) stage.carried.push_back(i);
   }
+  stage.variables.insert(stage.variables.end(), free_start.begin(), free_start.end());
   stage.size.inputs = static_cast<int>(stage.variables.size());
   for (int i = 0; i < states && k > 0; ++i) stage.variables.push_back(i);
   stage.variables.insert(stage.variables.end(), carried_here.begin(), carried_here.end());
@@ -131,7 +135,7 @@ void StagewiseTranscription::set_functions(int k) {
     const int variable = stage.variables[i];
     const bool is_carried =
         variable >= states && static_cast<int>(i) >= stage.size.inputs;  // bounded at its first stage
-    const bool is_twin = variable < states && node.h_in == 0.0;
+    const bool is_twin = k > 0 && variable < states && node.h_in == 0.0;
     const auto [low, up] = bounds(k, variable);
     if (is_carried || is_twin || (!std::isfinite(low) && !std::isfinite(up))) continue;
     const double unit = stage.unit(static_cast<Index>(i));

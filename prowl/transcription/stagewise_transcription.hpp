@@ -19,7 +19,8 @@ namespace prowl {
 ///   inputs   a, tau, forces w of dependent contacts, variables shared from this node on (duration,
 ///            footholds)
 ///
-/// Fixed variables are left out: the state of the first node, and inputs with equal bounds. Bounds
+/// Fixed variables are left out: of the state of the first node, and inputs, those with equal bounds.
+/// What the start leaves free is an input of the first stage. Bounds
 /// on q and v are rows of the node; the two nodes of a phase transition have the same q and v, so
 /// the first has the rows of both.
 ///

@@ -78,7 +78,7 @@ BaseEstimator run(const EstimatorNoise& noise, double scale, unsigned seed, cons
   };
   const Eigen::Vector3d gyro_bias = draw(3, noise.gyro_bias), bias = draw(3, noise.accelerometer_bias);
   const std::vector<Eigen::Vector3d> up(4, Eigen::Vector3d::UnitZ());
-  BaseEstimator estimator(motion.robot(), motion.q(0), in_contact, noise);
+  BaseEstimator estimator(motion.robot(), motion.q(0), Eigen::VectorXd::Zero(18), in_contact, noise);
   for (int i = 1; i <= Sway::kSteps; ++i) {
     estimator.update(kStep, motion.gyro(i) + gyro_bias + draw(3, noise.gyro),
                      motion.accelerometer(i) + bias + draw(3, noise.accelerometer),

@@ -20,7 +20,7 @@ Errors follow(double noise, bool told, double density, double real_noise) {
   std::normal_distribution<double> normal(0.0, 1.0);
   const double w = 2.0 * M_PI;
   const auto q = [&](double t) { return 0.5 * (1.0 - std::cos(w * t)); };
-  JointFilter filter(Eigen::VectorXd::Constant(1, q(0.0)), noise, density);
+  JointFilter filter(Eigen::VectorXd::Constant(1, q(0.0)), Eigen::VectorXd::Zero(1), noise, density);
   Errors squares;
   const int count = 2000;
   for (int i = 1; i <= count; ++i) {
@@ -59,7 +59,7 @@ TEST(JointFilter, KnowsHowGoodItIs) {
   double position = 0.0, rate = 0.0;
   const int joints = 2000;
   Eigen::VectorXd q = Eigen::VectorXd::Zero(joints), v = Eigen::VectorXd::Zero(joints);
-  JointFilter filter(q, noise, density);
+  JointFilter filter(q, v, noise, density);
   for (int i = 0; i < 200; ++i) {
     for (int j = 0; j < joints; ++j) {
       // White noise on the acceleration, integrated exactly over a step.

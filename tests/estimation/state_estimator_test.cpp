@@ -19,7 +19,7 @@ class StateEstimatorTest : public ::testing::Test {
   RobotModel robot_ = test::hyq();
   Eigen::VectorXd q_ = robot_.nominal_configuration();
   Eigen::VectorXd tau_ = static_equilibrium(robot_, q_, {0, 1, 2, 3}).tau;
-  StateEstimator estimator_{robot_, q_, stand_, EstimatorNoise{}, 1.0};
+  StateEstimator estimator_{robot_, q_, Eigen::VectorXd::Zero(robot_.nv()), stand_, EstimatorNoise{}, 1.0};
 
   void update(const Eigen::VectorXd& encoders) {
     estimator_.update(kStep, {encoders, Eigen::Vector3d::Zero(), RobotModel::kGravity * Eigen::Vector3d::UnitZ()}, tau_,

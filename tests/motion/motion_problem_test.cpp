@@ -134,10 +134,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{"elsewhere", [](P& p) { p.boundary_constraints[0].at.fraction = 0.2; },
                 "the first condition is the start"},
-        Mistake{"free_base", [](P& p) { p.boundary_constraints[0].configuration_upper(0) = 0.1; },
-                "the start must be fixed at its q_ref"},
-        Mistake{"free_velocity", [](P& p) { p.boundary_constraints[0].velocity_upper(0) = 0.1; },
-                "boundary_constraints[0].velocity: the start must be fixed"},
+        Mistake{"beside_its_reference",
+                [](P& p) {
+                  p.boundary_constraints[0].configuration_lower(0) = p.boundary_constraints[0].configuration_upper(0) =
+                      0.1;
+                },
+                "boundary_constraints[0].configuration: a fixed start is its q_ref; need bounds of 0"},
         Mistake{"joint_limit", [](P& p) { p.boundary_constraints[0].q_ref(9) = 0.0; },
                 "boundary_constraints[0].configuration: 0 to 0 for joint 'lf_kfe_joint' is outside its limits"},
         Mistake{"above", [](P& p) { p.boundary_constraints[0].q_ref(2) += 0.0015; },

@@ -1,4 +1,5 @@
 prowl_test(tasks/free_duration prowl::prowl prowl::ipopt)
+prowl_test(tasks/free_start prowl::prowl)
 prowl_test(tasks/solvers_agree prowl::prowl prowl::ipopt)
 prowl_test(tasks/formulations_agree prowl::formulations prowl::prowl prowl::ipopt)
 prowl_test(tasks/no_allocations prowl::prowl)

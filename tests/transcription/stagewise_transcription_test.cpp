@@ -53,6 +53,10 @@ std::vector<MeshedProblem> problems() {
                  {phase_on("left", {0, 1, 2, 3}, 0.3, 1), free_phase("both", {0, 1, 2, 3, 4, 5, 6, 7}, 1)}),
       everything(hyq, {free_phase("four", {0, 1, 2, 3}, 3), phase_on("lifted", {1, 2, 3}, 0.2, 2),
                        free_phase("landed", {0, 1, 2, 3}, 2)})};
+  all.push_back(all[1]);  // with a start that is free in part
+  BoundaryConstraint& start = all.back().problem.boundary_constraints.front();
+  for (const int i : {1, 2, 4, 6, 7, 8}) start.configuration_upper(i) = 0.3;
+  for (const int i : {0, 5, 9, 10, 11}) start.velocity_lower(i) = -0.4;
   all[1].problem.running_cost.time_weight = 2.3;
   all[1].problem.swing_clearance = 0.05;
   all[2].problem.running_cost.force_weight *= 0.1;

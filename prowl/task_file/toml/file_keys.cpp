@@ -119,7 +119,7 @@ void add_surface(FileKeys& keys) {
 void add_start(FileKeys& keys) {
   Table start(keys, "start");
   start.add({.name = "joints",
-             .form = "{joint = number}",
+             .form = kJointBounds,
              .unit = "rad",
              .meaning = "joint positions that replace the nominal ones"});
   start.add(
@@ -128,29 +128,29 @@ void add_start(FileKeys& keys) {
        .fallback = "level ground, z = 0",
        .meaning = "surface that carries the start posture: above its point_m, turned with it, contacts on its plane"});
   start.add({.name = "base_position_m",
-             .form = "3 numbers",
+             .form = kBounds3,
              .unit = "m",
              .fallback = "over the origin, lowest contact on z = 0",
              .meaning = "position of the base, world frame"});
   start.add({.name = "base_rpy_rad",
-             .form = "3 numbers",
+             .form = kBounds3,
              .range = kAngle,
              .unit = "rad",
              .fallback = "the robot's nominal ones",
              .meaning =
                  "orientation of the base, R = Rz(yaw) Ry(pitch) Rx(roll); with on, before the turn with the surface"});
   start.add({.name = "base_linear_velocity_mps",
-             .form = "3 numbers",
+             .form = kBounds3,
              .unit = "m/s",
              .fallback = "0",
              .meaning = "velocity of the base, base frame"});
   start.add({.name = "base_angular_velocity_radps",
-             .form = "3 numbers",
+             .form = kBounds3,
              .unit = "rad/s",
              .fallback = "0",
              .meaning = "angular velocity of the base, base frame"});
   start.add({.name = "joint_velocity_radps",
-             .form = "{joint = number}",
+             .form = kJointBounds,
              .unit = "rad/s",
              .fallback = "those that keep the contacts of the first phase still",
              .meaning = "joint velocities; corrected where contacts move at up to 0.05 m/s"});

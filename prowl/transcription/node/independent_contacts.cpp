@@ -13,6 +13,27 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
+/// What the start leaves free must leave the contacts where q_ref puts them, and still. A start at rest needs no
+/// condition on its velocity.
+void add_start_axes(const MotionProblem& problem, const MatrixXd& J, std::vector<LandingAxes>& axes) {
+  const BoundaryConstraint& start = problem.start();
+  const bool moves = !start.fixes_configuration();
+  const bool speeds = !start.fixes_velocity() || (moves && !start.velocity_lower.isZero(0.0));
+  if (!moves && !speeds) return;
+  const auto& held = problem.phases.front().contacts;
+  MatrixXd along(J.rows(), J.cols());
+  for (Index i = 0; i < std::ssize(held); ++i) {
+    Eigen::Matrix3d directions;
+    const Surface& surface = problem.surfaces[held[static_cast<std::size_t>(i)].surface];
+    directions << surface.axes(), surface.normal;
+    along.middleRows<3>(3 * i) = directions.transpose() * J.middleRows<3>(3 * i);
+  }
+  for (const int row : independent_rows(MatrixXd(0, J.cols()), along)) {
+    if (moves) axes[row / 3].foothold.push_back(row % 3);
+    if (speeds) axes[row / 3].velocity.push_back(row % 3);
+  }
+}
+
 }  // namespace
 
 std::vector<int> independent_rows(const MatrixXd& given, const MatrixXd& candidates) {
@@ -82,7 +103,6 @@ PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const E
     velocity.middleRows<3>(3 * l) = axes.transpose() * J_landing.middleRows<3>(3 * l);
     foothold.middleRows<3>(3 * l).leftCols(nv) = velocity.middleRows<3>(3 * l);
     if (!contact.foothold) foothold.block<2, 2>(3 * l, nv + 2 * l) = -Eigen::Matrix2d::Identity();
-    result.landing[landing[l]] = {{}, {}};
   }
   for (const int row : independent_rows(J_staying, velocity)) {
     result.landing[landing[row / 3]].velocity.push_back(row % 3);
@@ -92,6 +112,7 @@ PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const E
   for (const int row : independent_rows(staying_wide, foothold)) {
     result.landing[landing[row / 3]].foothold.push_back(row % 3);
   }
+  if (phase == 0) add_start_axes(problem, J, result.landing);
   return result;
 }
 

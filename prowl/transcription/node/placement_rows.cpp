@@ -56,7 +56,7 @@ void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, cons
   const MotionProblem& problem = discrete.problem;
   const auto& contacts = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(contacts.size()); ++i) {
-    if (!discrete.schedule.lands(phase, i)) continue;
+    const bool lands = discrete.schedule.lands(phase, i);
     const PhaseContact& contact = contacts[i];
     const Surface& surface = problem.surfaces[contact.surface];
     Eigen::Matrix3d axes;
@@ -65,13 +65,13 @@ void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, cons
     const LandingAxes& along = landing[i];
     for (const int axis : along.foothold) {
       rows_[0].push_back({Kind::foothold, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / length_,
-                          name + ", landing place on " + surface.name});
+                          name + (lands ? ", landing place on " : ", start place on ") + surface.name});
     }
     for (const int axis : along.velocity) {
       rows_[0].push_back({Kind::velocity, point_of(contact.contact), i, axes.col(axis), 0.0, 0.0, 1.0 / speed_,
-                          name + ", velocity at landing"});
+                          name + (lands ? ", velocity at landing" : ", velocity at the start")});
     }
-    if (contact.foothold) continue;
+    if (!lands || contact.foothold) continue;
     for (std::size_t corner = 0; corner < surface.patch.size(); ++corner) {
       const Eigen::Vector2d edge = surface.patch[(corner + 1) % surface.patch.size()] - surface.patch[corner];
       const Eigen::Vector3d inward = surface.axes() * Eigen::Vector2d(-edge.y(), edge.x()).normalized();

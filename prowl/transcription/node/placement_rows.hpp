@@ -9,23 +9,24 @@
 
 namespace prowl {
 
-/// Surface axes (0 and 1 tangential, 2 normal) along which a landing contact is positioned and
-/// stopped. All three, unless other contacts determine some of them.
+/// Surface axes (0 and 1 tangential, 2 normal) along which a contact is positioned and stopped at
+/// the first node of a phase. Of a landing contact all three, unless other contacts determine some
+/// of them; likewise of a contact that stands from a start that the optimiser chooses.
 struct LandingAxes {
-  std::vector<int> foothold = {0, 1, 2};
-  std::vector<int> velocity = {0, 1, 2};
+  std::vector<int> foothold;
+  std::vector<int> velocity;
 };
 
 /// Constraints of one phase on contact positions, at its node k = 0 ... intervals:
-/// - A contact that lands at the first node is at its anchor and at rest:
+/// - A contact that lands at the first node, or stands there at a free start, is at its anchor and at rest:
 ///     axis . (p - anchor) = 0,  axis . J v = 0,
-///   and its anchor is inside the patch:  inward . (anchor - corner) >= 0 for each edge.
+///   and an anchor that is chosen is inside the patch:  inward . (anchor - corner) >= 0 for each edge.
 /// - A contact in the air keeps its clearance of the surfaces that it passes:
 ///     normal . (p - point) - radius >= height(k).
 /// Lengths are divided by the size l of the robot, velocities by sqrt(g l).
 class PlacementRows {
  public:
-  /// `landing`: per contact of the phase; ignored unless it lands. `intervals_at_rest`: number of
+  /// `landing`: per contact of the phase. `intervals_at_rest`: number of
   /// intervals before landing in which the contact is already down. Backward Euler needs one: its
   /// velocity at a node is that of the interval before.
   PlacementRows(const DiscreteProblem& discrete, int phase, const std::vector<LandingAxes>& landing,
