@@ -96,6 +96,8 @@ std::string robot_summary(const RobotModel& robot, const RobotInspection& inspec
                                  robot.nu(), robot.nv());
   text += fmt::format("  URDF {}\n", robot.description().urdf.string());
   text += joint_table(robot);
+  const std::vector<std::string>& locked = robot.description().locked_joints;
+  if (!locked.empty()) text += fmt::format("  locked: {}\n", fmt::join(locked, ", "));
   text += contact_table(robot);
   text += fmt::format("nominal posture: base at {:.4f} {:.4f} {:.4f} m", without_sign(q(0)), without_sign(q(1)),
                       without_sign(q(2)));
@@ -128,6 +130,7 @@ std::string robot_report_json(const RobotModel& robot, const RobotInspection& in
                        {"urdf", robot.description().urdf.string()},
                        {"mass_kg", robot.mass()},
                        {"joints", joints_to_json(robot)},
+                       {"locked_joints", robot.description().locked_joints},
                        {"contacts", contacts},
                        {"frames", contact_frame_names(robot)},
                        {"nominal_configuration", vector_to_json(robot.nominal_configuration())},

@@ -11,4 +11,8 @@ namespace prowl {
 /// allowed, because files round their numbers.
 std::optional<std::string> why_not_physical(double mass, const Eigen::Matrix3d& inertia);
 
+/// True for a massless frame, a point mass or a thin rod: not a body, but sound as a part of a mechanism if what moves
+/// with it has inertia about all axes.
+bool lacks_inertia(double mass, const Eigen::Matrix3d& inertia);
+
 }  // namespace prowl

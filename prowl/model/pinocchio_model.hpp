@@ -14,7 +14,7 @@ inline constexpr pinocchio::JointIndex kBaseJoint = 1;  ///< 0 is the world
 struct PinocchioModel {
   pinocchio::Model model;
   std::vector<pinocchio::FrameIndex> contact_frames;  ///< one per contact of the robot, same order; origin = its point
-  std::vector<UrdfLink> links;                        ///< with an inertia, before fixed joints merge them into bodies
+  UrdfFacts urdf;  ///< its links are those before fixed joints merge them into bodies
 };
 
 }  // namespace prowl

@@ -39,6 +39,8 @@ struct RobotDescription {
   std::string urdf_text = {};  ///< its content; read from `urdf` if empty
   std::vector<ContactPoint> contacts;
   std::map<std::string, double> nominal_joints;  ///< by joint name [rad] or [m]; joints not named are at 0
+  std::vector<std::string> locked_joints =
+      {};  ///< held at their nominal position; RobotModel adds those that copy others
   Eigen::Vector3d nominal_base_rpy = Eigen::Vector3d::Zero();  ///< [rad]; x, y and height follow from the contacts
   std::map<std::string, JointLimits> limits;                   ///< by joint name
 };

@@ -33,23 +33,6 @@ bool nearly_equal(double a, double b) {
   return std::abs(a - b) <= kRelative * std::max({std::abs(a), std::abs(b), 1e-3});
 }
 
-/// Such links are harmless in Prowl, because fixed joints merge them with heavier ones (RobotModel refuses others), but
-/// not in every simulator.
-void check_inertias(const RobotModel& robot, Warnings& warnings) {
-  std::vector<std::string> tiny;
-  for (const UrdfLink& link : robot.pinocchio().links) {
-    if (link.mass == 0.0 && link.inertia.isZero(0.0)) continue;  // a frame, written as a link
-    if (link.mass < kTinyMass * robot.mass()) {
-      tiny.push_back(fmt::format("{} {} kg", link.name, link.mass));
-    } else if (const auto problem = why_not_physical(link.mass, link.inertia)) {
-      warnings.push_back({Kind::inertia, fmt::format("link '{}': {}", link.name, *problem)});
-    }
-  }
-  if (tiny.empty()) return;
-  warnings.push_back(
-      {Kind::inertia, fmt::format("links with an inertia but almost no mass: {}", fmt::join(tiny, ", "))});
-}
-
 /// One warning for all joints with the same flaw.
 void warn_of_joints(const RobotModel& robot, Kind kind, const std::string& flaw,
                     const std::function<bool(Eigen::Index)>& has_flaw, Warnings& warnings) {
@@ -58,6 +41,34 @@ void warn_of_joints(const RobotModel& robot, Kind kind, const std::string& flaw,
     if (has_flaw(j)) joints.push_back(robot.joint_names()[j]);
   }
   if (!joints.empty()) warnings.push_back({kind, fmt::format("{}: {}", flaw, fmt::join(joints, ", "))});
+}
+
+/// Such links are harmless in Prowl, because fixed joints merge them with heavier ones or they carry others (RobotModel
+/// refuses the rest), but not in every simulator.
+void check_inertias(const RobotModel& robot, Warnings& warnings) {
+  std::vector<std::string> tiny;
+  for (const UrdfLink& link : robot.pinocchio().urdf.links) {
+    if (link.mass == 0.0 && link.inertia.isZero(0.0)) continue;  // a frame, written as a link
+    if (link.mass < kTinyMass * robot.mass()) {
+      tiny.push_back(fmt::format("{} {} kg", link.name, link.mass));
+    } else if (const auto problem = why_not_physical(link.mass, link.inertia)) {
+      warnings.push_back({Kind::inertia, fmt::format("link '{}': {}", link.name, *problem)});
+    }
+  }
+  if (!tiny.empty()) {
+    warnings.push_back(
+        {Kind::inertia, fmt::format("links with an inertia but almost no mass: {}", fmt::join(tiny, ", "))});
+  }
+  warn_of_joints(
+      robot, Kind::inertia, "joints that move a body without an inertia of its own, and others beyond it",
+      [&](Eigen::Index j) {
+        const pinocchio::Inertia& body = robot.pinocchio().model.inertias[static_cast<std::size_t>(j) + kBaseJoint + 1];
+        return lacks_inertia(body.mass(), body.inertia().matrix());
+      },
+      warnings);
+  const std::vector<std::string>& mimics = robot.pinocchio().urdf.mimics;
+  if (mimics.empty()) return;
+  warnings.push_back({Kind::mimic, fmt::format("joints that copy others are locked: {}", fmt::join(mimics, ", "))});
 }
 
 void inspect_limits(const RobotModel& robot, Warnings& warnings) {

@@ -16,6 +16,7 @@ struct RobotWarning {
   enum class Kind {
     inertia,   ///< a link with impossible mass or inertia, or almost no mass
     limit,     ///< a limit that limits nothing
+    mimic,     ///< a joint that copies another, and is locked
     ground,    ///< contacts not level in the nominal posture
     symmetry,  ///< left and right differ
     contacts,  ///< two at one point, or an ambiguous rank of the contact Jacobian

@@ -1,14 +1,20 @@
 #include "prowl/model/robot_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <numeric>
+#include <pinocchio/algorithm/crba.hpp>
 #include <pinocchio/algorithm/frames.hpp>
+#include <pinocchio/algorithm/joint-configuration.hpp>
+#include <pinocchio/algorithm/model.hpp>
 #include <pinocchio/parsers/urdf.hpp>
 #include <set>
 
@@ -27,6 +33,7 @@ namespace {
 
 constexpr auto kLinkOrFixedJoint = static_cast<pinocchio::FrameType>(pinocchio::BODY | pinocchio::FIXED_JOINT);
 const char* const kWorldFrame = "universe";
+constexpr double kLeastInertia = 1e-7;  // eigenvalue of the mass matrix with ones on its diagonal: half of the digits
 constexpr std::uintmax_t kLargestUrdf = 4u << 20;  // [bytes]; the largest known are below 1 MB
 
 std::string read_text(const std::filesystem::path& path) {
@@ -45,22 +52,101 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
+/// Makes locked joints, and those that copy others, fixed ones at their nominal positions.
+void lock_joints(RobotDescription& description, PinocchioModel& pin) {
+  std::vector<std::string> joints(pin.model.names.begin() + kBaseJoint + 1, pin.model.names.end());
+  Eigen::VectorXd q = pinocchio::neutral(pin.model);
+  std::set<pinocchio::JointIndex> locked;
+  for (const std::string& name : pin.urdf.mimics) {
+    if (std::ranges::find(description.locked_joints, name) == description.locked_joints.end())
+      description.locked_joints.push_back(name);
+  }
+  for (const std::string& name : description.locked_joints) {
+    if (std::ranges::find(joints, name) == joints.end()) {
+      throw DescriptionError(
+          "locked_joints", fmt::format("robot '{}': '{}' is not a moving joint of {}{}", description.name, shown(name),
+                                       description.urdf.string(), did_you_mean(name, joints)));
+    }
+    const pinocchio::JointIndex joint = pin.model.getJointId(name);
+    locked.insert(joint);
+    const auto nominal = description.nominal_joints.find(name);
+    if (nominal == description.nominal_joints.end()) continue;
+    Eigen::VectorXd turn = Eigen::VectorXd::Zero(pin.model.nv);
+    turn(pin.model.joints[joint].idx_v()) = nominal->second;
+    q = pinocchio::integrate(pin.model, q, turn);
+  }
+  if (locked.empty()) return;
+  pinocchio::Model reduced = pinocchio::buildReducedModel(pin.model, {locked.begin(), locked.end()}, q);
+  for (const pinocchio::JointIndex joint : locked) {  // Pinocchio makes their frames parents of themselves
+    const std::string& name = pin.model.names[joint];
+    const pinocchio::Frame& parent =
+        pin.model.frames[pin.model.frames[pin.model.getFrameId(name, pinocchio::JOINT)].parentFrame];
+    reduced.frames[reduced.getFrameId(name, pinocchio::FIXED_JOINT)].parentFrame =
+        reduced.getFrameId(parent.name, parent.type);
+  }
+  pin.model = std::move(reduced);
+}
+
 void read_urdf(RobotDescription& description, PinocchioModel& pin) {
   if (description.urdf_text.empty()) description.urdf_text = read_text(description.urdf);
-  pin.links = check_urdf(description.urdf.string(), description.urdf_text);
+  pin.urdf = check_urdf(description.urdf.string(), description.urdf_text, description.locked_joints);
   try {
     pinocchio::urdf::buildModelFromXML(description.urdf_text, pinocchio::JointModelFreeFlyer(), pin.model);
   } catch (const std::exception& error) {
     throw InputError(fmt::format("{}: Pinocchio cannot build this robot: {}", description.urdf.string(), error.what()));
   }
+  lock_joints(description, pin);
 }
 
-/// Links joined by fixed joints move as one body; the inertia of that body matters, not that of each link.
+/// Joints whose motion, alone or with others, moves no mass with all joints at 0; of several, the last of their chain.
+std::vector<std::string> find_massless_joints(const pinocchio::Model& model) {
+  pinocchio::Data data(model);
+  Eigen::MatrixXd M = pinocchio::crba(model, data, pinocchio::neutral(model), pinocchio::Convention::WORLD);
+  M.triangularView<Eigen::StrictlyLower>() = M.transpose();
+  const Eigen::VectorXd diagonal = M.diagonal();
+  std::vector<Eigen::Index> left(static_cast<std::size_t>(M.rows()));
+  std::iota(left.begin(), left.end(), 0);
+  std::vector<std::string> massless;
+  const auto name_of = [&](Eigen::Index row) {
+    return model.names[static_cast<std::size_t>(row - 6) + kBaseJoint + 1];
+  };
+  std::erase_if(left, [&](Eigen::Index row) {
+    if (row < 6 || diagonal(row) > 0.0) return false;
+    massless.push_back(name_of(row));
+    return true;
+  });
+  while (true) {
+    const Eigen::VectorXd scale = diagonal(left).cwiseSqrt().cwiseInverse();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> shapes(scale.asDiagonal() * M(left, left) *
+                                                                scale.asDiagonal());
+    if (!(shapes.eigenvalues()(0) < kLeastInertia)) return massless;
+    const Eigen::VectorXd share = shapes.eigenvectors().col(0).cwiseAbs();
+    Eigen::Index last = share.size() - 1;
+    while (last > 0 && share(last) < 0.5 * share.maxCoeff()) --last;
+    if (left[static_cast<std::size_t>(last)] < 6) return massless;  // the base: check_bodies() refuses it
+    massless.push_back(name_of(left[static_cast<std::size_t>(last)]));
+    left.erase(left.begin() + last);
+  }
+}
+
+/// Links joined by fixed joints move as one body; the inertia of that body matters, not that of each link. One without
+/// an inertia of its own, as between the axes of a hip, serves if it always moves others with it.
 void check_bodies(const RobotDescription& description, const pinocchio::Model& model) {
+  std::optional<std::vector<std::string>> massless;
   for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
     const pinocchio::Inertia& body = model.inertias[joint];
     const auto problem = why_not_physical(body.mass(), body.inertia().matrix());
     if (!problem) continue;
+    if (joint != kBaseJoint && lacks_inertia(body.mass(), body.inertia().matrix())) {
+      if (!massless) massless = find_massless_joints(model);
+      if (massless->empty()) continue;
+      throw InputError(fmt::format(
+          "{}: {} a body that has no inertia, and others beyond do not make up for it; need inertias in the "
+          "URDF, or the names in locked_joints of the robot file",
+          description.urdf.string(),
+          massless->size() == 1 ? fmt::format("joint '{}' moves", massless->front())
+                                : fmt::format("joints {} each move", fmt::join(*massless, ", "))));
+    }
     std::vector<std::string> links;
     for (const pinocchio::Frame& frame : model.frames) {
       if (frame.type == pinocchio::BODY && frame.parentJoint == joint) links.push_back(frame.name);
@@ -87,7 +173,8 @@ std::optional<pinocchio::FrameIndex> find_frame(const pinocchio::Model& model, c
   return std::nullopt;
 }
 
-std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& description, pinocchio::Model& model) {
+std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& description,
+                                                      const std::vector<std::string>& mimics, pinocchio::Model& model) {
   const std::vector<std::string> links = link_names(model);
   std::vector<pinocchio::FrameIndex> frames;
   std::set<std::string> names;
@@ -109,6 +196,13 @@ std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& de
     }
     if (!contact.offset.allFinite()) refuse("offset must be three finite numbers [m]");
     const pinocchio::FrameIndex frame = *found;
+    for (pinocchio::FrameIndex above = frame; above != 0; above = model.frames[above].parentFrame) {
+      if (std::ranges::find(mimics, model.frames[above].name) == mimics.end()) continue;
+      refuse(
+          fmt::format("it moves with joint '{}', which copies another: Prowl locks such joints; need one actuator a "
+                      "joint between the base and a contact",
+                      model.frames[above].name));
+    }
     if (contact.offset.isZero(0.0)) {
       frames.push_back(frame);
       continue;
@@ -185,11 +279,17 @@ double distance_of_contacts(const PinocchioModel& pin, const Eigen::VectorXd& q)
 
 }  // namespace
 
+std::vector<std::string> massless_joints(RobotDescription description) {
+  PinocchioModel pin;
+  read_urdf(description, pin);
+  return find_massless_joints(pin.model);
+}
+
 RobotModel::RobotModel(RobotDescription description) : description_(std::move(description)) {
   auto pin = std::make_unique<PinocchioModel>();
   read_urdf(description_, *pin);
   check_bodies(description_, pin->model);
-  pin->contact_frames = add_contact_frames(description_, pin->model);
+  pin->contact_frames = add_contact_frames(description_, pin->urdf.mimics, pin->model);
   const pinocchio::Model& model = pin->model;
 
   for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
@@ -221,6 +321,7 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   }
   set_base_rotation(nominal_configuration_, rotation_from_rpy(description_.nominal_base_rpy));
   for (const auto& [name, position] : description_.nominal_joints) {
+    if (std::ranges::find(description_.locked_joints, name) != description_.locked_joints.end()) continue;
     const Eigen::Index j = joint_index(description_, joint_names_, "nominal.joints", name);
     if (!std::isfinite(position)) {
       throw DescriptionError(

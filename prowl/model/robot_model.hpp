@@ -82,4 +82,8 @@ class RobotModel {
   double size_ = 1.0;
 };
 
+/// Joints of the URDF that move no mass, alone or with others, and that only RobotDescription::locked_joints makes
+/// sound. Throws as RobotModel for a URDF that cannot be read.
+std::vector<std::string> massless_joints(RobotDescription description);
+
 }  // namespace prowl

@@ -68,8 +68,12 @@ NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& searc
   RobotDescription& description = result.description;
   description.urdf = std::filesystem::absolute(urdf).lexically_normal();
   description.urdf_text = read_text_file(description.urdf, kLargestUrdf).text;
-  const UrdfOutline outline = urdf_outline(description.urdf.string(), description.urdf_text);
+  UrdfOutline outline = urdf_outline(description.urdf.string(), description.urdf_text);
   description.name = robot_name(outline.name, description.urdf);
+  description.locked_joints = massless_joints(description);
+  for (const std::string& joint : description.locked_joints) {
+    std::erase_if(outline.joints, [&](const UrdfOutline::Limits& limits) { return limits.joint == joint; });
+  }
   description.limits = usable_limits(outline);
 
   const RobotModel bare(description);

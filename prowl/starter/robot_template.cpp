@@ -148,6 +148,12 @@ std::string robot_template(const NewRobot& robot, const std::string& urdf, const
       fmt::format(fmt::runtime(kRobotHead), fmt::arg("name", robot.description.name), fmt::arg("mass", robot.mass),
                   fmt::arg("legs", robot.search.legs.size()), fmt::arg("file", one_line(file.string())),
                   fmt::arg("urdf", toml_string(urdf)), fmt::arg("others", others));
+  if (!robot.description.locked_joints.empty()) {
+    text += "# These move no mass by the URDF: no torque determines their motion.\nlocked_joints = [";
+    for (const std::string& joint : robot.description.locked_joints)
+      text += (text.ends_with('[') ? "" : ", ") + toml_string(joint);
+    text += "]\n";
+  }
   for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# Unreadable mesh: {}\n", one_line(mesh));
   text += '\n';
   text += contacts(robot);

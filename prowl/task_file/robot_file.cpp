@@ -90,6 +90,9 @@ RobotDescription read_robot(const TomlDocument& document, const SourceText& sour
   RobotDescription robot;
   robot.name = root.need("name").as_name();
   robot.contacts = read_contacts(root, options.needs_contacts);
+  if (const auto locked = root.find("locked_joints")) {
+    for (const TomlValue& joint : locked->as_list()) robot.locked_joints.push_back(joint.as_text());
+  }
   if (const auto nominal = root.find_table("nominal")) read_nominal(*nominal, robot);
   if (const auto limits = root.find("limits")) {
     for (const auto& [joint, value] : limits->as_free_named_values("joint")) {

@@ -150,8 +150,14 @@ def urdf_cases():
     yield damaged("limits the wrong way", 'lower="-0.5"', 'lower="2.5"', "lower < upper")
     yield damaged("limits nan", 'lower="-0.5"', 'lower="nan"', "joint 'hip'")
     yield damaged("limits infinite", 'upper="1.5"', 'upper="inf"', "joint 'hip'")
-    yield damaged("mimic", "<axis", '<mimic joint="hip" multiplier="nan"/><axis', "mimic", "fixed")
-    yield damaged("mimic in a ring", "<axis", '<mimic joint="other"/><axis', "mimic")
+    for mimic in ('joint="hip" multiplier="nan"', 'joint="other"', ""):
+        yield urdf(
+            f"mimic {mimic}",
+            replaced(URDF, "<axis", f"<mimic {mimic}/><axis"),
+            "robot.toml:3",
+            "'hip'",
+            "copies another",
+        )
     yield Case(
         "urdf: no moving joint",
         {

@@ -40,6 +40,17 @@ TEST(RobotInspection, ASoundRobotGivesNoWarning) {
   EXPECT_THAT(all_texts(inspect_changed("name=\"small\"", "name=\"sound\"")), IsEmpty());
 }
 
+TEST(RobotInspection, NamesJointsThatMoveNoInertiaOrCopyOthers) {
+  EXPECT_THAT(texts(inspect_changed("izz=\"0.001\"", "izz=\"0\""), Kind::inertia),
+              Contains("joints that move a body without an inertia of its own, and others beyond it: left_hip"));
+  RobotDescription robot = test::small_description("/nowhere/small.urdf");
+  robot.contacts.erase(robot.contacts.begin());
+  robot.urdf_text =
+      test::replaced(test::small_urdf(), "<axis xyz=\"1 0 0\"/>", "<axis xyz=\"1 0 0\"/><mimic joint=\"right_hip\"/>");
+  EXPECT_THAT(texts(inspect(RobotModel(robot)), Kind::mimic),
+              ElementsAre("joints that copy others are locked: left_hip"));
+}
+
 TEST(RobotInspection, PointFeetHaveFullRankAndFlatFeetHaveNot) {
   for (const RobotModel& robot : {test::hyq(), test::anymal_c(), test::solo12(), test::go2()}) {
     const RobotInspection inspection = inspect(robot);

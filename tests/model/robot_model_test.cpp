@@ -1,5 +1,6 @@
 #include "prowl/model/robot_model.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -17,6 +18,7 @@
 namespace prowl {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -239,7 +241,6 @@ TEST(RobotModel, RefusesBodiesAndLimitsThatCannotBe) {
   EXPECT_THAT(message("mass value=\"1\"", "mass value=\"0\""), HasSubstr("joint 'left_hip' (links left_leg"));
   EXPECT_THAT(message("mass value=\"1\"", "mass value=\"0\""), HasSubstr("expected mass > 0"));
   EXPECT_THAT(message("izz=\"0.001\"", "izz=\"-0.001\""), HasSubstr("expected all > 0"));
-  EXPECT_THAT(message("izz=\"0.001\"", "izz=\"0\""), HasSubstr("expected all > 0"));
   EXPECT_THAT(message("izz=\"0.001\"", "izz=\"0.05\""), HasSubstr("triangle inequality"));
   EXPECT_THAT(message("effort=\"50\"", "effort=\"0\""), HasSubstr("'left_hip': torque limit (effort) 0"));
   EXPECT_THAT(message("velocity=\"10\"", "velocity=\"-10\""), HasSubstr("velocity=\"-10\""));
@@ -298,10 +299,73 @@ TEST(RobotModel, MostJointsThatAreAllowedFitIntoMemory) {
 
 TEST(RobotModel, MasslessLinksAreFineWhereFixedJointsMergeThem) {
   const RobotModel robot = test::hyq();  // base_link: 1e-6 kg; feet frames without inertia
-  const auto& links = robot.pinocchio().links;
+  const auto& links = robot.pinocchio().urdf.links;
   const auto base = std::find_if(links.begin(), links.end(), [](const UrdfLink& l) { return l.name == "base_link"; });
   ASSERT_NE(base, links.end());
   EXPECT_LT(base->mass, 1e-5);
+}
+
+/// A small robot whose left leg hangs on a second joint about another axis, at the same point.
+std::string two_axes(const std::string& inertial, const std::string& axis) {
+  std::string xml = test::replaced(test::small_urdf(), "<child link=\"left_leg\"/>", "<child link=\"left_cross\"/>");
+  const std::string limit = "<limit lower=\"-1\" upper=\"1\" velocity=\"10\" effort=\"50\"/></joint>";
+  return test::replaced(xml, "</robot>",
+                        "<link name=\"left_cross\">" + inertial +
+                            "</link><joint name=\"left_pitch\" type=\"revolute\"><parent link=\"left_cross\"/>"
+                            "<child link=\"left_leg\"/><axis xyz=\"" +
+                            axis + "\"/>" + limit + "</robot>");
+}
+
+std::string inertial(const char* mass, const char* moment) {
+  return fmt::format(
+      "<inertial><mass value=\"{}\"/><inertia ixx=\"{}\" ixy=\"0\" ixz=\"0\" iyy=\"{}\" iyz=\"0\" "
+      "izz=\"{}\"/></inertial>",
+      mass, moment, moment, moment);
+}
+
+/// iCub's and many humanoids' hips: the body between two axes has no inertia of its own.
+TEST(RobotModel, ABodyWithoutInertiaMayCarryOthers) {
+  RobotDescription robot = test::small_description("/nowhere/small.urdf");
+  const auto message = [&](const std::string& own, const std::string& axis) {
+    robot.urdf_text = two_axes(own, axis);
+    return message_for(robot);
+  };
+  EXPECT_EQ(message("", "0 1 0"), "accepted");
+  EXPECT_EQ(message(inertial("0.7", "0"), "0 1 0"), "accepted");
+  EXPECT_THAT(message("", "1 0 0"), HasSubstr("joint 'left_pitch' moves a body that has no inertia"))
+      << "two axes are one: their difference moves nothing";
+  EXPECT_EQ(massless_joints(robot), std::vector<std::string>{"left_pitch"});
+  robot.locked_joints = {"left_pitch"};
+  EXPECT_EQ(message_for(robot), "accepted");
+  robot.locked_joints.clear();
+  EXPECT_THAT(message(inertial("0.7", "-1e-3"), "0 1 0"), HasSubstr("expected all > 0"));
+  EXPECT_THAT(message(inertial("0", "1e-3"), "0 1 0"), HasSubstr("the mass is 0 kg"));
+}
+
+TEST(RobotModel, LockedJointsAreFixedAtTheirNominalPosition) {
+  RobotDescription robot = test::small_description("/nowhere/small.urdf");
+  robot.urdf_text = test::small_urdf();
+  robot.nominal_joints["left_hip"] = 0.4;
+  robot.nominal_joints["right_hip"] = -0.2;
+  const RobotModel moving(robot);
+  robot.locked_joints = {"left_hip"};
+  const RobotModel locked(robot);
+  EXPECT_EQ(locked.joint_names(), std::vector<std::string>{"right_hip"});
+  EXPECT_DOUBLE_EQ(locked.mass(), moving.mass());
+  const auto points = contact_points(moving, moving.nominal_configuration());
+  const auto locked_points = contact_points(locked, locked.nominal_configuration());
+  for (std::size_t c = 0; c < points.size(); ++c) EXPECT_LT((points[c] - locked_points[c]).norm(), 1e-12);
+  robot.locked_joints = {"left_hop"};
+  EXPECT_THAT(message_for(robot), AllOf(HasSubstr("'left_hop' is not a moving joint"), HasSubstr("left_hip")));
+}
+
+TEST(RobotModel, JointsThatCopyOthersAreLockedUnlessTheyCarryAContact) {
+  RobotDescription robot = test::small_description("/nowhere/small.urdf");
+  const std::string axis = "<axis xyz=\"1 0 0\"/>";
+  robot.urdf_text = test::replaced(test::small_urdf(), axis, axis + "<mimic joint=\"right_hip\"/>");
+  EXPECT_THAT(message_for(robot), HasSubstr("contact 'left_foot': it moves with joint 'left_hip', which copies"));
+  robot.contacts.erase(robot.contacts.begin());
+  EXPECT_EQ(RobotModel(robot).joint_names(), std::vector<std::string>{"right_hip"});
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ std::string message_for(const std::string& xml) {
 }
 
 TEST(UrdfCheck, AcceptsASoundRobotAndReportsItsInertias) {
-  const std::vector<UrdfLink> links = check_urdf("robot.urdf", small_urdf());
+  const std::vector<UrdfLink> links = check_urdf("robot.urdf", small_urdf()).links;
   ASSERT_EQ(links.size(), 3u);  // the feet have none
   EXPECT_EQ(links[1].name, "left_leg");
   EXPECT_EQ(links[1].mass, 1.0);
@@ -128,10 +128,6 @@ INSTANTIATE_TEST_SUITE_P(
                "<limit lower=\"-0.5\" upper=\"1.5\" velocity=\"10\" effort=\"50\"/>",
                "",
                {"joint 'left_hip'", "no <limit>"}},
-        Damage{"mimic",
-               "<axis xyz=\"1 0 0\"/>",
-               "<axis xyz=\"1 0 0\"/><mimic joint=\"right_hip\"/>",
-               {"joint 'left_hip'", "mimic", "own actuator"}},
         Damage{"continuous",
                "type=\"revolute\"",
                "type=\"continuous\"",
@@ -206,6 +202,17 @@ TEST(UrdfCheck, RefusesAChainTooLongToBeARobot) {
   std::string xml = "<robot name=\"chain\">";
   for (int i = 0; i < 3000; ++i) xml += "<link name=\"l" + std::to_string(i) + "\"/>";
   EXPECT_THAT(message_for(xml + "</robot>"), testing::HasSubstr("more than 1000 links"));
+}
+
+TEST(UrdfCheck, FindsJointsThatCopyOthers) {
+  const std::string axis = "<axis xyz=\"1 0 0\"/>";
+  const std::string xml = replaced(small_urdf(), axis, axis + "<mimic joint=\"right_hip\"/>");
+  EXPECT_EQ(check_urdf("robot.urdf", xml).mimics, std::vector<std::string>{"left_hip"});
+}
+
+TEST(UrdfCheck, TakesAContinuousJointThatIsLocked) {
+  const std::string xml = replaced(small_urdf(), "type=\"revolute\"", "type=\"continuous\"");
+  EXPECT_NO_THROW(check_urdf("robot.urdf", xml, {"left_hip"}));
 }
 
 TEST(UrdfCheck, LeavesFixedJointsAlone) {

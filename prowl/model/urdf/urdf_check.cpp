@@ -52,7 +52,7 @@ void check_moving_joint(const Location& location, const XMLElement& joint, const
   if (type == "continuous") {
     location.refuse(joint,
                     "type continuous is not supported; give it limits (for example lower=\"-6.3\" upper=\"6.3\") and "
-                    "type=\"revolute\"");
+                    "type=\"revolute\", or name it in locked_joints of the robot file");
   }
   if (type == "floating") {
     location.refuse(joint,
@@ -63,11 +63,6 @@ void check_moving_joint(const Location& location, const XMLElement& joint, const
     location.refuse(joint,
                     fmt::format("type {} is not supported; expected revolute, prismatic or fixed{}", shown(type),
                                 type == "planar" ? " (model it as two prismatic joints and a revolute one)" : ""));
-  }
-  if (const XMLElement* mimic = joint.FirstChildElement("mimic")) {
-    location.refuse(*mimic,
-                    "mimic joints are not supported: every moving joint has its own actuator; remove <mimic>, or "
-                    "make the joint fixed");
   }
   const XMLElement* axis = joint.FirstChildElement("axis");  // 1 0 0 if not given
   if (axis != nullptr && check_urdf_vector(location, axis, "xyz") < 1e-6) {
@@ -92,7 +87,7 @@ void check_moving_joint(const Location& location, const XMLElement& joint, const
 using Parents = std::map<std::string, std::string>;
 
 void check_joint(const Location& location, const XMLElement& joint, const std::vector<std::string>& links,
-                 Parents& parents) {
+                 bool is_locked, Parents& parents) {
   std::string ends[2];
   for (const int i : {0, 1}) {
     const char* role = i == 0 ? "parent" : "child";
@@ -109,7 +104,7 @@ void check_joint(const Location& location, const XMLElement& joint, const std::v
   }
   check_urdf_origin(location, joint);
   const std::string type = urdf_text(location, joint, "type");
-  if (type != "fixed") check_moving_joint(location, joint, type);
+  if (type != "fixed" && !is_locked) check_moving_joint(location, joint, type);
 }
 
 void check_tree(const Location& location, const XMLElement& root, const std::vector<std::string>& links,
@@ -158,13 +153,13 @@ const XMLElement& root_of(const std::string& file, const std::string& xml, tinyx
 
 }  // namespace
 
-std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml) {
+UrdfFacts check_urdf(const std::string& file, const std::string& xml, const std::vector<std::string>& locked) {
   console_bridge::noOutputHandler();  // silences urdfdom on stderr: this check reports mistakes
   tinyxml2::XMLDocument document;
   const XMLElement& root = root_of(file, xml, document);
   const Location robot{file, fmt::format("robot '{}'", shown(root.Attribute("name")))};
 
-  std::vector<UrdfLink> result;
+  UrdfFacts result;
   std::vector<std::string> links;
   std::map<std::string, int> line_of;  // where a name was used first
   const auto visit = [&](const char* kind, const auto& check) {
@@ -182,15 +177,19 @@ std::vector<UrdfLink> check_urdf(const std::string& file, const std::string& xml
   visit("link", [&](const Location& location, const XMLElement& link, const std::string& name) {
     if (links.size() == kMaxLinks) location.refuse(link, fmt::format("more than {} links are not allowed", kMaxLinks));
     if (name == "universe") location.refuse(link, "Pinocchio uses this name for the world; expected another");
-    check_link(location, link, name, result);
+    check_link(location, link, name, result.links);
     links.push_back(name);
   });
   if (links.empty()) robot.refuse(root, "no <link>; expected at least the base");
   Parents parents;
   int moving = 0;
-  visit("joint", [&](const Location& location, const XMLElement& joint, const std::string&) {
-    check_joint(location, joint, links, parents);
+  visit("joint", [&](const Location& location, const XMLElement& joint, const std::string& name) {
+    const bool copies = joint.FirstChildElement("mimic") != nullptr;
+    const bool is_locked = std::ranges::find(locked, name) != locked.end();
+    check_joint(location, joint, links, is_locked, parents);
     if (urdf_text(location, joint, "type") == "fixed") return;
+    if (copies) result.mimics.push_back(name);
+    if (copies || is_locked) return;
     if (++moving > kMaxMovingJoints) {
       location.refuse(joint, fmt::format("more than {} moving joints are not allowed; fix those that the motion does "
                                          "not need",

@@ -14,7 +14,7 @@ UrdfOutline urdf_outline(const std::string& file, const std::string& xml) {
   UrdfOutline outline;
   outline.name = urdf->getName();
   for (const auto& [name, joint] : urdf->joints_) {
-    if (joint->type == urdf::Joint::FIXED || !joint->limits) continue;
+    if (joint->type == urdf::Joint::FIXED || joint->mimic || !joint->limits) continue;
     const urdf::JointLimits& limits = *joint->limits;
     outline.joints.push_back(
         {name, joint->type == urdf::Joint::PRISMATIC, limits.lower, limits.upper, limits.velocity, limits.effort});

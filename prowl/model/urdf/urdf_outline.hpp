@@ -5,7 +5,7 @@
 
 namespace prowl {
 
-/// Moving joints of a URDF, before RobotModel checks them.
+/// Joints of a URDF that move by themselves, before RobotModel checks them.
 struct UrdfOutline {
   /// As written; missing numbers are 0.
   struct Limits {

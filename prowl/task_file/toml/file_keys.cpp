@@ -484,6 +484,11 @@ FileKeys make_robot_file_keys() {
   top.add({.name = "contact",
            .form = "[[contact]], one or more",
            .meaning = "points of the robot that may touch surfaces"});
+  top.add(
+      {.name = "locked_joints",
+       .form = "list of names",
+       .fallback = "joints with <mimic>",
+       .meaning = "joints held at their nominal position, such as fingers; no contact may move with a mimic joint"});
   top.add({.name = "nominal", .form = "[nominal]", .meaning = "default posture at the start of a motion"});
   top.add({.name = "limits", .form = "[limits.JOINT]", .meaning = "limits that replace those of the URDF"});
 
