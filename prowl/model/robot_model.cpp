@@ -141,7 +141,7 @@ void check_bodies(const RobotDescription& description, const pinocchio::Model& m
       if (!massless) massless = find_massless_joints(model);
       if (massless->empty()) continue;
       throw InputError(fmt::format(
-          "{}: {} a body that has no inertia, and others beyond do not make up for it; need inertias in the "
+          "{}: {} a body that has no inertia, and others do not make up for it; need inertias in the "
           "URDF, or the names in locked_joints of the robot file",
           description.urdf.string(),
           massless->size() == 1 ? fmt::format("joint '{}' moves", massless->front())

@@ -143,14 +143,17 @@ def urdf_cases():
         "inertia zero",
         'ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.001"',
         'ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"',
-        "all > 0",
+        "'hip' moves a body that has no inertia",
+        "locked_joints",
     )
     yield damaged("inertia against the triangle", 'izz="0.001"', 'izz="1"', "triangle")
     yield damaged("inertia negative", 'ixx="0.02"', 'ixx="-0.02"', "all > 0")
     yield damaged("limits the wrong way", 'lower="-0.5"', 'lower="2.5"', "lower < upper")
     yield damaged("limits nan", 'lower="-0.5"', 'lower="nan"', "joint 'hip'")
     yield damaged("limits infinite", 'upper="1.5"', 'upper="inf"', "joint 'hip'")
-    for mimic in ('joint="hip" multiplier="nan"', 'joint="other"', ""):
+    yield damaged("mimic nan", "<axis", '<mimic joint="hip" multiplier="nan"/><axis', "joint 'hip'", "multiplier")
+    yield damaged("mimic of nothing", "<axis", "<mimic/><axis", "joint 'hip'", "joint")
+    for mimic in ('joint="hip" multiplier="2"', 'joint="other"'):
         yield urdf(
             f"mimic {mimic}",
             replaced(URDF, "<axis", f"<mimic {mimic}/><axis"),

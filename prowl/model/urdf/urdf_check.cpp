@@ -83,6 +83,13 @@ void check_moving_joint(const Location& location, const XMLElement& joint, const
   }
 }
 
+void check_mimic(const Location& location, const XMLElement& mimic) {
+  urdf_text(location, mimic, "joint");
+  for (const char* name : {"multiplier", "offset"}) {  // 1 and 0 if not given
+    if (mimic.Attribute(name) != nullptr) urdf_number(location, mimic, name);
+  }
+}
+
 /// Parent link of every link that is the child of a joint.
 using Parents = std::map<std::string, std::string>;
 
@@ -184,12 +191,13 @@ UrdfFacts check_urdf(const std::string& file, const std::string& xml, const std:
   Parents parents;
   int moving = 0;
   visit("joint", [&](const Location& location, const XMLElement& joint, const std::string& name) {
-    const bool copies = joint.FirstChildElement("mimic") != nullptr;
+    const XMLElement* const copies = joint.FirstChildElement("mimic");
     const bool is_locked = std::ranges::find(locked, name) != locked.end();
     check_joint(location, joint, links, is_locked, parents);
     if (urdf_text(location, joint, "type") == "fixed") return;
-    if (copies) result.mimics.push_back(name);
-    if (copies || is_locked) return;
+    if (copies != nullptr) check_mimic(location, *copies);
+    if (copies != nullptr) result.mimics.push_back(name);
+    if (copies != nullptr || is_locked) return;
     if (++moving > kMaxMovingJoints) {
       location.refuse(joint, fmt::format("more than {} moving joints are not allowed; fix those that the motion does "
                                          "not need",
