@@ -11,6 +11,7 @@
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/mesh/resample.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/repeat.hpp"
 #include "prowl/transcription/transcription.hpp"
 
 namespace prowl {
@@ -164,6 +165,11 @@ void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOpti
 }
 
 Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
+  if (has_repetitions(asked.problem)) {
+    Plan plan = solve_plan(first_cycle(asked), solver, options_of_cycle(asked, options));
+    repeat(asked, solver, options, plan);
+    return plan;
+  }
   Plan plan = solve_plan(asked, solver, options);
   judge(asked, solver, options, plan);
   return plan;

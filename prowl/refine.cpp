@@ -11,6 +11,7 @@
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/mesh/mesh_refinement.hpp"
 #include "prowl/nlp/stopwatch.hpp"
+#include "prowl/repeat.hpp"
 #include "prowl/transcription/deferred_correction.hpp"
 
 namespace prowl {
@@ -223,6 +224,11 @@ std::string hint(const Candidate& best, const std::string& stopped) {
 
 RefinedPlan make_refined_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options,
                               const RefineOptions& refine) {
+  if (has_repetitions(asked.problem)) {
+    RefinedPlan one = make_refined_plan(first_cycle(asked), solver, options_of_cycle(asked, options), refine);
+    repeat(asked, solver, options, one.plan);
+    return one;
+  }
   Meshes meshes(asked, solver, options);
   Refinement refinement(asked.problem, refine);
   Candidate now = meshes.begin(first_meshes(asked, options, refine));

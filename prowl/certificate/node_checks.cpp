@@ -95,6 +95,27 @@ void check_boundaries(const DiscreteProblem& discrete, const Trajectory& traject
   boundary.torque.append_to(checks);
 }
 
+/// The end of each cycle against its start, moved.
+void check_cycles(const DiscreteProblem& discrete, const Trajectory& trajectory,
+                  std::vector<CertificateCheck>& checks) {
+  const MotionProblem& problem = discrete.problem;
+  if (!problem.cycle) return;
+  WorstCase jump("state after a cycle", "m", Limits::start_state);
+  const int phases = static_cast<int>(problem.phases.size()) / problem.cycle->count;
+  for (int i = 0; i < problem.cycle->count; ++i) {
+    const TrajectoryPoint& start = trajectory.nodes[discrete.mesh.first_node(i * phases)];
+    const TrajectoryPoint& end = trajectory.nodes[discrete.mesh.last_node((i + 1) * phases - 1)];
+    const Eigen::VectorXd moved = difference(problem.cycle->moved_configuration(start.q), end.q);
+    for (Eigen::Index k = 0; k < moved.size(); ++k) {
+      const bool is_length = k < 3 || (k >= 6 && problem.robot.joint_is_prismatic()[k - 6]);
+      const std::string where = coordinate_name(problem.robot, k);
+      jump.record(std::abs(moved(k)), end.time, where, is_length ? "m" : "rad");
+      jump.record(std::abs(end.v(k) - start.v(k)), end.time, where, is_length ? "m/s" : "rad/s");
+    }
+  }
+  jump.append_to(checks);
+}
+
 void check_continuity(const RobotModel& robot, const Trajectory& trajectory, std::vector<CertificateCheck>& checks) {
   WorstCase defect("defect", "-", Limits::defect);
   WorstCase jump("state at phase switch", "-", Limits::defect);
@@ -162,6 +183,7 @@ CertificateCheck finite_check(const Trajectory& trajectory) {
 std::vector<CertificateCheck> node_checks(const DiscreteProblem& discrete, const Trajectory& trajectory) {
   std::vector<CertificateCheck> checks;
   check_boundaries(discrete, trajectory, checks);
+  check_cycles(discrete, trajectory, checks);
   check_durations(discrete, trajectory, checks);
   check_continuity(discrete.problem.robot, trajectory, checks);
   return checks;

@@ -44,6 +44,7 @@ PosturePath::PosturePath(const DiscreteProblem& discrete) {
     q = meet(constraint, q);
     add(constraint, q, discrete.boundary_time(c), waypoints);
   }
+  if (discrete.problem.cycle) add_cycle(discrete, waypoints);
   for (const auto& points : waypoints) curves_.emplace_back(points);
 }
 
@@ -74,6 +75,23 @@ void PosturePath::add(const BoundaryConstraint& constraint, const VectorXd& q, d
     // The sign that continues without a jump.
     if (!turns_.empty() && turns_.back().rotation.dot(rotation) < 0.0) rotation.coeffs() *= -1.0;
     turns_.push_back({time, rotation});
+  }
+}
+
+void PosturePath::add_cycle(const DiscreteProblem& discrete, std::vector<std::vector<Waypoint>>& waypoints) {
+  const Cycle& cycle = *discrete.problem.cycle;
+  const VectorXd& start = discrete.problem.start_configuration();
+  const double time = discrete.nodes.back().time;
+  const Eigen::Vector3d way = cycle.moved(base_position(start)) - base_position(start);
+  for (const double share : {0.0, 1.0}) {
+    const VectorXd q = share == 0.0 ? start : cycle.moved_configuration(start);
+    BoundaryConstraint pose =
+        BoundaryConstraint::unbounded(discrete.problem.robot, "cycle", PhaseFraction::start_of(0), q);
+    pose.configuration_lower.setZero();
+    pose.configuration_upper.setZero();
+    const Eigen::AngleAxisd bend((share - 0.5) * cycle.turn, Eigen::Vector3d::UnitZ());  // from the chord of the arc
+    pose.velocity_lower.head<3>() = pose.velocity_upper.head<3>() = base_rotation(q).transpose() * (bend * way) / time;
+    add(pose, q, share * time, waypoints);
   }
 }
 

@@ -30,6 +30,7 @@ class PosturePath {
 
   void add(const BoundaryConstraint& constraint, const Eigen::VectorXd& q, double time,
            std::vector<std::vector<Waypoint>>& waypoints);
+  void add_cycle(const DiscreteProblem& discrete, std::vector<std::vector<Waypoint>>& waypoints);
   Eigen::Quaterniond rotation(double time) const;
 
   std::vector<MonotoneCubic> curves_;

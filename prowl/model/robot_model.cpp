@@ -140,12 +140,12 @@ void check_bodies(const RobotDescription& description, const pinocchio::Model& m
     if (joint != kBaseJoint && lacks_inertia(body.mass(), body.inertia().matrix())) {
       if (!massless) massless = find_massless_joints(model);
       if (massless->empty()) continue;
-      throw InputError(fmt::format(
-          "{}: {} a body that has no inertia, and others do not make up for it; need inertias in the "
-          "URDF, or the names in locked_joints of the robot file",
-          description.urdf.string(),
-          massless->size() == 1 ? fmt::format("joint '{}' moves", massless->front())
-                                : fmt::format("joints {} each move", fmt::join(*massless, ", "))));
+      throw InputError(
+          fmt::format("{}: {} a body that has no inertia, and others do not make up for it; need inertias in the "
+                      "URDF, or the names in locked_joints of the robot file",
+                      description.urdf.string(),
+                      massless->size() == 1 ? fmt::format("joint '{}' moves", massless->front())
+                                            : fmt::format("joints {} each move", fmt::join(*massless, ", "))));
     }
     std::vector<std::string> links;
     for (const pinocchio::Frame& frame : model.frames) {

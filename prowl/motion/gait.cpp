@@ -146,6 +146,24 @@ std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet&
   return phases.take();
 }
 
+std::vector<Phase> expand_cycle(const Gait& gait, const RobotModel& robot, const Feet& feet) {
+  Gait one = gait;
+  one.strides = 1;
+  std::vector<Phase> phases = expand(one, robot, feet);
+  const double stand = 0.5 * (gait.duty_factor - gait.pattern.least_duty_factor());
+  for (Phase* end : {&phases.front(), &phases.back()})
+    end->duration = {stand * gait.stride.min, stand * gait.stride.max};
+  return phases;
+}
+
+double middle_of_stance(const Gait& gait, Foot foot) {
+  const auto& swings = gait.pattern.swings;
+  const auto of_foot = [&](const std::vector<Foot>& group) { return std::ranges::find(group, foot) != group.end(); };
+  const auto group = static_cast<double>(std::ranges::find_if(swings, of_foot) - swings.begin());
+  const double stand = 0.5 * (gait.duty_factor - gait.pattern.least_duty_factor());
+  return stand + group / static_cast<double>(swings.size()) - 0.5 * gait.duty_factor;
+}
+
 Vector3d along_arc(const Surface& surface, double heading, double length, double turn) {
   const double half = 0.5 * turn, chord = half == 0.0 ? 1.0 : std::sin(half) / half;
   return along_surface(surface, heading + half, chord * length);

@@ -30,7 +30,7 @@ struct GaitPattern {
   double stride = 3.0;   ///< default duration of a stride, times sqrt(height / gravity) [-]
   double longest = 1.0;  ///< default strides of fast gaits are shorter: at most so many heights [-]
 
-  /// Below this, two groups are in the air at once [-].
+  /// At and below this, there is no time in which all feet stand [-].
   double least_duty_factor() const { return 1.0 - 1.0 / static_cast<double>(swings.size()); }
   /// Default duration of a stride [s], and default part of it in which a foot stands [-], at this height of the base
   /// [m] and speed [m/s]. Robots of equal Froude number, speed² / (gravity height), move alike.
@@ -59,6 +59,13 @@ struct Gait {
 /// The phases of a gait: "start", one from each lift-off and landing to the next, "settle" from the last landing.
 /// Footholds of landings are free. A phase shorter than a microsecond is left out.
 std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet);
+
+/// One stride of a gait that repeats itself, from the middle of the time in which all feet stand to that of the next
+/// stride. Footholds of landings are open.
+std::vector<Phase> expand_cycle(const Gait& gait, const RobotModel& robot, const Feet& feet);
+
+/// Middle of the stance in which a foot begins such a stride, from its begin [strides]; before it if negative.
+double middle_of_stance(const Gait& gait, Foot foot);
 
 /// A displacement along a surface, world frame [m]: seen from above it has this heading [rad, about world z from world
 /// x]. The surface must not be vertical.

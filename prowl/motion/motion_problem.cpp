@@ -270,6 +270,28 @@ void check_start(const MotionProblem& problem) {
   check_start_outside(problem, terms);
 }
 
+void check_cycle(const MotionProblem& problem) {
+  if (!problem.cycle) return;
+  const Cycle& cycle = *problem.cycle;
+  if (cycle.count < 1 || static_cast<int>(problem.phases.size()) % cycle.count != 0) {
+    refuse("cycle.count: {} is not allowed; need a divisor of the {} phases", cycle.count, problem.phases.size());
+  }
+  check_finite("cycle.displacement", cycle.displacement, 3);
+  if (!std::isfinite(cycle.turn)) refuse("cycle.turn: {} is not allowed; need an angle [rad]", cycle.turn);
+  const auto contacts_of = [](const Phase& phase) {
+    std::set<int> contacts;
+    for (const PhaseContact& held : phase.contacts) contacts.insert(held.contact);
+    return contacts;
+  };
+  if (contacts_of(problem.phases.front()) != contacts_of(problem.phases.back())) {
+    refuse(
+        "cycle: the first and the last phase hold different contacts; need the same, as the one continues the other");
+  }
+  if (problem.boundary_constraints.size() > 1) {
+    refuse("cycle: goals are not allowed beside a cycle, whose end is its start; need none");
+  }
+}
+
 void check_weights(const std::string& field, const VectorXd& weights, int size) {
   check_finite(field, weights, size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -316,6 +338,13 @@ BoundaryConstraint BoundaryConstraint::unbounded(const RobotModel& robot, std::s
   return constraint;
 }
 
+Eigen::VectorXd Cycle::moved_configuration(const VectorXd& q) const {
+  VectorXd result = q;
+  result.head<3>() = moved(base_position(q));
+  set_base_rotation(result, rotation() * base_rotation(q));
+  return result;
+}
+
 void validate(const MotionProblem& problem) {
   for (std::size_t i = 0; i < problem.surfaces.size(); ++i) {
     check_surface(fmt::format("surfaces[{}]", i), problem.surfaces[i]);
@@ -337,6 +366,7 @@ void validate(const MotionProblem& problem) {
   }
   check_rotations(problem);
   check_start(problem);
+  check_cycle(problem);
   check_cost("running_cost", problem.robot, problem.running_cost);
   check_cost("terminal_cost", problem.robot, problem.terminal_cost);
   check_weightless("terminal_cost.acceleration_weight", problem.terminal_cost.acceleration_weight);

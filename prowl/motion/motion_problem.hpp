@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,18 @@ struct BoundaryConstraint {
   bool fixes_velocity() const { return velocity_lower == velocity_upper; }
 };
 
+/// A motion that repeats itself: the state at the end of each cycle is that at its start, taken along. A place p goes
+/// to Rz(turn) p + displacement; velocities in the base frame and joints stay.
+struct Cycle {
+  int count = 1;                                           ///< cycles of the motion, equal parts of its phases
+  Eigen::Vector3d displacement = Eigen::Vector3d::Zero();  ///< [m]
+  double turn = 0.0;                                       ///< about the vertical [rad]
+
+  Eigen::Matrix3d rotation() const { return Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()).toRotationMatrix(); }
+  Eigen::Vector3d moved(const Eigen::Vector3d& place) const { return rotation() * place + displacement; }
+  Eigen::VectorXd moved_configuration(const Eigen::VectorXd& q) const;  ///< nq
+};
+
 /// Tolerances of the certificate on goals [m, rad, m/s and rad/s].
 struct GoalTolerance {
   double position = 1e-3;
@@ -60,6 +74,7 @@ struct MotionProblem {
   FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
   GoalTolerance goal_tolerance;
+  std::optional<Cycle> cycle = {};  ///< with it, the start is free, and footholds move from cycle to cycle
 
   const BoundaryConstraint& start() const { return boundary_constraints.front(); }
   const Eigen::VectorXd& start_configuration() const { return start().q_ref; }

@@ -42,6 +42,13 @@ class StagewiseNlp {
   virtual const StageSize& size(int k) const = 0;
   virtual const Eigen::VectorXd& lower(int k) const = 0;  ///< of the inequalities
   virtual const Eigen::VectorXd& upper(int k) const = 0;
+  /// Closes the chain: the last equalities of the last stage are in truth
+  ///   equalities.tail(rows) + closure() * (u_0, x_0) = 0,
+  /// one row each. Without rows, as usual, the chain is open.
+  virtual const Eigen::MatrixXd& closure() const {
+    static const Eigen::MatrixXd open;
+    return open;
+  }
 
   virtual const StageValues& values(int k, const Eigen::VectorXd& ux) = 0;
   virtual const StageDerivatives& derivatives(int k, const Eigen::VectorXd& ux) = 0;

@@ -240,6 +240,8 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   FilePhases read = gait ? FilePhases{gait->phases, gait->intervals, {}} : read_phases(root, names);
   read.free_steps.resize(read.phases.size());
   check_lengths(root, read);
+  const bool repeats = gait && gait->cycle;
+  if (repeats) start.q = gait->cycle_start;
   fit_contacts(root, robot, surfaces, read.phases.front(), start);
   const bool has_intervals = !read.intervals.empty() || overrides.intervals;
   std::vector<int> file_intervals = read.intervals;
@@ -254,7 +256,9 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
   }
   if (equal_steps) check_intervals(root, *equal_steps);
 
-  std::vector<BoundaryConstraint> constraints = {start_constraint(robot, start)};
+  std::vector<BoundaryConstraint> constraints = {
+      repeats ? BoundaryConstraint::unbounded(robot, "start", PhaseFraction::start_of(0), start.q)
+              : start_constraint(robot, start)};
   for (BoundaryConstraint& goal : read_goals(root, robot, start, read.phases, equal_steps))
     constraints.push_back(std::move(goal));
   if (gait && gait->travel) {
@@ -276,7 +280,8 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
                         .terminal_cost = {},
                         .friction_model = {},
                         .swing_clearance = 0.0,
-                        .goal_tolerance = {}};
+                        .goal_tolerance = {},
+                        .cycle = gait ? gait->cycle : std::nullopt};
   const auto clearance = root.find("swing_clearance_m");
   problem.swing_clearance =
       clearance ? clearance->as_number() : kSwingClearanceShare * problem.robot.nominal_configuration()(2);

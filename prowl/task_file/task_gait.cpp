@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "prowl/dynamics/inverse_kinematics.hpp"
+#include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/mesh/mesh.hpp"
+#include "prowl/model/configuration.hpp"
 #include "prowl/motion/gait.hpp"
 
 namespace prowl {
@@ -99,6 +103,77 @@ std::optional<Travel> read_travel(const TomlTable& root, const TomlTable& table,
                 turn * surface.normal};
 }
 
+/// What moves along an arc by `strides`, also a part of one or backwards.
+Cycle part_of_way(const Surface& surface, double heading, double length, double turn, double strides) {
+  return {1, along_arc(surface, heading, strides * length, strides * turn), strides * turn};
+}
+
+/// Strides that repeat: each foot stands around the place under its hip in the middle of its stance.
+TaskGait read_cycle(const TomlTable& root, const TomlTable& table, const Gait& gait, const RobotModel& robot,
+                    const std::vector<Surface>& surfaces, const TaskStart& start) {
+  const Feet feet = need_feet(table, robot);
+  const Surface& surface = surfaces[static_cast<std::size_t>(gait.surface)];
+  if (gait.duty_factor <= gait.pattern.least_duty_factor()) {
+    table.need("periodic")
+        .fail(fmt::format("a duty factor of {:g} leaves no time in which all feet stand; need one above {:g}",
+                          gait.duty_factor, gait.pattern.least_duty_factor()));
+  }
+  if (const auto goals = root.find("goal")) goals->fail("has no effect beside gait.periodic; need one of the two");
+  for (const char* key : {"start_s", "settle_s"}) {
+    if (const auto value = table.find(key)) value->fail("has no effect beside gait.periodic; need one of the two");
+  }
+  const auto speed = table.find("speed_mps"), heading_key = table.find("heading_rad");
+  const double heading = heading_key ? heading_key->as_number() : start.rpy.z();
+  const double length = speed ? speed->as_number() * 0.5 * (gait.stride.min + gait.stride.max)
+                              : table.need("stride_length_m").as_number();
+  const auto turn_key = table.find("turn_rad");
+  const double turn = turn_key ? turn_key->as_number() : 0.0;
+  if (turn != 0.0 && surface.normal != Eigen::Vector3d::UnitZ())
+    turn_key->fail("strides that repeat turn on level ground only; need 0");
+
+  // Ways of the base from the start, whose motion is one about its own place.
+  const Eigen::Vector3d origin = base_position(start.q);
+  const auto moved = [&](const Eigen::Vector3d& place, double strides) -> Eigen::Vector3d {
+    return origin + part_of_way(surface, heading, length, turn, strides).moved(place - origin);
+  };
+  RigidBodyTerms terms(robot);
+  terms.update_kinematics(start.q);
+  std::vector<ContactTarget> targets;
+  for (const Foot foot : {Foot::lf, Foot::rf, Foot::lh, Foot::rh}) {
+    const int contact = feet[static_cast<std::size_t>(foot)];
+    targets.push_back({contact, moved(terms.contact_position(contact), middle_of_stance(gait, foot))});
+  }
+  const InverseKinematics standing = inverse_kinematics(robot, start.q, targets);
+  if (!standing.converged) {
+    table.value().fail(fmt::format("the legs do not reach where strides of {:.3g} m begin; need shorter ones", length));
+  }
+
+  TaskGait result{.phases = {}, .intervals = {}, .travel = {}, .cycle = {}, .cycle_start = standing.q};
+  const std::vector<Phase> stride = expand_cycle(gait, robot, feet);
+  for (int i = 0; i < gait.strides; ++i) {
+    std::vector<int> held;
+    for (const PhaseContact& contact : stride.back().contacts) held.push_back(contact.contact);
+    for (Phase phase : stride) {
+      phase.name =
+          phase.name.replace(0, phase.name.find(": ") == std::string::npos ? 0 : phase.name.find(": ") + 2, "");
+      phase.name = fmt::format("stride {}: {}", i + 1, phase.name);
+      std::vector<int> now;
+      for (PhaseContact& contact : phase.contacts) {
+        now.push_back(contact.contact);
+        if (std::ranges::find(held, contact.contact) != held.end()) continue;
+        const auto target = std::ranges::find(targets, contact.contact, &ContactTarget::contact);
+        const double radius = robot.contacts()[static_cast<std::size_t>(contact.contact)].radius;
+        contact.foothold = moved(target->position, i + 1.0) - radius * surface.normal;
+      }
+      held = now;
+      result.phases.push_back(std::move(phase));
+    }
+  }
+  const Eigen::Matrix3d turned = part_of_way(surface, heading, length, turn, 1.0).rotation();
+  result.cycle = Cycle{gait.strides, moved(origin, 1.0) - turned * origin, turn};
+  return result;
+}
+
 }  // namespace
 
 std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot, const std::vector<Surface>& surfaces,
@@ -109,13 +184,17 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
   const Feet feet = need_feet(*table, robot);
   const Gait gait = read_values(*table, robot, surfaces);
   const std::optional<double> rate = read_intervals_per_second(*table, gait);
-  std::vector<Phase> phases = expand(gait, robot, feet);
-  std::vector<int> intervals;
+  const auto periodic = table->find("periodic");
+  TaskGait result =
+      periodic && periodic->as_boolean()
+          ? read_cycle(root, *table, gait, robot, surfaces, start)
+          : TaskGait{
+                expand(gait, robot, feet), {}, read_travel(root, *table, gait, surfaces[gait.surface], start), {}, {}};
   if (rate) {
-    for (const PhaseMesh& phase : mesh_with_rate(phases, *rate).phases) intervals.push_back(phase.intervals());
+    for (const PhaseMesh& phase : mesh_with_rate(result.phases, *rate).phases)
+      result.intervals.push_back(phase.intervals());
   }
-  return TaskGait{std::move(phases), std::move(intervals),
-                  read_travel(root, *table, gait, surfaces[gait.surface], start)};
+  return result;
 }
 
 }  // namespace prowl

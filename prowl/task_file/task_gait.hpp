@@ -19,7 +19,9 @@ struct Travel {
 struct TaskGait {
   std::vector<Phase> phases;
   std::vector<int> intervals;    ///< of each phase; empty if the file does not say
-  std::optional<Travel> travel;  ///< nullopt if the file has goals
+  std::optional<Travel> travel;  ///< nullopt if the file has goals, or strides that repeat
+  std::optional<Cycle> cycle;    ///< of these
+  Eigen::VectorXd cycle_start;   ///< nq, with the feet where such a stride begins
 };
 
 /// Nullopt if the file has no [gait]. Throws InputError for errors in it, for an additional

@@ -14,6 +14,8 @@ DecisionLayout::DecisionLayout(const DiscreteProblem& discrete, const std::vecto
   }
   first_link_row_ = num_constraints_;
   num_constraints_ += 2 * nv_ * num_links();
+  first_closing_row_ = num_constraints_;
+  if (discrete.problem.cycle) num_constraints_ += 2 * nv_;
 
   num_variables_ = nodes_.back();
   for (const Phase& phase : discrete.problem.phases)

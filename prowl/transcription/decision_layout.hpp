@@ -14,7 +14,8 @@ namespace prowl {
 ///    w: forces of dependent contact rows; their number depends on the phase.
 /// g: per node its rows (NodeFunctions), then
 ///    per interval  (defects of q, nv rows | defects of v, nv rows),
-///    per phase transition  (continuity of q, nv rows | of v, nv rows).
+///    per phase transition  (continuity of q, nv rows | of v, nv rows),
+///    of a cycle  (end against start, q, nv rows | v, nv rows).
 ///
 /// Rotation of the base: R = R_chart exp(theta), one chart per node, fixed by the initial guess or
 /// by a boundary constraint there. So theta stays near zero, and a goal's bounds on rotation are
@@ -48,10 +49,11 @@ class DecisionLayout {
   /// transition.
   int link_row(int k) const { return first_link_row_ + 2 * nv_ * k; }
   int num_links() const { return num_nodes() - 1; }
+  int closing_row() const { return first_closing_row_; }  ///< first of those that close a cycle, or the end of all
 
  private:
   int nv_;
-  int num_variables_ = 0, num_constraints_ = 0, first_link_row_ = 0;
+  int num_variables_ = 0, num_constraints_ = 0, first_link_row_ = 0, first_closing_row_ = 0;
   std::vector<int> nodes_;  ///< first variable of each node; the end of the last
   std::vector<int> node_rows_, durations_, footholds_;
 };

@@ -22,6 +22,21 @@ StagewiseTranscription::StagewiseTranscription(NodeProgram& nodes)
   for (int k = 0; k < num_stages(); ++k) set_functions(k);
   for (int k = 0; k < num_stages(); ++k) set_patterns(k);
   set_shapes();
+  set_closure();
+}
+
+/// In the units of the bounds that are its rows: end - start, moved by the cycle. Its displacement is in their level.
+void StagewiseTranscription::set_closure() {
+  if (!discrete_.problem.cycle) return;
+  const int states = 2 * layout_.nv();
+  MatrixXd moved = MatrixXd::Identity(states, states);
+  moved.topLeftCorner<3, 3>() = discrete_.problem.cycle->rotation();
+  const Stage& first = stage(0);
+  closure_.setZero(states, first.size.variables());
+  for (Index j = 0; j < closure_.cols(); ++j) {
+    const int variable = first.variables[static_cast<std::size_t>(j)];
+    if (variable < states) closure_.col(j) = -first.unit(j) * moved.col(variable).cwiseQuotient(units(0).head(states));
+  }
 }
 
 void StagewiseTranscription::set_shapes() {
@@ -142,6 +157,16 @@ void StagewiseTranscription::set_functions(int k) {
     stage.bounded.push_back(variable);
     per_unit.push_back(1.0 / unit);
     add(low / unit, up / unit);
+  }
+
+  if (const auto& cycle = discrete_.problem.cycle; cycle && k + 1 == num_stages()) {
+    const VectorXd unit = units(k);
+    for (int i = 0; i < states; ++i) {
+      stage.bounded.push_back(i);
+      per_unit.push_back(1.0 / unit(i));
+      const double way = i < 3 ? cycle->displacement(i) / unit(i) : 0.0;
+      add(way, way);
+    }
   }
 
   stage.size.equalities = static_cast<int>(stage.equalities.size());

@@ -36,6 +36,7 @@ class StagewiseTranscription : public StagewiseNlp {
   const StageSize& size(int k) const override { return stage(k).size; }
   const Eigen::VectorXd& lower(int k) const override { return stage(k).lower; }
   const Eigen::VectorXd& upper(int k) const override { return stage(k).upper; }
+  const Eigen::MatrixXd& closure() const override { return closure_; }
 
   const StageValues& values(int k, const Eigen::VectorXd& ux) override;
   const StageDerivatives& derivatives(int k, const Eigen::VectorXd& ux) override;
@@ -123,6 +124,7 @@ class StagewiseTranscription : public StagewiseNlp {
   void set_variables(int k);
   void set_functions(int k);
   void set_shapes();
+  void set_closure();
   /// Bounds on a variable of node k. At a phase transition the first node has the bounds of both.
   std::pair<double, double> bounds(int k, int variable) const;
 
@@ -153,6 +155,7 @@ class StagewiseTranscription : public StagewiseNlp {
   const DiscreteProblem& discrete_;
   const DecisionLayout& layout_;
   std::vector<Stage> stages_;
+  Eigen::MatrixXd closure_;               ///< of a cycle
   std::vector<std::vector<Work>> works_;  ///< per thread and shape
 };
 

@@ -138,6 +138,11 @@ void Transcription::constraints(const VectorXd& z, Eigen::Ref<VectorXd> g) {
       g.segment(layout_.link_row(k), 2 * nv) = z.segment(layout_.q(k + 1), 2 * nv) - z.segment(layout_.q(k), 2 * nv);
     }
   }
+  if (!problem().cycle) return;
+  auto closing = g.segment(layout_.closing_row(), 2 * nv);
+  closing = z.segment(layout_.q(nodes_.num_nodes() - 1), 2 * nv) - z.segment(layout_.q(0), 2 * nv);
+  closing.head<3>() =
+      z.segment<3>(layout_.q(nodes_.num_nodes() - 1)) - problem().cycle->moved(z.segment<3>(layout_.q(0)));
 }
 
 /// Calls emit(row, col, value) for each non-zero of the Jacobian, in a fixed order. With empty z
@@ -201,6 +206,13 @@ void Transcription::visit_jacobian(const VectorXd& z, Emit emit) const {
     }
     if (free_duration < 0) continue;
     for (int i = 0; i < 2 * nv; ++i) emit(row + i, free_duration, d_duration(i));
+  }
+  if (!problem().cycle) return;
+  const Eigen::Matrix3d moved = problem().cycle->rotation();
+  for (int i = 0; i < 2 * nv; ++i) {
+    emit(layout_.closing_row() + i, layout_.q(nodes_.num_nodes() - 1) + i, 1.0);
+    if (i >= 3) emit(layout_.closing_row() + i, layout_.q(0) + i, -1.0);
+    for (int j = 0; i < 3 && j < 3; ++j) emit(layout_.closing_row() + i, layout_.q(0) + j, -moved(i, j));
   }
 }
 

@@ -56,6 +56,7 @@ std::vector<Eigen::Matrix3d> rotation_charts(const DiscreteProblem& discrete, co
     const int first = nodes_at_time_of(discrete, k).back() < k ? k - 1 : k;
     charts.push_back(base_rotation(guess.nodes[first].q));
   }
+  if (discrete.problem.cycle) charts.back() = discrete.problem.cycle->rotation() * charts.front();
   for (std::size_t c = 0; c < discrete.boundary_nodes.size(); ++c) {
     const BoundaryConstraint& constraint = discrete.problem.boundary_constraints[c];
     if (!binds_rotation(constraint)) continue;

@@ -41,6 +41,7 @@ class RandomChain : public DenseStagewiseNlp {
   const StageSize& size(int k) const override { return parts[k].size; }
   const Eigen::VectorXd& lower(int) const override { return nothing_; }
   const Eigen::VectorXd& upper(int) const override { return nothing_; }
+  const Eigen::MatrixXd& closure() const override { return closing; }
   const StageValues& values(int, const Eigen::VectorXd&) override { return no_values_; }
   const StageDerivatives& derivatives(int k, const Eigen::VectorXd&) override { return parts[k].slopes; }
   const Eigen::MatrixXd& hessian(int k, const Eigen::VectorXd&, double, const StageMultipliers&) override {
@@ -51,6 +52,7 @@ class RandomChain : public DenseStagewiseNlp {
   std::string describe_stage(int k) const override { return "stage " + std::to_string(k); }
 
   std::vector<Part> parts;
+  Eigen::MatrixXd closing;  ///< see StagewiseNlp::closure()
 
  private:
   Eigen::VectorXd nothing_;

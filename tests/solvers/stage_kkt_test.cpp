@@ -87,6 +87,8 @@ struct Dense {
       }
       link += next;
     }
+    if (chain.closing.rows() > 0)
+      rows.bottomLeftCorner(chain.closing.rows(), chain.closing.cols()) += chain.closing.cast<long double>();
     gradient = stacked(system.gradient).cast<long double>();
     right.resize(rows.rows());
     right << stacked(system.links).cast<long double>(), stacked(system.equalities).cast<long double>();
@@ -175,6 +177,23 @@ TEST(StageKkt, IsTheDenseSolution) {
         expect_dense_solution(chain, Hessian::lagrangian, delta, system, 1e-8, name);
       }
       expect_dense_solution(chain, Hessian::identity, 0.7, system, 1e-8, name + ", identity");
+    }
+  }
+}
+
+/// The last equalities of the last stage are also ones of the first.
+TEST(StageKkt, ClosesAChain) {
+  std::mt19937 rng(23);
+  const int closing = 3;
+  for (const std::vector<StageSize>& sizes :
+       {std::vector<StageSize>{{6, 0, 1, 2}, {4, 3, 2, 2}, {3, 4, 1, 1}, {1, 4, 1 + closing, 2}},
+        std::vector<StageSize>{{5, 0, 0, 1}, {4, 3, 2, 2}, {0, 4, closing, 0}}}) {
+    for (int repeat = 0; repeat < 20; ++repeat) {
+      RandomChain chain(rng, sizes);
+      chain.closing = test::random_matrix(rng, closing, sizes.front().variables());
+      const System system = random_system(rng, chain, 2.0);
+      expect_dense_solution(chain, Hessian::lagrangian, 0.3, system, 1e-8, "closed");
+      expect_dense_solution(chain, Hessian::identity, 0.7, system, 1e-8, "closed, identity");
     }
   }
 }

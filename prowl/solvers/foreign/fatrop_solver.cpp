@@ -370,7 +370,9 @@ std::optional<std::string> FatropSolver::why_unsupported(Nlp& nlp) const {
   if (const auto reason = why_missing_instructions("libblasfeo.so", linear_algebra(), processor())) {
     return *reason + ": install the one of the pinned casadi wheel (scripts/setup), or use another --solver";
   }
-  return why_no_chain(nlp, "Fatrop");
+  if (const auto reason = why_no_chain(nlp, "Fatrop")) return reason;
+  if (nlp.stagewise()->closure().rows() > 0) return "Fatrop has no cycles: their ends need riccati or ipopt";
+  return std::nullopt;
 }
 
 SolveResult FatropSolver::solve(Nlp& nlp, const VectorXd& z_guess, const SolverOptions& options) const {

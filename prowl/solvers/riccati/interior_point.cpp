@@ -125,6 +125,8 @@ bool InteriorPoint::evaluate(const StageVectors& ux, Values& values) {
     return false;
   }
   values.cost = values.stage_costs.sum();
+  const Eigen::MatrixXd& closure = nlp_.closure();
+  if (closure.rows() > 0) values.equalities.back().tail(closure.rows()).noalias() += closure * ux.front();
   return true;
 }
 
@@ -199,6 +201,8 @@ void InteriorPoint::update_dual_violation() {
     on_[k].inequalities = segment(lambda_, k);
     nlp_.add_pull_back(k, on_[k].next, on_[k].inequalities, violation);
     if (k > 0) violation.tail(nlp_.size(k).states) -= on_[k - 1].next;
+    if (const Eigen::MatrixXd& closure = nlp_.closure(); k == 0 && closure.rows() > 0)
+      violation.noalias() += closure.transpose() * on_.back().equalities.tail(closure.rows());
     if (!violation.allFinite()) throw NumericalError(nlp_.describe_stage(k) + ": first derivatives are not finite");
     if (violation.size() > 0)
       largest_dual_violation_ = std::max(largest_dual_violation_, violation.cwiseAbs().maxCoeff());

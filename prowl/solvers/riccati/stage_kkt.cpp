@@ -1,5 +1,6 @@
 #include "prowl/solvers/riccati/stage_kkt.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -43,6 +44,8 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
   for (int k = 0; k < num_stages_; ++k) {
     Stage& s = stage(k);
     s.size = nlp.size(k);
+    on_equalities_.push_back(VectorXd::Zero(s.size.equalities));
+    if (k + 1 == num_stages_) s.size.equalities -= static_cast<int>(num_closing());
     if (k == 0)
       s.size = {s.size.variables(), 0, s.size.equalities, s.size.inequalities};  // no stage leads to these states
     const int variables = s.size.variables(), next = k + 1 < num_stages_ ? nlp.size(k + 1).states : 0;
@@ -50,7 +53,6 @@ StageKkt::StageKkt(StagewiseNlp& nlp) : nlp_(nlp), num_stages_(nlp.num_stages())
     s.P.setZero(s.size.states, s.size.states);
     s.p.setZero(s.size.states);
     steps_.push_back(VectorXd::Zero(variables));
-    on_equalities_.push_back(VectorXd::Zero(s.size.equalities));
     on_next_.push_back(VectorXd::Zero(next));
     along_inequalities_.push_back(VectorXd::Zero(s.size.inequalities));
   }
@@ -75,6 +77,7 @@ void StageKkt::determine_inputs() {
 }
 
 StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const StageVectors& weights) {
+  num_negative_ = 0;
   hessian_ = hessian;
   delta_ = delta;
   weights_ = weights;
@@ -83,7 +86,7 @@ StageKkt::Outcome StageKkt::factorise(Hessian hessian, double delta, const Stage
     const Outcome outcome = factorise_stage(k);
     if (outcome != Outcome::solvable) return outcome;
   }
-  return Outcome::solvable;
+  return num_closing() == 0 || factorise_closure() ? Outcome::solvable : Outcome::indefinite;
 }
 
 MatrixXd& StageKkt::Shared::of_size(Index rows, Index cols) {
@@ -120,9 +123,9 @@ StageKkt::Outcome StageKkt::factorise_stage(int k) {
 const MatrixXd& StageKkt::gather_equalities(int k) {
   Stage& s = stage(k);
   s.carried = k + 1 < num_stages_ ? stage(k + 1).passed : 0;
-  if (s.carried == 0) return nlp_.equality_slopes(k);
+  if (s.carried == 0 && s.size.equalities == nlp_.size(k).equalities) return nlp_.equality_slopes(k);
   MatrixXd& equalities = work_.equalities.of_size(s.num_equalities(), s.size.variables());
-  equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k);
+  equalities.topRows(s.size.equalities) = nlp_.equality_slopes(k).topRows(s.size.equalities);
   for (int i = 0; i < s.carried; ++i) {
     VectorXd& on_next = on_next_[k];
     on_next = stage(k + 1).E.row(i).transpose();
@@ -223,10 +226,28 @@ bool StageKkt::minimise(Stage& s, const Eigen::Ref<const MatrixXd>& N) {
   s.L = N.topLeftCorner(free, free);
   s.G = N.bottomLeftCorner(states, free);
   s.P = N.bottomRightCorner(states, states);
-  if (!kernels_.factorise_cholesky(s.L) || !s.L.diagonal().allFinite()) return false;
+  s.signs.resize(0);
+  if (!kernels_.factorise_cholesky(s.L) || !s.L.diagonal().allFinite())
+    return num_closing() > 0 && has_finite_lower_triangle(N) && make_stationary(s, N);
   kernels_.divide_by_upper(s.G, s.L.transpose());
   kernels_.add_lower(s.P, s.G, s.G, -1.0);
   s.P.triangularView<Eigen::StrictlyUpper>() = s.P.transpose();
+  return is_finite(s.P);
+}
+
+/// The same where there is no minimum: its stationary point. False if that is not unique.
+bool StageKkt::make_stationary(Stage& s, const Eigen::Ref<const MatrixXd>& N) {
+  constexpr double kSingular = 1e-12;  // of the largest eigenvalue
+  const int free = s.free(), states = s.size.states;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> shapes(N.topLeftCorner(free, free));  // of the lower triangle
+  const VectorXd& values = shapes.eigenvalues();
+  if (!(values.cwiseAbs().minCoeff() > kSingular * values.cwiseAbs().maxCoeff())) return false;
+  s.signs = values.cwiseSign();
+  num_negative_ += static_cast<int>((values.array() < 0.0).count());
+  s.inverse_L = values.cwiseAbs().cwiseSqrt().cwiseInverse().asDiagonal() * shapes.eigenvectors().transpose();
+  s.G = N.bottomLeftCorner(states, free) * s.inverse_L.transpose();
+  s.P = N.bottomRightCorner(states, states).selfadjointView<Eigen::Lower>();
+  s.P -= s.G * s.signs.asDiagonal() * s.G.transpose();
   return is_finite(s.P);
 }
 

@@ -26,6 +26,10 @@ namespace prowl {
 ///                  state, E dx + e = 0, which becomes an equality of the stage before.
 ///   free inputs    minimise (Cholesky), which leaves the cost-to-go  1/2 dx' P dx + p' dx
 ///
+/// Equalities that close the chain (StagewiseNlp::closure) are left out of the recursion. A dense system of their
+/// multipliers, one solve of the chain a row, follows it. Then M may be indefinite along the open chain: the numbers of
+/// negative eigenvalues of the free inputs and of that system show whether it is definite along the closed one.
+///
 /// The Cholesky factors exist if and only if M is positive definite on the null space of the
 /// equalities. Dependent equalities are dropped, with zero multipliers. An input that could meet an
 /// equality only by a huge step is not used: the equality goes to earlier stages, and iterative
@@ -77,6 +81,8 @@ class StageKkt {
     Eigen::MatrixXd T;                          ///< M_rd + K M_dd
     Eigen::MatrixXd L;                          ///< Cholesky factor of N in the free inputs (lower triangle)
     Eigen::MatrixXd G;                          ///< N_xf L^-T
+    Eigen::MatrixXd inverse_L;                  ///< of a closed chain: if N_ff is indefinite, N_ff = L diag(signs) L'
+    Eigen::VectorXd signs;                      ///< then; else empty
     Eigen::MatrixXd P, E;
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> conditions;  ///< of equalities that determine no input
     std::vector<int> passed_rows;                            ///< their indices among `rows` that form E
@@ -111,6 +117,7 @@ class StageKkt {
   void put_in_order(const Stage& stage, const Eigen::MatrixXd& condensed, Eigen::MatrixXd& M);
   void eliminate(Stage& stage, Eigen::MatrixXd& M);
   bool minimise(Stage& stage, const Eigen::Ref<const Eigen::MatrixXd>& N);
+  bool make_stationary(Stage& stage, const Eigen::Ref<const Eigen::MatrixXd>& N);
   void pass_conditions(Stage& stage, const Eigen::MatrixXd& equalities, const Eigen::MatrixXd& in_states);
   /// Number of significant pivots of a stage's equalities; updates neglected_.
   template <class Pivots>
@@ -121,6 +128,11 @@ class StageKkt {
   void find_multipliers(int k);
   double left_out() const;
   void solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
+  void solve_chain(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
+  Eigen::Index num_closing() const { return nlp_.closure().rows(); }
+  Eigen::VectorXd along_closure() const;  ///< derivative of the closing equalities times the step
+  void pull_back_closure(const Eigen::VectorXd& multipliers, StageVectors& gradient) const;
+  bool factorise_closure();
   double find_residual(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links);
 
   StagewiseNlp& nlp_;
@@ -138,6 +150,8 @@ class StageKkt {
     StageVectors steps, on_equalities, on_next, along_inequalities;
   } sum_;
   StageVectors residual_gradient_, residual_equalities_, residual_links_, residual_next_, residual_inequalities_;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> closing_;  ///< minus the closing equalities over multipliers
+  int num_negative_ = 0;  ///< negative curvatures of the chain, which its closing equalities must exclude
   Eigen::MatrixXd no_hessian_;
   Eigen::VectorXd nothing_;  ///< no multipliers
 };

@@ -76,10 +76,14 @@ double StageKkt::find_residual(const StageVectors& gradient, const StageVectors&
     }
     violation += delta_ * step;
     violation.noalias() += nlp_.equality_slopes(k).transpose() * sum_.on_equalities[k];
+    if (k == 0 && num_closing() > 0)
+      violation.noalias() += nlp_.closure().transpose() * sum_.on_equalities.back().tail(num_closing());
     residual_inequalities_[k] = weights_[k].cwiseProduct(sum_.along_inequalities[k]);
     nlp_.add_pull_back(k, sum_.on_next[k], residual_inequalities_[k], violation);
     if (k > 0) violation.tail(stage(k).size.states) -= sum_.on_next[k - 1];
     residual_equalities_[k].noalias() += nlp_.equality_slopes(k) * step;
+    if (k + 1 == num_stages_ && num_closing() > 0)
+      residual_equalities_[k].tail(num_closing()).noalias() += nlp_.closure() * sum_.steps.front();
     if (k + 1 == num_stages_) continue;
     VectorXd& next = residual_next_[k];
     nlp_.push_forward(k, step, next, residual_inequalities_[k]);
@@ -88,7 +92,50 @@ double StageKkt::find_residual(const StageVectors& gradient, const StageVectors&
   return std::max({largest(residual_gradient_), largest(residual_equalities_), largest(residual_links_)});
 }
 
+/// The chain without its closing equalities c; their multipliers m; and the chain again, with these.
 void StageKkt::solve_once(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
+  const Index closing = num_closing();
+  solve_chain(gradient, equalities, links);
+  if (closing == 0) return;
+  const VectorXd multipliers = closing_.solve(along_closure() + equalities.back().tail(closing));
+  StageVectors pulled = gradient;
+  pull_back_closure(multipliers, pulled);
+  solve_chain(pulled, equalities, links);
+  on_equalities_.back().tail(closing) = multipliers;
+}
+
+VectorXd StageKkt::along_closure() const {
+  return nlp_.closure() * steps_.front() +
+         nlp_.equality_slopes(num_stages_ - 1).bottomRows(num_closing()) * steps_.back();
+}
+
+void StageKkt::pull_back_closure(const VectorXd& multipliers, StageVectors& gradient) const {
+  gradient.front().noalias() += nlp_.closure().transpose() * multipliers;
+  gradient.back().noalias() +=
+      nlp_.equality_slopes(num_stages_ - 1).bottomRows(num_closing()).transpose() * multipliers;
+}
+
+/// Column by column, by the step that one multiplier causes. False if the closed chain has a negative curvature.
+bool StageKkt::factorise_closure() {
+  StageVectors none = steps_, no_equalities = on_equalities_, no_links = on_next_;
+  for (StageVectors* vectors : {&none, &no_equalities, &no_links}) {
+    for (VectorXd& vector : *vectors) vector.setZero();
+  }
+  Eigen::MatrixXd responses(num_closing(), num_closing());
+  for (Index i = 0; i < num_closing(); ++i) {
+    StageVectors gradient = none;
+    pull_back_closure(VectorXd::Unit(num_closing(), i), gradient);
+    solve_chain(gradient, no_equalities, no_links);
+    responses.col(i) = -along_closure();
+  }
+  if (!responses.allFinite()) return false;
+  closing_.compute(responses);
+  // Haynsworth: each negative curvature of the open chain must be one that an equality excludes.
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> shapes(responses, Eigen::EigenvaluesOnly);
+  return (shapes.eigenvalues().array() < 0.0).count() == num_negative_;
+}
+
+void StageKkt::solve_chain(const StageVectors& gradient, const StageVectors& equalities, const StageVectors& links) {
   const auto link = [&](int k) { return k + 1 < num_stages_ ? &links[k] : nullptr; };
   for (int k = num_stages_ - 1; k >= 0; --k) backward(k, gradient[k], equalities[k], link(k));
   for (int k = 0; k < num_stages_; ++k) forward(k, link(k));
@@ -100,7 +147,7 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
   s.gradient = gradient;
   s.c.resize(s.num_equalities());
   s.on_rows.resize(s.num_equalities());
-  s.c.head(s.size.equalities) = equalities;
+  s.c.head(s.size.equalities) = equalities.head(s.size.equalities);
   if (link) {
     const Stage& next = stage(k + 1);
     VectorXd& on_next = on_next_[k];
@@ -134,7 +181,11 @@ void StageKkt::backward(int k, const VectorXd& gradient, const VectorXd& equalit
   s.p = s.r.tail(states);
   if (s.free() > 0) {
     auto free = s.r.head(s.free());
-    s.L.triangularView<Eigen::Lower>().solveInPlace(free);
+    if (s.signs.size() == 0) {
+      s.L.triangularView<Eigen::Lower>().solveInPlace(free);
+    } else {
+      free = s.signs.cwiseProduct(s.inverse_L * free).eval();
+    }
     s.p.noalias() -= s.G * free;
   }
 }
@@ -147,8 +198,13 @@ void StageKkt::forward(int k, const VectorXd* link) {
   if (s.free() > 0) {
     auto free = s.step.segment(s.rank, s.free());
     free = -s.r.head(s.free());
-    free.noalias() -= s.G.transpose() * s.step.tail(s.size.states);
-    s.L.triangularView<Eigen::Lower>().transpose().solveInPlace(free);
+    if (s.signs.size() == 0) {
+      free.noalias() -= s.G.transpose() * s.step.tail(s.size.states);
+      s.L.triangularView<Eigen::Lower>().transpose().solveInPlace(free);
+    } else {
+      free -= s.signs.cwiseProduct(s.G.transpose() * s.step.tail(s.size.states));
+      free = (s.inverse_L.transpose() * free).eval();
+    }
   }
   if (s.rank > 0) {
     s.step.head(s.rank) = s.k;
@@ -188,7 +244,7 @@ void StageKkt::find_multipliers(int k) {
   s.c.resize(s.on_rows.size());
   for (Index i = 0; i < s.on_rows.size(); ++i) s.c(s.rows[i]) = s.on_rows(i);
   s.on_rows.swap(s.c);
-  on_equalities_[k] = s.on_rows.head(s.size.equalities);
+  on_equalities_[k].head(s.size.equalities) = s.on_rows.head(s.size.equalities);
   if (s.carried > 0) stage(k + 1).on_carried = s.on_rows.tail(s.carried);
 }
 

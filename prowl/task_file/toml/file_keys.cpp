@@ -214,6 +214,12 @@ void add_gait(FileKeys& keys) {
             .form = "integer",
             .range = {.lower = 1, .upper = kMostStrides},
             .meaning = "number of strides; every foot swings once in each"});
+  gait.add({.name = "periodic",
+            .form = "true or false",
+            .fallback = "false",
+            .meaning =
+                "true: strides that end as they began, moved by one stride, instead of a motion from rest to rest; "
+                "needs a time in which all feet stand"});
   gait.add({.name = "stride_s",
             .form = kOneOrRange,
             .range = kDuration,

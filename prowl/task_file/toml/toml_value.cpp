@@ -184,6 +184,12 @@ int TomlValue::as_integer() const {
   return static_cast<int>(integer->get());
 }
 
+bool TomlValue::as_boolean() const {
+  const auto* flag = node_->as_boolean();
+  if (!flag) refuse_type("true or false");
+  return flag && flag->get();
+}
+
 std::string TomlValue::as_text() const {
   const auto* text = node_->as_string();
   if (!text || text->get().empty()) fail_type("a non-empty string in quotes");

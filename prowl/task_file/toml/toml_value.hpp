@@ -52,6 +52,7 @@ class TomlValue {
   double as_number() const { return as_number(key().range); }
   double as_number(const NumberRange& range) const;  ///< for a narrower range, or a value of several numbers
   int as_integer() const;
+  bool as_boolean() const;
   std::string as_text() const;  ///< non-empty
   std::string as_name() const;  ///< text accepted by is_name() (text/name_check.hpp)
   std::vector<TomlValue> as_list() const;

@@ -112,7 +112,8 @@ PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const E
   for (const int row : independent_rows(staying_wide, foothold)) {
     result.landing[landing[row / 3]].foothold.push_back(row % 3);
   }
-  if (phase == 0) add_start_axes(problem, J, result.landing);
+  // The end of a cycle, whose contacts have landed, says where those of its start are.
+  if (phase == 0 && !problem.cycle) add_start_axes(problem, J, result.landing);
   return result;
 }
 
