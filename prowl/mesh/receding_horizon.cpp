@@ -58,7 +58,8 @@ Mesh shifted(Mesh mesh) {
 std::vector<BoundaryConstraint> shifted_constraints(const DiscreteProblem& before, const TrajectoryPoint& start,
                                                     const Mesh& mesh) {
   const MotionProblem& problem = before.problem;
-  if (problem.cycle) throw InputError("horizon: a cycle, whose end is its start, cannot move on; need a motion with an end");
+  if (problem.cycle)
+    throw InputError("horizon: a cycle, whose end is its start, cannot move on; need a motion with an end");
   const int last = static_cast<int>(problem.phases.size()) - 1;
   std::vector<BoundaryConstraint> constraints;
   constraints.push_back(

@@ -66,6 +66,11 @@ std::vector<std::string> failures(const SimulationResult& result, const MotionPr
   return texts;
 }
 
+/// A cycle ends in motion: after it there is nothing to stand in.
+double end_of_simulation(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria) {
+  return tracker.end() + (problem.cycle ? 0.0 : criteria.rest);
+}
+
 /// One run: physics and on-board software.
 class Run {
  public:
@@ -76,7 +81,7 @@ class Run {
         options_(options),
         period_(1.0 / options.control_rate),
         substeps_(std::max(1, static_cast<int>(std::ceil(period_ / options.physics.step - 1e-6)))),
-        end_(tracker.end() + criteria.rest),
+        end_(end_of_simulation(problem, tracker, criteria)),
         physics_(problem.robot, problem.surfaces, stepped(options.physics, period_ / substeps_)),
         sensors_(problem.robot.nu(), options.noise, options.noise_scale, options.seed),
         onboard_(problem, tracker, options, period_),
@@ -186,7 +191,7 @@ class Run {
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                           const SimulationOptions& options, const std::function<void(double, double)>& on_time) {
   check_fit(problem, tracker);
-  check(options, tracker.end() + criteria.rest);
+  check(options, end_of_simulation(problem, tracker, criteria));
   SimulationResult result = Run(problem, tracker, criteria, options)(on_time);
   result.failures = failures(result, problem, criteria);
   return result;

@@ -28,7 +28,7 @@ struct SuccessCriteria {
   double position = 0.02;  ///< distance of the base at rest from the end of the plan [m]
   double angle = 0.035;    ///< its angle, likewise [rad]
   double slip = 0.02;      ///< of a contact in stance [m]
-  double rest = 1.5;       ///< standing time after the plan's end [s]
+  double rest = 1.5;       ///< standing time after the plan's end, none after a cycle [s]
 };
 
 constexpr double kRecordRate = 200.0;  ///< default of the front ends [Hz]
