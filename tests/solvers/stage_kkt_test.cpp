@@ -198,6 +198,27 @@ TEST(StageKkt, ClosesAChain) {
   }
 }
 
+/// Closing equalities may exclude the directions along which the open chain bends down, or may not.
+TEST(StageKkt, KnowsWhetherAClosedChainHasAMinimum) {
+  std::mt19937 rng(29);
+  int solvable = 0, indefinite = 0;
+  for (int repeat = 0; repeat < 200; ++repeat) {
+    RandomChain chain(rng, {{5, 0, 0, 0}, {3, 3, 1, 0}, {2, 3, 1, 0}, {1, 3, 3, 0}});
+    chain.closing = test::random_matrix(rng, 3, 5);
+    for (RandomChain::Part& part : chain.parts)
+      part.hessian -= 0.5 * MatrixXd::Identity(part.hessian.rows(), part.hessian.rows());
+    const System system = random_system(rng, chain, 0.0);
+    chain.linearise_all();
+    StageKkt kkt(chain);
+    kkt.determine_inputs();
+    const bool has_minimum = Dense(chain, Hessian::lagrangian, 0.0, system).least_curvature() > 0.0;
+    EXPECT_EQ(kkt.factorise(Hessian::lagrangian, 0.0, system.weights) == Outcome::solvable, has_minimum);
+    ++(has_minimum ? solvable : indefinite);
+  }
+  EXPECT_GT(solvable, 20);
+  EXPECT_GT(indefinite, 20);
+}
+
 TEST(StageKkt, PivotsFullyOnlyWhereTheFirstInputsDoNotServe) {
   std::mt19937 rng(13);
   RandomChain chain(rng, {{4, 0, 2, 1}, {5, 4, 2, 1}, {4, 3, 2, 1}, {3, 3, 2, 1}, {0, 2, 0, 1}});
