@@ -66,6 +66,9 @@ void check_inertias(const RobotModel& robot, Warnings& warnings) {
         return lacks_inertia(body.mass(), body.inertia().matrix());
       },
       warnings);
+}
+
+void check_mimics(const RobotModel& robot, Warnings& warnings) {
   const std::vector<std::string>& mimics = robot.pinocchio().urdf.mimics;
   if (mimics.empty()) return;
   warnings.push_back({Kind::mimic, fmt::format("joints that copy others are locked: {}", fmt::join(mimics, ", "))});
@@ -224,6 +227,7 @@ RobotInspection inspect(const RobotModel& robot) {
 
   RobotInspection result;
   check_inertias(robot, result.warnings);
+  check_mimics(robot, result.warnings);
   inspect_limits(robot, result.warnings);
   check_ground(robot, points, result.warnings);
   check_coincidence(robot, points, result.warnings);

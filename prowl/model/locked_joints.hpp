@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "prowl/model/pinocchio_model.hpp"
+
+namespace prowl {
+
+/// Makes locked joints, and those that copy others, fixed ones at their nominal positions; adds the latter to
+/// `locked_joints` of the description. Throws DescriptionError for a name that is not a moving joint.
+void lock_joints(RobotDescription& description, PinocchioModel& pin);
+
+/// Joints whose motion, alone or with others, moves no mass with all joints at 0; of several, the last of their chain.
+std::vector<std::string> find_massless_joints(const pinocchio::Model& model);
+
+}  // namespace prowl
