@@ -12,13 +12,6 @@ namespace {
 
 using Eigen::Index;
 
-/// Two tangents and the normal, as columns.
-Eigen::Matrix3d axes_of(const Surface& surface) {
-  Eigen::Matrix3d axes;
-  axes << surface.axes(), surface.normal;
-  return axes;
-}
-
 }  // namespace
 
 CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phase, const Eigen::VectorXd& q,
@@ -28,24 +21,20 @@ CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phas
   constexpr int kNormal = 2;
   const auto& held = problem.phases[phase].contacts;
   const int num_contacts = static_cast<int>(held.size());
-  const auto surface_of = [&](int i) -> const Surface& { return problem.surfaces[held[i].surface]; };
   RigidBodyTerms terms(problem.robot);
   terms.update_kinematics(q);
   ContactKinematics kinematics(contact_indices(held));
   kinematics.set_configuration(terms);
-  Eigen::MatrixXd directions(3 * num_contacts, problem.robot.nv());
-  for (int i = 0; i < num_contacts; ++i) {
-    directions.middleRows<3>(3 * i) = axes_of(surface_of(i)).transpose() * kinematics.jacobian().middleRows<3>(3 * i);
-  }
-  const std::vector<int> independent = independent_rows(Eigen::MatrixXd(0, problem.robot.nv()), directions);
+  const std::vector<int> independent =
+      independent_rows(Eigen::MatrixXd(0, problem.robot.nv()), along_surfaces(problem, held, kinematics.jacobian()));
 
   CentroidalContacts result;
   terms.update_kinematics(problem.start_configuration());
   for (int i = 0; i < num_contacts; ++i) {
     const PhaseContact& contact = held[i];
-    const Surface& surface = surface_of(i);
+    const Surface& surface = problem.surfaces[contact.surface];
     const ContactPoint& point = problem.robot.contacts()[contact.contact];
-    const Eigen::Matrix3d axes = axes_of(surface);
+    const Eigen::Matrix3d axes = surface.frame();
     const double on_surface = surface.normal.dot(surface.point) + point.radius;
     const bool landed = schedule.stances()[schedule.stance(phase, i)].lands();
     for (int axis = 0; axis < 3; ++axis) {
@@ -58,8 +47,8 @@ CentroidalContacts centroidal_contacts(const DiscreteProblem& discrete, int phas
                                   fmt::format("{}, sliding along axis {} of {}", point.name, axis + 1, surface.name)});
       }
     }
-    const bool starts = !landed && !landing[i].foothold.empty();
-    for (const int axis : starts ? std::vector<int>{0, 1} : std::vector<int>{}) {
+    const bool is_chosen = !landed && !landing[i].foothold.empty();  // at a free start
+    for (int axis = 0; is_chosen && axis < kNormal; ++axis) {
       result.landing.push_back({i, axes.col(axis), axes.col(axis).dot(terms.contact_position(contact.contact)),
                                 fmt::format("{}, start along axis {} of {}", point.name, axis + 1, surface.name)});
     }

@@ -30,6 +30,12 @@ struct Surface {
     axes.col(1) = normal.cross(axes.col(0));
     return axes;
   }
+  /// axes() and the normal, as columns.
+  Eigen::Matrix3d frame() const {
+    Eigen::Matrix3d frame;
+    frame << axes(), normal;
+    return frame;
+  }
   /// World point of surface coordinates (two lengths from `point` along axes()) at a height above the surface [m].
   Eigen::Vector3d at(const Eigen::Vector2d& coordinates, double height = 0.0) const {
     return point + axes() * coordinates + height * normal;

@@ -37,16 +37,14 @@ std::string describe_constraint(const NodeProgram& program, int row) {
   if (row < layout.link_row(0)) {
     while (k + 1 < program.num_nodes() && row >= layout.node_row(k + 1)) ++k;
     what = program.functions(k).describe_row(discrete.nodes[k].node, row - layout.node_row(k));
-  } else if (row >= layout.closing_row()) {
-    k = program.num_nodes() - 1;
-    const int i = row - layout.closing_row();
-    what = coordinate_name(discrete.problem.robot, i % nv) + (i < nv ? ", position" : ", velocity") +
-           " at the end of the cycle";
   } else {
-    k = (row - layout.link_row(0)) / (2 * nv);
-    const int i = row - layout.link_row(k);
+    const bool closes = row >= layout.closing_row();
+    k = closes ? program.num_nodes() - 1 : (row - layout.link_row(0)) / (2 * nv);
+    const int i = row - (closes ? layout.closing_row() : layout.link_row(k));
     what = coordinate_name(discrete.problem.robot, i % nv) + (i < nv ? ", position" : ", velocity") +
-           (discrete.is_interval(k) ? " over the interval" : " across the phase transition");
+           (closes                    ? " at the end of the cycle"
+            : discrete.is_interval(k) ? " over the interval"
+                                      : " across the phase transition");
   }
   return fmt::format("{}, {}, t = {:.3f} s", discrete.describe_node(k), what, discrete.nodes[k].time);
 }

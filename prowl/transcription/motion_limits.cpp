@@ -72,7 +72,7 @@ std::vector<MotionLimit> motion_limits(const NodeProgram& program) {
       const auto goal = of_goals.find(variable);
       add_variable(goal == of_goals.end() ? limit_of_joint(robot, kind, joint) : goal->second, variable, k);
     };
-    const bool is_start = k == 0;  // the start is fixed
+    const bool is_start = k == 0;  // fixed, or bounded by its own condition
     for (int i = 0; i < 6 && !is_start; ++i) {
       add_base(layout.q(k) + i);
       add_base(layout.v(k) + i);

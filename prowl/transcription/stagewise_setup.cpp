@@ -32,10 +32,11 @@ void StagewiseTranscription::set_closure() {
   MatrixXd moved = MatrixXd::Identity(states, states);
   moved.topLeftCorner<3, 3>() = discrete_.problem.cycle->rotation();
   const Stage& first = stage(0);
+  const VectorXd unit = units(0).head(states);
   closure_.setZero(states, first.size.variables());
   for (Index j = 0; j < closure_.cols(); ++j) {
     const int variable = first.variables[static_cast<std::size_t>(j)];
-    if (variable < states) closure_.col(j) = -first.unit(j) * moved.col(variable).cwiseQuotient(units(0).head(states));
+    if (variable < states) closure_.col(j) = -first.unit(j) * moved.col(variable).cwiseQuotient(unit);
   }
 }
 

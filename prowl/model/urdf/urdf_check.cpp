@@ -195,8 +195,10 @@ UrdfFacts check_urdf(const std::string& file, const std::string& xml, const std:
     const bool is_locked = std::ranges::find(locked, name) != locked.end();
     check_joint(location, joint, links, is_locked, parents);
     if (urdf_text(location, joint, "type") == "fixed") return;
-    if (copies != nullptr) check_mimic(location, *copies);
-    if (copies != nullptr) result.mimics.push_back(name);
+    if (copies != nullptr) {
+      check_mimic(location, *copies);
+      result.mimics.push_back(name);
+    }
     if (copies != nullptr || is_locked) return;
     if (++moving > kMaxMovingJoints) {
       location.refuse(joint, fmt::format("more than {} moving joints are not allowed; fix those that the motion does "

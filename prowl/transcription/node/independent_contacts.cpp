@@ -15,20 +15,12 @@ using Eigen::MatrixXd;
 
 /// What the start leaves free must leave the contacts where q_ref puts them, and still. A start at rest needs no
 /// condition on its velocity.
-void add_start_axes(const MotionProblem& problem, const MatrixXd& J, std::vector<LandingAxes>& axes) {
+void add_start_axes(const MotionProblem& problem, const MatrixXd& along, std::vector<LandingAxes>& axes) {
   const BoundaryConstraint& start = problem.start();
   const bool moves = !start.fixes_configuration();
   const bool speeds = !start.fixes_velocity() || (moves && !start.velocity_lower.isZero(0.0));
   if (!moves && !speeds) return;
-  const auto& held = problem.phases.front().contacts;
-  MatrixXd along(J.rows(), J.cols());
-  for (Index i = 0; i < std::ssize(held); ++i) {
-    Eigen::Matrix3d directions;
-    const Surface& surface = problem.surfaces[held[static_cast<std::size_t>(i)].surface];
-    directions << surface.axes(), surface.normal;
-    along.middleRows<3>(3 * i) = directions.transpose() * J.middleRows<3>(3 * i);
-  }
-  for (const int row : independent_rows(MatrixXd(0, J.cols()), along)) {
+  for (const int row : independent_rows(MatrixXd(0, along.cols()), along)) {
     if (moves) axes[row / 3].foothold.push_back(row % 3);
     if (speeds) axes[row / 3].velocity.push_back(row % 3);
   }
@@ -57,6 +49,15 @@ std::vector<int> independent_rows(const MatrixXd& given, const MatrixXd& candida
   }
   std::ranges::sort(rows);
   return rows;
+}
+
+MatrixXd along_surfaces(const MotionProblem& problem, const std::vector<PhaseContact>& contacts, const MatrixXd& J) {
+  MatrixXd along(J.rows(), J.cols());
+  for (Index i = 0; i < std::ssize(contacts); ++i) {
+    const Surface& surface = problem.surfaces[contacts[static_cast<std::size_t>(i)].surface];
+    along.middleRows<3>(3 * i) = surface.frame().transpose() * J.middleRows<3>(3 * i);
+  }
+  return along;
 }
 
 PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const Eigen::VectorXd& q) {
@@ -94,15 +95,11 @@ PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const E
   // are variables, too, unless prescribed.
   result.landing.resize(held.size());
   const int num_landing = static_cast<int>(landing.size());
-  MatrixXd velocity(3 * num_landing, nv), foothold = MatrixXd::Zero(3 * num_landing, nv + 2 * num_landing);
+  const MatrixXd along = along_surfaces(problem, held, J), velocity = along(landing_rows, Eigen::all);
+  MatrixXd foothold = MatrixXd::Zero(3 * num_landing, nv + 2 * num_landing);
+  foothold.leftCols(nv) = velocity;
   for (int l = 0; l < num_landing; ++l) {
-    const PhaseContact& contact = held[landing[l]];
-    const Surface& surface = problem.surfaces[contact.surface];
-    Eigen::Matrix3d axes;
-    axes << surface.axes(), surface.normal;
-    velocity.middleRows<3>(3 * l) = axes.transpose() * J_landing.middleRows<3>(3 * l);
-    foothold.middleRows<3>(3 * l).leftCols(nv) = velocity.middleRows<3>(3 * l);
-    if (!contact.foothold) foothold.block<2, 2>(3 * l, nv + 2 * l) = -Eigen::Matrix2d::Identity();
+    if (!held[landing[l]].foothold) foothold.block<2, 2>(3 * l, nv + 2 * l) = -Eigen::Matrix2d::Identity();
   }
   for (const int row : independent_rows(J_staying, velocity)) {
     result.landing[landing[row / 3]].velocity.push_back(row % 3);
@@ -113,7 +110,7 @@ PhaseContacts phase_contacts(const DiscreteProblem& discrete, int phase, const E
     result.landing[landing[row / 3]].foothold.push_back(row % 3);
   }
   // The end of a cycle, whose contacts have landed, says where those of its start are.
-  if (phase == 0 && !problem.cycle) add_start_axes(problem, J, result.landing);
+  if (phase == 0 && !problem.cycle) add_start_axes(problem, along, result.landing);
   return result;
 }
 

@@ -59,8 +59,7 @@ void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, cons
     const bool lands = discrete.schedule.lands(phase, i);
     const PhaseContact& contact = contacts[i];
     const Surface& surface = problem.surfaces[contact.surface];
-    Eigen::Matrix3d axes;
-    axes << surface.axes(), surface.normal;
+    const Eigen::Matrix3d axes = surface.frame();
     const std::string& name = problem.robot.contacts()[contact.contact].name;
     const LandingAxes& along = landing[i];
     for (const int axis : along.foothold) {
