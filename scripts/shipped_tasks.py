@@ -8,7 +8,15 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+PROWL = ROOT / "build/bin/prowl"
+DATA = "package://example-robot-data/robots"
 STATE = ("time_s", "base_p", "base_q", "base_v", "base_w", "q_", "v_")  # columns of trajectory.csv
+
+
+def prowl(*arguments, folder: Path | None = None) -> dict:
+    """What a command prints with --json; with "error" if it failed. Relative paths start at `folder`."""
+    command = [PROWL, *map(str, arguments), "--json"]
+    return json.loads(subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder).stdout)
 
 
 def plan(task: str, solver: str, *options: str) -> tuple[dict, list[list[float]]]:
@@ -17,7 +25,7 @@ def plan(task: str, solver: str, *options: str) -> tuple[dict, list[list[float]]
         out = Path(folder) / "out"
         run = subprocess.run(
             [
-                ROOT / "build/bin/prowl",
+                PROWL,
                 "plan",
                 ROOT / "tasks" / f"{task}.toml",
                 "--solver",

@@ -16,13 +16,19 @@ struct SolvedTask {
   Trajectory trajectory;
 };
 
+/// The plan of a task on meshes of Prowl's, until it is a draft.
+inline Plan planned(const Task& task, const NlpSolver& solver = RiccatiSolver()) {
+  return make_refined_plan({task.problem, task.mesh}, solver, {.solver = task.solver},
+                           {.tolerance = mesh_tolerance(CertificateGrade::draft), .mesh_is_open = true})
+      .plan;
+}
+
 /// A shipped task ("hyq/stand"), planned.
 inline SolvedTask solve_task(const std::string& name) {
   Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/" + name + ".toml", test_search());
-  RefinedPlan refined = make_refined_plan({task.problem, task.mesh}, RiccatiSolver(), {.solver = task.solver},
-                                          {.tolerance = mesh_tolerance(CertificateGrade::draft), .mesh_is_open = true});
-  if (!is_good(refined.plan)) throw std::runtime_error(name + " has no good plan");
-  return {std::move(task), std::move(refined.plan.trajectory)};
+  Plan plan = planned(task);
+  if (!is_good(plan)) throw std::runtime_error(name + " has no good plan");
+  return {std::move(task), std::move(plan.trajectory)};
 }
 
 }  // namespace prowl::test

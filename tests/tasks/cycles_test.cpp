@@ -5,16 +5,15 @@
 #include <cmath>
 
 #include "prowl/model/configuration.hpp"
-#include "prowl/simulation/simulation.hpp"
 #include "prowl/solvers/make_solver.hpp"
 #include "prowl/task_file/robot_file.hpp"
-#include "prowl/tracking/feedback_design.hpp"
-#include "prowl/tracking/make_tracking_plan.hpp"
+#include "tests/support/simulated_task.hpp"
 #include "tests/support/solved_task.hpp"
 
 namespace prowl {
 namespace {
 
+using test::planned;
 using testing::HasSubstr;
 
 constexpr double kNoJump = 1e-6;  ///< [m, rad, m/s, rad/s]
@@ -36,12 +35,6 @@ Task gait(const std::string& robot, const std::string& lines) {
                                "base_angular_acceleration = 1.0\njoint_acceleration = 0.01\ntorque = {}\n",
                                robot_file(robot), lines, 0.75 / (mass * mass))),
       test::test_search());
-}
-
-Plan planned(const Task& task, const std::string& solver = "riccati") {
-  return make_refined_plan({task.problem, task.mesh}, *make_solver(solver), {.solver = task.solver},
-                           {.tolerance = mesh_tolerance(CertificateGrade::draft), .mesh_is_open = true})
-      .plan;
 }
 
 /// Largest difference of a state and the one at the same moment of the stride before, moved.
@@ -84,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(All, Trot, testing::Values("hyq", "anymal_c", "go2", "s
 
 TEST(Cycles, AreTheSameForIpopt) {
   const Task task = gait("hyq", "kind = \"walk\"\nstrides = 2\nspeed_mps = 0.2");
-  const Plan own = planned(task), other = planned(task, "ipopt");
+  const Plan own = planned(task), other = planned(task, *make_solver("ipopt"));
   ASSERT_TRUE(is_good(own)) << own.result.message;
   ASSERT_TRUE(is_good(other)) << other.result.message;
   EXPECT_NEAR(own.result.cost, other.result.cost, 2e-3 * other.result.cost);  // meshes differ
@@ -96,9 +89,7 @@ TEST(Cycles, AreTrackedInTheSimulator) {
   const Task task = gait("hyq", "kind = \"walk\"\nstrides = 3\nspeed_mps = 0.2");
   const Plan plan = planned(task);
   ASSERT_TRUE(is_good(plan)) << plan.result.message;
-  const Tracker tracker(
-      make_tracking_plan(task.problem, design_feedback(task.problem, plan.trajectory, task.tracking)));
-  const SimulationResult result = simulate(task.problem, tracker, task.success, {});
+  const SimulationResult result = test::simulated(task, plan.trajectory);
   EXPECT_TRUE(result.success()) << result.failures.front();
   EXPECT_NEAR(result.end_time, plan.trajectory.duration(), 0.01);
 }
@@ -129,7 +120,7 @@ TEST(Cycles, RefuseWhatHasNoPlaceInThem) {
   EXPECT_THAT(message("kind = \"trot\"\nstrides = 2\nspeed_mps = 0.2\nsettle_s = 1"), HasSubstr("no effect beside"));
   EXPECT_THAT(message("kind = \"trot\"\nstrides = 2\nstride_length_m = 3"), HasSubstr("need shorter ones"));
   const Task task = gait("hyq", "kind = \"trot\"\nstrides = 2\nspeed_mps = 0.2");
-  EXPECT_THROW(planned(task, "fatrop"), InputError);
+  EXPECT_THROW(planned(task, *make_solver("fatrop")), InputError);
 }
 
 }  // namespace

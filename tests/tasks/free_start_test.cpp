@@ -3,16 +3,15 @@
 
 #include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/model/configuration.hpp"
-#include "prowl/simulation/simulation.hpp"
 #include "prowl/solvers/make_solver.hpp"
-#include "prowl/tracking/feedback_design.hpp"
-#include "prowl/tracking/make_tracking_plan.hpp"
+#include "tests/support/simulated_task.hpp"
 #include "tests/support/solved_task.hpp"
 
 namespace prowl {
 namespace {
 
 using Eigen::VectorXd;
+using test::planned;
 
 constexpr double kMet = 1e-6;  ///< [m, rad, m/s, rad/s], by far below a tolerance of the certificate
 
@@ -23,12 +22,6 @@ Task with_start(const std::string& name, const std::string& lines) {
   text.insert(text.find("[[phase]]"), "[start]\n" + lines + "\n");
   const test::TempFolder folder;
   return read_task_file(folder.write("task.toml", text), test::test_search());
-}
-
-Plan planned(const Task& task, const std::string& solver = "riccati") {
-  return make_refined_plan({task.problem, task.mesh}, *make_solver(solver), {.solver = task.solver},
-                           {.tolerance = mesh_tolerance(CertificateGrade::draft), .mesh_is_open = true})
-      .plan;
 }
 
 struct OpenStart {
@@ -64,7 +57,8 @@ TEST_P(FreeStart, IsWithinItsBoundsWithContactsInPlaceAndStill) {
 }
 
 TEST_P(FreeStart, IsTheSameForAllSolvers) {
-  const Plan own = planned(task_), ipopt = planned(task_, "ipopt"), fatrop = planned(task_, "fatrop");
+  const Plan own = planned(task_), ipopt = planned(task_, *make_solver("ipopt")),
+             fatrop = planned(task_, *make_solver("fatrop"));
   for (const Plan* other : {&ipopt, &fatrop}) {
     ASSERT_TRUE(is_good(*other)) << other->solver << ": " << other->result.message;
     EXPECT_NEAR(other->result.cost, own.result.cost, 2e-3 * own.result.cost) << other->solver;  // meshes differ
@@ -95,11 +89,9 @@ TEST(MovingStart, IsSimulated) {
   const Task task = with_start("hyq/crouch", "base_linear_velocity_mps = [0.3, 0, 0]\n");
   const Plan plan = planned(task);
   ASSERT_TRUE(is_good(plan)) << plan.result.message;
-  const Tracker tracker(
-      make_tracking_plan(task.problem, design_feedback(task.problem, plan.trajectory, task.tracking)));
   SimulationOptions options;
   options.record_rate = 1000.0;
-  const SimulationResult result = simulate(task.problem, tracker, task.success, options);
+  const SimulationResult result = test::simulated(task, plan.trajectory, options);
   EXPECT_TRUE(result.success()) << result.failures.front();
   EXPECT_LT((result.samples.front().v - plan.trajectory.nodes.front().v).cwiseAbs().maxCoeff(), kMet);
   EXPECT_LT(result.estimated_velocity.largest, 0.05);
