@@ -6,10 +6,6 @@ namespace prowl {
 
 namespace {
 
-int phases_of_cycle(const MotionProblem& problem) {
-  return static_cast<int>(problem.phases.size()) / problem.cycle->count;
-}
-
 /// The same motion one cycle later.
 TrajectoryPoint next_cycle(const Cycle& cycle, TrajectoryPoint point, double duration, int phases) {
   point.time += duration;
@@ -26,7 +22,7 @@ Trajectory repeated(const MotionProblem& problem, const Trajectory& one) {
   for (int i = 1; i < problem.cycle->count; ++i) {
     for (std::size_t k = 0; k < nodes; ++k) {
       const TrajectoryPoint& before = all.nodes[all.nodes.size() - nodes];
-      all.nodes.push_back(next_cycle(*problem.cycle, before, one.duration(), phases_of_cycle(problem)));
+      all.nodes.push_back(next_cycle(*problem.cycle, before, one.duration(), problem.phases_of_cycle()));
     }
     for (std::size_t k = 0; k < torques; ++k) all.middle_torques.push_back(one.middle_torques[k]);
   }
@@ -40,7 +36,7 @@ bool has_repetitions(const MotionProblem& problem) { return problem.cycle && pro
 DiscreteProblem first_cycle(const DiscreteProblem& asked) {
   MotionProblem problem = asked.problem;
   Mesh mesh = asked.mesh;
-  const auto count = static_cast<std::ptrdiff_t>(phases_of_cycle(problem));
+  const int count = problem.phases_of_cycle();
   problem.phases.erase(problem.phases.begin() + count, problem.phases.end());
   mesh.phases.erase(mesh.phases.begin() + count, mesh.phases.end());
   problem.cycle->count = 1;
@@ -49,7 +45,7 @@ DiscreteProblem first_cycle(const DiscreteProblem& asked) {
 
 PlanOptions options_of_cycle(const DiscreteProblem& asked, PlanOptions options) {
   Trajectory& warm_start = options.warm_start;
-  const int phases = phases_of_cycle(asked.problem);
+  const int phases = asked.problem.phases_of_cycle();
   std::erase_if(warm_start.nodes, [&](const TrajectoryPoint& point) { return point.phase >= phases; });
   if (!warm_start.middle_torques.empty())
     warm_start.middle_torques.resize(std::min(warm_start.middle_torques.size(), warm_start.nodes.size() - phases));
@@ -63,7 +59,7 @@ void repeat(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOpt
   for (int i = 1; i < asked.problem.cycle->count; ++i)
     plan.mesh.phases.insert(plan.mesh.phases.end(), one.phases.begin(), one.phases.end());
   plan.result.stage_multipliers.clear();
-  if (plan.reasons.empty()) judge(asked, solver, options, plan);
+  judge(asked, solver, options, plan);
 }
 
 }  // namespace prowl

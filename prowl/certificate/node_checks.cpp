@@ -34,6 +34,11 @@ std::string structure_fault(const MotionProblem& problem, const Trajectory& traj
   return in_order ? "" : name + ": time";
 }
 
+/// True for a tangent coordinate in metres, false for one in radians.
+bool is_length(const RobotModel& robot, Eigen::Index i) {
+  return i < 3 || (i >= 6 && robot.joint_is_prismatic()[i - 6]);
+}
+
 /// Distance of x outside [lower, upper]; negative inside, -inf if it is free.
 double violation(double x, double lower, double upper) { return std::max(lower - x, x - upper); }
 
@@ -56,16 +61,16 @@ struct BoundaryChecks {
              bool is_start) {
     const Eigen::VectorXd offset = difference(constraint.q_ref, node.q);
     for (Eigen::Index i = 0; i < robot.nv(); ++i) {
-      const bool is_length = i < 3 || (i >= 6 && robot.joint_is_prismatic()[i - 6]);
+      const bool in_metres = is_length(robot, i);
       const std::string where = constraint.name + ", " + coordinate_name(robot, i);
       record(is_start    ? start
-             : is_length ? position
+             : in_metres ? position
                          : angle,
              violation(offset(i), constraint.configuration_lower(i), constraint.configuration_upper(i)), node.time,
-             where, is_length ? "m" : "rad");
+             where, in_metres ? "m" : "rad");
       record(is_start ? start : velocity,
              violation(node.v(i), constraint.velocity_lower(i), constraint.velocity_upper(i)), node.time, where,
-             is_length ? "m/s" : "rad/s");
+             in_metres ? "m/s" : "rad/s");
     }
   }
 
@@ -101,16 +106,16 @@ void check_cycles(const DiscreteProblem& discrete, const Trajectory& trajectory,
   const MotionProblem& problem = discrete.problem;
   if (!problem.cycle) return;
   WorstCase jump("state after a cycle", "m", Limits::start_state);
-  const int phases = static_cast<int>(problem.phases.size()) / problem.cycle->count;
+  const int phases = problem.phases_of_cycle();
   for (int i = 0; i < problem.cycle->count; ++i) {
     const TrajectoryPoint& start = trajectory.nodes[discrete.mesh.first_node(i * phases)];
     const TrajectoryPoint& end = trajectory.nodes[discrete.mesh.last_node((i + 1) * phases - 1)];
     const Eigen::VectorXd moved = difference(problem.cycle->moved_configuration(start.q), end.q);
     for (Eigen::Index k = 0; k < moved.size(); ++k) {
-      const bool is_length = k < 3 || (k >= 6 && problem.robot.joint_is_prismatic()[k - 6]);
+      const bool in_metres = is_length(problem.robot, k);
       const std::string where = coordinate_name(problem.robot, k);
-      jump.record(std::abs(moved(k)), end.time, where, is_length ? "m" : "rad");
-      jump.record(std::abs(end.v(k) - start.v(k)), end.time, where, is_length ? "m/s" : "rad/s");
+      jump.record(std::abs(moved(k)), end.time, where, in_metres ? "m" : "rad");
+      jump.record(std::abs(end.v(k) - start.v(k)), end.time, where, in_metres ? "m/s" : "rad/s");
     }
   }
   jump.append_to(checks);

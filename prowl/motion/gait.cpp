@@ -53,6 +53,9 @@ class PhaseList {
   std::vector<Phase> phases_;
 };
 
+/// Half of the time in which all feet stand after a swing [strides].
+double half_stand(const Gait& gait) { return 0.5 * (gait.duty_factor - gait.pattern.least_duty_factor()); }
+
 }  // namespace
 
 std::optional<Feet> find_feet(const RobotModel& robot) {
@@ -105,7 +108,7 @@ double GaitPattern::default_duty_factor(double height, double speed) const {
   return speed > kFast * std::sqrt(RobotModel::kGravity * height) ? fast_duty_factor : slow_duty_factor;
 }
 
-std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet) {
+std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet, int first_stride) {
   constexpr double kShortestPhase = 1e-6;  // [s]
   const auto& swings = gait.pattern.swings;
   struct Event {
@@ -137,7 +140,7 @@ std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet&
     std::vector<Foot> swinging;
     for (const std::size_t group : in_the_air)
       swinging.insert(swinging.end(), swings[group].begin(), swings[group].end());
-    phases.add(fmt::format("stride {}: {}", begins->stride + 1,
+    phases.add(fmt::format("stride {}: {}", first_stride + begins->stride,
                            phases.sentence(swings[begins->group], begins->lifts ? "swing" : "land")),
                swinging, phases.share(part));
     begins = nullptr;
@@ -146,13 +149,15 @@ std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet&
   return phases.take();
 }
 
-std::vector<Phase> expand_cycle(const Gait& gait, const RobotModel& robot, const Feet& feet) {
+std::vector<Phase> expand_cycle(const Gait& gait, const RobotModel& robot, const Feet& feet, int stride) {
   Gait one = gait;
   one.strides = 1;
-  std::vector<Phase> phases = expand(one, robot, feet);
-  const double stand = 0.5 * (gait.duty_factor - gait.pattern.least_duty_factor());
-  for (Phase* end : {&phases.front(), &phases.back()})
+  std::vector<Phase> phases = expand(one, robot, feet, stride);
+  const double stand = half_stand(gait);
+  for (Phase* end : {&phases.front(), &phases.back()}) {
+    end->name = fmt::format("stride {}: {}", stride, end->name);
     end->duration = {stand * gait.stride.min, stand * gait.stride.max};
+  }
   return phases;
 }
 
@@ -160,8 +165,7 @@ double middle_of_stance(const Gait& gait, Foot foot) {
   const auto& swings = gait.pattern.swings;
   const auto of_foot = [&](const std::vector<Foot>& group) { return std::ranges::find(group, foot) != group.end(); };
   const auto group = static_cast<double>(std::ranges::find_if(swings, of_foot) - swings.begin());
-  const double stand = 0.5 * (gait.duty_factor - gait.pattern.least_duty_factor());
-  return stand + group / static_cast<double>(swings.size()) - 0.5 * gait.duty_factor;
+  return half_stand(gait) + group / static_cast<double>(swings.size()) - 0.5 * gait.duty_factor;
 }
 
 Vector3d along_arc(const Surface& surface, double heading, double length, double turn) {

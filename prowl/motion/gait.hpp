@@ -57,12 +57,12 @@ struct Gait {
 };
 
 /// The phases of a gait: "start", one from each lift-off and landing to the next, "settle" from the last landing.
-/// Footholds of landings are free. A phase shorter than a microsecond is left out.
-std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet);
+/// Footholds of landings are free. A phase shorter than a microsecond is left out. `first_stride`: its number in names.
+std::vector<Phase> expand(const Gait& gait, const RobotModel& robot, const Feet& feet, int first_stride = 1);
 
-/// One stride of a gait that repeats itself, from the middle of the time in which all feet stand to that of the next
-/// stride. Footholds of landings are open.
-std::vector<Phase> expand_cycle(const Gait& gait, const RobotModel& robot, const Feet& feet);
+/// The stride of this number, 1 ... strides, of a gait that repeats itself, from the middle of the time in which all
+/// feet stand to that of the next stride. Footholds of landings are open.
+std::vector<Phase> expand_cycle(const Gait& gait, const RobotModel& robot, const Feet& feet, int stride);
 
 /// Middle of the stance in which a foot begins such a stride, from its begin [strides]; before it if negative.
 double middle_of_stance(const Gait& gait, Foot foot);

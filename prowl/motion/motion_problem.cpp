@@ -279,9 +279,8 @@ void check_cycle(const MotionProblem& problem) {
   check_finite("cycle.displacement", cycle.displacement, 3);
   if (!std::isfinite(cycle.turn)) refuse("cycle.turn: {} is not allowed; need an angle [rad]", cycle.turn);
   const auto contacts_of = [](const Phase& phase) {
-    std::set<int> contacts;
-    for (const PhaseContact& held : phase.contacts) contacts.insert(held.contact);
-    return contacts;
+    const std::vector<int> held = contact_indices(phase.contacts);
+    return std::set<int>(held.begin(), held.end());
   };
   if (contacts_of(problem.phases.front()) != contacts_of(problem.phases.back())) {
     refuse(

@@ -76,6 +76,7 @@ struct MotionProblem {
   GoalTolerance goal_tolerance;
   std::optional<Cycle> cycle = {};  ///< with it, the start is free, and footholds move from cycle to cycle
 
+  int phases_of_cycle() const { return static_cast<int>(phases.size()) / cycle->count; }  ///< only with a cycle
   const BoundaryConstraint& start() const { return boundary_constraints.front(); }
   const Eigen::VectorXd& start_configuration() const { return start().q_ref; }
 };

@@ -84,6 +84,18 @@ double read_turn(const TomlTable& table, const Gait& gait) {
   return turn;
 }
 
+/// Distance along the surface in a stride [m].
+double read_stride_length(const TomlTable& table, const Gait& gait) {
+  const auto speed = table.find("speed_mps");
+  return speed ? speed->as_number() * 0.5 * (gait.stride.min + gait.stride.max)
+               : table.need("stride_length_m").as_number();
+}
+
+double read_heading(const TomlTable& table, const TaskStart& start) {
+  const auto heading = table.find("heading_rad");
+  return heading ? heading->as_number() : start.rpy.z();
+}
+
 std::optional<Travel> read_travel(const TomlTable& root, const TomlTable& table, const Gait& gait,
                                   const Surface& surface, const TaskStart& start) {
   if (root.find("goal")) {
@@ -94,25 +106,13 @@ std::optional<Travel> read_travel(const TomlTable& root, const TomlTable& table,
     }
     return std::nullopt;
   }
-  const auto speed = table.find("speed_mps");
-  const double length = speed ? speed->as_number() * 0.5 * (gait.stride.min + gait.stride.max)
-                              : table.need("stride_length_m").as_number();
-  const auto heading = table.find("heading_rad");
-  const double turn = read_turn(table, gait);
-  return Travel{along_arc(surface, heading ? heading->as_number() : start.rpy.z(), gait.strides * length, turn),
-                turn * surface.normal};
-}
-
-/// What moves along an arc by `strides`, also a part of one or backwards.
-Cycle part_of_way(const Surface& surface, double heading, double length, double turn, double strides) {
-  return {1, along_arc(surface, heading, strides * length, strides * turn), strides * turn};
+  const double length = gait.strides * read_stride_length(table, gait), turn = read_turn(table, gait);
+  return Travel{along_arc(surface, read_heading(table, start), length, turn), turn * surface.normal};
 }
 
 /// Strides that repeat: each foot stands around the place under its hip in the middle of its stance.
 TaskGait read_cycle(const TomlTable& root, const TomlTable& table, const Gait& gait, const RobotModel& robot,
-                    const std::vector<Surface>& surfaces, const TaskStart& start) {
-  const Feet feet = need_feet(table, robot);
-  const Surface& surface = surfaces[static_cast<std::size_t>(gait.surface)];
+                    const Feet& feet, const Surface& surface, const TaskStart& start) {
   if (gait.duty_factor <= gait.pattern.least_duty_factor()) {
     table.need("periodic")
         .fail(fmt::format("a duty factor of {:g} leaves no time in which all feet stand; need one above {:g}",
@@ -122,26 +122,25 @@ TaskGait read_cycle(const TomlTable& root, const TomlTable& table, const Gait& g
   for (const char* key : {"start_s", "settle_s"}) {
     if (const auto value = table.find(key)) value->fail("has no effect beside gait.periodic; need one of the two");
   }
-  const auto speed = table.find("speed_mps"), heading_key = table.find("heading_rad");
-  const double heading = heading_key ? heading_key->as_number() : start.rpy.z();
-  const double length = speed ? speed->as_number() * 0.5 * (gait.stride.min + gait.stride.max)
-                              : table.need("stride_length_m").as_number();
+  const double heading = read_heading(table, start), length = read_stride_length(table, gait);
   const auto turn_key = table.find("turn_rad");
   const double turn = turn_key ? turn_key->as_number() : 0.0;
   if (turn != 0.0 && surface.normal != Eigen::Vector3d::UnitZ())
     turn_key->fail("strides that repeat turn on level ground only; need 0");
 
-  // Ways of the base from the start, whose motion is one about its own place.
+  // What takes the base from its start along the arc by `strides`, also a part of one or backwards.
   const Eigen::Vector3d origin = base_position(start.q);
-  const auto moved = [&](const Eigen::Vector3d& place, double strides) -> Eigen::Vector3d {
-    return origin + part_of_way(surface, heading, length, turn, strides).moved(place - origin);
+  const auto way = [&](double strides) {
+    Cycle part{1, along_arc(surface, heading, strides * length, strides * turn), strides * turn};
+    part.displacement += origin - part.rotation() * origin;
+    return part;
   };
   RigidBodyTerms terms(robot);
   terms.update_kinematics(start.q);
   std::vector<ContactTarget> targets;
   for (const Foot foot : {Foot::lf, Foot::rf, Foot::lh, Foot::rh}) {
     const int contact = feet[static_cast<std::size_t>(foot)];
-    targets.push_back({contact, moved(terms.contact_position(contact), middle_of_stance(gait, foot))});
+    targets.push_back({contact, way(middle_of_stance(gait, foot)).moved(terms.contact_position(contact))});
   }
   const InverseKinematics standing = inverse_kinematics(robot, start.q, targets);
   if (!standing.converged) {
@@ -149,28 +148,22 @@ TaskGait read_cycle(const TomlTable& root, const TomlTable& table, const Gait& g
   }
 
   TaskGait result{.phases = {}, .intervals = {}, .travel = {}, .cycle = {}, .cycle_start = standing.q};
-  const std::vector<Phase> stride = expand_cycle(gait, robot, feet);
-  for (int i = 0; i < gait.strides; ++i) {
-    std::vector<int> held;
-    for (const PhaseContact& contact : stride.back().contacts) held.push_back(contact.contact);
-    for (Phase phase : stride) {
-      phase.name =
-          phase.name.replace(0, phase.name.find(": ") == std::string::npos ? 0 : phase.name.find(": ") + 2, "");
-      phase.name = fmt::format("stride {}: {}", i + 1, phase.name);
-      std::vector<int> now;
+  for (int stride = 1; stride <= gait.strides; ++stride) {
+    std::vector<Phase> phases = expand_cycle(gait, robot, feet, stride);
+    std::vector<int> held = contact_indices(phases.back().contacts);
+    for (Phase& phase : phases) {
       for (PhaseContact& contact : phase.contacts) {
-        now.push_back(contact.contact);
         if (std::ranges::find(held, contact.contact) != held.end()) continue;
         const auto target = std::ranges::find(targets, contact.contact, &ContactTarget::contact);
         const double radius = robot.contacts()[static_cast<std::size_t>(contact.contact)].radius;
-        contact.foothold = moved(target->position, i + 1.0) - radius * surface.normal;
+        contact.foothold = way(stride).moved(target->position) - radius * surface.normal;
       }
-      held = now;
+      held = contact_indices(phase.contacts);
       result.phases.push_back(std::move(phase));
     }
   }
-  const Eigen::Matrix3d turned = part_of_way(surface, heading, length, turn, 1.0).rotation();
-  result.cycle = Cycle{gait.strides, moved(origin, 1.0) - turned * origin, turn};
+  result.cycle = way(1.0);
+  result.cycle->count = gait.strides;
   return result;
 }
 
@@ -184,12 +177,12 @@ std::optional<TaskGait> read_gait(const TomlTable& root, const RobotModel& robot
   const Feet feet = need_feet(*table, robot);
   const Gait gait = read_values(*table, robot, surfaces);
   const std::optional<double> rate = read_intervals_per_second(*table, gait);
+  const Surface& surface = surfaces[static_cast<std::size_t>(gait.surface)];
   const auto periodic = table->find("periodic");
   TaskGait result =
       periodic && periodic->as_boolean()
-          ? read_cycle(root, *table, gait, robot, surfaces, start)
-          : TaskGait{
-                expand(gait, robot, feet), {}, read_travel(root, *table, gait, surfaces[gait.surface], start), {}, {}};
+          ? read_cycle(root, *table, gait, robot, feet, surface, start)
+          : TaskGait{expand(gait, robot, feet), {}, read_travel(root, *table, gait, surface, start), {}, {}};
   if (rate) {
     for (const PhaseMesh& phase : mesh_with_rate(result.phases, *rate).phases)
       result.intervals.push_back(phase.intervals());

@@ -42,12 +42,6 @@ void check_start(const RobotModel& robot, const Eigen::VectorXd& q, const std::o
   }
 }
 
-std::size_t find_name(const TomlValue& value, const std::string& what, const std::vector<std::string>& names) {
-  const auto found = std::find(names.begin(), names.end(), value.as_text());
-  if (found == names.end()) value.fail_unknown_name(what, names);
-  return static_cast<std::size_t>(found - names.begin());
-}
-
 /// Moves a posture from level ground, z = 0, to a surface: by the shortest rotation, the origin to
 /// its point.
 void put_on(const Surface& surface, TaskStart& start) {
@@ -232,7 +226,7 @@ TaskStart read_start(const TomlTable& root, const RobotModel& robot, const Sourc
       if (position) on->fail("need either on or base_position_m, not both");
       std::vector<std::string> names;
       for (const Surface& surface : surfaces) names.push_back(surface.name);
-      put_on(surfaces[find_name(*on, "surface", names)], start);
+      put_on(surfaces[on->as_one_of("surface", names)], start);
     }
     read_velocity(*table, robot, start);
   }
