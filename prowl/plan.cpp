@@ -11,6 +11,7 @@
 #include "prowl/mesh/mesh_levels.hpp"
 #include "prowl/mesh/resample.hpp"
 #include "prowl/nlp/constraint_violation.hpp"
+#include "prowl/nlp/stopwatch.hpp"
 #include "prowl/repeat.hpp"
 #include "prowl/transcription/transcription.hpp"
 
@@ -148,7 +149,9 @@ Plan solve_plan(const DiscreteProblem& asked, const NlpSolver& solver, const Pla
   do {
     problem = level < coarser.size() ? &coarser[level] : &asked;
     const bool from_task = plan.trajectory.empty() || (level > 0 && !is_worth_going_on_from(plan.result.status));
+    const double begin = wall_seconds();
     const Trajectory guess = from_task ? initial_guess(*problem) : resample(plan.trajectory, *problem);
+    if (from_task) plan.result.times.guess += wall_seconds() - begin;
     const bool is_corrected = options.corrected && !from_task;
     Transcription nlp(*problem, guess, is_corrected ? deferred_corrections(*problem, guess) : Corrections{});
     nlp.use_hessian(options.hessian);

@@ -37,6 +37,7 @@ SolveTimes& SolveTimes::operator+=(const SolveTimes& other) {
   values += other.values;
   derivatives += other.derivatives;
   linear_algebra += other.linear_algebra;
+  guess += other.guess;
   return *this;
 }
 

@@ -55,6 +55,7 @@ struct SolveTimes {
   double values = 0.0;          ///< wall time in the problem's cost and constraints
   double derivatives = 0.0;     ///< wall time in their derivatives, first and second
   double linear_algebra = 0.0;  ///< wall time in Newton's equations; 0 if unknown
+  double guess = 0.0;           ///< wall time of the initial guess, before the solve
 
   double evaluation() const { return values + derivatives; }
   SolveTimes& operator+=(const SolveTimes& other);

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
-constexpr int kSchemaVersion = 5;
+constexpr int kSchemaVersion = 6;
 constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
@@ -97,7 +97,8 @@ Json solver_to_json(const PlanRecord& record) {
           {"evaluation",
            {{"values", result.times.values},
             {"derivatives", result.times.derivatives},
-            {"linear_algebra", result.times.linear_algebra}}},
+            {"linear_algebra", result.times.linear_algebra},
+            {"guess", result.times.guess}}},
           {"levels", levels},
           {"convergence", convergence_to_json(record.iterations)},
           {"warm_start", record.warm_start},
@@ -326,6 +327,7 @@ SolveResult read_result(const Reader& plan, int version) {
   result.times.values = evaluation.number("values");
   result.times.derivatives = evaluation.number("derivatives");
   result.times.linear_algebra = evaluation.number("linear_algebra");
+  if (version >= 6) result.times.guess = evaluation.number("guess");
   return result;
 }
 
