@@ -14,6 +14,7 @@
 #include "cli/verbs/new_file.hpp"
 #include "prowl/error.hpp"
 #include "prowl/files/json_text.hpp"
+#include "prowl/mjcf/mjcf_robot.hpp"
 #include "prowl/model/robot_inspection.hpp"
 #include "prowl/starter/new_task.hpp"
 #include "prowl/starter/packaged_robots.hpp"
@@ -28,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct NewRobotArguments {
-  std::string urdf;
+  std::string source;
   std::vector<std::string> package_dirs;
   NewFileOptions file;
   bool json = false;
@@ -49,7 +50,7 @@ std::string file_stem(const std::string& name) {
 }
 
 /// Throws InputError with the nearest packaged robot if the file does not exist.
-fs::path urdf_path(const std::string& text, const PackageSearch& search) {
+fs::path source_path(const std::string& text, const PackageSearch& search) {
   std::error_code unknown;  // reported by the reader
   if (text.find("://") == std::string::npos) {
     if (!fs::exists(text, unknown) && !unknown)
@@ -66,20 +67,58 @@ fs::path urdf_path(const std::string& text, const PackageSearch& search) {
   }
 }
 
+fs::path robot_file_path(const NewRobotArguments& arguments, const std::string& name) {
+  return arguments.file.out.empty() ? fs::path("robots") / (file_stem(name) + ".toml") : fs::path(arguments.file.out);
+}
+
+/// Of a URDF, or of an MJCF file with a URDF for it, to write beside the robot file.
+struct RobotSource {
+  RobotDescription description;
+  std::vector<std::string> notes;
+  bool is_converted = false;
+};
+
+RobotSource read_source(const NewRobotArguments& arguments, const PackageSearch& search) {
+  constexpr std::size_t kLargest = 4u << 20;  // [bytes], as in RobotModel
+  const fs::path path = fs::absolute(source_path(arguments.source, search)).lexically_normal();
+  std::string text = read_text_file(path, kLargest).text;
+  RobotSource source;
+  if (!is_mjcf(text)) {
+    source.description.urdf = path;
+    source.description.urdf_text = std::move(text);
+    return source;
+  }
+  const fs::path folder = fs::absolute(robot_file_path(arguments, "robot")).lexically_normal().parent_path();
+  MjcfRobot mjcf = read_mjcf(path, folder);
+  source.is_converted = true;
+  source.description.urdf = folder / path.stem().concat(".urdf");  // where meshes are found from
+  source.description.urdf_text = std::move(mjcf.urdf);
+  source.description.armature = std::move(mjcf.armature);
+  source.notes = std::move(mjcf.notes);
+  return source;
+}
+
 int run_new_robot(const NewRobotArguments& arguments) {
   const PackageSearch search = package_search(arguments.package_dirs);
   if (!arguments.file.out.empty()) check_new_file(arguments.file.out, arguments.file.force);
-  const NewRobot robot = new_robot(urdf_path(arguments.urdf, search), search);
-  const fs::path out = arguments.file.out.empty() ? fs::path("robots") / (file_stem(robot.description.name) + ".toml")
-                                                  : fs::path(arguments.file.out);
+  const RobotSource source = read_source(arguments, search);
+  NewRobot robot = new_robot(source.description, search);
+  const fs::path out = robot_file_path(arguments, robot.description.name);
   check_new_file(out, arguments.file.force);
+  if (source.is_converted) robot.description.urdf = fs::absolute(out).lexically_normal().replace_extension(".urdf");
   const std::string text = robot_template(robot, urdf_reference(robot.description, out, search), out);
+  if (source.is_converted) {
+    check_new_file(robot.description.urdf, arguments.file.force);
+    write_new_file(robot.description.urdf, robot.description.urdf_text);
+  }
   // Read it like `prowl robot`: never write an unreadable file.
   const RobotModel model = load_robot({fs::absolute(out), text}, search);
   const RobotInspection inspection = inspect(model);
   write_new_file(out, text);
   if (arguments.json) {
-    print_json({.verb = "new", .written = {out}, .result = robot_report_json(model, inspection)});
+    std::vector<fs::path> written = {out};
+    if (source.is_converted) written.push_back(robot.description.urdf);
+    print_json({.verb = "new", .written = written, .result = robot_report_json(model, inspection)});
     return kPassed;
   }
   std::string report =
@@ -88,6 +127,7 @@ int run_new_robot(const NewRobotArguments& arguments) {
                   robot.posture.found ? fmt::format("standing with the base at {:.3f} m", robot.posture.height)
                                       : "NO standing posture found",
                   out.string());
+  for (const std::string& note : source.notes) report += fmt::format("note: {}\n", note);
   for (const RobotWarning& warning : inspection.warnings) report += fmt::format("warning: {}\n", warning.text);
   print_result(report +
                fmt::format("next: check the guesses in the file, then run prowl robot {0} and prowl new task {0}\n",
@@ -97,11 +137,14 @@ int run_new_robot(const NewRobotArguments& arguments) {
 
 void add_new_robot(CLI::App& verb, int& status) {
   const auto arguments = std::make_shared<NewRobotArguments>();
-  CLI::App* const robot =
-      verb.add_subcommand("robot", "Write a robot file for a URDF, with guesses of feet, posture and limits");
-  robot->add_option("urdf", arguments->urdf, "URDF of a legged robot: a path, or package://NAME/PATH")
+  CLI::App* const robot = verb.add_subcommand(
+      "robot", "Write a robot file for a URDF or MJCF file, with guesses of feet, posture and limits");
+  robot
+      ->add_option("source", arguments->source,
+                   "URDF or MJCF file of a legged robot: a path, or package://NAME/PATH. For MJCF, a URDF is written "
+                   "beside the robot file")
       ->required()
-      ->type_name("URDF");
+      ->type_name("URDF|MJCF");
   add_new_file(*robot, arguments->file, "robots/NAME.toml");
   add_json(*robot, arguments->json);
   add_package_dirs(*robot, arguments->package_dirs);

@@ -39,8 +39,10 @@ struct RobotDescription {
   std::string urdf_text = {};  ///< its content; read from `urdf` if empty
   std::vector<ContactPoint> contacts;
   std::map<std::string, double> nominal_joints;  ///< by joint name [rad] or [m]; joints not named are at 0
-  std::vector<std::string> locked_joints =
-      {};  ///< held at their nominal position; RobotModel adds those that copy others
+  /// Held at their nominal position; RobotModel adds those that copy others.
+  std::vector<std::string> locked_joints = {};
+  /// By joint name: inertia of the motor as the joint feels it through the gear [kg m^2] or [kg]; others have 0.
+  std::map<std::string, double> armature = {};
   Eigen::Vector3d nominal_base_rpy = Eigen::Vector3d::Zero();  ///< [rad]; x, y and height follow from the contacts
   std::map<std::string, JointLimits> limits;                   ///< by joint name
 };

@@ -47,6 +47,32 @@ std::string read_text(const std::filesystem::path& path) {
   return text;
 }
 
+/// Throws DescriptionError unless `name` is one of the joints; `field` is its table in the robot file.
+Eigen::Index joint_index(const RobotDescription& description, const std::vector<std::string>& joints,
+                         const std::string& field, const std::string& name) {
+  const auto joint = std::find(joints.begin(), joints.end(), name);
+  if (joint == joints.end()) {
+    throw DescriptionError(field + "." + name,
+                           fmt::format("robot '{}': {}: '{}' is not a joint of {}{}", description.name, field,
+                                       shown(name), description.urdf.string(), did_you_mean(name, joints)));
+  }
+  return joint - joints.begin();
+}
+
+/// Those of locked joints do not move.
+void set_armature(const RobotDescription& description, pinocchio::Model& model) {
+  for (const auto& [name, inertia] : description.armature) {
+    if (std::ranges::find(description.locked_joints, name) != description.locked_joints.end()) continue;
+    const std::vector<std::string> joints(model.names.begin() + kBaseJoint + 1, model.names.end());
+    const Eigen::Index j = joint_index(description, joints, "armature", name);
+    if (!(inertia >= 0.0) || !std::isfinite(inertia)) {
+      throw DescriptionError("armature." + name, fmt::format("robot '{}': armature.{}: {} is not allowed; need >= 0",
+                                                             description.name, name, inertia));
+    }
+    model.armature(6 + j) = inertia;
+  }
+}
+
 void read_urdf(RobotDescription& description, PinocchioModel& pin) {
   if (description.urdf_text.empty()) description.urdf_text = read_text(description.urdf);
   pin.urdf = check_urdf(description.urdf.string(), description.urdf_text, description.locked_joints);
@@ -56,6 +82,7 @@ void read_urdf(RobotDescription& description, PinocchioModel& pin) {
     throw InputError(fmt::format("{}: Pinocchio cannot build this robot: {}", description.urdf.string(), error.what()));
   }
   lock_joints(description, pin);
+  set_armature(description, pin.model);
 }
 
 /// Links joined by fixed joints move as one body; the inertia of that body matters, not that of each link. One without
@@ -142,18 +169,6 @@ std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& de
         {"contact " + contact.name, link.parentJoint, frame, link.placement * offset, pinocchio::OP_FRAME}));
   }
   return frames;
-}
-
-/// Throws DescriptionError unless `name` is one of the joints; `field` is its table in the robot file.
-Eigen::Index joint_index(const RobotDescription& description, const std::vector<std::string>& joints,
-                         const std::string& field, const std::string& name) {
-  const auto joint = std::find(joints.begin(), joints.end(), name);
-  if (joint == joints.end()) {
-    throw DescriptionError(field + "." + name,
-                           fmt::format("robot '{}': {}: '{}' is not a joint of {}{}", description.name, field,
-                                       shown(name), description.urdf.string(), did_you_mean(name, joints)));
-  }
-  return joint - joints.begin();
 }
 
 void check_limits(const RobotModel& robot) {
@@ -324,6 +339,8 @@ RobotModel& RobotModel::operator=(RobotModel other) noexcept {
 }
 
 RobotModel::~RobotModel() = default;
+
+Eigen::VectorXd RobotModel::armature() const { return pinocchio_->model.armature.tail(nu()); }
 
 double RobotModel::torque_upper(int joint, double position, double velocity) const {
   double limit = torque_limit_(joint);

@@ -42,6 +42,7 @@ class RobotModel {
   const Eigen::VectorXd& position_upper() const { return position_upper_; }  ///< nu [rad]; +inf where none
   const Eigen::VectorXd& velocity_limit() const { return velocity_limit_; }  ///< nu [rad/s]; +inf where none
   const Eigen::VectorXd& torque_limit() const { return torque_limit_; }      ///< nu [N m]; +inf where none
+  Eigen::VectorXd armature() const;                                          ///< nu [kg m^2], see RobotDescription
   /// Torque limits that depend on the state, besides torque_limit(): -phi(q) <= tau <= phi(q) of one joint, and
   /// -psi(-v) <= tau <= psi(v).
   struct TorqueCurve {

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "prowl/error.hpp"
+#include "prowl/mjcf/mujoco_log.hpp"
 #include "prowl/model/body_tree.hpp"
 #include "prowl/model/configuration.hpp"
 
@@ -36,14 +37,6 @@ std::vector<Eigen::Matrix3d> nominal_rotations(const RobotModel& robot, const Bo
     rotations.push_back(rotations[body.parent] * body.placement.linear() * Eigen::AngleAxisd(angle, body.axis));
   }
   return rotations;
-}
-
-void ignore_message(const mjLogMessage*) {}
-
-/// By default MuJoCo writes warnings to a file in the working directory. Process-wide.
-void silence() {
-  static std::once_flag once;
-  std::call_once(once, [] { mju_setLogHandler(ignore_message); });
 }
 
 void copy(const Eigen::Vector3d& from, double* to) { std::copy(from.begin(), from.end(), to); }
@@ -133,11 +126,12 @@ void set_options(const PhysicsOptions& options, mjSpec* spec) {
 
 MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces,
                             const PhysicsOptions& options) {
-  silence();
+  silence_mujoco();
   MujocoSpec spec(mj_makeSpec());
   set_options(options, spec.get());
   const BodyTree tree = body_tree(robot);
   mjsBody* const world = mjs_findBody(spec.get(), "world");
+  const Eigen::VectorXd armature = robot.armature();
   std::vector<mjsBody*> bodies;
   for (std::size_t b = 0; b < tree.bodies.size(); ++b) {
     const RigidBody& from = tree.bodies[b];
@@ -157,6 +151,7 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
     mjs_setName(joint->element, from.name.c_str());
     joint->type = from.prismatic ? mjJNT_SLIDE : mjJNT_HINGE;
     copy(from.axis, joint->axis);
+    joint->armature = armature(j);
     joint->range[0] = robot.position_lower()(j);
     joint->range[1] = robot.position_upper()(j);
     joint->limited =

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "prowl/dynamics/static_equilibrium.hpp"
-#include "prowl/files/text_file.hpp"
 #include "prowl/model/urdf/urdf_outline.hpp"
 #include "prowl/starter/robot_pose.hpp"
 #include "prowl/text/name_check.hpp"
 
 namespace prowl {
 namespace {
-
-constexpr std::size_t kLargestUrdf = 4u << 20;  // [bytes], as in RobotModel
 
 /// Contacts of all feet in one pose; sets contacts_of_leg to their indices by leg.
 std::vector<ContactPoint> find_feet(const RobotPose& pose, const std::vector<Leg>& legs,
@@ -63,11 +61,10 @@ std::string robot_name(const std::string& outline_name, const std::filesystem::p
 
 }  // namespace
 
-NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& search) {
+NewRobot new_robot(RobotDescription given, const PackageSearch& search) {
   NewRobot result;
   RobotDescription& description = result.description;
-  description.urdf = std::filesystem::absolute(urdf).lexically_normal();
-  description.urdf_text = read_text_file(description.urdf, kLargestUrdf).text;
+  description = std::move(given);
   UrdfOutline outline = urdf_outline(description.urdf.string(), description.urdf_text);
   description.name = robot_name(outline.name, description.urdf);
   description.locked_joints = massless_joints(description);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -26,8 +25,8 @@ struct NewRobot {
   std::vector<std::string> missing_meshes;
 };
 
-/// Throws FileError or InputError if the URDF cannot be read, is unsuitable, or describes a robot
-/// without legs.
-NewRobot new_robot(const std::filesystem::path& urdf, const PackageSearch& search);
+/// Completes a description that has `urdf`, absolute, `urdf_text` and perhaps `armature`. Throws InputError if the URDF
+/// is unsuitable, or describes a robot without legs.
+NewRobot new_robot(RobotDescription description, const PackageSearch& search);
 
 }  // namespace prowl

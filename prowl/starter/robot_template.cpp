@@ -118,6 +118,13 @@ std::string posture(const NewRobot& robot, const fs::path& file) {
   return text + "\n";
 }
 
+std::string armature(const NewRobot& robot) {
+  if (robot.description.armature.empty()) return "";
+  std::string text = "[armature]   # inertia of the motors [kg m²], of the MJCF\n";
+  for (const auto& [joint, inertia] : robot.description.armature) text += fmt::format("{} = {}\n", key(joint), inertia);
+  return text + "\n";
+}
+
 std::string limits(const NewRobot& robot) {
   if (robot.limits.empty()) return kAllLimits;
   std::string text = kLimits;
@@ -157,6 +164,7 @@ std::string robot_template(const NewRobot& robot, const std::string& urdf, const
   for (const std::string& mesh : robot.missing_meshes) text += fmt::format("# Unreadable mesh: {}\n", one_line(mesh));
   text += '\n';
   text += contacts(robot);
+  text += armature(robot);
   text += posture(robot, file);
   text += limits(robot);
   while (text.ends_with("\n\n")) text.pop_back();

@@ -75,7 +75,7 @@ JointLimits read_limits(const TomlTable& table) {
 /// Location of a key in a robot file: of its name for joints, which may not exist, else of its
 /// value.
 std::string location_of_key(const SourceText& source, const std::string& key) {
-  const bool is_joint = key.starts_with("limits.") || key.starts_with("nominal.");
+  const bool is_joint = key.starts_with("limits.") || key.starts_with("nominal.") || key.starts_with("armature.");
   return (is_joint ? locate_key(source, key) : locate(source, key)) + key;
 }
 
@@ -92,6 +92,10 @@ RobotDescription read_robot(const TomlDocument& document, const SourceText& sour
   robot.contacts = read_contacts(root, options.needs_contacts);
   if (const auto locked = root.find("locked_joints")) {
     for (const TomlValue& joint : locked->as_list()) robot.locked_joints.push_back(joint.as_text());
+  }
+  if (const auto armature = root.find("armature")) {
+    for (const auto& [joint, value] : armature->as_free_named_values("joint"))
+      robot.armature[joint] = value.as_number(NumberRange::nonnegative());
   }
   if (const auto nominal = root.find_table("nominal")) read_nominal(*nominal, robot);
   if (const auto limits = root.find("limits")) {

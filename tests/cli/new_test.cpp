@@ -193,6 +193,51 @@ TEST_F(NewRobot, WritesNothingForWhatIsNoLeggedRobot) {
   }
 }
 
+/// A quadruped of 20 kg as MJCF: classes, motors with gears and armature, feet as spheres.
+std::string mjcf_of_a_quadruped() {
+  std::string legs, motors;
+  for (const char* const leg : {"lf", "rf", "lh", "rh"}) {
+    const double x = leg[1] == 'f' ? 0.3 : -0.3, y = leg[0] == 'l' ? 0.15 : -0.15;
+    legs += fmt::format(R"(
+      <body name="{0}_hip" pos="{1} {2} 0"><joint name="{0}_roll" axis="1 0 0" range="-0.8 0.8"/>
+        <geom type="sphere" size="0.05" mass="1"/>
+        <body name="{0}_thigh"><joint name="{0}_pitch" axis="0 1 0" range="-1.5 1.5"/>
+          <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.03" mass="0.8"/>
+          <body name="{0}_shin" pos="0 0 -0.3"><joint name="{0}_knee" axis="0 1 0" range="-2.4 -0.2"/>
+            <geom type="capsule" fromto="0 0 0 0 0 -0.3" size="0.02" mass="0.3"/>
+            <geom type="sphere" pos="0 0 -0.3" size="0.025" mass="0.05"/>
+          </body></body></body>)",
+                        leg, x, y);
+    for (const char* const joint : {"roll", "pitch", "knee"})
+      motors += fmt::format("<motor joint=\"{}_{}\" gear=\"8\" ctrlrange=\"-10 10\"/>", leg, joint);
+  }
+  return "<mujoco model=\"quad\"><compiler angle=\"radian\" autolimits=\"true\"/><default><joint armature=\"0.02\" "
+         "damping=\"0.1\"/></default><worldbody><body name=\"trunk\" pos=\"0 0 0.6\"><freejoint/>"
+         "<geom type=\"box\" size=\"0.35 0.12 0.06\" mass=\"12\"/>" +
+         legs + "</body></worldbody><actuator>" + motors + "</actuator></mujoco>";
+}
+
+TEST_F(NewRobot, TakesAnMjcfFile) {
+  folder_.write("models/quad.xml", mjcf_of_a_quadruped());
+  const Outcome made = run("$prowl new robot models/quad.xml --out mine/quad.toml");
+  ASSERT_EQ(made.status, 0) << made.error;
+  EXPECT_THAT(made.out, HasSubstr("note: damping and friction of 12 joints are left out"));
+  const json robot = inspected("mine/quad.toml");
+  EXPECT_NEAR(robot.at("mass_kg").get<double>(), 20.6, 1e-9);
+  EXPECT_EQ(robot.at("contacts").size(), 4U);
+  EXPECT_THAT(test::read_file(folder_.path() / "mine/quad.toml"),
+              testing::AllOf(HasSubstr("urdf = \"quad.urdf\""), HasSubstr("lf_knee = 0.02")));
+  ASSERT_EQ(run("$prowl new task mine/quad.toml --kind trot --out trot.toml").status, 0);
+  EXPECT_EQ(run("$prowl plan trot.toml --out plan").status, 0);
+  EXPECT_EQ(run("$prowl new robot models/quad.xml --out mine/quad.toml").status, 2) << "it exists";
+
+  folder_.write("models/broken.xml", "<mujoco><worldbody><body/></worldbody></mujoco>");
+  const Outcome refused = run("$prowl new robot models/broken.xml --out mine/broken.toml");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.error, HasSubstr("models/broken.xml: no body has a <freejoint>"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "mine/broken.urdf"));
+}
+
 class NewTask : public NewRobot {
  protected:
   /// Robot, task and plan, as a new user makes them one after the other.

@@ -359,6 +359,24 @@ TEST(RobotModel, LockedJointsAreFixedAtTheirNominalPosition) {
   EXPECT_THAT(message_for(robot), AllOf(HasSubstr("'left_hop' is not a moving joint"), HasSubstr("left_hip")));
 }
 
+TEST(RobotModel, ArmatureIsOnTheDiagonalOfTheMassMatrix) {
+  RobotDescription description = test::small_description("/nowhere/small.urdf");
+  description.urdf_text = test::small_urdf();
+  const RobotModel without(description);
+  description.armature["left_hip"] = 0.03;
+  const RobotModel with(description);
+  EXPECT_EQ(with.armature()(0), with.joint_names()[0] == "left_hip" ? 0.03 : 0.0);
+  EXPECT_DOUBLE_EQ(with.armature().sum(), 0.03);
+  EXPECT_DOUBLE_EQ(with.mass(), without.mass());
+  description.armature = {{"left_hop", 0.03}};
+  EXPECT_THAT(message_for(description), AllOf(HasSubstr("'left_hop' is not a joint"), HasSubstr("left_hip")));
+  description.armature = {{"left_hip", -0.03}};
+  EXPECT_THAT(message_for(description), HasSubstr("armature.left_hip: -0.03 is not allowed; need >= 0"));
+  description.armature = {{"left_hip", 0.03}};
+  description.locked_joints = {"left_hip"};
+  EXPECT_DOUBLE_EQ(RobotModel(description).armature().sum(), 0.0);
+}
+
 TEST(RobotModel, JointsThatCopyOthersAreLockedUnlessTheyCarryAContact) {
   RobotDescription robot = test::small_description("/nowhere/small.urdf");
   const std::string axis = "<axis xyz=\"1 0 0\"/>";

@@ -39,8 +39,14 @@ TEST_P(EveryRobot, HasTheMassMatrixAndBiasOfPinocchio) {
   }
 }
 
+RobotDescription hyq_with_motors() {
+  RobotDescription description = test::hyq_description();
+  for (const auto& [joint, position] : description.nominal_joints) description.armature[joint] = 0.05 + 0.01 * position;
+  return description;
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, EveryRobot,
-                         testing::Values(Case{"HyQ", test::hyq_description},
+                         testing::Values(Case{"HyQWithMotors", hyq_with_motors}, Case{"HyQ", test::hyq_description},
                                          Case{"ANYmalC", test::anymal_c_description},
                                          Case{"Solo12", test::solo12_description}, Case{"Go2", test::go2_description},
                                          Case{"Talos", test::talos_description}),

@@ -495,6 +495,11 @@ FileKeys make_robot_file_keys() {
        .form = "list of names",
        .fallback = "joints with <mimic>",
        .meaning = "joints held at their nominal position, such as fingers; no contact may move with a mimic joint"});
+  top.add({.name = "armature",
+           .form = "{joint = number}",
+           .unit = "kg m²",
+           .fallback = "0",
+           .meaning = "inertia of the joint's motor, times the square of its gear ratio, >= 0"});
   top.add({.name = "nominal", .form = "[nominal]", .meaning = "default posture at the start of a motion"});
   top.add({.name = "limits", .form = "[limits.JOINT]", .meaning = "limits that replace those of the URDF"});
 
