@@ -48,7 +48,10 @@ class ContactDynamics:
         kkt = np.block([[mass, -jacobian.T], [jacobian, np.zeros((rows, rows))]])
         right = np.concatenate([-bias, -drift])
         right[6 : model.nv] += tau
-        solution = np.linalg.solve(kkt, right)
+        try:
+            solution = np.linalg.solve(kkt, right)
+        except np.linalg.LinAlgError:  # a motion so wild that its contacts depend on each other
+            solution = np.full_like(right, np.nan)
         return solution[: model.nv], solution[model.nv :].reshape(-1, 3), (jacobian @ v).reshape(-1, 3)
 
 

@@ -16,10 +16,13 @@ class Contact:
     name: str
     frame: int
     radius: float  # of the ball around the frame's origin [m]
+    parent: str  # frame of the URDF
+    offset: tuple[float, ...]  # of the ball in that [m]
 
 
 @dataclass(frozen=True)
 class Robot:
+    urdf: pathlib.Path
     model: pin.Model
     contacts: tuple[Contact, ...]
     nominal: np.ndarray  # configuration at rest, mean of the contacts over the origin, lowest ball on z = 0
@@ -75,22 +78,22 @@ def limit_curve(table: list[list[float]]) -> BSpline:
     return make_interp_spline(x, limit, k=3, t=[x[0]] * 4 + inner + [x[-1]] * 4)
 
 
-def contact_frame(model: pin.Model, contact: dict) -> int:
-    """That of the URDF, or where the ball is beside it one of its own, added to the model."""
+def read_contact(model: pin.Model, contact: dict) -> Contact:
+    """On a frame of the URDF, or where the ball is beside it on one of its own, added to the model."""
     frame = model.getFrameId(contact["frame"])
     offset = np.array(contact.get("offset_m", [0, 0, 0]), dtype=float)
-    if not offset.any():
-        return frame
-    parent = model.frames[frame]
-    return model.addFrame(
-        pin.Frame(
-            f"contact {contact['name']}",
-            parent.parentJoint,
-            frame,
-            parent.placement * pin.SE3(np.eye(3), offset),
-            pin.FrameType.OP_FRAME,
+    if offset.any():
+        parent = model.frames[frame]
+        frame = model.addFrame(
+            pin.Frame(
+                f"contact {contact['name']}",
+                parent.parentJoint,
+                frame,
+                parent.placement * pin.SE3(np.eye(3), offset),
+                pin.FrameType.OP_FRAME,
+            )
         )
-    )
+    return Contact(contact["name"], frame, contact.get("radius_m", 0.0), contact["frame"], tuple(offset))
 
 
 def find_urdf(text: str, robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> pathlib.Path:
@@ -108,7 +111,7 @@ def read_robot(robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> Ro
     urdf = find_urdf(table["urdf"], robot_file, package_dirs)
     model = pin.buildModelFromUrdf(str(urdf), pin.JointModelFreeFlyer())
     joints = list(model.names)[2:]
-    contacts = tuple(Contact(c["name"], contact_frame(model, c), c.get("radius_m", 0.0)) for c in table["contact"])
+    contacts = tuple(read_contact(model, contact) for contact in table["contact"])
 
     torque_limit, curves = np.array(model.effortLimit[6:]), {}
     lower, upper, speed = (
@@ -130,7 +133,7 @@ def read_robot(robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> Ro
     q = pin.neutral(model)
     for joint, value in table["nominal"]["joints"].items():
         q[7 + joints.index(joint)] = value
-    robot = Robot(model, contacts, q, torque_limit, curves)
+    robot = Robot(urdf, model, contacts, q, torque_limit, curves)
     places = robot.places(q)
     q[:2] = -np.mean([places[contact.name][:2] for contact in contacts], axis=0)
     q[2] = -min(places[contact.name][2] - contact.radius for contact in contacts)

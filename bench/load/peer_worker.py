@@ -14,8 +14,9 @@ import numpy as np
 from judge.checker import judge
 from judge.motion import Motion
 from judge.motion_task import MotionTask, parse_task
-from peers.measure import NoResult, in_own_process, judged, peer_record
-from peers.peer_solvers import PEERS
+from peers.clock import Clock
+from peers.measure import NoResult, in_own_process, judged, measure_peer
+from peers.peer_solvers import PeerSetup
 
 JUDGING = 60.0  # CPU time that building the problem and judging its motions may take besides the solves [s]
 
@@ -36,14 +37,8 @@ def task_of(job: dict) -> MotionTask:
 
 def ask_peer(task: MotionTask, solver: str, time_limit: float) -> dict:
     name, _, step = solver.partition(":")
-    step = float(step) if step else task.duration / task.intervals
-    try:
-        return in_own_process(
-            lambda: peer_record("load", task, name, step, time_limit=time_limit, anchored=True),
-            2 * time_limit + JUDGING,
-        )
-    except NoResult as why:
-        return {"solver": name, "label": PEERS[name].label, "step_s": step, "failed": str(why)}
+    setup = PeerSetup(name, float(step) if step else task.duration / task.intervals)
+    return measure_peer("load", task, setup, Clock(time_limit=time_limit))
 
 
 def judge_prowl(task: MotionTask, motion: Motion) -> dict:

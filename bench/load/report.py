@@ -4,7 +4,7 @@ import collections
 
 from load.quantiles import quantiles
 
-LABELS = {"prowl": "Prowl", "boxfddp": "BoxFDDP", "fddp": "FDDP", "intro": "Intro", "sqp": "SQP", "csqp": "CSQP"}
+LABELS = {"prowl": "Prowl", "boxfddp": "BoxFDDP", "intro": "Intro", "sqp": "SQP", "csqp": "CSQP"}
 # Re-integration error of an interval: that of grade draft (docs/verification.md), and ten and a hundred times as much.
 ERRORS = [5e-4, 5e-3, 5e-2]
 

@@ -12,8 +12,11 @@ import numpy as np
 
 from judge.checker import Verdict, judge
 from judge.motion_task import MotionTask
-from peers.peer_solvers import PEERS, solve
+from peers.clock import Clock
+from peers.peer_solvers import PeerSetup, solve
 from peers.prowl_command import ProwlCommand, ProwlError
+
+RULES = {"euler": "Euler", "semi-implicit": "semi-implicit Euler", "rk2": "RK2", "rk4": "RK4"}
 
 
 def failure(kind: str, task: str, solver: str, label: str, why: str, **more) -> dict:
@@ -39,32 +42,27 @@ def judged(verdict: Verdict) -> dict:
     }
 
 
-def _timed(seconds: list[float], motion_seconds: float, node_iterations: int) -> dict:
+def _timed(seconds: list[float], guess: float, setup: float) -> dict:
+    """CPU times: of the solver, and with what comes before it."""
     median = statistics.median(seconds)
     return {
         "repetitions": len(seconds),
         "seconds": median,
         "seconds_min": min(seconds),
         "seconds_max": max(seconds),
-        "us_per_node_iteration": 1e6 * median / max(1, node_iterations),
-        "ratio_to_motion": median / motion_seconds,
+        "guess_seconds": guess,
+        "whole_seconds": median + guess + setup,
     }
 
 
-def peer_record(
-    kind: str,
-    task: MotionTask,
-    solver: str,
-    step: float,
-    repetitions: int = 1,
-    patience: float = 0.0,
-    time_limit: float = math.inf,
-    anchored: bool = False,
-) -> dict:
-    """Without bounds on the joints; with them where the motion would break them, since they cost iterations. `time_limit`: of each
-    solve, after which its last iterate is judged."""
-    for bounds in (False, True):
-        run = solve(solver, task, step, bounds, repetitions, patience, time_limit, anchored)
+def label(setup: PeerSetup) -> str:
+    return f"{setup.peer.label}, {RULES[setup.rule]}"
+
+
+def peer_record(kind: str, task: MotionTask, setup: PeerSetup, clock: Clock = Clock()) -> dict:
+    """Without bounds on the joints; with them where the motion would break them, since they cost iterations."""
+    for tried in (setup, setup.with_joint_bounds()):
+        run = solve(tried, task, clock)
         verdict = judge(task, run.motion)
         broken = [
             name
@@ -76,16 +74,15 @@ def peer_record(
     return {
         "kind": kind,
         "task": task.name,
-        "solver": solver,
-        "label": PEERS[solver].label,
-        "step_s": step,
+        "solver": setup.solver,
+        "rule": setup.rule,
+        "label": label(setup),
+        "step_s": setup.step,
         "intervals": run.nodes - 1,
-        "nodes": run.nodes,
         "iterations": run.iterations,
         "converged": run.converged,
-        "joint_bounds": bounds,
-        "clock": "cpu",
-        **_timed(run.seconds, task.duration, run.iterations * run.nodes),
+        "joint_bounds": tried.joint_bounds,
+        **_timed(run.seconds, run.guess_seconds, run.setup_seconds),
         **judged(verdict),
     }
 
@@ -115,62 +112,38 @@ def in_own_process(work: Callable[[], dict], seconds: float) -> dict:
     return found
 
 
-def measure_peer(
-    kind: str, task: MotionTask, solver: str, step: float, repetitions: int, patience: float, time_limit: float
-) -> dict:
+def measure_peer(kind: str, task: MotionTask, setup: PeerSetup, clock: Clock) -> dict:
+    judging = 60.0  # CPU time of building the problem and judging the motion [s]
     try:
         return in_own_process(
-            lambda: peer_record(kind, task, solver, step, repetitions, patience), 2 * time_limit + 2 * patience
+            lambda: peer_record(kind, task, setup, clock), 2 * (clock.time_limit + clock.patience) + judging
         )
     except NoResult as why:
-        return failure(kind, task.name, solver, PEERS[solver].label, str(why), step_s=step)
+        return failure(kind, task.name, setup.solver, label(setup), str(why), rule=setup.rule, step_s=setup.step)
 
 
 def measure_prowl(
-    kind: str,
-    command: ProwlCommand,
-    task: MotionTask,
-    task_file: pathlib.Path,
-    solver: str,
-    intervals: int | None = None,
-    one_mesh: bool = False,
-    repetitions: int = 1,
-    patience: float = 0.0,
-    threads: int = 1,
-    cores: frozenset[int] = frozenset(),
+    kind: str, command: ProwlCommand, task: MotionTask, task_file: pathlib.Path, clock: Clock, options: list[str]
 ) -> dict:
-    """`one_mesh`: iterations and time of the task's own mesh alone: from the task if the command can, else after coarser ones."""
-    label = f"Prowl {solver}"
     try:
-        run = command.plan(
-            task_file, solver, intervals, one_mesh and command.has_one_mesh, repetitions, patience, threads, cores
-        )
+        run = command.plan(task_file, clock, options)
     except ProwlError as error:
-        return failure(kind, task.name, solver, label, str(error), intervals=intervals)
-    phases = len(run.durations)
-    levels = run.levels[-1:] if one_mesh else run.levels
-    seconds = run.last_seconds if one_mesh and len(run.levels) > 1 else run.seconds
-    node_iterations = sum(level["iterations"] * (level["intervals"] + phases) for level in levels)
+        return failure(kind, task.name, "prowl", "Prowl", str(error))
     verdict = judge(task.with_durations(run.durations), run.motion)
     return {
         "kind": kind,
         "task": task.name,
-        "solver": solver,
-        "label": label,
+        "solver": "prowl",
+        "rule": "corrected trapezoid",
+        "label": "Prowl",
         "intervals": run.levels[-1]["intervals"],
-        "nodes": len(run.motion.time),
-        "iterations": sum(level["iterations"] for level in levels),
+        "iterations": sum(level["iterations"] for level in run.levels),
         "iterations_by_mesh": [level["iterations"] for level in run.levels],
-        "after_coarser_meshes": len(run.levels) > 1,
         "converged": run.converged,
-        "clock": run.clock,
         "split_s": run.split,
-        **_timed(seconds, float(np.sum(run.durations)), node_iterations),
+        **_timed(run.seconds, run.guess_seconds, 0.0),
+        "whole_seconds": float(np.median(run.process_seconds)),
         **judged(verdict),
-        "threads": threads,
-        "wall_seconds": statistics.median(run.wall_seconds),
-        "wall_seconds_min": min(run.wall_seconds),
-        "wall_seconds_max": max(run.wall_seconds),
         "grade": run.grade,
         "certificate_reintegration": run.reintegration,
     }

@@ -1,27 +1,28 @@
-"""The coarsest mesh of Prowl whose error is no larger than a given one."""
+"""The coarsest mesh of a solver whose motion is as exact as it has to be."""
 
-from collections.abc import Callable
-
-FINEST = 1280  # intervals
+from collections.abc import Callable, Sequence
 
 
-def coarsest_mesh(good: Callable[[int], bool], first: int) -> int | None:
-    """Least N found with good(N): doubled from `first` until good, then halved in between; None if not even FINEST is.
+def coarsest_step(steps: Sequence[float], order: int, ratio: Callable[[float], float]) -> float | None:
+    """Longest of these steps with ratio(step) <= 1: the error of the motion on that mesh over the error allowed. None: none of them.
 
-    Errors fall with the mesh but for small bumps, which a bisection may step over: the mesh found is good, and one that is
-    5 % coarser was not.
+    `steps` fall. An error of this order in the step tells how much shorter steps have to be; those in between are left out.
+    If one that was left out may do, it is tried last. ratio() may be infinite, for a solve that failed.
     """
-    low, high = 0, first
-    while not good(high):
-        low, high = high, 2 * high
-        if high > FINEST:
-            return None
-    while high - low > max(1, high // 20):
-        middle = (low + high) // 2
-        if middle < 1:
-            break
-        if good(middle):
-            high = middle
-        else:
-            low = middle
-    return high
+    tried: dict[int, float] = {}
+
+    def is_exact(i: int) -> bool:
+        tried.setdefault(i, ratio(steps[i]))
+        return tried[i] <= 1.0
+
+    i = 0
+    while i < len(steps) and not is_exact(i):
+        expected = steps[i] / tried[i] ** (1.0 / order) if tried[i] < float("inf") else steps[i]
+        i += 1
+        while i + 1 < len(steps) and steps[i + 1] >= expected:
+            i += 1
+    if i == len(steps):
+        return None
+    while i > 0 and i - 1 not in tried and is_exact(i - 1):
+        i -= 1
+    return steps[i]

@@ -1,8 +1,11 @@
-"""The mesh of the peers: needs none of them."""
+"""The mesh of the peers, and what has to hold at its nodes: needs none of them."""
 
 from dataclasses import dataclass
 
-from judge.motion_task import MotionTask
+import numpy as np
+
+from judge.motion import Motion
+from judge.motion_task import Goal, MotionTask
 
 
 @dataclass(frozen=True)
@@ -26,3 +29,36 @@ def make_nodes(task: MotionTask, step: float) -> list[Node]:
             count += 1
         nodes += [Node(index, k / count, phase.duration / count, k == 0, k == count - 1) for k in range(count)]
     return nodes + [Node(len(task.phases) - 1, 1.0, 0.0, False, False)]
+
+
+def goals_at(task: MotionTask, node: Node) -> list[Goal]:
+    """A goal at the end of a phase belongs to the first node of the next."""
+
+    def is_here(goal: Goal) -> bool:
+        if goal.fraction == 1.0 and goal.phase + 1 < len(task.phases):
+            return node.first and node.phase == goal.phase + 1
+        return node.phase == goal.phase and abs(node.share - goal.fraction) < 1e-9
+
+    return [goal for goal in task.goals if is_here(goal)]
+
+
+def anchor(task: MotionTask, phase: int, name: str) -> np.ndarray | None:
+    """Centre of the ball of a contact that holds in this phase, if the task says where: it held from the start, or landed there."""
+    landed = phase
+    while landed > 0 and name in task.phases[landed - 1].contacts:
+        landed -= 1
+    if landed == 0:
+        return task.robot.places(task.start)[name]
+    place = task.phases[landed].places.get(name)
+    return None if place is None else place + np.array([0.0, 0.0, task.robot.contact(name).radius])
+
+
+def held_motion(nq: int, nodes: list[Node], states: list[np.ndarray], torques: list[np.ndarray]) -> Motion:
+    """Torques held over their steps, one fewer than states; two nodes at each phase switch."""
+    rows, time = [], 0.0
+    for k, (node, x) in enumerate(zip(nodes, states, strict=True)):
+        if node.first and k > 0:
+            rows.append((time, node.phase - 1, x[:nq], x[nq:], torques[k - 1]))
+        rows.append((time, node.phase, x[:nq], x[nq:], torques[min(k, len(torques) - 1)]))
+        time += node.step
+    return Motion(*(np.array(column) for column in zip(*rows)), torque="held")

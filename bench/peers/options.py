@@ -5,30 +5,36 @@ import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TASKS = ["stand", "crouch", "balance", "rear", "step"]
-PEERS = ["fddp", "boxfddp", "intro", "sqp", "csqp"]
+PEERS = ["boxfddp", "intro", "sqp", "csqp", "aligator"]
+STEPS = [
+    0.32,
+    0.226,
+    0.16,
+    0.113,
+    0.08,
+    0.056,
+    0.04,
+    0.028,
+    0.02,
+    0.014,
+    0.01,
+    0.007,
+    0.005,
+    0.0035,
+    0.0025,
+]  # of a factor of sqrt(2), nearly
 
 
 def _list(text: str) -> list[str]:
     return [entry for entry in text.split(",") if entry]
 
 
-def _numbers(text: str) -> list[float]:
-    values = [float(entry) for entry in _list(text)]
-    if not values or min(values) <= 0:
-        raise argparse.ArgumentTypeError(f"{text}: need numbers > 0, separated by commas")
-    return values
-
-
-def _counts(text: str) -> list[int]:
-    return [int(value) for value in _numbers(text)]
-
-
 def make_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="scripts/bench",
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        description="Plans HyQ's tasks with Prowl and with its peers (Crocoddyl, mim_solvers) on one core, judges all motions\n"
-        "with the same code, and writes tables, JSON lines and plots. What the columns mean: bench/README.md.",
+        description="Plans HyQ's tasks with Prowl and with its peers (Crocoddyl, mim_solvers, aligator) on one core, judges all\n"
+        "motions with the same code, and writes two tables and JSON lines. What the columns mean: bench/README.md.",
     )
     parser.add_argument(
         "out",
@@ -38,47 +44,13 @@ def make_parser() -> argparse.ArgumentParser:
         help="folder for the results; default build/bench-results",
     )
     parser.add_argument(
-        "--quick", action="store_true", help="a smoke test of less than 3 minutes: stand only, coarse, no repetitions"
+        "--quick", action="store_true", help="a smoke test of two minutes: stand only, no short steps, no repetitions"
     )
     parser.add_argument(
         "--tasks", type=_list, default=TASKS, metavar="NAME,...", help=f"of tasks/hyq; default {','.join(TASKS)}"
     )
     parser.add_argument(
-        "--solvers",
-        type=_list,
-        metavar="NAME,...",
-        help="of Prowl, names of `prowl plan --solver`; default: those that go by stages, riccati and fatrop",
-    )
-    parser.add_argument(
         "--peers", type=_list, default=PEERS, metavar="NAME,...", help=f"default {','.join(PEERS)}; none: --peers="
-    )
-    parser.add_argument(
-        "--steps",
-        type=_numbers,
-        default=[0.02, 0.04, 0.01],
-        metavar="S,...",
-        help="Euler steps of the peers [s]; the first is the one that Prowl is compared at; default 0.02,0.04,0.01",
-    )
-    parser.add_argument(
-        "--growth-tasks",
-        type=_list,
-        default=["stand", "crouch"],
-        metavar="NAME,...",
-        help="tasks that are measured over the number of intervals; default stand,crouch; none: --growth-tasks=",
-    )
-    parser.add_argument(
-        "--growth",
-        type=_counts,
-        default=[10, 20, 40, 80, 160, 320],
-        metavar="N,...",
-        help="these numbers of intervals; default 10,20,40,80,160,320",
-    )
-    parser.add_argument(
-        "--threads",
-        type=_counts,
-        default=[1, 2],
-        metavar="N,...",
-        help="Prowl on each task's own mesh with so many threads, by the wall clock; default 1,2; none: --threads 1",
     )
     parser.add_argument(
         "--repetitions", type=int, default=5, metavar="N", help="of each solve, for the clock; default 5"
@@ -86,11 +58,13 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--patience",
         type=float,
-        default=15.0,
+        default=5.0,
         metavar="S",
-        help="no more repetitions, and no other steps, once they took so long together; default 15 s",
+        help="no more repetitions once they took so long together; default 5 s",
     )
-    parser.add_argument("--time-limit", type=float, default=90.0, metavar="S", help="of one solve; default 90 s")
+    parser.add_argument(
+        "--time-limit", type=float, default=60.0, metavar="S", help="CPU time of one solve; default 60 s"
+    )
     parser.add_argument("--core", type=int, metavar="N", help="that all is pinned to; default: the last one allowed")
     parser.add_argument(
         "--prowl", type=pathlib.Path, default=ROOT / "build/bin/prowl", metavar="FILE", help="default build/bin/prowl"
@@ -108,7 +82,7 @@ def make_parser() -> argparse.ArgumentParser:
         type=pathlib.Path,
         default=ROOT / ".venv-peers",
         metavar="DIR",
-        help="virtual environment of the peers, made on first use; default .venv-peers",
+        help="virtual environment of the peers but aligator, made on first use; default .venv-peers",
     )
     parser.add_argument(
         "--footprint",
@@ -124,12 +98,12 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
     options = parser.parse_args(arguments)
     if unknown := set(options.peers) - set(PEERS):
         parser.error(f"--peers {','.join(sorted(unknown))}: need some of {','.join(PEERS)}")
-    for name in [*options.tasks, *options.growth_tasks]:
+    for name in options.tasks:
         if not (ROOT / f"tasks/hyq/{name}.toml").is_file():
             parser.error(f"{name}: there is no tasks/hyq/{name}.toml")
     if options.repetitions < 1:
         parser.error(f"--repetitions {options.repetitions}: need 1 or more")
+    options.steps = STEPS
     if options.quick:
-        options.tasks, options.growth_tasks, options.growth = ["stand"], ["stand"], [10, 20, 40]
-        options.steps, options.repetitions, options.threads = options.steps[:1], 1, [1]
+        options.tasks, options.steps, options.repetitions = ["stand"], STEPS[:9], 1
     return options

@@ -12,7 +12,7 @@ import pinocchio as pin
 from judge.motion import Motion
 from judge.motion_task import Goal, MotionTask
 from judge.robot import Contact
-from peers.nodes import Node, make_nodes
+from peers.nodes import Node, anchor, goals_at, held_motion, make_nodes
 
 WORLD = pin.LOCAL_WORLD_ALIGNED
 PLACE, TURN, VELOCITY = 1e5, 1e5, 1e4  # penalties on what has to hold at one node: [1/m²], [1/rad²], [s²/m²]
@@ -23,32 +23,41 @@ NO_FORCE = 1e1  # ... of a force that has to vanish before its contact opens [1/
 FREE = 1e3  # stands for infinity in bounds
 DAMPING = 50.0  # Baumgarte gain of the contacts [1/s], as in crocoddyl.utils.quadruped
 FORCE_WEIGHT = 1e-7  # keeps inverse dynamics' forces determined [1/N²]
+IDLE = 1e-3  # keeps inputs determined that move nothing
+MOMENT = 1e-9  # step of an action that takes no time: Crocoddyl multiplies costs by their step [s]
 
 
 class ShootingProblem:
-    """`inverse`: nodes with accelerations and forces as inputs. `hard`: cones, torque limits and clearances as constraints.
-    `joint_bounds`: joints are kept within their limits of position and velocity. `anchored`: contacts that have held since the start
-    are pulled back to their places, with critical damping; else only their velocities are corrected."""
+    """`rule`: "euler" or "rk4". `inverse`: nodes with accelerations and forces as inputs. `hard`: cones, torque limits and clearances as
+    constraints. `joint_bounds`: joints are kept within their limits of position and velocity. `anchored`: contacts whose place the
+    task tells are pulled back to it, with critical damping; else only their velocities are corrected."""
 
     def __init__(
-        self, task: MotionTask, step: float, inverse: bool, hard: bool, joint_bounds: bool, anchored: bool = False
+        self,
+        task: MotionTask,
+        step: float,
+        rule: str,
+        inverse: bool,
+        hard: bool,
+        joint_bounds: bool,
+        anchored: bool,
     ):
-        self.task, self.inverse, self.hard, self.joint_bounds, self.anchored = (
-            task,
-            inverse,
-            hard,
-            joint_bounds,
-            anchored,
-        )
+        self.task, self.rule, self.inverse, self.hard = task, rule, inverse, hard
+        self.joint_bounds, self.anchored = joint_bounds, anchored
         self.robot, self.model = task.robot, task.robot.model
         self.state = crocoddyl.StateMultibody(self.model)
         self.actuation = crocoddyl.ActuationModelFloatingBase(self.state)
-        self.start, self.places = np.concatenate([task.start, task.velocity]), self.robot.places(task.start)
+        self.start = np.concatenate([task.start, task.velocity])
         self.rest = np.concatenate([task.start, np.zeros(self.model.nv)])
         self.nodes = make_nodes(task, step)
         self.base = self.model.getFrameId(self.model.frames[2].name)  # the root link, which the free flyer moves
-        models = [self._action(node) for node in self.nodes]
-        self.problem = crocoddyl.ShootingProblem(self.start, models[:-1], models[-1])
+        actions, self.at = [], []  # the action of each node
+        for node in self.nodes:
+            if self._has_moment(node):
+                actions.append(self._moment(node))
+            self.at.append(len(actions))
+            actions.append(self._action(node))
+        self.problem = crocoddyl.ShootingProblem(self.start, actions[:-1], actions[-1])
 
     def guess(self) -> tuple[list, list]:
         """The start at every node, and the torques that hold it there."""
@@ -56,24 +65,31 @@ class ShootingProblem:
         return running + [self.rest], list(self.problem.quasiStatic(running))
 
     def motion(self, states, inputs) -> Motion:
-        """Solution as nodes with held torques, two at each phase switch."""
         if self.inverse:
             self.problem.calc(states, inputs)
             torques = [np.array(data.differential.multibody.joint.tau) for data in self.problem.runningDatas]
         else:
             torques = [np.array(torque) for torque in inputs]
-        torques.append(torques[-1])
-        nq, rows, time = self.model.nq, [], 0.0
-        for k, node in enumerate(self.nodes):
-            x = np.array(states[k])
-            if node.first and k > 0:
-                rows.append((time, node.phase - 1, x[:nq], x[nq:], torques[k - 1]))
-            rows.append((time, node.phase, x[:nq], x[nq:], torques[k]))
-            time += node.step
-        columns = [np.array(column) for column in zip(*rows)]
-        return Motion(*columns, torque="held")
+        return held_motion(
+            self.model.nq, self.nodes, [np.array(states[k]) for k in self.at], [torques[k] for k in self.at[:-1]]
+        )
 
     # One node
+
+    def _has_moment(self, node: Node) -> bool:
+        """True if what has to hold at this node alone needs an action of its own: Runge-Kutta spreads costs over the step."""
+        lands = node.first and bool(self.task.lands(node.phase))
+        return self.rule == "rk4" and node.step > 0 and (lands or bool(goals_at(self.task, node)))
+
+    def _moment(self, node: Node):
+        """Only what has to hold at this node."""
+        nu = self.actuation.nu
+        costs = crocoddyl.CostModelSum(self.state, nu)
+        self._add_events(node, costs, nu, 1.0 / MOMENT)
+        idle = crocoddyl.ResidualModelControl(self.state, nu)
+        self._add(costs, "idle", idle, np.full(nu, IDLE), 1.0 / MOMENT)
+        dynamics = crocoddyl.DifferentialActionModelFreeFwdDynamics(self.state, self.actuation, costs)
+        return crocoddyl.IntegratedActionModelEuler(dynamics, MOMENT)
 
     def _action(self, node: Node):
         phase = self.task.phases[node.phase]
@@ -87,7 +103,10 @@ class ShootingProblem:
         if node.step:
             self._add_running_cost(costs, nu, held)
             self._add_limits(node, held, costs, constraints, nu)
-        self._add_events(node, costs, nu)
+        if node.last:
+            self._add_openings(node, costs, nu)
+        if not self._has_moment(node):
+            self._add_events(node, costs, nu, 1.0 / node.step if node.step else 1.0)
 
         if self.inverse:
             dynamics = crocoddyl.DifferentialActionModelContactInvDynamics(
@@ -101,19 +120,19 @@ class ShootingProblem:
             dynamics = crocoddyl.DifferentialActionModelContactFwdDynamics(
                 self.state, self.actuation, contacts, costs, 0.0, True
             )
-        action = crocoddyl.IntegratedActionModelEuler(dynamics, node.step)
+        if self.rule == "rk4" and node.step:
+            action = crocoddyl.IntegratedActionModelRK(dynamics, crocoddyl.RKType.four, node.step)
+        else:
+            action = crocoddyl.IntegratedActionModelEuler(dynamics, node.step)
         if node.step and not self.inverse:
-            action.u_lb, action.u_ub = (
-                -self.robot.torque_limit,
-                self.robot.torque_limit,
-            )  # BoxFDDP keeps them, FDDP does not
+            action.u_lb, action.u_ub = -self.robot.torque_limit, self.robot.torque_limit  # BoxFDDP keeps them
         return action
 
     def _contact(self, contact: Contact, node: Node, nu: int):
         damping = min(DAMPING, 1.0 / node.step) if node.step else DAMPING  # explicit steps bear 1 / step
-        place, stiffness = np.zeros(3), 0.0
-        if self.anchored and all(contact.name in phase.contacts for phase in self.task.phases[: node.phase + 1]):
-            place, stiffness = self.places[contact.name], damping**2 / 4
+        place, stiffness = anchor(self.task, node.phase, contact.name) if self.anchored else None, damping**2 / 4
+        if place is None:
+            place, stiffness = np.zeros(3), 0.0
         return crocoddyl.ContactModel3D(self.state, contact.frame, place, WORLD, nu, np.array([stiffness, damping]))
 
     def _add(self, costs, name: str, residual, weights: np.ndarray, scale: float = 1.0) -> None:
@@ -225,30 +244,25 @@ class ShootingProblem:
                 ),
             )
 
-    def _add_events(self, node: Node, costs, nu: int) -> None:
-        """What has to hold at this node alone: landings, goals, no force before a contact opens."""
-        scale = 1.0 / node.step if node.step else 1.0  # Crocoddyl multiplies the costs of a node by its step
+    def _add_openings(self, node: Node, costs, nu: int) -> None:
+        """No force before a contact opens."""
+        for name in self.task.opens(node.phase):
+            self._add(
+                costs,
+                f"no force {name}",
+                crocoddyl.ResidualModelContactForce(
+                    self.state, self.robot.contact(name).frame, pin.Force.Zero(), 3, nu, not self.inverse
+                ),
+                [NO_FORCE] * 3,
+            )
+
+    def _add_events(self, node: Node, costs, nu: int, scale: float) -> None:
+        """What has to hold at this node alone: landings and goals."""
         if node.first:
             for name in self.task.lands(node.phase):
                 self._add_landing(node, name, costs, nu, scale)
-        if node.last:
-            for name in self.task.opens(node.phase):
-                self._add(
-                    costs,
-                    f"no force {name}",
-                    crocoddyl.ResidualModelContactForce(
-                        self.state, self.robot.contact(name).frame, pin.Force.Zero(), 3, nu, not self.inverse
-                    ),
-                    [NO_FORCE] * 3,
-                )
-        for number, goal in enumerate(self.task.goals):
-            if self._is_at(goal, node):
-                self._add_goal(f"goal {number}", goal, costs, nu, scale)
-
-    def _is_at(self, goal: Goal, node: Node) -> bool:
-        if goal.fraction == 1.0 and goal.phase + 1 < len(self.task.phases):
-            return node.first and node.phase == goal.phase + 1
-        return node.phase == goal.phase and abs(node.share - goal.fraction) < 1e-9
+        for number, goal in enumerate(goals_at(self.task, node)):
+            self._add_goal(f"goal {number}", goal, costs, nu, scale)
 
     def _add_landing(self, node: Node, name: str, costs, nu: int, scale: float) -> None:
         contact = self.robot.contact(name)

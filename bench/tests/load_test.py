@@ -21,10 +21,10 @@ from load.random_tasks import ROBOTS, draw, folder
 from peers.nodes import make_nodes
 
 
-def shooting_problem(*arguments, **options):
-    """A peers.shooting_problem.ShootingProblem, where its peers are."""
+def shooting_problem(task: MotionTask, step: float, rule: str = "euler", anchored: bool = False):
+    """A peers.shooting_problem.ShootingProblem, where its peers are, with limits as penalties."""
     module = pytest.importorskip("peers.shooting_problem", reason="needs the environment of scripts/bench")
-    return module.ShootingProblem(*arguments, **options)
+    return module.ShootingProblem(task, step, rule, False, False, False, anchored)
 
 
 def drawn(count: int, seed: int = 3) -> list[tuple[str, dict, MotionTask]]:
@@ -96,7 +96,7 @@ def test_the_judge_and_the_peers_see_friction_along_the_slope(friction: float):
         task = dataclasses.replace(
             task, friction=friction, goals=(), phases=(dataclasses.replace(task.phases[0], duration=0.1),)
         )
-        shooting = shooting_problem(task, 0.1, inverse=False, hard=False, joint_bounds=False)
+        shooting = shooting_problem(task, 0.1)
         data = shooting.problem.runningDatas[0]
         tau = standing_torques(task.robot, task.start, task.phases[0].contacts)
         shooting.problem.runningModels[0].calc(data, shooting.start, tau)
@@ -122,7 +122,7 @@ def test_feet_are_pulled_back_to_where_they_stood():
         lifted = np.concatenate([task.start, np.zeros(task.robot.model.nv)])
         lifted[2] += 1e-3
         for anchored in (False, True):
-            shooting = shooting_problem(task, step, inverse=False, hard=False, joint_bounds=False, anchored=anchored)
+            shooting = shooting_problem(task, step, anchored=anchored)
             data = shooting.problem.runningDatas[0]
             shooting.problem.runningModels[0].calc(data, lifted, np.zeros(12))
             dynamics = ContactDynamics(task.robot, task.phases[0].contacts)

@@ -8,7 +8,7 @@ from hyq import PACKAGES, ROOT, shipped
 
 from judge.motion import Motion
 from judge.motion_task import read_task
-from peers.mesh_search import coarsest_mesh
+from peers.mesh_search import coarsest_step
 from peers.nodes import make_nodes
 
 
@@ -85,18 +85,33 @@ def test_motion_refuses_times_that_go_back():
         )
 
 
-@pytest.mark.parametrize("needed", [1, 4, 7, 19, 100])
-def test_coarsest_mesh_is_good_and_one_five_percent_coarser_is_not(needed: int):
+STEPS = [0.08, 0.056, 0.04, 0.028, 0.02, 0.014, 0.01, 0.007, 0.005, 0.0035, 0.0025]
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+@pytest.mark.parametrize("needed", [0.1, 0.056, 0.013, 0.0025])
+def test_coarsest_step_is_exact_and_the_one_before_is_not(order: int, needed: float):
     tried = []
 
-    def good(intervals: int) -> bool:
-        tried.append(intervals)
-        return intervals >= needed
+    def ratio(step: float) -> float:
+        tried.append(step)
+        return (step / needed) ** order
 
-    found = coarsest_mesh(good, 4)
-    assert needed <= found <= max(needed + 1, 1.06 * needed)
-    assert len(tried) < 12
+    found = coarsest_step(STEPS, order, ratio)
+    assert found == max(step for step in STEPS if step <= needed)
+    assert len(tried) <= 4 and len(set(tried)) == len(tried)
 
 
-def test_no_mesh_at_all():
-    assert coarsest_mesh(lambda intervals: False, 4) is None
+def test_a_step_that_was_left_out_is_tried_if_the_error_falls_faster_than_expected():
+    tried = []
+
+    def ratio(step: float) -> float:
+        tried.append(step)
+        return (step / 0.03) ** 2
+
+    assert coarsest_step(STEPS, 1, ratio) == 0.028
+    assert tried == [0.08, 0.014, 0.02, 0.028, 0.04]
+
+
+def test_no_step_at_all():
+    assert coarsest_step(STEPS, 1, lambda step: float("inf")) is None
