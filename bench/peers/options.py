@@ -44,7 +44,7 @@ def make_parser() -> argparse.ArgumentParser:
         help="folder for the results; default build/bench-results",
     )
     parser.add_argument(
-        "--quick", action="store_true", help="a smoke test of two minutes: stand only, no short steps, no repetitions"
+        "--quick", action="store_true", help="a smoke test of three minutes: stand only, no short steps, no repetitions"
     )
     parser.add_argument(
         "--tasks", type=_list, default=TASKS, metavar="NAME,...", help=f"of tasks/hyq; default {','.join(TASKS)}"
