@@ -35,6 +35,11 @@ std::vector<DiscreteProblem> coarser_problems(const DiscreteProblem& asked, cons
   return problems;
 }
 
+Trajectory timed_guess(const DiscreteProblem& problem, SolveTimes& times) {
+  const Stopwatch stopwatch(times.guess);
+  return initial_guess(problem);
+}
+
 /// Result for a problem that is not solved: the guess with its violation.
 SolveResult not_solved(Transcription& nlp, const VectorXd& z) {
   SolveResult result;
@@ -149,9 +154,7 @@ Plan solve_plan(const DiscreteProblem& asked, const NlpSolver& solver, const Pla
   do {
     problem = level < coarser.size() ? &coarser[level] : &asked;
     const bool from_task = plan.trajectory.empty() || (level > 0 && !is_worth_going_on_from(plan.result.status));
-    const double begin = wall_seconds();
-    const Trajectory guess = from_task ? initial_guess(*problem) : resample(plan.trajectory, *problem);
-    if (from_task) plan.result.times.guess += wall_seconds() - begin;
+    const Trajectory guess = from_task ? timed_guess(*problem, plan.result.times) : resample(plan.trajectory, *problem);
     const bool is_corrected = options.corrected && !from_task;
     Transcription nlp(*problem, guess, is_corrected ? deferred_corrections(*problem, guess) : Corrections{});
     nlp.use_hessian(options.hessian);

@@ -42,41 +42,40 @@ MjcfModel::MjcfModel(const fs::path& file) : file_(file) {
   mesh_folder_ = file.parent_path() / mjs_getString(spec->compiler.meshdir);
   model_.reset(mj_compile(spec.get(), nullptr));
   if (!model_) refuse(mjs_getError(spec.get()));
-  check_tree();
-  for (int joint = 0; joint < model_->njnt; ++joint) {
-    if (model_->jnt_type[joint] == mjJNT_FREE) base_ = model_->jnt_bodyid[joint];
-  }
+  base_ = find_base();
 }
 
-/// One free joint on a body of the world, only hinges and slides behind it, and no loops.
-void MjcfModel::check_tree() const {
+/// The body of the one free joint. Refuses others, what does not hang on it by hinges and slides, and loops.
+int MjcfModel::find_base() const {
   const auto refuse = [&](const std::string& problem) {
     throw InputError(fmt::format("{}: {}", file_.string(), problem));
   };
-  std::vector<std::string> free_bodies;
+  std::vector<int> free_bodies;
   for (int joint = 0; joint < model_->njnt; ++joint) {
-    const int body = model_->jnt_bodyid[joint];
     if (model_->jnt_type[joint] == mjJNT_BALL) {
       refuse(fmt::format("joint '{}' is a ball; need hinges and slides", name_of(mjOBJ_JOINT, joint)));
     }
-    if (model_->jnt_type[joint] == mjJNT_FREE) free_bodies.push_back(name_of(mjOBJ_BODY, body));
+    if (model_->jnt_type[joint] == mjJNT_FREE) free_bodies.push_back(model_->jnt_bodyid[joint]);
   }
   if (free_bodies.empty()) refuse("no body has a <freejoint>; need one on the base of the robot");
   if (free_bodies.size() > 1) {
-    refuse(fmt::format("{} bodies have a free joint ({}); need the file of one robot", free_bodies.size(),
-                       fmt::join(free_bodies, ", ")));
+    std::vector<std::string> names;
+    for (const int body : free_bodies) names.push_back(name_of(mjOBJ_BODY, body));
+    refuse(fmt::format("{} bodies have a free joint ({}); need the file of one robot", names.size(),
+                       fmt::join(names, ", ")));
   }
+  const int base = free_bodies.front();
   for (int joint = 0; joint < model_->njnt; ++joint) {
-    const int root = model_->body_rootid[model_->jnt_bodyid[joint]];
-    if (model_->jnt_type[model_->body_jntadr[root]] == mjJNT_FREE && model_->body_jntnum[root] == 1) continue;
+    if (model_->body_rootid[model_->jnt_bodyid[joint]] == base) continue;
     refuse(fmt::format("joint '{}' is not behind the free joint of '{}'; need the file of one robot",
-                       name_of(mjOBJ_JOINT, joint), free_bodies.front()));
+                       name_of(mjOBJ_JOINT, joint), name_of(mjOBJ_BODY, base)));
   }
   for (int i = 0; i < model_->neq; ++i) {
     if (model_->eq_type[i] != mjEQ_CONNECT && model_->eq_type[i] != mjEQ_WELD) continue;
     refuse(
         fmt::format("the equality constraint '{}' closes a loop; need a tree of bodies", name_of(mjOBJ_EQUALITY, i)));
   }
+  return base;
 }
 
 std::string MjcfModel::name() const { return model_->names; }

@@ -23,7 +23,7 @@ class MjcfModel {
 
   std::string name() const;
   int base() const { return base_; }  ///< the body behind the free joint
-  /// Of MuJoCo, or "body 3" for one without a name.
+  /// Of MuJoCo, or "body_3" for one without a name.
   std::string name_of(mjtObj kind, int id) const;
   std::vector<int> children(int body) const;
   /// Largest torque or force that the actuators of a joint exert, by their limits [N m] or [N]. None: unknown.
@@ -33,7 +33,7 @@ class MjcfModel {
   std::filesystem::path mesh_file(int mesh) const;
 
  private:
-  void check_tree() const;
+  int find_base() const;
 
   struct Delete {
     void operator()(mjModel* model) const { mj_deleteModel(model); }

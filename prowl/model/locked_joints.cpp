@@ -22,13 +22,20 @@ constexpr double kLeastInertia = 1e-7;  // eigenvalue of the mass matrix with on
 
 }  // namespace
 
+std::vector<std::string> moving_joints(const pinocchio::Model& model) {
+  return {model.names.begin() + kBaseJoint + 1, model.names.end()};
+}
+
+bool is_locked(const RobotDescription& description, const std::string& joint) {
+  return std::ranges::find(description.locked_joints, joint) != description.locked_joints.end();
+}
+
 void lock_joints(RobotDescription& description, PinocchioModel& pin) {
-  std::vector<std::string> joints(pin.model.names.begin() + kBaseJoint + 1, pin.model.names.end());
+  const std::vector<std::string> joints = moving_joints(pin.model);
   Eigen::VectorXd q = pinocchio::neutral(pin.model);
   std::set<pinocchio::JointIndex> locked;
   for (const std::string& name : pin.urdf.mimics) {
-    if (std::ranges::find(description.locked_joints, name) == description.locked_joints.end())
-      description.locked_joints.push_back(name);
+    if (!is_locked(description, name)) description.locked_joints.push_back(name);
   }
   for (const std::string& name : description.locked_joints) {
     if (std::ranges::find(joints, name) == joints.end()) {

@@ -61,9 +61,9 @@ Eigen::Index joint_index(const RobotDescription& description, const std::vector<
 
 /// Those of locked joints do not move.
 void set_armature(const RobotDescription& description, pinocchio::Model& model) {
+  const std::vector<std::string> joints = moving_joints(model);
   for (const auto& [name, inertia] : description.armature) {
-    if (std::ranges::find(description.locked_joints, name) != description.locked_joints.end()) continue;
-    const std::vector<std::string> joints(model.names.begin() + kBaseJoint + 1, model.names.end());
+    if (is_locked(description, name)) continue;
     const Eigen::Index j = joint_index(description, joints, "armature", name);
     if (!(inertia >= 0.0) || !std::isfinite(inertia)) {
       throw DescriptionError("armature." + name, fmt::format("robot '{}': armature.{}: {} is not allowed; need >= 0",
@@ -239,8 +239,8 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
     mass_ += model.inertias[joint].mass();
   }
+  joint_names_ = moving_joints(model);
   for (pinocchio::JointIndex joint = kBaseJoint + 1; joint < model.joints.size(); ++joint) {
-    joint_names_.push_back(model.names[joint]);
     joint_is_prismatic_.push_back(model.joints[joint].shortname().starts_with("JointModelP"));
   }
   position_lower_ = model.lowerPositionLimit.tail(nu());
@@ -265,7 +265,7 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   }
   set_base_rotation(nominal_configuration_, rotation_from_rpy(description_.nominal_base_rpy));
   for (const auto& [name, position] : description_.nominal_joints) {
-    if (std::ranges::find(description_.locked_joints, name) != description_.locked_joints.end()) continue;
+    if (is_locked(description_, name)) continue;
     const Eigen::Index j = joint_index(description_, joint_names_, "nominal.joints", name);
     if (!std::isfinite(position)) {
       throw DescriptionError(
