@@ -15,10 +15,8 @@ from judge.checker import judge
 from judge.motion import Motion
 from judge.motion_task import MotionTask, parse_task
 from peers.clock import Clock
-from peers.measure import NoResult, in_own_process, judged, measure_peer
+from peers.measure import JUDGING, NoResult, in_own_process, judged, measure_peer
 from peers.peer_solvers import PeerSetup
-
-JUDGING = 60.0  # CPU time that building the problem and judging its motions may take besides the solves [s]
 
 
 def motion_of(columns: dict) -> Motion:

@@ -9,9 +9,7 @@ import numpy as np
 from judge.contact_dynamics import standing_torques
 from judge.motion import Motion
 from judge.motion_task import MotionTask
-from peers.nodes import Node, anchor, goals_at, held_motion
-
-DAMPING = 50.0  # as of the contacts of the other peers [1/s]
+from peers.nodes import Node, anchor, goals_at, held_motion, landing_place, least_height
 
 
 def _numbers(values) -> list:
@@ -28,12 +26,6 @@ def _contact(task: MotionTask, node: Node, name: str) -> dict:
     }
 
 
-def _landing(task: MotionTask, phase: int, name: str) -> dict:
-    radius = task.robot.contact(name).radius
-    place = task.phases[phase].places.get(name, np.array([np.nan, np.nan, task.floor]))
-    return {"name": name, "place": _numbers(place + [0.0, 0.0, radius])}
-
-
 def holding_torques(task: MotionTask) -> list[np.ndarray]:
     """That hold the start on the contacts of each phase."""
     return [standing_torques(task.robot, task.start, phase.contacts) for phase in task.phases]
@@ -44,19 +36,19 @@ def _node(task: MotionTask, node: Node, joint_bounds: bool, holding: list[np.nda
     held = [contact.name for contact in task.robot.contacts if contact.name in phase.contacts]
     return {
         "step": node.step,
-        "damping": min(DAMPING, 1.0 / node.step) if node.step else DAMPING,
+        "damping": node.damping,
         "holding_torque": holding[node.phase].tolist(),
         "joints_bounded": joint_bounds and node.phase + node.share > 0,
         "held": [_contact(task, node, name) for name in held],
         "open": [
-            {
-                "name": contact.name,
-                "height": task.floor + contact.radius + task.swing_height(contact.name, node.phase, node.share),
-            }
+            {"name": contact.name, "height": least_height(task, node, contact)}
             for contact in task.robot.contacts
             if contact.name not in held
         ],
-        "lands": [_landing(task, node.phase, name) for name in task.lands(node.phase)] if node.first else [],
+        "lands": [
+            {"name": name, "place": _numbers(landing_place(task, node.phase, name))}
+            for name in (task.lands(node.phase) if node.first else ())
+        ],
         "goals": [
             {
                 "position": _numbers(goal.position),

@@ -16,6 +16,7 @@ from peers.clock import Clock
 from peers.peer_solvers import PeerSetup, solve
 from peers.prowl_command import ProwlCommand, ProwlError
 
+JUDGING = 60.0  # CPU time that building the problem and judging its motion may take besides the solve [s]
 RULES = {"euler": "Euler", "semi-implicit": "semi-implicit Euler", "rk2": "RK2", "rk4": "RK4"}
 
 
@@ -113,10 +114,9 @@ def in_own_process(work: Callable[[], dict], seconds: float) -> dict:
 
 
 def measure_peer(kind: str, task: MotionTask, setup: PeerSetup, clock: Clock) -> dict:
-    judging = 60.0  # CPU time of building the problem and judging the motion [s]
     try:
         return in_own_process(
-            lambda: peer_record(kind, task, setup, clock), 2 * (clock.time_limit + clock.patience) + judging
+            lambda: peer_record(kind, task, setup, clock), 2 * (clock.time_limit + clock.patience) + JUDGING
         )
     except NoResult as why:
         return failure(kind, task.name, setup.solver, label(setup), str(why), rule=setup.rule, step_s=setup.step)

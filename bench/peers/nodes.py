@@ -6,6 +6,9 @@ import numpy as np
 
 from judge.motion import Motion
 from judge.motion_task import Goal, MotionTask
+from judge.robot import Contact
+
+DAMPING = 50.0  # Baumgarte gain of the contacts, as in crocoddyl.utils.quadruped [1/s]
 
 
 @dataclass(frozen=True)
@@ -17,6 +20,11 @@ class Node:
     step: float  # [s]; 0 at the end of the motion
     first: bool  # of its phase
     last: bool  # of its phase: one step before the switch
+
+    @property
+    def damping(self) -> float:
+        """Gain of the contacts; explicit steps bear 1 / step [1/s]."""
+        return min(DAMPING, 1.0 / self.step) if self.step else DAMPING
 
 
 def make_nodes(task: MotionTask, step: float) -> list[Node]:
@@ -49,8 +57,19 @@ def anchor(task: MotionTask, phase: int, name: str) -> np.ndarray | None:
         landed -= 1
     if landed == 0:
         return task.robot.places(task.start)[name]
-    place = task.phases[landed].places.get(name)
-    return None if place is None else place + np.array([0.0, 0.0, task.robot.contact(name).radius])
+    place = landing_place(task, landed, name)
+    return None if np.isnan(place).any() else place
+
+
+def landing_place(task: MotionTask, phase: int, name: str) -> np.ndarray:
+    """Where the centre of a contact's ball has to be at the start of this phase, NaN where it may choose."""
+    place = task.phases[phase].places.get(name, np.array([np.nan, np.nan, task.floor]))
+    return place + [0.0, 0.0, task.robot.contact(name).radius]
+
+
+def least_height(task: MotionTask, node: Node, contact: Contact) -> float:
+    """Of the centre of an open contact's ball [m]."""
+    return task.floor + contact.radius + task.swing_height(contact.name, node.phase, node.share)
 
 
 def held_motion(nq: int, nodes: list[Node], states: list[np.ndarray], torques: list[np.ndarray]) -> Motion:

@@ -12,7 +12,7 @@ import pinocchio as pin
 from judge.motion import Motion
 from judge.motion_task import Goal, MotionTask
 from judge.robot import Contact
-from peers.nodes import Node, anchor, goals_at, held_motion, make_nodes
+from peers.nodes import Node, anchor, goals_at, held_motion, landing_place, least_height, make_nodes
 
 WORLD = pin.LOCAL_WORLD_ALIGNED
 PLACE, TURN, VELOCITY = 1e5, 1e5, 1e4  # penalties on what has to hold at one node: [1/m²], [1/rad²], [s²/m²]
@@ -21,7 +21,6 @@ CONE = 1e1  # ... of a force outside its cone, as in crocoddyl.utils.quadruped [
 JOINTS = 1e4  # ... of a joint beyond its limits of position [1/rad²]; of velocity the same number
 NO_FORCE = 1e1  # ... of a force that has to vanish before its contact opens [1/N²]
 FREE = 1e3  # stands for infinity in bounds
-DAMPING = 50.0  # Baumgarte gain of the contacts [1/s], as in crocoddyl.utils.quadruped
 FORCE_WEIGHT = 1e-7  # keeps inverse dynamics' forces determined [1/N²]
 IDLE = 1e-3  # keeps inputs determined that move nothing
 MOMENT = 1e-9  # step of an action that takes no time: Crocoddyl multiplies costs by their step [s]
@@ -129,11 +128,11 @@ class ShootingProblem:
         return action
 
     def _contact(self, contact: Contact, node: Node, nu: int):
-        damping = min(DAMPING, 1.0 / node.step) if node.step else DAMPING  # explicit steps bear 1 / step
-        place, stiffness = anchor(self.task, node.phase, contact.name) if self.anchored else None, damping**2 / 4
-        if place is None:
-            place, stiffness = np.zeros(3), 0.0
-        return crocoddyl.ContactModel3D(self.state, contact.frame, place, WORLD, nu, np.array([stiffness, damping]))
+        place = anchor(self.task, node.phase, contact.name) if self.anchored else None
+        stiffness = 0.0 if place is None else node.damping**2 / 4
+        place = np.zeros(3) if place is None else place
+        gains = np.array([stiffness, node.damping])
+        return crocoddyl.ContactModel3D(self.state, contact.frame, place, WORLD, nu, gains)
 
     def _add(self, costs, name: str, residual, weights: np.ndarray, scale: float = 1.0) -> None:
         activation = crocoddyl.ActivationModelWeightedQuad(np.array(weights, dtype=float))
@@ -211,13 +210,12 @@ class ShootingProblem:
         for contact in self.robot.contacts:
             if contact in held:
                 continue
-            height = self.task.floor + contact.radius + self.task.swing_height(contact.name, node.phase, node.share)
             self._bound(
                 costs,
                 constraints,
                 f"clearance {contact.name}",
                 crocoddyl.ResidualModelFrameTranslation(self.state, contact.frame, np.zeros(3), nu),
-                np.array([-FREE, -FREE, height]),
+                np.array([-FREE, -FREE, least_height(self.task, node, contact)]),
                 np.full(3, FREE),
                 CLEARANCE,
                 True,
@@ -265,14 +263,12 @@ class ShootingProblem:
             self._add_goal(f"goal {number}", goal, costs, nu, scale)
 
     def _add_landing(self, node: Node, name: str, costs, nu: int, scale: float) -> None:
-        contact = self.robot.contact(name)
-        place = self.task.phases[node.phase].places.get(name)
-        touch = np.array([0, 0, self.task.floor]) if place is None else place
+        contact, place = self.robot.contact(name), landing_place(self.task, node.phase, name)
         self._add(
             costs,
             f"landing {name}",
-            crocoddyl.ResidualModelFrameTranslation(self.state, contact.frame, touch + [0, 0, contact.radius], nu),
-            PLACE * np.array([place is not None, place is not None, True]),
+            crocoddyl.ResidualModelFrameTranslation(self.state, contact.frame, np.nan_to_num(place), nu),
+            PLACE * ~np.isnan(place),
             scale,
         )
         self._add(
