@@ -1,9 +1,14 @@
 #include "prowl/plan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "prowl/elastic/elastic_solve.hpp"
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
 #include "prowl/feasibility/rank_check.hpp"
@@ -20,6 +25,14 @@ namespace prowl {
 namespace {
 
 using Eigen::VectorXd;
+
+constexpr double kRestorationPart = 0.5;  ///< of the remaining time; the other is for the solve from its motion
+
+/// For the next solve [s], never zero: when the time is up, it ends at once.
+double seconds_left(const PlanOptions& options, const Plan& plan) {
+  constexpr double kLeast = 1e-3;
+  return std::max(options.solver.max_seconds - plan.result.seconds, kLeast);
+}
 
 /// The problem on the meshes to solve before its own, the coarsest first.
 std::vector<DiscreteProblem> coarser_problems(const DiscreteProblem& asked, const PlanOptions& options,
@@ -86,8 +99,7 @@ SolverOptions options_of_level(const PlanOptions& options, const Plan& plan, boo
   of_level.is_warm_start =
       !is_cold_start && (from_elsewhere ? !options.resume : plan.result.status == SolveStatus::converged);
   of_level.warm_start_multipliers = from_elsewhere ? options.warm_start_multipliers : std::vector<StageMultipliers>{};
-  constexpr double kShortestSeconds = 1e-3;  // when the time is up, a further level ends at once
-  of_level.max_seconds = std::max(options.solver.max_seconds - plan.result.seconds, kShortestSeconds);
+  of_level.max_seconds = seconds_left(options, plan);
   return of_level;
 }
 
@@ -127,14 +139,33 @@ std::vector<std::string> hints(const DiscreteProblem& asked, const Plan& plan, c
                                const PlanOptions& options) {
   if (!plan.reasons.empty() || plan.certificate.passed || plan.result.status == SolveStatus::interrupted) return {};
   const Trajectory guess = initial_guess(asked);
-  const NlpSolver* const hint_solver = options.hint_solver ? options.hint_solver() : nullptr;
+  const NlpSolver* const elastic_solver = options.elastic_solver ? options.elastic_solver() : nullptr;
   return plan.result.status == SolveStatus::converged ? postures_that_lose_rank(asked.problem, guess)
-                                                      : doubts(asked, guess, hint_solver ? *hint_solver : solver);
+                                                      : doubts(asked, guess, elastic_solver ? *elastic_solver : solver);
+}
+
+/// The plan from a motion of restore(), with the time and iterations of the failed solve before it.
+Plan solved_again(const DiscreteProblem& asked, const NlpSolver& solver, PlanOptions options, const Plan& failed,
+                  const Trajectory& motion) {
+  options.warm_start = motion;
+  options.warm_start_multipliers.clear();
+  options.resume = true;
+  options.coarse_first = false;
+  options.solver.max_seconds = seconds_left(options, failed);
+  Plan plan = solve_plan(asked, solver, options);
+  if (has_failed(plan.result.status)) plan.hints = failed.hints;
+  plan.levels.insert(plan.levels.begin(), failed.levels.begin(), failed.levels.end());
+  plan.result.iterations += failed.result.iterations;
+  plan.result.seconds += failed.result.seconds;
+  plan.result.times += failed.result.times;
+  return plan;
 }
 
 }  // namespace
 
 bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
+
+bool has_failed(SolveStatus status) { return status != SolveStatus::converged && !is_stopped(status); }
 
 bool is_worth_going_on_from(SolveStatus status) {
   return status != SolveStatus::infeasible && status != SolveStatus::evaluation_failed &&
@@ -164,10 +195,39 @@ Plan solve_plan(const DiscreteProblem& asked, const NlpSolver& solver, const Pla
   return plan;
 }
 
+std::optional<Trajectory> restore(const DiscreteProblem& asked, const PlanOptions& options, Plan& plan) {
+  const bool is_at_limit = plan.result.status == SolveStatus::iteration_limit;  // which ends it, as those of time do
+  if (!has_failed(plan.result.status) || is_at_limit || !plan.reasons.empty()) return std::nullopt;
+  const NlpSolver* const solver = options.elastic_solver ? options.elastic_solver() : nullptr;
+  if (!solver) return std::nullopt;
+  SolverOptions with;
+  with.threads = options.solver.threads;
+  with.interrupt = options.solver.interrupt;
+  with.max_seconds = kRestorationPart * seconds_left(options, plan);
+  ElasticResult found;
+  {
+    const Stopwatch stopwatch(plan.result.seconds);
+    found = elastic_solve(asked, *solver, with);
+  }
+  if (found.status != SolveStatus::converged) return std::nullopt;
+  const int intervals = asked.mesh.num_intervals();
+  if (found.breaches.empty()) {
+    plan.hints.push_back(
+        fmt::format("no limit has to give way on {} mesh intervals: the solver missed a motion", intervals));
+    return std::move(found.motion);
+  }
+  plan.result.status = SolveStatus::infeasible;
+  plan.result.message = fmt::format("no motion nearby keeps all limits on {} mesh intervals", intervals);
+  constexpr std::size_t kMost = 6;
+  for (std::size_t i = 0; i < std::min(found.breaches.size(), kMost); ++i)
+    plan.hints.push_back("has to give way: " + in_words(found.breaches[i], asked.problem));
+  return std::nullopt;
+}
+
 void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options, Plan& plan) {
   plan.certificate = plan.mesh == asked.mesh ? certify(asked, plan.trajectory)
                                              : certify(DiscreteProblem(asked.problem, plan.mesh), plan.trajectory);
-  plan.hints = hints(asked, plan, solver, options);
+  std::ranges::move(hints(asked, plan, solver, options), std::back_inserter(plan.hints));
 }
 
 Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
@@ -177,6 +237,7 @@ Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const Plan
     return plan;
   }
   Plan plan = solve_plan(asked, solver, options);
+  if (const auto motion = restore(asked, options, plan)) plan = solved_again(asked, solver, options, plan, *motion);
   judge(asked, solver, options, plan);
   return plan;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,8 @@ struct Plan {
   /// Proofs before the solve that there is no motion (proofs_of_infeasibility). With a reason, the status is
   /// infeasible, the solver did not run, and the trajectory is the initial guess.
   std::vector<std::string> reasons;
-  /// Possible causes if the motion fails its certificate: doubts() or, if the solve converged,
-  /// postures_that_lose_rank(). None after an interrupt.
+  /// Possible causes if the motion fails its certificate: the limits that restore() found in conflict and doubts() or,
+  /// if the solve converged, postures_that_lose_rank(). None after an interrupt.
   std::vector<std::string> hints;
 };
 
@@ -56,9 +57,10 @@ struct PlanOptions {
   /// Multipliers of the plan with that motion (Plan::result.stage_multipliers), if known and on the same mesh. Sizes
   /// that do not fit are left out.
   std::vector<StageMultipliers> warm_start_multipliers = {};
-  /// Returns the solver for the small programs behind the hints, which are not chains of stages. Called only after a
-  /// failure, because it may load a library. Empty, or nullptr returned: the solver of the plan.
-  std::function<const NlpSolver*()> hint_solver = {};
+  /// Returns the solver for programs that are not chains of stages: restore(), and those behind the hints. Called only
+  /// after a failure, because it may load a library. Empty, or nullptr returned: nothing is restored, and the solver of
+  /// the plan serves for the hints.
+  std::function<const NlpSolver*()> elastic_solver = {};
   HessianKind hessian = HessianKind::exact;
   /// Adds deferred_corrections() along warm_start: the motion becomes one of fourth order, with cubics between nodes.
   bool corrected = false;
@@ -71,13 +73,19 @@ struct PlanOptions {
 
 /// True after an interrupt or the time limit: no finer mesh is begun, its first iterates are worse to resume.
 bool is_stopped(SolveStatus status);
+/// True if the solver ended by itself without a solution.
+bool has_failed(SolveStatus status);
 
 /// True if a finer mesh may start from the result of this solve; after a failure it starts from the task again.
 bool is_worth_going_on_from(SolveStatus status);
 
-/// The steps of make_plan(): a motion without certificate and hints, and these for it. `asked` may have another mesh
-/// than the plan.
+/// The steps of make_plan(): a motion without certificate and hints; after a failure, what is between it and a motion;
+/// certificate and hints. `asked` may have another mesh than the plan.
 Plan solve_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options);
+/// After a solve of `asked` that failed: solves it elastically, all limits together. A motion that needs no limit to
+/// give way is returned, to solve from again. Else the status becomes infeasible, and the hints name the limits that
+/// give way. Neither after a limit of iterations, if the elastic solve does not converge, or without a solver for it.
+std::optional<Trajectory> restore(const DiscreteProblem& asked, const PlanOptions& options, Plan& plan);
 void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options, Plan& plan);
 
 /// Plans a motion and certifies it. Throws InputError if bounds contradict each other or warm_start does not fit,

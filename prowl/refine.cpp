@@ -32,8 +32,6 @@ bool is_within(const MeshTolerance& errors, const MeshTolerance& tolerance) {
          errors.reintegration <= tolerance.reintegration;
 }
 
-bool has_failed(SolveStatus status) { return status != SolveStatus::converged && !is_stopped(status); }
-
 double largest(const std::vector<double>& parts) { return parts.empty() ? 0.0 : *std::ranges::max_element(parts); }
 
 /// A plan with the errors of its intervals as multiples of the tolerance.
@@ -114,6 +112,7 @@ class Meshes {
       if (!has_failed(first->plan.result.status) || !first->plan.reasons.empty()) break;
     }
     options_.solver.max_iterations = most;
+    if (has_failed(first->plan.result.status)) return restored(std::move(*first));
     return std::move(*first);
   }
   void judge(Plan& plan) const { prowl::judge(asked_, solver_, options_, plan); }
@@ -126,6 +125,20 @@ class Meshes {
   }
 
  private:
+  /// From a motion of restore(), or as it was.
+  Candidate restored(Candidate failed) {
+    PlanOptions options = options_;
+    options.solver.max_seconds = seconds_left();
+    const double before = std::exchange(failed.plan.result.seconds, 0.0);
+    const std::optional<Trajectory> motion = restore(asked_, options, failed.plan);
+    total_.seconds += failed.plan.result.seconds;
+    failed.plan.result.seconds += before;
+    if (!motion) return failed;
+    Plan from;
+    from.trajectory = *motion;
+    Candidate again = solve_from(from, asked_.mesh, false);
+    return has_failed(again.plan.result.status) ? failed : again;
+  }
   double seconds_left() const { return options_.solver.max_seconds - (wall_seconds() - begin_); }
 
   const DiscreteProblem& asked_;

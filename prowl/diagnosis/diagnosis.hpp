@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "prowl/certificate/certificate.hpp"
-#include "prowl/diagnosis/elastic_solve.hpp"
+#include "prowl/elastic/elastic_solve.hpp"
 #include "prowl/mesh/discrete_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 

@@ -23,7 +23,7 @@ void DiagnosisRun::step(const std::string& what) const {
 
 Plan DiagnosisRun::planned(const DiscreteProblem& of, double part, PlanOptions with, double seconds_before) const {
   with.solver = options.solver;
-  with.hint_solver = [this] { return &elastic; };
+  with.elastic_solver = [this] { return &elastic; };
   with.solver.max_seconds = search.seconds_of_solve(part, options.solver.max_seconds - seconds_before);
   return make_plan(of, solver, with);
 }

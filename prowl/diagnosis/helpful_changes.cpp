@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "prowl/diagnosis/elastic_solve.hpp"
 #include "prowl/diagnosis/joint_parameters.hpp"
+#include "prowl/elastic/elastic_solve.hpp"
 #include "prowl/error.hpp"
 #include "prowl/feasibility/feasibility.hpp"
 #include "prowl/guess/initial_guess.hpp"
@@ -21,8 +21,6 @@ namespace {
 
 constexpr double kElasticPart = 0.5;  // of the remaining time, for an elastic solve, which only explains the changes
 constexpr double kSearchPart = 0.65;  // of the remaining time, for the search
-constexpr int kElasticIterations = 500;
-constexpr double kElasticTolerance = 1e-5;  // relative to a weight or a limit
 
 bool is_of_joints(LimitKind kind) {
   return kind == LimitKind::torque || kind == LimitKind::joint_velocity || kind == LimitKind::joint_position;
@@ -106,8 +104,6 @@ class HelpfulChanges {
     if (!run_.search.may_go_on()) return;
     run_.step(kind.empty() ? "elastic solve, all limits" : "elastic solve, " + kind);
     SolverOptions options = run_.options.solver;
-    options.tolerance = std::max(options.tolerance, kElasticTolerance);
-    options.max_iterations = kElasticIterations;
     options.max_seconds = run_.search.seconds_of_solve(kElasticPart);
     try {
       const ElasticResult elastic = elastic_solve(run_.searched, run_.elastic, options, [&](const MotionLimit& limit) {

@@ -118,14 +118,14 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
                              .on_round = request.on_round};
   const DiscreteProblem asked(task.problem, mesh_to_begin_on(task, request.warm_start.record));
   const std::unique_ptr<NlpSolver> solver = make_solver(solver_name(request));
-  std::unique_ptr<NlpSolver> hint_solver;
+  std::unique_ptr<NlpSolver> elastic_solver;
   PlanOptions options{.solver = task.solver,
                       .warm_start = warm_start_motion(request.warm_start, asked),
                       .resume = request.warm_start.resume,
-                      .hint_solver =
-                          [&hint_solver] {
-                            hint_solver = make_solver_if_installed("ipopt");
-                            return hint_solver.get();
+                      .elastic_solver =
+                          [&elastic_solver] {
+                            elastic_solver = make_solver_if_installed("ipopt");
+                            return elastic_solver.get();
                           },
                       .hessian = request.hessian,
                       .corrected = tolerance && request.warm_start.record && !request.warm_start.resume,

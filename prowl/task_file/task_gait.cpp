@@ -122,6 +122,10 @@ TaskGait read_cycle(const TomlTable& root, const TomlTable& table, const Gait& g
   for (const char* key : {"start_s", "settle_s"}) {
     if (const auto value = table.find(key)) value->fail("has no effect beside gait.periodic; need one of the two");
   }
+  const auto is_left = [](const auto& choice) { return choice.has_value(); };
+  if (std::ranges::any_of(start.pose, is_left) || std::ranges::any_of(start.speed, is_left) || !start.v.isZero(0.0))
+    root.need("start").fail(
+        "ranges and velocities have no effect beside gait.periodic, which finds both; need a fixed pose");
   const double heading = read_heading(table, start), length = read_stride_length(table, gait);
   const auto turn_key = table.find("turn_rad");
   const double turn = turn_key ? turn_key->as_number() : 0.0;

@@ -184,8 +184,9 @@ TEST_F(DiagnosisTest, NamesOneMeshWhereThatWasSeenToDo) {
   const DiscreteProblem crouch = prepared(test::replaced(kCrouch, "intervals = 8", "intervals = 60"));
   ASSERT_EQ(mesh_levels(crouch.problem, crouch.mesh).size(), 2u);
   constexpr int kSearch = 2;  // solves before, on 20 and 60 intervals
+  constexpr int kPlan = 3;    // solves of the plan: on both, and again from a restored motion
   const Diagnosis found =
-      diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed, 2), IpoptSolver(), {});
+      diagnose(crouch, test::FailingSolver(kSearch, SolveStatus::solver_failed, kPlan), IpoptSolver(), {});
   EXPECT_TRUE(found.solvable);
   EXPECT_TRUE(found.needs_one_mesh);
   EXPECT_THAT(

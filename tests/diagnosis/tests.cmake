@@ -1,4 +1,3 @@
-prowl_test(diagnosis/elastic_solve prowl::diagnosis prowl::solvers prowl::ipopt)
 prowl_test(diagnosis/adjustable_parameter prowl::plan_folder prowl::diagnosis)
 prowl_test(diagnosis/diagnosis prowl::plan_folder prowl::diagnosis prowl::screen prowl::solvers prowl::ipopt)
 if(PROWL_BUILD_CLI)

@@ -45,6 +45,14 @@ ALLOWED = {
         "prowl/nlp",
         "prowl/mesh",
     ],
+    "prowl/elastic": [
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/mesh",
+        "prowl/guess",
+        "prowl/transcription",
+    ],
     # Of dynamics and transcription nothing: the certificate reaches its verdict by another path.
     "prowl/certificate": ["prowl/model", "prowl/motion", "prowl/trajectory", "prowl/mesh"],
     # plan.cpp, refine.cpp: the flow.
@@ -55,6 +63,7 @@ ALLOWED = {
         "prowl/guess",
         "prowl/transcription",
         "prowl/feasibility",
+        "prowl/elastic",
         "prowl/certificate",
     ],
     "prowl/tracker": [],  # nor prowl/error.hpp: it goes on the robot
@@ -87,6 +96,7 @@ ALLOWED = {
         "prowl/mesh",
         "prowl/guess",
         "prowl/transcription",
+        "prowl/elastic",
         "prowl/feasibility",
         "prowl/certificate",
     ],
@@ -165,6 +175,7 @@ ALLOWED = {
         "prowl/trajectory",
         "prowl/mesh",
         "prowl/certificate",
+        "prowl/elastic",
         "prowl/diagnosis",
         "prowl/task_file",
         "prowl/plan_folder",

@@ -119,6 +119,10 @@ TEST(Cycles, RefuseWhatHasNoPlaceInThem) {
       HasSubstr("gait.periodic: a duty factor of 0.4 leaves no time in which all feet stand; need one above 0.5"));
   EXPECT_THAT(message("kind = \"trot\"\nstrides = 2\nspeed_mps = 0.2\nsettle_s = 1"), HasSubstr("no effect beside"));
   EXPECT_THAT(message("kind = \"trot\"\nstrides = 2\nstride_length_m = 3"), HasSubstr("need shorter ones"));
+  for (const char* start : {"base_position_m = [0, [-0.1, 0.1], 0.6]", "base_linear_velocity_mps = [0.1, 0, 0]"})
+    EXPECT_THAT(message(std::string("kind = \"trot\"\nstrides = 2\nspeed_mps = 0.2\n[start]\n") + start),
+                HasSubstr("ranges and velocities have no effect beside gait.periodic"))
+        << start;
   const Task task = gait("hyq", "kind = \"trot\"\nstrides = 2\nspeed_mps = 0.2");
   EXPECT_THROW(planned(task, *make_solver("fatrop")), InputError);
 }

@@ -40,12 +40,12 @@ class Stretch : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(By, Stretch, testing::Values("riccati", "fatrop", "ipopt"));
 
 TEST_P(Stretch, IsSolvedOrExplainedAndNeverClaimed) {
-  const IpoptSolver hint_solver;
+  const IpoptSolver elastic_solver;
   constexpr double kMostSeconds = 5.0;
   for (const double rise : {0.05, 0.09, 0.0985, 0.105, 0.15}) {
-    const Plan plan = make_plan(
-        stretch(rise), *make_solver(GetParam()),
-        {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds}, .hint_solver = [&] { return &hint_solver; }});
+    const Plan plan = make_plan(stretch(rise), *make_solver(GetParam()),
+                                {.solver = {.max_iterations = 100, .max_seconds = kMostSeconds},
+                                 .elastic_solver = [&] { return &elastic_solver; }});
     const std::string words = std::to_string(rise) + " m: " + to_string(plan.result.status) + ", " + all_words(plan);
     EXPECT_LT(plan.result.seconds, 2.0 * kMostSeconds) << words;
     EXPECT_TRUE(plan.result.z.allFinite()) << words;

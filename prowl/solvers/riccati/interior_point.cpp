@@ -25,6 +25,9 @@ constexpr double kLargestRegularisation = 1e20, kLeastRegularisation = 1e-20;
 constexpr double kFirstRegularisation = 1e-2, kGrowth = 8.0, kDecrease = 1.0 / 3.0;
 constexpr double kLargestEstimate = 1e3;  ///< larger estimates are discarded
 constexpr double kNearlyFeasibleRows = 1e-2, kHugeMultiplier = 1e5;
+/// Multipliers grow without bound where constraints conflict. A cost is about 1 at a solution: above this a violation
+/// of 1e-10 would cost as much. Of 27 tasks and 70 gaits that were solved, none came above 4e7.
+constexpr double kUnboundedMultiplier = 1e10;
 constexpr double kLargestCostSlope = 100.0;
 /// Residual of Newton's equations over the tolerance, and over the error of the iterate: far from the solution the next
 /// error is that of the linearisation, and refining the step costs as much as half a factorisation.
@@ -420,6 +423,8 @@ InteriorPoint::Ending InteriorPoint::run(const StageVectors& guess, const Watch&
       update_figures();
       if (!std::isfinite(figures_.dual_violation)) return {evaluation_failed, "the iterate is not finite"};
       if (const auto ending = has_converged(is_feasible)) return *ending;
+      if (figures_.violation > options_.tolerance && largest_multiplier() > kUnboundedMultiplier)
+        return {infeasible, "the constraints conflict: their multipliers grow without bound"};
       if (const auto ending = watch(iterations_, figures_)) return *ending;
       bool new_barrier = raise_barrier();
       while (update_barrier()) new_barrier = true;

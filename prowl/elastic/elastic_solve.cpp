@@ -1,4 +1,4 @@
-#include "prowl/diagnosis/elastic_solve.hpp"
+#include "prowl/elastic/elastic_solve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,8 @@ namespace prowl {
 
 namespace {
 
+constexpr double kTolerance = 1e-5;  // relative to a weight or a limit
+constexpr int kIterations = 500;
 constexpr double kSeen = 1e-3;  // of a limit's size: less is within the tolerance of the solve
 
 /// Weight of the task's own cost, which is about 1 at a solution (docs/task-file.md): too small to pay for a visible
@@ -50,8 +52,10 @@ std::vector<Breach> read(const std::vector<MotionLimit>& limits, const std::vect
 
 }  // namespace
 
-ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& solver, const SolverOptions& options,
+ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& solver, SolverOptions options,
                             const std::function<bool(const MotionLimit&)>& gives_way) {
+  options.tolerance = std::max(options.tolerance, kTolerance);
+  options.max_iterations = kIterations;
   const Trajectory guess = initial_guess(discrete);
   Transcription hard(discrete, guess);
   std::vector<MotionLimit> limits;
@@ -64,7 +68,13 @@ ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& so
   const Eigen::VectorXd z_guess = hard.pack(guess);
   ElasticNlp elastic(hard, soft, kOwnCost);
   const SolveResult solved = solver.solve(elastic, elastic.with_slacks(z_guess), options);
-  return {solved.status, read(limits, soft, elastic.violations(solved.z), hard.unpack(elastic.inner(solved.z)))};
+  Trajectory motion = hard.unpack(elastic.inner(solved.z));
+  std::vector<Breach> breaches = read(limits, soft, elastic.violations(solved.z), motion);
+  return {solved.status, std::move(breaches), std::move(motion)};
+}
+
+ElasticResult elastic_solve(const DiscreteProblem& discrete, const NlpSolver& solver, SolverOptions options) {
+  return elastic_solve(discrete, solver, std::move(options), [](const MotionLimit&) { return true; });
 }
 
 }  // namespace prowl

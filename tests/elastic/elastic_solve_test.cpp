@@ -1,4 +1,4 @@
-#include "prowl/diagnosis/elastic_solve.hpp"
+#include "prowl/elastic/elastic_solve.hpp"
 
 #include <gmock/gmock.h>
 
@@ -49,8 +49,7 @@ TEST(ElasticSolve, FindsTheFrictionThatIsMissingOnASlope) {
 }
 
 TEST(ElasticSolve, FindsNothingWhereNothingIsMissing) {
-  const ElasticResult result =
-      elastic_solve(on_slope(10.0, 0.5), IpoptSolver(), {.tolerance = 1e-6}, [](const MotionLimit&) { return true; });
+  const ElasticResult result = elastic_solve(on_slope(10.0, 0.5), IpoptSolver(), {.tolerance = 1e-6});
   EXPECT_EQ(result.status, SolveStatus::converged);
   EXPECT_TRUE(result.breaches.empty());
 }

@@ -1,0 +1,1 @@
+prowl_test(elastic/elastic_solve prowl::elastic prowl::solvers prowl::ipopt)
