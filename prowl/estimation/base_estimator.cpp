@@ -28,16 +28,21 @@ BaseEstimator::BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, 
       angular_velocity_(v.segment<3>(3)),
       feet_(robot.contacts().size()) {
   covariance_.setZero(foot_row(feet_.size()), foot_row(feet_.size()));
-  constexpr double kKnown = 1e-5;  // the start is known, to rounding
-  covariance_.diagonal().head(kAccelerometer).setConstant(kKnown * kKnown);
+  covariance_.diagonal().segment<3>(kPosition).setConstant(noise.start_position * noise.start_position);
+  covariance_.diagonal().segment<3>(kVelocity).setConstant(noise.start_velocity * noise.start_velocity);
+  covariance_.diagonal().segment<3>(kRotation).setConstant(noise.start_angle * noise.start_angle);
   covariance_.diagonal().segment<3>(kAccelerometer).setConstant(noise.accelerometer_bias * noise.accelerometer_bias);
   covariance_.diagonal().segment<3>(kGyro).setConstant(noise.gyro_bias * noise.gyro_bias);
   legs_.update(q.tail(robot.nu()));
   for (std::size_t c = 0; c < feet_.size(); ++c) {
     feet_[c].radius = robot.contacts()[c].radius;
     if (!in_contact[c]) continue;
-    put_down(static_cast<int>(c));
-    feet_[c].since = noise.landing;  // it has stood for long
+    // It has stood for long, where the plan puts it: the base may be elsewhere.
+    feet_[c].stands = true;
+    feet_[c].since = noise.landing;
+    feet_[c].foothold = position_ + rotation_ * legs_.position(static_cast<int>(c));
+    covariance_.diagonal().segment<3>(foot_row(c)).setConstant(noise.start_foothold * noise.start_foothold);
+    covariance_(foot_row(c) + 2, foot_row(c) + 2) = noise.start_ground * noise.start_ground;
   }
 }
 

@@ -21,6 +21,14 @@ struct EstimatorNoise {
   /// The same in the first `landing` seconds after its scheduled landing: it may be late.
   double landing_foot = 0.1;
   double landing = 0.03;  ///< [s]
+  // Of the start: the plan is laid over the feet, on ground that is not quite level, and the base is somewhere above.
+  double start_foothold = 2e-3;   ///< across [m]
+  double start_ground = 0.01;     ///< up [m]
+  double start_position = 0.01;   ///< of the base [m]
+  double start_angle = 0.02;      ///< [rad]
+  double start_velocity = 0.05;   ///< [m/s]
+  double start_joint = 0.05;      ///< [rad]
+  double start_joint_rate = 0.3;  ///< [rad/s]
 };
 
 /// Position, velocity and orientation of the base from an IMU at its origin and the standing legs: an error-state
@@ -36,7 +44,7 @@ struct EstimatorNoise {
 /// noise is left out; if it stays off, it gets a new position.
 class BaseEstimator {
  public:
-  /// Starts at the known state (q, v), with `in_contact` (one per contact of the robot) on the ground.
+  /// Starts near the state (q, v), with `in_contact` (one per contact of the robot) on the ground.
   BaseEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                 const std::vector<bool>& in_contact, const EstimatorNoise& noise);
 

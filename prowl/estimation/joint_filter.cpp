@@ -2,8 +2,11 @@
 
 namespace prowl {
 
-JointFilter::JointFilter(const Eigen::VectorXd& positions, const Eigen::VectorXd& rates, double noise, double density)
-    : variance_(noise * noise), density_(density), positions_(positions), rates_(rates) {}
+JointFilter::JointFilter(const Eigen::VectorXd& positions, const Eigen::VectorXd& rates, double noise, double density,
+                         double start_position, double start_rate)
+    : variance_(noise * noise), density_(density), positions_(positions), rates_(rates) {
+  covariance_.diagonal() << start_position * start_position, start_rate * start_rate;
+}
 
 void JointFilter::update(double dt, const Eigen::VectorXd& acceleration, const Eigen::VectorXd& encoders) {
   positions_ += dt * rates_ + 0.5 * dt * dt * acceleration;

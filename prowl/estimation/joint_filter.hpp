@@ -13,8 +13,10 @@ namespace prowl {
 /// rad/s for 1 mrad at 1 kHz.
 class JointFilter {
  public:
-  /// Starts at known positions and rates. `noise` σ > 0 [rad] a sample, `density` S.
-  JointFilter(const Eigen::VectorXd& positions, const Eigen::VectorXd& rates, double noise, double density);
+  /// Starts at positions and rates with these standard deviations [rad, rad/s]. `noise` σ > 0 [rad] a sample, `density`
+  /// S.
+  JointFilter(const Eigen::VectorXd& positions, const Eigen::VectorXd& rates, double noise, double density,
+              double start_position = 0.0, double start_rate = 0.0);
 
   /// Advances by dt [s] with the expected acceleration, then corrects with a sample of the encoders.
   void update(double dt, const Eigen::VectorXd& acceleration, const Eigen::VectorXd& encoders);

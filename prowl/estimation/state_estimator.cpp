@@ -8,7 +8,8 @@ namespace prowl {
 StateEstimator::StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                const Stand& stand, const EstimatorNoise& noise, double joint_density)
     : robot_(robot),
-      joints_(q.tail(robot.nu()), v.tail(robot.nu()), noise.encoder, joint_density),
+      joints_(q.tail(robot.nu()), v.tail(robot.nu()), noise.encoder, joint_density, noise.start_joint,
+              noise.start_joint_rate),
       base_(robot, q, v, stand.in_contact, noise),
       q_(q),
       v_(v) {}

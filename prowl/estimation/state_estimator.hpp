@@ -26,7 +26,7 @@ struct Stand {
 /// delay of the torques swing legs would shake.
 class StateEstimator {
  public:
-  /// Starts at the known state (q, v). `joint_density` [rad²/s³]: noise density S of JointFilter.
+  /// Starts near the state (q, v), as `noise` tells. `joint_density` [rad²/s³]: noise density S of JointFilter.
   StateEstimator(const RobotModel& robot, const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Stand& stand,
                  const EstimatorNoise& noise, double joint_density);
 
