@@ -40,5 +40,20 @@ TEST(Plausibility, LooksAtTheShortestDurationAndTheLongestInterval) {
   EXPECT_THAT(lines_of({problem, {{uneven}}}), ElementsAre(HasSubstr("intervals of 1.3 s")));
 }
 
+/// Two diagonal feet may carry a motion, but not its end.
+TEST(Plausibility, NamesAnEndThatNothingHolds) {
+  MotionProblem problem = test::with_base_goal(test::standing_problem(), {0.0, 0.0, -0.05});
+  BoundaryConstraint& goal = problem.boundary_constraints.back();
+  goal.velocity_lower.head<6>().setZero();
+  goal.velocity_upper.head<6>().setZero();
+  EXPECT_THAT(lines_of(on_even_mesh(problem, 8)), IsEmpty());
+  auto& held = problem.phases[0].contacts;
+  held = {held[0], held[3]};
+  EXPECT_THAT(lines_of(on_even_mesh(problem, 8)),
+              ElementsAre(HasSubstr("ends at rest on two points: no torque holds")));
+  problem.boundary_constraints.back().velocity_upper.setConstant(1.0);
+  EXPECT_THAT(lines_of(on_even_mesh(problem, 8)), IsEmpty()) << "it does not end at rest";
+}
+
 }  // namespace
 }  // namespace prowl
