@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prowl/elastic/breach.hpp"
 #include "prowl/files/json_text.hpp"
 #include "screen/mesh_advice.hpp"
 #include "screen/plan_summary.hpp"
@@ -17,27 +18,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostBreaches = 6;  // that are shown as text
-
-std::string phase_in_words(const MotionProblem& problem, int phase) {
-  const std::string& name = problem.phases[phase].name;
-  const std::string number = fmt::format("phase {}", phase + 1);
-  return name == number ? number : fmt::format("{} '{}'", number, name);
-}
-
-/// "friction", "joint velocity".
-std::string in_words(std::string kind) {
-  std::ranges::replace(kind, '_', ' ');
-  return kind == "place" ? "landing place" : kind;
-}
-
-/// "phase 2 'swing', lh_foot, friction at 0.410 s: 37 N short".
-std::string in_words(const Breach& breach, const MotionProblem& problem) {
-  const std::string what = breach.kind == LimitKind::goal ? "" : ", " + in_words(std::string(to_string(breach.kind)));
-  return fmt::format(
-      "{}, {}{} at {:.3g} s: {} {}", phase_in_words(problem, breach.phase), breach.subject, what, breach.time,
-      with_unit(breach.amount, breach.unit),
-      breach.kind == LimitKind::friction || breach.kind == LimitKind::clearance ? "short" : "beyond its bound");
-}
 
 /// What a change turns: "friction of floor", "duration of phase 1", "goal 1, base z".
 std::string what_it_turns(const ProposedChange& change, const MotionProblem& problem) {

@@ -14,7 +14,7 @@ enum ExitStatus : int {
   kNumericalFailure = 5,
   kLimit = 6,              ///< of time or iterations
   kCertificateFailed = 7,  ///< converged, but the certificate fails
-  kSimulationFailed = 8,   ///< the criteria of the task are not met
+  kSimulationFailed = 8,   ///< the criteria of the judge are not met
   kInterrupted = 130,
 };
 

@@ -20,6 +20,7 @@
 #include "prowl/plan_folder/simulation_files.hpp"
 #include "prowl/report_page/report_file.hpp"
 #include "prowl/session/environment.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
 #include "prowl/simulation/sweep.hpp"
 #include "prowl/tracking/displaced_start.hpp"
 
@@ -75,6 +76,8 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
   options.control_rate = arguments.control_rate.value_or(options.control_rate);
   options.record_rate = arguments.record_rate;
   options.delay = 1e-3 * arguments.delay_ms;
+  options.physics.collisions = std::make_shared<const CollisionShapes>(
+      collision_shapes(plan.task.problem.robot, package_search(arguments.package_dirs)));
   options.physics.friction = arguments.friction ? arguments.friction : plan.task.simulated_friction;
   if (arguments.push.size() % 4 != 0) {
     throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]",
@@ -84,7 +87,7 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
     const double* const push = &arguments.push[i];
     options.pushes.push_back({{push[1], push[2], push[3]}, push[0], arguments.push_duration});
   }
-  if (arguments.sweep_case) options = perturbed(tracker, options, {}, *arguments.sweep_case);
+  if (arguments.sweep_case) options = perturbed(plan.task.problem, tracker, options, {}, *arguments.sweep_case);
   MotionProgress progress;
   const SimulationRecord record{options,
                                 simulate(plan.task.problem, tracker, plan.task.success, options, std::ref(progress))};
@@ -237,7 +240,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   set_footer(*verb,
              {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
               "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
-             "0 success, 8 failure by the criteria of the task; others as prowl plan.");
+             "0 success, 8 failure by the judge; others as prowl plan.");
   verb->callback([arguments, verb, &status] {
     check_engine(*verb, arguments->engine);
     status = run_simulate(*arguments);

@@ -15,6 +15,7 @@
 #include "cli/verbs/plan_tracker.hpp"
 #include "prowl/files/atomic_folder.hpp"
 #include "prowl/plan_folder/sweep_files.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
 
 namespace prowl::cli {
 namespace {
@@ -52,10 +53,13 @@ int run_sweep(const SweepArguments& arguments) {
   const MotionProblem& problem = plan.task.problem;
   const Tracker tracker = read_tracker(arguments.directory, problem);
   SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = arguments.ranges};
+  SimulationOptions base = arguments.options;
+  base.physics.collisions =
+      std::make_shared<const CollisionShapes>(collision_shapes(problem.robot, package_search(arguments.package_dirs)));
   std::vector<SimulationOptions> options;
   for (int i = 0; i < arguments.cases; ++i) {
     options.push_back(
-        perturbed(tracker, arguments.options, arguments.ranges, arguments.seed + static_cast<std::uint64_t>(i)));
+        perturbed(problem, tracker, base, arguments.ranges, arguments.seed + static_cast<std::uint64_t>(i)));
   }
   print_progress(fmt::format("{} simulation{} of {:.1f} s of motion{}\n", arguments.cases,
                              arguments.cases == 1 ? "" : "s", tracker.end() + plan.task.success.rest,
@@ -64,7 +68,7 @@ int run_sweep(const SweepArguments& arguments) {
     return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
   });
   if (arguments.breakdown_cases > 0 && !interrupted) {
-    SimulationOptions alone = arguments.options;
+    SimulationOptions alone = base;
     alone.physics.friction = plan.task.simulated_friction;
     record.breakdowns =
         with_bar("simulations of one perturbation alone", interrupted, [&](const SweepProgress& on_done) {
@@ -112,18 +116,18 @@ void add_sweep_command(CLI::App& app, int& status) {
       ->check(whole_number())
       ->type_name("N");
   verb->add_option("--mass-spread", ranges.mass,
-                   fmt::format("Largest error of the masses, as a share; default {:g}", ranges.mass))
+                   fmt::format("Largest error of the mass of each body, as a share; default {:g}", ranges.mass))
       ->type_name("X")
       ->check(number_in({.lower = 0.0, .upper = 0.9}))
       ->group(kPerturbations);
-  verb->add_option("--push-impulse", ranges.push,
-                   fmt::format("Impulse of the pushes on the base; default {:g}", ranges.push))
+  verb->add_option(
+          "--push-impulse", ranges.push,
+          fmt::format("Impulse of the pushes on the base; default: {:g} m/s times the mass", ranges.push_velocity))
       ->type_name("NS")
       ->check(number_in(NumberRange::nonnegative()))
       ->group(kPerturbations);
-  verb->add_option(
-          "--push-impulse-on-two-feet", ranges.push_on_two_feet,
-          fmt::format("The same while two feet or fewer are on the ground; default {:g}", ranges.push_on_two_feet))
+  verb->add_option("--push-impulse-on-two-feet", ranges.push_on_two_feet,
+                   "The same while two feet or fewer are on the ground; default: no less")
       ->type_name("NS")
       ->check(number_in(NumberRange::nonnegative()))
       ->group(kPerturbations);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "prowl/plan_folder/simulation_parts.hpp"
+#include "prowl/simulation/judge.hpp"
 
 namespace prowl {
 namespace {

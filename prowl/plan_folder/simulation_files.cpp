@@ -8,6 +8,8 @@
 #include <iterator>
 
 #include "prowl/plan_folder/simulation_parts.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
+#include "prowl/simulation/judge.hpp"
 
 namespace prowl {
 namespace {
@@ -42,6 +44,19 @@ Json options_json(const SimulationOptions& options) {
                {"friction", nullptr},
                {"pushes", Json::array()}};
   if (options.physics.friction) json["friction"] = *options.physics.friction;
+  const PhysicsOptions& physics = options.physics;
+  json["world"] = {{"body_scales", physics.body_scales},
+                   {"base_center_m", vector_json(physics.base_center)},
+                   {"friction_scale", physics.friction_scale},
+                   {"ground_height_m", options.ground.height},
+                   {"ground_tilt_rad", vector_json(options.ground.tilt)},
+                   {"unknown_delay_s", options.unknown_delay},
+                   {"unknown_noise", options.unknown_noise}};
+  if (const auto& start = options.start) {
+    json["world"]["start"] = {{"base_m_rad", vector_json(start->base)},
+                              {"twist_mps_radps", vector_json(start->twist)},
+                              {"joints_rad", vector_json(start->joints)}};
+  }
   for (const Push& push : options.pushes) {
     json["pushes"].push_back(
         {{"impulse_Ns", vector_json(push.impulse)}, {"time_s", push.time}, {"duration_s", push.duration}});
@@ -88,6 +103,8 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
                   options.control_rate, 1e3 * options.delay, options.perfect_state ? 0.0 : options.noise_scale,
                   options.physics.mass_scale != 1.0 ? fmt::format(", masses x {:g}", options.physics.mass_scale) : "",
                   options.physics.friction ? fmt::format(", friction {:g}", *options.physics.friction) : "");
+  if (!options.physics.body_scales.empty())
+    text += fmt::format("  case of a sweep: {}\n", world_in_words(problem.robot, options));
   if (options.bandwidth > 0.0) text += fmt::format("  actuator bandwidth {:g} Hz\n", options.bandwidth);
   for (const Push& push : options.pushes) {
     text += fmt::format("  push of {:.3g} N s along [{:.3g}, {:.3g}, {:.3g}] from {:.3g} s for {:.3g} s\n",
@@ -110,17 +127,21 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
   }
   text += '\n';
   text += torque_line(torque_use(result));
-  double late = 0.0;
+  double late = 0.0, off = 0.0;
   int missing = 0;
   for (const ContactSwitch& change : result.switches) {
-    if (std::isnan(change.measured))
+    if (std::isnan(change.measured)) {
       ++missing;
-    else
-      late = std::max(late, std::abs(change.measured - change.planned));
+      continue;
+    }
+    late = std::max(late, std::abs(change.measured - change.planned));
+    off = std::max(off, change.off);
   }
   if (!result.switches.empty()) {
-    text += fmt::format("  contacts    {} landings and openings, at most {:.0f} ms from the plan{}\n",
-                        result.switches.size(), 1e3 * late, missing > 0 ? fmt::format(", {} missing", missing) : "");
+    text += fmt::format(
+        "  contacts    {} landings and lift-offs, at most {:.0f} ms from the plan{}; at most {:.1f} cm from the "
+        "foothold\n",
+        result.switches.size(), 1e3 * late, missing > 0 ? fmt::format(", {} missing", missing) : "", 100 * off);
   }
   return text;
 }
@@ -130,7 +151,11 @@ std::string simulation_json(const PlanRecord& plan, const SimulationRecord& reco
   const RobotModel& robot = plan.task.problem.robot;
   Json json =
       verdict_json(plan, {kSimulationEngine, result.failures, to_text(result.end), result.end_time, result.phase});
-  json["criteria"]["slip_m"] = plan.task.success.slip;
+  const SuccessCriteria& criteria = plan.task.success;
+  json["criteria"]["slip_m"] = allowed_way(robot, criteria);
+  json["criteria"]["delay_s"] = criteria.delay;
+  json["criteria"]["delay_share_of_swing"] = criteria.delay_share;
+  json["criteria"]["at_limit_share_of_time"] = criteria.at_limit;
   json.update({{"base_position_m", error_json(result.base_position)},
                {"base_angle_rad", error_json(result.base_angle)},
                {"joints_rad", error_json(result.joints)},
@@ -146,10 +171,24 @@ std::string simulation_json(const PlanRecord& plan, const SimulationRecord& reco
                   {"lands", change.lands},
                   {"planned_s", change.planned},
                   {"measured_s", nullptr}};
-    if (std::isfinite(change.measured)) entry["measured_s"] = change.measured;
+    if (std::isfinite(change.measured)) {
+      entry["measured_s"] = change.measured;
+      if (change.lands) entry["off_m"] = change.off;
+      if (change.lands) entry["on_its_surface"] = change.on_its_surface;
+    }
     json["switches"].push_back(entry);
   }
+  json["goals"] = Json::array();
+  for (const GoalError& goal : result.goals)
+    json["goals"].push_back(
+        {{"goal", goal.name}, {"position_m", goal.position}, {"angle_rad", goal.angle}, {"joint_rad", goal.joint}});
+  json["flights"] = Json::array();
+  for (const FlightHeight& flight : result.flights)
+    json["flights"].push_back({{"phase", flight.phase}, {"missing_height_m", flight.missing}});
+  json["touches"] = result.touches;
   json["options"] = options_json(record.options);
+  const auto& collisions = record.options.physics.collisions;
+  json["left_out_of_collisions"] = collisions ? collisions->left_out : std::vector<std::string>();
   json["versions"] = {{"MuJoCo", Physics::version()}};
   return json_text(json);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "prowl/files/atomic_folder.hpp"
+#include "prowl/simulation/sweep.hpp"
 
 namespace prowl {
 
@@ -30,6 +31,17 @@ Json error_json(const ErrorMeasure& error) {
 }
 
 Json vector_json(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
+
+std::string world_in_words(const RobotModel& robot, const SimulationOptions& options) {
+  std::string text = fmt::format("mass x {:.2f}, friction x {:.2f}, {:.0f} Hz, {:.1f} ms, tilt {:.1f} deg",
+                                 mass_factor(robot, options.physics), options.physics.friction_scale, options.bandwidth,
+                                 1e3 * (options.delay + options.unknown_delay), options.ground.tilt.norm() / kDegree);
+  for (const Push& push : options.pushes) {
+    text += fmt::format(", {:.3g} N s towards {:.0f} deg at {:.2f} s", push.impulse.norm(),
+                        std::atan2(push.impulse.y(), push.impulse.x()) / kDegree, push.time);
+  }
+  return text;
+}
 
 Json torque_json(const TorqueUse& use) {
   return {{"largest_share", use.largest_share},

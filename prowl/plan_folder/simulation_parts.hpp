@@ -33,6 +33,9 @@ struct TorqueUse {
 nlohmann::ordered_json torque_json(const TorqueUse& use);
 std::string torque_line(const TorqueUse& use);
 
+/// The case of a sweep: "mass x 1.02, friction x 0.81, ...".
+std::string world_in_words(const RobotModel& robot, const SimulationOptions& options);
+
 /// A table of errors: its heading, and a line in units of `unit`.
 std::string error_heading();
 std::string error_line(const std::string& name, const ErrorMeasure& error, double unit, const std::string& unit_name);

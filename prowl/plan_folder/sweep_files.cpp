@@ -7,8 +7,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "prowl/files/json_text.hpp"
+#include "prowl/plan_folder/simulation_parts.hpp"
 
 namespace prowl {
 namespace {
@@ -50,15 +52,7 @@ std::vector<std::size_t> worst_first(const SweepRecord& record) {
   return order;
 }
 
-std::string describe(const SimulationOptions& options) {
-  std::string text =
-      fmt::format("mass x {:.2f}, friction {:.2f}", options.physics.mass_scale, options.physics.friction.value_or(NAN));
-  for (const Push& push : options.pushes) {
-    const double direction = std::atan2(push.impulse.y(), push.impulse.x()) * 180.0 / std::numbers::pi;
-    text += fmt::format(", {:g} N s towards {:.0f} deg at {:.2f} s", push.impulse.norm(), direction, push.time);
-  }
-  return text;
-}
+Json size_json(std::optional<double> size) { return size ? Json(*size) : Json(nullptr); }
 
 }  // namespace
 
@@ -84,10 +78,10 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
   constexpr std::size_t kWorst = 5;
   for (std::size_t i = 0; i < std::min(kWorst, order.size()); ++i) {
     const SweepCase& one = record.cases[order[i]];
-    text += fmt::format("    seed {:<6} {}: {}\n", record.first_seed + order[i], describe(one.options),
-                        one.result.success()
-                            ? fmt::format("success, base {:.1f} cm off", 100 * one.result.base_position.rest)
-                            : one.result.failures.front());
+    text += fmt::format(
+        "    seed {:<6} {}: {}\n", record.first_seed + order[i], world_in_words(plan.task.problem.robot, one.options),
+        one.result.success() ? fmt::format("success, base {:.1f} cm off", 100 * one.result.base_position.rest)
+                             : one.result.failures.front());
   }
   if (!record.breakdowns.empty()) text += "  one perturbation alone: success falls below one half between\n";
   for (const Breakdown& found : record.breakdowns) {
@@ -113,10 +107,22 @@ std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const Swe
                {"success_rate", rate.rate()},
                {"interval_95", {rate.lower, rate.upper}},
                {"ranges",
-                {{"mass", ranges.mass},
+                {{"base_position_m", ranges.base_position},
+                 {"base_angle_rad", ranges.base_angle},
+                 {"base_velocity_mps", ranges.base_velocity},
+                 {"base_rate_radps", ranges.base_rate},
+                 {"joint_rad", ranges.joint},
+                 {"mass", ranges.mass},
+                 {"base_center_m", ranges.base_center},
                  {"friction", {ranges.friction_low, ranges.friction_high}},
-                 {"push_Ns", ranges.push},
-                 {"push_on_two_feet_Ns", ranges.push_on_two_feet},
+                 {"bandwidth_Hz", {ranges.bandwidth_low, ranges.bandwidth_high}},
+                 {"delay_s", {ranges.delay_low, ranges.delay_high}},
+                 {"ground_height_m", ranges.ground_height},
+                 {"ground_tilt_rad", ranges.ground_tilt},
+                 {"noise", {ranges.noise_low, ranges.noise_high}},
+                 {"push_velocity_mps", ranges.push_velocity},
+                 {"push_Ns", size_json(ranges.push)},
+                 {"push_on_two_feet_Ns", size_json(ranges.push_on_two_feet)},
                  {"push_duration_s", ranges.push_duration}}},
                {"phases", Json::array()},
                {"worst", Json::array()},
@@ -130,7 +136,7 @@ std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const Swe
     json["worst"].push_back({{"seed", record.first_seed + i},
                              {"success", one.result.success()},
                              {"failures", one.result.failures},
-                             {"perturbation", describe(one.options)},
+                             {"perturbation", world_in_words(plan.task.problem.robot, one.options)},
                              {"pushed_in_phase", pushed_phase(tracker, one.options)},
                              {"rest_position_m", one.result.base_position.rest},
                              {"rest_angle_rad", one.result.base_angle.rest},

@@ -1,5 +1,7 @@
 #include "prowl/simulation/measures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,13 +9,46 @@
 
 namespace prowl {
 
-Measures::Measures(const MotionProblem& problem, const Tracker& tracker, double end)
+Measures::Measures(const MotionProblem& problem, const Tracker& tracker, const Physics& physics, double end)
     : problem_(problem),
       tracker_(tracker),
+      physics_(physics),
       end_(end),
       slip_now_(problem.robot.contacts().size(), Eigen::Vector3d::Zero()),
       slip_(problem.robot.contacts().size(), 0.0),
-      touches_(problem.robot.contacts().size()) {}
+      touches_(problem.robot.contacts().size()) {
+  const auto& segments = tracker.plan().segments;
+  const auto time = [&](const PhaseFraction& at) {
+    const TrackingPlan::Segment& segment = segments[static_cast<std::size_t>(at.phase)];
+    return segment.start + at.fraction * (segment.end - segment.start);
+  };
+  for (std::size_t c = 1; c < problem.boundary_constraints.size(); ++c) {
+    const BoundaryConstraint& goal = problem.boundary_constraints[c];
+    moments_.push_back({time(goal.at), &goal, ""});
+  }
+  for (std::size_t p = 0; p < problem.phases.size(); ++p) {
+    if (!problem.phases[p].contacts.empty()) continue;
+    moments_.push_back({time({static_cast<int>(p), 0.5}), nullptr, problem.phases[p].name});
+  }
+  std::ranges::stable_sort(moments_, {}, &Moment::time);
+}
+
+/// Distance of each entry from its bounds.
+void Measures::add_moment(const Moment& moment, const SimulationSample& sample) {
+  if (!moment.goal) {
+    result_.flights.push_back({moment.phase, (sample.q_ref - sample.q).z()});
+    return;
+  }
+  const BoundaryConstraint& goal = *moment.goal;
+  const Eigen::VectorXd at = difference(goal.q_ref, sample.q);
+  const Eigen::VectorXd off =
+      (at - at.cwiseMax(goal.configuration_lower).cwiseMin(goal.configuration_upper)).cwiseAbs();
+  GoalError error{goal.name, off.head<3>().norm(), off.segment<3>(3).norm(), 0.0, ""};
+  Eigen::Index worst = 0;
+  if (off.size() > 6) error.joint = off.tail(off.size() - 6).maxCoeff(&worst);
+  if (error.joint > 0.0) error.worst_joint = problem_.robot.joint_names()[static_cast<std::size_t>(worst)];
+  result_.goals.push_back(std::move(error));
+}
 
 void Measures::add(const SimulationSample& sample, const std::vector<Eigen::Vector3d>& slip) {
   const RobotModel& robot = problem_.robot;
@@ -26,12 +61,18 @@ void Measures::add(const SimulationSample& sample, const std::vector<Eigen::Vect
   estimated_rates_.add((sample.v_seen - sample.v).tail(robot.nu()).norm() / std::sqrt(robot.nu()), at_rest);
 
   const TrackingPlan::Segment& segment = tracker_.segment(sample.time);
+  for (; next_moment_ < moments_.size() && moments_[next_moment_].time <= sample.time; ++next_moment_)
+    add_moment(moments_[next_moment_], sample);
   times_.push_back(sample.time);
   for (std::size_t c = 0; c < slip_.size(); ++c) {
-    touches_[c].push_back(sample.contacts[c].touches);
+    touches_[c].push_back({sample.contacts[c].surface, sample.contacts[c].position});
     slip_now_[c] = segment.in_contact[c] ? Eigen::Vector3d(slip_now_[c] + slip[c]) : Eigen::Vector3d::Zero();
     slip_[c] = std::max(slip_[c], slip_now_[c].norm());
   }
+}
+
+void Measures::add_touch(const std::string& what, double t) {
+  if (touched_.insert(what).second) result_.touches.push_back(fmt::format("{} at {:.3f} s", what, t));
 }
 
 void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& tau, const Eigen::VectorXd& v,
@@ -45,20 +86,51 @@ void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& ta
   if (actuators.saturated()) saturated_ += dt;
 }
 
-/// Time of the first (landing) or last (opening) touch between `from` and `to`; NaN without one.
-double Measures::touch_near(int contact, double from, double to, bool lands) const {
-  const auto& touches = touches_[contact];
-  double found = std::nan("");
+/// The first (landing) or last (lift-off) touch of a foot between `from` and `to`: of any of the corners of a flat one.
+std::optional<Measures::Found> Measures::touch_near(int contact, double from, double to, bool lands) const {
+  const std::vector<ContactPoint>& contacts = problem_.robot.contacts();
+  std::optional<Found> found;
   for (std::size_t i = 0; i < times_.size(); ++i) {
-    if (times_[i] < from || times_[i] > to || !touches[i]) continue;
-    found = times_[i];
-    if (lands) break;
+    if (times_[i] < from || times_[i] > to) continue;
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      if (contacts[c].frame != contacts[static_cast<std::size_t>(contact)].frame || touches_[c][i].surface < 0)
+        continue;
+      found = {i, c};
+      if (lands) return found;
+    }
   }
   return found;
 }
 
-SimulationResult Measures::result() const {
-  SimulationResult result = result_;
+/// Of a contact that holds in this segment.
+int Measures::planned_surface(int contact, std::size_t segment) const {
+  const std::size_t phase = std::min(segment, problem_.phases.size() - 1);  // after the end it stands on
+  const auto& held = problem_.phases[phase].contacts;
+  const auto found = std::ranges::find(held, contact, &PhaseContact::contact);
+  return found == held.end() ? -1 : found->surface;
+}
+
+/// At the start of a segment, looked for between `from` and `to`.
+void Measures::add_switch(int contact, bool lands, std::size_t segment, double swing, double from, double to) {
+  ContactSwitch change{contact, lands, tracker_.plan().segments[segment].start, std::nan(""), swing};
+  if (const auto touch = touch_near(contact, from, to, lands)) {
+    const Touch& at = touches_[touch->contact][touch->sample];
+    change.measured = times_[touch->sample];
+    if (lands) {
+      const int planned = planned_surface(contact, segment);
+      Eigen::VectorXd q(problem_.robot.nq()), v(problem_.robot.nv());
+      tracker_.reference(change.planned, q, v);
+      const Eigen::Vector3d way = at.position - physics_.contact_positions(q)[touch->contact];
+      const Eigen::Vector3d& normal = problem_.surfaces[static_cast<std::size_t>(planned)].normal;
+      change.off = (way - normal.dot(way) * normal).norm();
+      change.on_its_surface = at.surface == planned;
+    }
+  }
+  result_.switches.push_back(change);
+}
+
+SimulationResult Measures::result() {
+  SimulationResult& result = result_;
   result.base_position = error_.base_position();
   result.base_angle = error_.base_angle();
   result.joints = error_.joints();
@@ -79,10 +151,8 @@ SimulationResult Measures::result() const {
       const double off = segments[s].start, on = segments[last].end, middle = 0.5 * (off + on);
       const double before = s > 0 ? segments[s - 1].start : 0.0;
       const double after = last + 1 < segments.size() ? segments[last + 1].end : on;
-      if (s > 0) result.switches.push_back({contact, false, off, touch_near(contact, before, middle, false)});
-      if (last + 1 < segments.size()) {
-        result.switches.push_back({contact, true, on, touch_near(contact, middle, after, true)});
-      }
+      if (s > 0) add_switch(contact, false, s, on - off, before, middle);
+      if (last + 1 < segments.size()) add_switch(contact, true, last + 1, on - off, middle, after);
       s = last;
     }
   }

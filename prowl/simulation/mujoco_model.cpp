@@ -11,6 +11,7 @@
 #include "prowl/mjcf/mujoco_log.hpp"
 #include "prowl/model/body_tree.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
 
 namespace prowl {
 namespace {
@@ -65,6 +66,10 @@ void add_contact_law(mjsGeom* geom) {
   std::copy(std::begin(kImpedance), std::end(kImpedance), geom->solimp);
 }
 
+// Bits of what may touch (contype) and what it touches (conaffinity): surfaces touch contacts and shapes, shapes touch
+// contacts and each other. A ball never touches a ball: feet side by side are not a fault.
+constexpr int kGround = 1, kShape = 2;
+
 void add_ball(const ContactPoint& contact, const BodyTree::Point& point, const Eigen::Vector3d& up, mjsBody* body) {
   mjsGeom* const geom = mjs_addGeom(body, nullptr);
   mjs_setName(geom->element, ("contact " + contact.name).c_str());
@@ -73,7 +78,44 @@ void add_ball(const ContactPoint& contact, const BodyTree::Point& point, const E
   // Raises the small ball of a corner: its lowest point in the nominal posture is the corner.
   copy(point.position + (geom->size[0] - contact.radius) * up, geom->pos);
   geom->contype = 0;
-  geom->conaffinity = 1;
+  geom->conaffinity = kGround | kShape;
+  add_contact_law(geom);
+}
+
+void add_shape(const CollisionShape& from, std::size_t index, mjSpec* spec, mjsBody* body) {
+  const RobotVisual& shape = from.shape;
+  const std::string name = fmt::format("shape {} {}", index, shape.link);
+  mjsGeom* const geom = mjs_addGeom(body, nullptr);
+  mjs_setName(geom->element, name.c_str());
+  const Eigen::Vector3d& size = shape.size;
+  switch (shape.kind) {
+    case RobotVisual::Kind::box:
+      geom->type = mjGEOM_BOX;
+      copy(0.5 * size, geom->size);
+      break;
+    case RobotVisual::Kind::sphere:
+      geom->type = mjGEOM_SPHERE;
+      geom->size[0] = size.x();
+      break;
+    case RobotVisual::Kind::cylinder:
+    case RobotVisual::Kind::capsule:
+      geom->type = shape.kind == RobotVisual::Kind::capsule ? mjGEOM_CAPSULE : mjGEOM_CYLINDER;
+      geom->size[0] = size.x();
+      geom->size[1] = 0.5 * size.z();
+      break;
+    case RobotVisual::Kind::mesh: {
+      geom->type = mjGEOM_MESH;
+      mjsMesh* const mesh = mjs_addMesh(spec, nullptr);
+      mjs_setName(mesh->element, name.c_str());
+      mesh->inertia = mjMESH_INERTIA_CONVEX;
+      mjs_setFloat(mesh->uservert, from.hull.data(), static_cast<int>(from.hull.size()));
+      mjs_setString(geom->meshname, name.c_str());
+    }
+  }
+  copy(shape.placement.translation(), geom->pos);
+  copy_rotation(shape.placement.linear(), geom->quat);
+  geom->contype = kShape;
+  geom->conaffinity = from.misses_ground ? kShape : kShape | kGround;
   add_contact_law(geom);
 }
 
@@ -100,7 +142,7 @@ void add_surface(const Surface& surface, double friction, mjSpec* spec, mjsBody*
     geom->type = mjGEOM_MESH;
     mjs_setString(geom->meshname, ("surface " + surface.name).c_str());
   }
-  geom->contype = 1;
+  geom->contype = kGround;
   geom->conaffinity = 0;
   geom->priority = 1;  // use this geom's friction, not the larger of the two
   geom->friction[0] = friction;
@@ -124,6 +166,12 @@ void set_options(const PhysicsOptions& options, mjSpec* spec) {
 
 }  // namespace
 
+std::unique_ptr<mjModel, MujocoModel::Delete> compile(mjSpec* spec) {
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  return std::unique_ptr<mjModel, MujocoModel::Delete>(mj_compile(spec, nullptr));
+}
+
 MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>& surfaces,
                             const PhysicsOptions& options) {
   silence_mujoco();
@@ -140,8 +188,9 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
     mjs_setName(body->element, from.name.c_str());
     copy(from.placement.translation(), body->pos);
     copy_rotation(from.placement.linear(), body->quat);
-    set_inertia(from, options.mass_scale, body);
+    set_inertia(from, options.mass_scale * (options.body_scales.empty() ? 1.0 : options.body_scales[b]), body);
     if (b == 0) {
+      copy(from.center + options.base_center, body->ipos);
       mjsJoint* const base = mjs_addFreeJoint(body);
       base->align = mjALIGNFREE_FALSE;
       continue;
@@ -168,20 +217,27 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
     const Eigen::Vector3d up = rotations[body].transpose() * Eigen::Vector3d::UnitZ();
     add_ball(robot.contacts()[c], tree.points[c], up, bodies[body]);
   }
+  if (options.collisions) {
+    const CollisionShapes& collisions = *options.collisions;
+    for (std::size_t i = 0; i < collisions.shapes.size(); ++i)
+      add_shape(collisions.shapes[i], i, spec.get(), bodies[static_cast<std::size_t>(collisions.shapes[i].shape.body)]);
+    for (const auto& [one, other] : collisions.apart) {
+      mjsExclude* const exclude = mjs_addExclude(spec.get());
+      mjs_setString(exclude->bodyname1, tree.bodies[static_cast<std::size_t>(one)].name.c_str());
+      mjs_setString(exclude->bodyname2, tree.bodies[static_cast<std::size_t>(other)].name.c_str());
+    }
+  }
   for (const Surface& surface : surfaces) {
-    add_surface(surface, options.friction.value_or(surface.friction), spec.get(), world);
+    add_surface(surface, options.friction_scale * options.friction.value_or(surface.friction), spec.get(), world);
   }
   return spec;
 }
 
 MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface>& surfaces,
                               const PhysicsOptions& options) {
-  // MuJoCo does not guarantee thread-safe spec compilation; ThreadSanitizer reports a race.
-  static std::mutex one_at_a_time;
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
   const MujocoSpec spec = make_mujoco_spec(robot, surfaces, options);
   MujocoModel result;
-  result.model.reset(mj_compile(spec.get(), nullptr));
+  result.model = compile(spec.get());
   if (!result.model) throw InputError(fmt::format("robot '{}' in MuJoCo: {}", robot.name(), mjs_getError(spec.get())));
   const mjModel* const model = result.model.get();
   result.base_body = mj_name2id(model, mjOBJ_BODY, "base");
@@ -193,10 +249,15 @@ MujocoModel make_mujoco_model(const RobotModel& robot, const std::vector<Surface
     }
   }
   result.contact_of_geom.assign(static_cast<std::size_t>(model->ngeom), -1);
-  result.surface_of_geom = result.contact_of_geom;
+  result.surface_of_geom = result.shape_of_geom = result.contact_of_geom;
+  for (std::size_t i = 0; options.collisions && i < options.collisions->shapes.size(); ++i) {
+    const std::string name = fmt::format("shape {} {}", i, options.collisions->shapes[i].shape.link);
+    result.shape_of_geom[mj_name2id(model, mjOBJ_GEOM, name.c_str())] = static_cast<int>(i);
+  }
   for (std::size_t c = 0; c < robot.contacts().size(); ++c) {
     const int geom = mj_name2id(model, mjOBJ_GEOM, ("contact " + robot.contacts()[c].name).c_str());
     result.contact_of_geom[geom] = static_cast<int>(c);
+    result.geom_of_contact.push_back(geom);
   }
   for (std::size_t s = 0; s < surfaces.size(); ++s) {
     const int geom = mj_name2id(model, mjOBJ_GEOM, ("surface " + surfaces[s].name).c_str());

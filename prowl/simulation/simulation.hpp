@@ -22,12 +22,30 @@ struct SimulationSample {
   std::vector<ContactReading> contacts;        ///< during the last physics step
 };
 
-/// A planned contact switch and its measured time.
+/// A planned contact switch, and what came of it.
 struct ContactSwitch {
   int contact = 0;
   bool lands = false;
   double planned = 0.0;   ///< [s]
   double measured = 0.0;  ///< first touch or last touch of the swing [s]; NaN if there was none
+  double swing = 0.0;     ///< duration of the swing [s]
+  // Of a landing that happened:
+  double off = 0.0;  ///< distance from the planned place, along the surface [m]
+  bool on_its_surface = true;
+};
+
+/// Distances from the bounds of a goal, at its time.
+struct GoalError {
+  std::string name;
+  double position = 0.0, angle = 0.0;  ///< of the base [m, rad]
+  double joint = 0.0;                  ///< of the worst joint that the goal bounds [rad]
+  std::string worst_joint;
+};
+
+/// Height in the middle of a phase without contacts.
+struct FlightHeight {
+  std::string phase;
+  double missing = 0.0;  ///< planned less true height of the base [m]
 };
 
 struct SimulationResult {
@@ -43,8 +61,11 @@ struct SimulationResult {
   ErrorMeasure joints;                                                   ///< [rad], of the worst joint; rms of all
   ErrorMeasure estimated_position, estimated_angle, estimated_velocity;  ///< [m, rad, m/s], error of the estimate
   double estimated_joint_rate = 0.0;                                     ///< [rad/s], rms of all joints
-  std::vector<double> slip;  ///< per contact: largest distance from where its stance began [m]
+  std::vector<double> slip;  ///< per contact: longest way along its surface under load in one stance [m]
   std::vector<ContactSwitch> switches;
+  std::vector<GoalError> goals;       ///< of those that came before the end
+  std::vector<FlightHeight> flights;  ///< likewise
+  std::vector<std::string> touches;   ///< of anything but contacts on surfaces, each once: "trunk and floor at 1.234 s"
   double largest_torque_share = 0.0;  ///< of the limit
   std::string largest_torque_joint;
   double saturated = 0.0;      ///< share of the time with a torque at its limit
@@ -63,9 +84,5 @@ SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, 
 
 /// Throws InputError unless robot and phases of tracker and problem agree.
 void check_fit(const MotionProblem& problem, const Tracker& tracker);
-
-/// Criteria that the base at rest at the end violates, in words.
-std::vector<std::string> failures_in_rest(const ErrorMeasure& base_position, const ErrorMeasure& base_angle,
-                                          const SuccessCriteria& criteria);
 
 }  // namespace prowl

@@ -12,6 +12,8 @@
 #include <random>
 #include <thread>
 
+#include "prowl/model/body_tree.hpp"
+
 namespace prowl {
 namespace {
 
@@ -33,6 +35,12 @@ Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, doubl
   const double time = Uniform(tracker.start(), tracker.end())(random);
   const double size = fewest_contacts(tracker, time, time + duration) <= 2 ? on_two_feet : impulse;
   return {size * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0), time, duration};
+}
+
+/// Over that of the robot of which the ranges speak.
+double height_share(const RobotModel& robot) {
+  constexpr double kHeight = 0.58;  // [m]
+  return robot.nominal_configuration().z() / kHeight;
 }
 
 /// A perturbation of one kind, of any size.
@@ -72,15 +80,53 @@ std::vector<Kind> kinds_of_perturbation(const MotionProblem& problem, const Trac
 
 }  // namespace
 
-SimulationOptions perturbed(const Tracker& tracker, const SimulationOptions& options, const PerturbationRanges& ranges,
-                            std::uint64_t seed) {
+StartError draw_start_error(const RobotModel& robot, double share, std::mt19937_64& random,
+                            const PerturbationRanges& ranges) {
+  const double height = height_share(robot);
+  StartError error;
+  const auto fill = [&](auto part, double range) {
+    for (double& value : part) value = range == 0.0 ? 0.0 : Uniform(-range, range)(random);
+  };
+  fill(error.base.head<3>(), share * height * ranges.base_position);
+  fill(error.base.tail<3>(), share * ranges.base_angle);
+  fill(error.twist.head<3>(), share * std::sqrt(height) * ranges.base_velocity);
+  fill(error.twist.tail<3>(), share * ranges.base_rate);
+  error.joints.resize(robot.nu());
+  fill(error.joints.head(robot.nu()), share * ranges.joint);
+  return error;
+}
+
+SimulationOptions perturbed(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options,
+                            const PerturbationRanges& ranges, std::uint64_t seed) {
   std::mt19937_64 random(seed);
+  const auto draw = [&](double low, double high) { return low < high ? Uniform(low, high)(random) : low; };
+  const RobotModel& robot = problem.robot;
+  const double height = height_share(robot);
   SimulationOptions result = options;
   result.seed = random();  // a different random sequence for the sensors
-  result.physics.mass_scale = Uniform(1.0 - ranges.mass, 1.0 + ranges.mass)(random);
-  result.physics.friction = Uniform(ranges.friction_low, ranges.friction_high)(random);
-  result.pushes = {draw_push(tracker, ranges.push, ranges.push_on_two_feet, ranges.push_duration, random)};
+  result.start = draw_start_error(robot, 1.0, random, ranges);
+  PhysicsOptions& physics = result.physics;
+  for (int b = 0; b <= robot.nu(); ++b) physics.body_scales.push_back(draw(1.0 - ranges.mass, 1.0 + ranges.mass));
+  const double center = height * ranges.base_center;
+  for (double& value : physics.base_center) value = draw(-center, center);
+  physics.friction_scale = draw(ranges.friction_low, ranges.friction_high);
+  result.bandwidth = draw(ranges.bandwidth_low, ranges.bandwidth_high);
+  result.unknown_delay = draw(ranges.delay_low, ranges.delay_high) - options.delay;
+  result.ground.height = draw(-height * ranges.ground_height, height * ranges.ground_height);
+  for (double& value : result.ground.tilt) value = draw(-ranges.ground_tilt, ranges.ground_tilt);
+  result.unknown_noise = draw(ranges.noise_low, ranges.noise_high);
+  const double impulse = ranges.push.value_or(std::sqrt(height) * ranges.push_velocity * robot.mass());
+  result.pushes = {
+      draw_push(tracker, impulse, ranges.push_on_two_feet.value_or(impulse), ranges.push_duration, random)};
   return result;
+}
+
+double mass_factor(const RobotModel& robot, const PhysicsOptions& physics) {
+  const BodyTree tree = body_tree(robot);
+  double mass = 0.0;
+  for (std::size_t b = 0; b < tree.bodies.size(); ++b)
+    mass += tree.bodies[b].mass * (physics.body_scales.empty() ? 1.0 : physics.body_scales[b]);
+  return physics.mass_scale * mass / robot.mass();
 }
 
 std::string pushed_phase(const Tracker& tracker, const SimulationOptions& options) {

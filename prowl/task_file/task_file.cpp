@@ -343,13 +343,16 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
     throw InputError(in_terms_of_the_file(task_file, error.what()));
   }
   TrackingOptions tracking = read_tracking(root, problem.robot);
+  const double planned = std::ranges::min(problem.surfaces, {}, &Surface::friction).friction;
+  const std::optional<double> simulated_friction =
+      simulation.friction.value_or(planned) < planned ? simulation.friction : std::nullopt;
   return {.problem = std::move(problem),
           .mesh = std::move(mesh),
           .has_intervals = has_intervals,
           .solver = solver,
           .tracking = std::move(tracking),
           .success = simulation.success,
-          .simulated_friction = simulation.friction,
+          .simulated_friction = simulated_friction,
           .task_file = task_file,
           .robot_file = robot_file,
           .overrides = overrides,

@@ -10,10 +10,10 @@ namespace prowl {
 /// Simulation settings of a task.
 struct TaskSimulation {
   SuccessCriteria success;
-  std::optional<double> friction;  ///< of all surfaces; nullopt: as planned
+  std::optional<double> friction;  ///< of all surfaces, never above theirs; nullopt: as planned
 };
 
-/// Reads [simulation] of a task file; missing keys keep their defaults.
+/// Reads [simulation] of a task file; missing keys keep their defaults, and so do keys that ask for less.
 TaskSimulation read_simulation(const TomlTable& root);
 
 }  // namespace prowl

@@ -9,10 +9,12 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
+#include "module_files.hpp"
 #include "package_function.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
 #include "prowl/plan_folder/simulation_files.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
 #include "signals.hpp"
 
 namespace prowl::python {
@@ -66,8 +68,11 @@ std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject
   options.delay = delay;
   options.bandwidth = bandwidth;
   options.control_rate = control_rate;
-  options.physics = {
-      .step = step, .mass_scale = mass, .friction = friction ? friction : plan->record.task.simulated_friction};
+  options.physics.step = step;
+  options.physics.mass_scale = mass;
+  options.physics.friction = friction ? friction : plan->record.task.simulated_friction;
+  options.physics.collisions =
+      std::make_shared<const CollisionShapes>(collision_shapes(plan->problem().robot, package_search({})));
   if (!(push_duration > 0.0))
     throw InputError(fmt::format("push_duration: {} is not allowed; need > 0 s", push_duration));
   if (!(record_rate > 0.0)) throw InputError(fmt::format("record_rate: {} is not allowed; need > 0 Hz", record_rate));
@@ -118,7 +123,7 @@ void bind_simulation(nb::module_& module) {
       "Simulation of a plan with its gains in MuJoCo (docs/simulation.md), at S samples. Arrays are read-only.")
       .def_prop_ro(
           "success", [=](const SimulationObject& s) { return result(s).success(); },
-          "True if the criteria of the task are met.")
+          "True if the judge finds no failure.")
       .def_prop_ro(
           "failures", [=](const SimulationObject& s) { return result(s).failures; }, "Violated criteria, in words.")
       .def_prop_ro("end", &end_name, "\"finished\", \"fell\" or \"diverged\".")

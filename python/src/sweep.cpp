@@ -1,6 +1,7 @@
 #include "prowl/simulation/sweep.hpp"
 
 #include <fmt/format.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -13,9 +14,11 @@
 
 #include "bindings.hpp"
 #include "interrupted.hpp"
+#include "module_files.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
 #include "prowl/plan_folder/sweep_files.hpp"
+#include "prowl/simulation/collision_shapes.hpp"
 #include "signals.hpp"
 
 namespace prowl::python {
@@ -47,10 +50,10 @@ struct SweepCaseView {
 std::vector<SweepCaseView> cases(const SweepObject& sweep) {
   std::vector<SweepCaseView> views;
   for (const SweepCase& one : sweep.record.cases) {
-    const PhysicsOptions& physics = one.options.physics;
     views.push_back({sweep.record.first_seed + views.size(), one.result.success(), one.result.failures,
-                     pushed_phase(*sweep.plan->tracker, one.options), physics.mass_scale,
-                     physics.friction.value_or(std::numeric_limits<double>::quiet_NaN())});
+                     pushed_phase(*sweep.plan->tracker, one.options),
+                     mass_factor(sweep.plan->problem().robot, one.options.physics),
+                     one.options.physics.friction_scale});
   }
   return views;
 }
@@ -94,15 +97,15 @@ void check_arguments(const PlanObject& plan, int n, const PerturbationRanges& ra
   check_range("mass_spread", ranges.mass, 0.0, 0.9);
   for (const auto& [name, size] :
        {std::pair("push_impulse", ranges.push), std::pair("push_impulse_on_two_feet", ranges.push_on_two_feet)}) {
-    if (!(size >= 0.0 && size <= kAny))
-      throw InputError(fmt::format("{}: {} is not allowed; need a number >= 0 [N s]", name, size));
+    if (size && !(*size >= 0.0 && *size <= kAny))
+      throw InputError(fmt::format("{}: {} is not allowed; need a number >= 0 [N s]", name, *size));
   }
   if (!plan.tracker) throw InputError("this plan contains no gains: solve(gains=True) designs them for a good plan");
 }
 
 SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint64_t seed, double mass_spread,
-                       double push_impulse, double push_impulse_on_two_feet, int breakdown, bool open_loop,
-                       const nb::object& on_progress) {
+                       std::optional<double> push_impulse, std::optional<double> push_impulse_on_two_feet,
+                       int breakdown, bool open_loop, const nb::object& on_progress) {
   PerturbationRanges ranges;
   ranges.mass = mass_spread;
   ranges.push = push_impulse;
@@ -112,8 +115,11 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
   const Tracker& tracker = *plan->tracker;
   SimulationOptions options;
   options.open_loop = open_loop;
+  options.physics.collisions =
+      std::make_shared<const CollisionShapes>(collision_shapes(plan->problem().robot, package_search({})));
   std::vector<SimulationOptions> all;
-  for (int i = 0; i < n; ++i) all.push_back(perturbed(tracker, options, ranges, seed + static_cast<std::uint64_t>(i)));
+  for (int i = 0; i < n; ++i)
+    all.push_back(perturbed(task.problem, tracker, options, ranges, seed + static_cast<std::uint64_t>(i)));
 
   SweepObject sweep{plan, {.first_seed = seed, .asked = n, .ranges = ranges}};
   Stop python;
@@ -147,8 +153,8 @@ void bind_sweep(nb::module_& module) {
       .def_ro("success", &SweepCaseView::success)
       .def_ro("failures", &SweepCaseView::failures, "Violated criteria, in words.")
       .def_ro("pushed_phase", &SweepCaseView::pushed_phase, "Name of the phase at the middle of the push.")
-      .def_ro("mass", &SweepCaseView::mass, "Factor on all masses.")
-      .def_ro("friction", &SweepCaseView::friction, "Coefficient of all surfaces.")
+      .def_ro("mass", &SweepCaseView::mass, "Factor on the mass of the robot.")
+      .def_ro("friction", &SweepCaseView::friction, "Factor on the planned coefficients.")
       .def("__repr__", [](const SweepCaseView& one) {
         return fmt::format("<prowl.SweepCase seed {}: {}>", one.seed, one.success ? "success" : one.failures.front());
       });
@@ -178,14 +184,16 @@ void bind_sweep(nb::module_& module) {
                            s.rate().cases);
       });
   const PerturbationRanges defaults;
-  module.def("sweep", &sweep_plan, nb::arg("plan"), nb::arg("n") = 200, nb::kw_only(), nb::arg("seed") = 1,
-             nb::arg("mass_spread") = defaults.mass, nb::arg("push_impulse") = defaults.push,
-             nb::arg("push_impulse_on_two_feet") = defaults.push_on_two_feet, nb::arg("breakdown") = 0,
-             nb::arg("open_loop") = false, nb::arg("on_progress") = nb::none(),
-             nb::sig("def sweep(plan: Plan, n: int = 200, *, seed: int = 1, mass_spread: float = 0.1, push_impulse: "
-                     "float = 10.0, push_impulse_on_two_feet: float = 2.0, breakdown: int = 0, open_loop: bool = "
-                     "False, on_progress: collections.abc.Callable[[int, int], object] | None = None) -> Sweep"),
-             "prowl.sweep of a plan, without the progress bar.");
+  module.def(
+      "sweep", &sweep_plan, nb::arg("plan"), nb::arg("n") = 200, nb::kw_only(), nb::arg("seed") = 1,
+      nb::arg("mass_spread") = defaults.mass, nb::arg("push_impulse") = nb::none(),
+      nb::arg("push_impulse_on_two_feet") = nb::none(), nb::arg("breakdown") = 0, nb::arg("open_loop") = false,
+      nb::arg("on_progress") = nb::none(),
+      nb::sig(
+          "def sweep(plan: Plan, n: int = 200, *, seed: int = 1, mass_spread: float = 0.1, push_impulse: "
+          "float | None = None, push_impulse_on_two_feet: float | None = None, breakdown: int = 0, open_loop: bool = "
+          "False, on_progress: collections.abc.Callable[[int, int], object] | None = None) -> Sweep"),
+      "prowl.sweep of a plan, without the progress bar.");
 }
 
 }  // namespace prowl::python

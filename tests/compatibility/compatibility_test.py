@@ -29,6 +29,11 @@ CHOICES_OF_KEYS = {  # a line of a kept task file, with each of its choices
     ("gait", 'kind = "{}"'): ("walk", "trot", "pace", "bound"),
 }
 
+CHANGED_ON_PURPOSE = {
+    "diagnose_changes": {"status": "infeasible"},  # a solve that failed names the limits that conflict
+    "simulate_case": {"exit_status": 0, "success": True},  # sweeps draw from other ranges: case 5 is another world
+}
+
 
 def missing(old, new) -> list[str]:
     return sorted(set(old) - set(new))
@@ -100,7 +105,7 @@ class Compatibility(unittest.TestCase):
                     # Since 0f26b62 a refined mesh has fewer nodes, so that the best torques on it cost a little more.
                     delta = 1e-2 if name == "plan_refined" else 1e-3
                     self.assertAlmostEqual(new.pop("cost") / old.pop("cost"), 1.0, delta=delta)
-                self.assertEqual(new, old)
+                self.assertEqual(new, {**old, **CHANGED_ON_PURPOSE.get(name, {})})
 
     def test_every_key_is_in_a_file_that_was_read(self):
         tables = {"task": kept_tables("tasks/*.toml"), "robot": kept_tables("robot.toml")}

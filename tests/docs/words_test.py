@@ -14,7 +14,12 @@ import unittest
 
 ROOT = pathlib.Path(__file__).parents[2]
 LIMIT = 26_000
-NOT_COUNTED = {"CHANGELOG.md", "reference.md", "robots.md"}  # grows with every change; made from the code, by a script
+NOT_COUNTED = {
+    "CHANGELOG.md",
+    "reference.md",
+    "robots.md",
+    "simulated-tasks.md",
+}  # grows with every change; made from the code, by a script
 TOLD = ["README.md", "docs/*.md", "cli", "screen", "prowl", "python/prowl", "python/src", "report/src"]  # read by users
 STUMBLED = re.compile(
     r"processes want to run|has AVX2|\bin rest\b|step cubed|solved but for|once more to end|judged by other code"

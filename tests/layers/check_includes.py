@@ -79,6 +79,7 @@ ALLOWED = {
     # Of dynamics nothing: an independent judge. What runs on board the robot, the estimator, may use them.
     "prowl/mjcf": [],
     "prowl/simulation": [
+        "prowl/files",
         "prowl/mjcf",
         "prowl/model",
         "prowl/motion",

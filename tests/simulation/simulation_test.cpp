@@ -23,8 +23,9 @@ TEST_F(Standing, SucceedsWithNoiseDelayAndEstimator) {
   EXPECT_TRUE(result.success()) << result.failures.front();
   EXPECT_LT(result.base_position.rest, 0.01);
   EXPECT_GT(result.estimated_position.largest, 0.0) << "the estimator was not used";
-  EXPECT_LT(result.estimated_position.largest, 3e-3);
-  EXPECT_LT(result.estimated_velocity.largest, 0.02);
+  EXPECT_LT(result.estimated_position.largest, 5e-3);
+  EXPECT_LT(result.estimated_velocity.largest, 0.05) << "the start is not known";
+  EXPECT_LT(result.estimated_velocity.rest, 3e-3);
 }
 
 /// Without noise the estimate is the state.
@@ -36,7 +37,8 @@ TEST_F(Standing, EstimateIsTheTruthWithoutNoise) {
   EXPECT_GT(result.base_position.largest, 2e-3) << "nothing moved";
   EXPECT_LT(result.estimated_position.largest, 5e-4);
   EXPECT_LT(result.estimated_angle.largest, 5e-4);
-  EXPECT_LT(result.estimated_velocity.largest, 0.01);
+  EXPECT_LT(result.estimated_velocity.largest, 0.03) << "feet sink in at first";
+  EXPECT_LT(result.estimated_velocity.rms, 2e-3);
 }
 
 TEST_F(Standing, FallsWithoutFeedbackAndUnderAStrongPush) {
@@ -117,7 +119,7 @@ TEST(Simulation, SeesFeetSlip) {
   options.physics.friction = 0.15;  // tan 10 degrees = 0.176
   const SimulationResult result = simulate(slope, tracker, {}, options);
   EXPECT_FALSE(result.success());
-  EXPECT_GT(*std::ranges::max_element(result.slip), 0.02);
+  EXPECT_GT(*std::ranges::max_element(result.slip), 0.03);
 }
 
 }  // namespace

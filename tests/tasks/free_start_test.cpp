@@ -91,6 +91,7 @@ TEST(MovingStart, IsSimulated) {
   ASSERT_TRUE(is_good(plan)) << plan.result.message;
   SimulationOptions options;
   options.record_rate = 1000.0;
+  options.start = StartError{};
   const SimulationResult result = test::simulated(task, plan.trajectory, options);
   EXPECT_TRUE(result.success()) << result.failures.front();
   EXPECT_LT((result.samples.front().v - plan.trajectory.nodes.front().v).cwiseAbs().maxCoeff(), kMet);

@@ -460,9 +460,8 @@ void add_simulation(FileKeys& keys) {
       "largest distance of the base at rest from the end of the plan");
   add("base_angle_rad", "rad", number_text(defaults.angle),
       "largest angle of the base at rest from the end of the plan");
-  add("slip_m", "m", number_text(defaults.slip), "largest slip of a foot in contact");
-  add("friction", "-", "that of each [[surface]]",
-      "friction coefficient of all surfaces; a larger one than in the plan gives a margin");
+  add("slip_m", "m", number_text(defaults.way), "largest slip of a foot in contact, and way from its foothold");
+  add("friction", "-", "that of each [[surface]]", "friction coefficient of all surfaces");
   add("rest_s", "s", number_text(defaults.rest), "time that the robot stands after the plan");
 }
 
