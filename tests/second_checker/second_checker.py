@@ -115,6 +115,7 @@ class Plan:
         urdf = packages / self.robot["urdf"].removeprefix("package://")
         self.model, self.limits, self.carriers = floating(urdf)
         self.model.opt.gravity[:] = (0, 0, -GRAVITY)
+        self.model.dof_damping[:] = self.model.dof_frictionloss[:] = 0  # plans know neither
         self.data = mujoco.MjData(self.model)
         with (folder / "trajectory.csv").open() as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))

@@ -15,8 +15,8 @@ def sweep(
     *,
     seed: int = 1,
     mass_spread: float = 0.1,
-    push_impulse: float = 10.0,
-    push_impulse_on_two_feet: float = 2.0,
+    push_impulse: float | None = None,
+    push_impulse_on_two_feet: float | None = None,
     breakdown: int = 0,
     open_loop: bool = False,
     package_dirs: Folders = (),
@@ -27,7 +27,8 @@ def sweep(
     sweep`.
 
     plan: a Plan with gains, or its folder. seed: of the first simulation; the others count up. mass_spread:
-    largest error of the masses, as a share. push_impulse, push_impulse_on_two_feet: on the base [N s].
+    largest error of the mass of each body, as a share. push_impulse, push_impulse_on_two_feet: on the base [N s];
+    by default 0.12 m/s times the mass of a robot that stands 0.58 m high.
     breakdown: simulations per size of each perturbation alone; 0: none; 20 takes about a thousand
     simulations. open_loop: feedforward torques only. package_dirs: see read_task(). progress: show a bar with
     tqdm; None: in a terminal or notebook. on_progress: called with the number of finished and of all
