@@ -209,6 +209,10 @@ std::optional<Trajectory> restore(const DiscreteProblem& asked, const PlanOption
     const Stopwatch stopwatch(plan.result.seconds);
     found = elastic_solve(asked, *solver, with);
   }
+  if (found.status == SolveStatus::interrupted) {
+    plan.result.status = SolveStatus::interrupted;
+    plan.result.message = "stopped on request";
+  }
   if (found.status != SolveStatus::converged) return std::nullopt;
   const int intervals = asked.mesh.num_intervals();
   if (found.breaches.empty()) {
@@ -230,14 +234,23 @@ void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOpti
   std::ranges::move(hints(asked, plan, solver, options), std::back_inserter(plan.hints));
 }
 
+namespace {
+
+Plan solve_or_restore(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
+  Plan plan = solve_plan(asked, solver, options);
+  const std::optional<Trajectory> motion = restore(asked, options, plan);
+  return motion ? solved_again(asked, solver, options, plan, *motion) : plan;
+}
+
+}  // namespace
+
 Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
   if (has_repetitions(asked.problem)) {
-    Plan plan = solve_plan(first_cycle(asked), solver, options_of_cycle(asked, options));
+    Plan plan = solve_or_restore(first_cycle(asked), solver, options_of_cycle(asked, options));
     repeat(asked, solver, options, plan);
     return plan;
   }
-  Plan plan = solve_plan(asked, solver, options);
-  if (const auto motion = restore(asked, options, plan)) plan = solved_again(asked, solver, options, plan, *motion);
+  Plan plan = solve_or_restore(asked, solver, options);
   judge(asked, solver, options, plan);
   return plan;
 }

@@ -82,9 +82,10 @@ bool is_worth_going_on_from(SolveStatus status);
 /// The steps of make_plan(): a motion without certificate and hints; after a failure, what is between it and a motion;
 /// certificate and hints. `asked` may have another mesh than the plan.
 Plan solve_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options);
-/// After a solve of `asked` that failed: solves it elastically, all limits together. A motion that needs no limit to
-/// give way is returned, to solve from again. Else the status becomes infeasible, and the hints name the limits that
-/// give way. Neither after a limit of iterations, if the elastic solve does not converge, or without a solver for it.
+/// After a solve that failed, of `asked` or on a finer mesh: solves `asked` elastically, all limits together. A motion
+/// that needs no limit to give way is returned, to solve from again. Else the status becomes infeasible, and the hints
+/// name the limits that give way. Neither after a limit of iterations, if the elastic solve does not converge, or
+/// without a solver for it.
 std::optional<Trajectory> restore(const DiscreteProblem& asked, const PlanOptions& options, Plan& plan);
 void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options, Plan& plan);
 

@@ -56,6 +56,7 @@ int run_sweep(const SweepArguments& arguments) {
   SimulationOptions base = arguments.options;
   base.physics.collisions =
       std::make_shared<const CollisionShapes>(collision_shapes(problem.robot, package_search(arguments.package_dirs)));
+  base.physics.friction = plan.task.simulated_friction;
   std::vector<SimulationOptions> options;
   for (int i = 0; i < arguments.cases; ++i) {
     options.push_back(
@@ -68,8 +69,7 @@ int run_sweep(const SweepArguments& arguments) {
     return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
   });
   if (arguments.breakdown_cases > 0 && !interrupted) {
-    SimulationOptions alone = base;
-    alone.physics.friction = plan.task.simulated_friction;
+    const SimulationOptions& alone = base;
     record.breakdowns =
         with_bar("simulations of one perturbation alone", interrupted, [&](const SweepProgress& on_done) {
           return find_breakdowns(problem, tracker, plan.task.success, alone, arguments.seed, arguments.breakdown_cases,

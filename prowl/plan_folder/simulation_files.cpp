@@ -111,6 +111,10 @@ std::string simulation_summary(const PlanRecord& plan, const SimulationRecord& r
                         push.impulse.norm(), push.impulse.x(), push.impulse.y(), push.impulse.z(), push.time,
                         push.duration);
   }
+  if (options.physics.collisions) {
+    for (const std::string& link : options.physics.collisions->unreadable)
+      text += fmt::format("  collisions of this link are not judged: {}\n", link);
+  }
   for (const std::string& failure : result.failures) text += fmt::format("  failed: {}\n", failure);
   text += error_heading();
   text += error_line("base position", result.base_position, 0.01, "cm ");
@@ -188,6 +192,7 @@ std::string simulation_json(const PlanRecord& plan, const SimulationRecord& reco
   json["touches"] = result.touches;
   json["options"] = options_json(record.options);
   const auto& collisions = record.options.physics.collisions;
+  json["unreadable_collisions"] = collisions ? collisions->unreadable : std::vector<std::string>();
   json["left_out_of_collisions"] = collisions ? collisions->left_out : std::vector<std::string>();
   json["versions"] = {{"MuJoCo", Physics::version()}};
   return json_text(json);

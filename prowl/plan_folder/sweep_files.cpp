@@ -96,7 +96,7 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
 std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const SweepRecord& record) {
   const SuccessRate rate = overall(record);
   const PerturbationRanges& ranges = record.ranges;
-  Json json = {{"schema_version", 1},
+  Json json = {{"schema_version", 2},
                {"name", plan.task.problem.name},
                {"robot", plan.task.problem.robot.name()},
                {"interrupted", record.interrupted},

@@ -112,7 +112,7 @@ CollisionShapes collision_shapes(const RobotModel& robot, const PackageSearch& s
       try {
         one.hull = hull_of(scaled_points(one.shape, resolve_uri(one.shape.mesh, robot.description().urdf, {}, search)));
       } catch (const InputError& error) {
-        all.left_out.push_back(fmt::format("{}: {}", one.shape.link, error.what()));
+        all.unreadable.push_back(fmt::format("{}: {}", one.shape.link, error.what()));
         continue;
       }
     }

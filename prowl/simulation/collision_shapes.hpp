@@ -20,7 +20,8 @@ struct CollisionShape {
 struct CollisionShapes {
   std::vector<CollisionShape> shapes;
   std::vector<std::pair<int, int>> apart;  ///< pairs of bodies that overlap in the nominal posture: left out
-  std::vector<std::string> left_out;  ///< these, the shapes in the ground, and meshes that cannot be read, in words
+  std::vector<std::string> left_out;       ///< these and the shapes in the ground, in words
+  std::vector<std::string> unreadable;     ///< links whose mesh cannot be read, with the reason: left out, too
 };
 
 /// Shapes of the robot's <collision> elements, meshes as their convex hulls of at most 64 vertices. Neighbouring bodies

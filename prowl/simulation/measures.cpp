@@ -8,6 +8,11 @@
 #include "prowl/model/configuration.hpp"
 
 namespace prowl {
+namespace {
+
+constexpr double kAtOnce = 1e-3;  ///< [s]; the last sample of a run may be so much before its end
+
+}  // namespace
 
 Measures::Measures(const MotionProblem& problem, const Tracker& tracker, const Physics& physics, double end)
     : problem_(problem),
@@ -61,7 +66,7 @@ void Measures::add(const SimulationSample& sample, const std::vector<Eigen::Vect
   estimated_rates_.add((sample.v_seen - sample.v).tail(robot.nu()).norm() / std::sqrt(robot.nu()), at_rest);
 
   const TrackingPlan::Segment& segment = tracker_.segment(sample.time);
-  for (; next_moment_ < moments_.size() && moments_[next_moment_].time <= sample.time; ++next_moment_)
+  for (; next_moment_ < moments_.size() && moments_[next_moment_].time <= sample.time + kAtOnce; ++next_moment_)
     add_moment(moments_[next_moment_], sample);
   times_.push_back(sample.time);
   for (std::size_t c = 0; c < slip_.size(); ++c) {
@@ -81,6 +86,7 @@ void Measures::add_torques(const Actuators& actuators, const Eigen::VectorXd& ta
     result_.largest_torque_share = actuators.largest_share();
     result_.largest_torque_joint = problem_.robot.joint_names()[actuators.most_used()];
   }
+  if (times_.empty() || times_.back() > tracker_.end()) return;  // rest would hide what the motion needs
   result_.positive_work += dt * tau.cwiseProduct(v.tail(tau.size())).cwiseMax(0.0).sum();
   time_ += dt;
   if (actuators.saturated()) saturated_ += dt;
@@ -129,6 +135,12 @@ void Measures::add_switch(int contact, bool lands, std::size_t segment, double s
   result_.switches.push_back(change);
 }
 
+/// A touch of a contact that the plan holds in the air from the start or until the end.
+void Measures::add_stray(int contact, double from, double to) {
+  const auto touch = touch_near(contact, from, to, true);
+  if (touch) add_touch(problem_.robot.contacts()[touch->contact].name + ", held in the air", times_[touch->sample]);
+}
+
 SimulationResult Measures::result() {
   SimulationResult& result = result_;
   result.base_position = error_.base_position();
@@ -151,8 +163,9 @@ SimulationResult Measures::result() {
       const double off = segments[s].start, on = segments[last].end, middle = 0.5 * (off + on);
       const double before = s > 0 ? segments[s - 1].start : 0.0;
       const double after = last + 1 < segments.size() ? segments[last + 1].end : on;
-      if (s > 0) add_switch(contact, false, s, on - off, before, middle);
-      if (last + 1 < segments.size()) add_switch(contact, true, last + 1, on - off, middle, after);
+      s > 0 ? add_switch(contact, false, s, on - off, before, middle) : add_stray(contact, off, middle);
+      last + 1 < segments.size() ? add_switch(contact, true, last + 1, on - off, middle, after)
+                                 : add_stray(contact, middle, end_);
       s = last;
     }
   }

@@ -39,6 +39,7 @@ class Measures {
   };
   std::optional<Found> touch_near(int contact, double from, double to, bool lands) const;
   void add_switch(int contact, bool lands, std::size_t segment, double swing, double from, double to);
+  void add_stray(int contact, double from, double to);
   int planned_surface(int contact, std::size_t segment) const;
 
   const MotionProblem& problem_;

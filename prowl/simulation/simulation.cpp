@@ -17,7 +17,7 @@ namespace prowl {
 namespace {
 
 /// Throws InputError for options out of range; `end` of the simulation [s].
-void check(const SimulationOptions& options, double end) {
+void check(const MotionProblem& problem, const SimulationOptions& options, double end) {
   const auto need = [](bool ok, const std::string& name, double value, const std::string& range) {
     if (!ok) throw InputError(fmt::format("{}: {} is not allowed; need {}", name, value, range));
   };
@@ -39,6 +39,22 @@ void check(const SimulationOptions& options, double end) {
     need(push.duration > 0.0 && std::isfinite(push.duration), "push duration", push.duration, "a finite number > 0 s");
     need(push.impulse.allFinite(), "push impulse", push.impulse.sum(), "finite numbers");
   }
+  const PhysicsOptions& physics = options.physics;
+  const auto bodies = static_cast<std::size_t>(problem.robot.nu()) + 1;
+  need(physics.body_scales.empty() || physics.body_scales.size() == bodies, "body scales",
+       static_cast<double>(physics.body_scales.size()), fmt::format("one for each of {} bodies", bodies));
+  for (const double scale : physics.body_scales) need(scale > 0.0 && std::isfinite(scale), "body scale", scale, "> 0");
+  need(physics.base_center.allFinite(), "centre of mass", physics.base_center.sum(), "finite numbers");
+  need(physics.friction_scale >= 0.0 && std::isfinite(physics.friction_scale), "friction scale", physics.friction_scale,
+       ">= 0");
+  need(std::isfinite(options.ground.height) && options.ground.tilt.allFinite(), "ground", options.ground.height,
+       "finite numbers");
+  if (const auto& start = options.start) {
+    const bool fits = start->joints.size() == 0 || start->joints.size() == problem.robot.nu();
+    need(fits, "start error of joints", static_cast<double>(start->joints.size()), "one for each joint");
+    need(start->base.allFinite() && start->twist.allFinite() && start->joints.allFinite(), "start error",
+         start->base.sum(), "finite numbers");
+  }
   const double friction = options.physics.friction.value_or(1.0);
   need(friction >= 0.0 && std::isfinite(friction), "friction", friction, ">= 0");
 }
@@ -57,14 +73,19 @@ Eigen::Vector3d push_at(const std::vector<Push>& pushes, double t) {
 std::vector<Surface> with_error(const MotionProblem& problem, const Tracker& tracker, const GroundError& error) {
   Eigen::VectorXd q(problem.robot.nq()), v(problem.robot.nv());
   tracker.reference(tracker.start(), q, v);
-  const Eigen::Vector3d pivot = base_position(q), up = Eigen::Vector3d::UnitZ();
+  const double height = problem.robot.nominal_configuration().z();
+  const Eigen::Vector3d pivot = base_position(q) - height * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d turn(error.tilt.x(), error.tilt.y(), 0.0);
   const Eigen::Matrix3d R = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
   std::vector<Surface> surfaces = problem.surfaces;
   for (Surface& surface : surfaces) {
-    const Eigen::Vector3d under(pivot.x(), pivot.y(), surface.point.z());
-    surface.point = under + R * (surface.point - under) + error.height * up;
-    surface.normal = R * surface.normal;
+    const Surface planned = surface;
+    const auto moved = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+      return pivot + R * (p - pivot) + error.height * Eigen::Vector3d::UnitZ();
+    };
+    surface.point = moved(planned.point);
+    surface.normal = R * planned.normal;
+    for (Eigen::Vector2d& corner : surface.patch) corner = surface.coordinates(moved(planned.at(corner)));
   }
   return surfaces;
 }
@@ -80,8 +101,9 @@ std::vector<int> held_at_start(const MotionProblem& problem) {
 StartError small_start_error(const MotionProblem& problem, const SimulationOptions& options) {
   if (options.perfect_state || options.noise_scale == 0.0) return {};
   constexpr double kShare = 0.2;
-  std::mt19937_64 random(options.seed);
-  return draw_start_error(problem.robot, kShare * options.noise_scale, random);
+  constexpr std::uint64_t kOther = 0x9e3779b97f4a7c15;  // than the sensors'
+  std::mt19937_64 random(options.seed ^ kOther);
+  return draw_start_error(problem.robot, kShare, random);
 }
 
 /// A cycle ends in motion: after it there is nothing to stand in.
@@ -218,7 +240,7 @@ class Run {
 SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                           const SimulationOptions& options, const std::function<void(double, double)>& on_time) {
   check_fit(problem, tracker);
-  check(options, end_of_simulation(problem, tracker, criteria));
+  check(problem, options, end_of_simulation(problem, tracker, criteria));
   SimulationResult result = Run(problem, tracker, criteria, options)(on_time);
   result.failures = failures(result, problem, criteria);
   return result;
@@ -229,6 +251,14 @@ void check_fit(const MotionProblem& problem, const Tracker& tracker) {
   if (plan.joint_names != problem.robot.joint_names() || plan.contact_names.size() != problem.robot.contacts().size() ||
       (plan.segments.size() != problem.phases.size() && plan.segments.size() != problem.phases.size() + 1)) {
     throw InputError("the tracker is of another robot or of other phases than the plan");
+  }
+  for (std::size_t s = 0; s < plan.segments.size(); ++s) {
+    std::vector<bool> held(problem.robot.contacts().size(), false);
+    for (const PhaseContact& contact : problem.phases[std::min(s, problem.phases.size() - 1)].contacts)
+      held[static_cast<std::size_t>(contact.contact)] = true;
+    if (held != plan.segments[s].in_contact)
+      throw InputError(
+          fmt::format("the tracker holds other contacts than the plan in phase '{}'", plan.segments[s].name));
   }
 }
 

@@ -1,6 +1,7 @@
 #include "prowl/simulation/start_state.hpp"
 
 #include <Eigen/QR>
+#include <cmath>
 
 #include "prowl/model/configuration.hpp"
 
@@ -8,6 +9,7 @@ namespace prowl {
 namespace {
 
 constexpr int kIterations = 20;     // of Newton's method: errors are centimetres
+constexpr double kStanding = 1e-3;  // [m]; feet of a plan are so near
 constexpr double kTouching = 1e-7;  // [m]
 
 struct Foot {
@@ -19,16 +21,18 @@ struct Foot {
 
 void displace(Physics& physics, const std::vector<Surface>& ground, const std::vector<int>& holds,
               const StartError& error, Eigen::VectorXd& q, Eigen::VectorXd& v) {
-  if (error.is_none()) return;
   const Eigen::Index nu = v.size() - 6;
   const std::vector<Eigen::Vector3d> planned = physics.contact_positions(q);
   std::vector<Foot> feet;
+  bool is_off = !error.is_none();
   for (std::size_t c = 0; c < holds.size(); ++c) {
     if (holds[c] < 0) continue;
     const Surface& surface = ground[static_cast<std::size_t>(holds[c])];
     const double gap = surface.distance(planned[c]) - physics.contact_radius(static_cast<int>(c));
+    is_off = is_off || std::abs(gap) > kStanding;
     feet.push_back({static_cast<int>(c), planned[c] - gap * surface.normal});
   }
+  if (!is_off) return;
   Eigen::VectorXd step = Eigen::VectorXd::Zero(v.size());
   step.head<6>() = error.base;
   if (error.joints.size() > 0) step.tail(nu) = error.joints;

@@ -59,16 +59,13 @@ struct Kind {
   }
 };
 
-/// Kinds of perturbation, applied to `options`.
-std::vector<Kind> kinds_of_perturbation(const MotionProblem& problem, const Tracker& tracker,
-                                        const SimulationOptions& options) {
-  const double planned = problem.surfaces.empty() ? 0.5 : problem.surfaces.front().friction;
-  const double friction = options.physics.friction.value_or(planned);
+/// Kinds of perturbation.
+std::vector<Kind> kinds_of_perturbation(const Tracker& tracker) {
   return {
       {"masses larger by", "%", 10.0, 320.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 + 0.01 * x; }},
       {"masses smaller by", "%", 10.0, 80.0, [](auto& o, double x, auto&) { o.physics.mass_scale = 1.0 - 0.01 * x; }},
       {"friction lower by", "%", 10.0, 80.0,
-       [friction](auto& o, double x, auto&) { o.physics.friction = (1.0 - 0.01 * x) * friction; }},
+       [](auto& o, double x, auto&) { o.physics.friction_scale = 1.0 - 0.01 * x; }},
       {"push of", "N s", 5.0, 160.0,
        [&tracker](auto& o, double x, auto& random) {
          o.pushes = {draw_push(tracker, x, x, PerturbationRanges{}.push_duration, random)};
@@ -106,6 +103,7 @@ SimulationOptions perturbed(const MotionProblem& problem, const Tracker& tracker
   result.seed = random();  // a different random sequence for the sensors
   result.start = draw_start_error(robot, 1.0, random, ranges);
   PhysicsOptions& physics = result.physics;
+  physics.body_scales.clear();
   for (int b = 0; b <= robot.nu(); ++b) physics.body_scales.push_back(draw(1.0 - ranges.mass, 1.0 + ranges.mass));
   const double center = height * ranges.base_center;
   for (double& value : physics.base_center) value = draw(-center, center);
@@ -182,7 +180,7 @@ std::vector<Breakdown> find_breakdowns(const MotionProblem& problem, const Track
                                        const SuccessCriteria& criteria, const SimulationOptions& options,
                                        std::uint64_t seed, int cases, const SweepProgress& on_done,
                                        const std::atomic<bool>* interrupt) {
-  const std::vector<Kind> kinds = kinds_of_perturbation(problem, tracker, options);
+  const std::vector<Kind> kinds = kinds_of_perturbation(tracker);
   int most = 0, done = 0;
   for (const Kind& kind : kinds) most += cases * kind.most_sizes();
   const auto interrupted = [&] { return interrupt && *interrupt; };

@@ -117,6 +117,7 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
   options.open_loop = open_loop;
   options.physics.collisions =
       std::make_shared<const CollisionShapes>(collision_shapes(plan->problem().robot, package_search({})));
+  options.physics.friction = task.simulated_friction;
   std::vector<SimulationOptions> all;
   for (int i = 0; i < n; ++i)
     all.push_back(perturbed(task.problem, tracker, options, ranges, seed + static_cast<std::uint64_t>(i)));
@@ -128,8 +129,7 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
         return run_cases(task.problem, tracker, task.success, all, on_done, interrupt);
       });
   if (breakdown > 0 && !python.stop()) {
-    SimulationOptions alone = options;
-    alone.physics.friction = task.simulated_friction;
+    const SimulationOptions& alone = options;
     sweep.record.breakdowns =
         watched(python, on_progress, [&](const SweepProgress& on_done, const std::atomic<bool>* interrupt) {
           return find_breakdowns(task.problem, tracker, task.success, alone, seed, breakdown, on_done, interrupt);

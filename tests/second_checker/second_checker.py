@@ -132,6 +132,13 @@ class Plan:
     def of_joints(self, k: int, kind: str, unit: str) -> np.ndarray:
         return self.at(k, *(f"{kind}_{name}_{unit}" for name in self.joints))
 
+    def held(self, k: int) -> set[str]:
+        """Contacts that the task holds at a node."""
+        held = self.task["phase"][int(self.columns["phase"][k])]["contacts"]
+        if held == "all":
+            return {contact["name"] for contact in self.robot["contact"]}
+        return {one["contact"] if isinstance(one, dict) else one for one in held}
+
     def pose(self, k: int) -> tuple[np.ndarray, np.ndarray]:
         place = self.at(k, *(f"base_p{axis}_m" for axis in "xyz"))
         return place, rotation(self.at(k, *(f"base_q{axis}" for axis in "xyzw")))
@@ -186,17 +193,22 @@ def largest_torque(plan: Plan, joint: str, position: float) -> float:
 def check_node(plan: Plan, k: int) -> set[str]:
     """Names of what is wrong."""
     wrong = set()
-    if residual(plan, k) > BALANCE * plan.weight:
+    if not residual(plan, k) <= BALANCE * plan.weight:  # NaN, too
         wrong.add("equation of motion")
     floor = plan.task["surface"][0]
     for contact in plan.robot["contact"]:
-        if plan.columns[f"contact_{contact['name']}"][k] != 1:
+        holds = contact["name"] in plan.held(k)
+        if holds != (plan.columns[f"contact_{contact['name']}"][k] == 1):
+            wrong.add("schedule")
+        if not holds:
+            if np.abs(np.nan_to_num(plan.at(k, *(f"f_{contact['name']}_{axis}_N" for axis in "xyz")))).max() > 0:
+                wrong.add("force without contact")
             continue
         height = point(plan, contact)[2] - floor.get("point_m", (0, 0, 0))[2] - contact["radius_m"]
-        if abs(height) > POSITION:
+        if not abs(height) <= POSITION:
             wrong.add("contact on its surface")
         x, y, z = plan.at(k, *(f"f_{contact['name']}_{axis}_N" for axis in "xyz"))
-        if z < -FORCE * plan.weight or np.hypot(x, y) > floor["friction"] * max(z, 0) + FORCE * plan.weight:
+        if not np.hypot(x, y) <= floor["friction"] * z + FORCE * plan.weight or not z >= -FORCE * plan.weight:
             wrong.add("friction cone")
     for joint, q, v, tau in zip(
         plan.joints,
@@ -206,9 +218,9 @@ def check_node(plan: Plan, k: int) -> set[str]:
         strict=True,
     ):
         limit = plan.limits[joint]
-        if not limit["lower"] - RANGE <= q <= limit["upper"] + RANGE or abs(v) > limit["velocity"] + RANGE:
+        if not limit["lower"] - RANGE <= q <= limit["upper"] + RANGE or not abs(v) <= limit["velocity"] + RANGE:
             wrong.add("range of a joint")
-        if abs(tau) > (1 + TORQUE) * largest_torque(plan, joint, q):
+        if not abs(tau) <= (1 + TORQUE) * largest_torque(plan, joint, q):
             wrong.add("torque")
     return wrong
 

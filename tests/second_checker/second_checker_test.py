@@ -73,6 +73,27 @@ class SecondChecker(unittest.TestCase):
         robot.write_text(lower)
         self.assertEqual(self.checked(out, task), {"torque"})
 
+    def test_numbers_of_another_motion_are_noticed(self):
+        out, task = self.planned("hyq/step")
+        table = out / "trajectory.csv"
+        lines = table.read_text().splitlines()
+        head = next(i for i, line in enumerate(lines) if line.startswith("time_s"))
+        names, middle = lines[head].split(","), head + (len(lines) - head) // 2
+        for column, factor, fault in (
+            ("tau_lh_hfe_joint_Nm", 1.05, "equation of motion"),
+            ("base_dwy_radps2", 1.5, "equation of motion"),
+            ("f_rh_foot_x_N", 1e3, "friction cone"),
+            ("v_lf_kfe_joint_radps", 1e3, "range of a joint"),
+            ("contact_rh_foot", 0.0, "schedule"),
+            ("tau_lh_hfe_joint_Nm", float("nan"), "torque"),
+        ):
+            cells = lines[middle].split(",")
+            i = names.index(column)
+            cells[i] = repr(factor * float(cells[i]))
+            table.write_text("\n".join([*lines[:middle], ",".join(cells), *lines[middle + 1 :]]) + "\n")
+            with self.subTest(column=column):
+                self.assertIn(fault, self.checked(out, task))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/simulation/collision_shapes.hpp"
 #include "tests/simulation/standing_tracker.hpp"
@@ -118,6 +119,15 @@ TEST_F(Sabotaged, AFootThatStaysOnTheGroundIsSeen) {
   EXPECT_THAT(failures_of(problem_, Tracker(plan)),
               ElementsAre(HasSubstr("lift-off, planned at 0.500 s: 250 ms late; 100 ms allowed"),
                           HasSubstr("landing, planned at 1.000 s: 250 ms early; 100 ms allowed")));
+}
+
+/// By the plan it is in the air all along.
+TEST_F(Sabotaged, AFootThatNoPhaseHoldsIsSeen) {
+  TrackingPlan plan = test::standing_tracker(problem_).plan();
+  plan.segments.front().in_contact[0] = false;
+  EXPECT_THROW(failures_of(problem_, Tracker(plan)), InputError) << "the plan holds it";
+  problem_.phases.front().contacts.erase(problem_.phases.front().contacts.begin());
+  EXPECT_THAT(failures_of(problem_, Tracker(plan)), ElementsAre(HasSubstr("touched: lf_foot, held in the air at 0")));
 }
 
 TEST_F(Sabotaged, AGoalThatIsMissedIsSeen) {

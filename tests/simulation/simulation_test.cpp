@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/error.hpp"
@@ -107,6 +109,21 @@ TEST_F(Standing, RefusesWhatMakesNoSense) {
   options = {};
   options.physics.mass_scale = 0.0;
   EXPECT_THROW(simulate(problem_, tracker_, criteria_, options), InputError);
+  const std::vector<std::function<void(SimulationOptions&)>> faults = {
+      [](auto& o) { o.physics.body_scales = {1.0, 1.0}; },
+      [](auto& o) { o.physics.body_scales.assign(13, -1.0); },
+      [](auto& o) { o.physics.friction_scale = -0.5; },
+      [](auto& o) { o.physics.base_center.x() = std::nan(""); },
+      [](auto& o) { o.ground.height = std::nan(""); },
+      [](auto& o) { o.unknown_noise = -1.0; },
+      [](auto& o) { o.unknown_delay = -0.01; },
+      [](auto& o) { o.start = StartError{.joints = Eigen::VectorXd::Zero(5)}; },
+  };
+  for (const auto& make : faults) {
+    options = {};
+    make(options);
+    EXPECT_THROW(simulate(problem_, tracker_, criteria_, options), InputError);
+  }
   EXPECT_THROW(simulate(test::standing_problem(test::go2()), tracker_, criteria_, {}), InputError);
 }
 
