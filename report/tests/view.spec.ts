@@ -122,7 +122,7 @@ test("the robot is drawn before the first iterate is asked for", async ({ page }
 });
 
 test("a page that is opened while it solves follows the iterates", async ({ page }) => {
-  const url = await serve(path.join(root, "tasks/hyq/step.toml"), "--solver", "ipopt");
+  const url = await serve(path.join(root, "tasks/hyq/walk.toml"), "--solver", "ipopt"); // takes seconds
   await page.goto(url);
   await expect(page.locator(".badge")).toContainText("solving");
   await expect(page.locator(".iterate")).toContainText("iteration");
