@@ -161,6 +161,13 @@ Plan solved_again(const DiscreteProblem& asked, const NlpSolver& solver, PlanOpt
   return plan;
 }
 
+/// solve_plan(), and again from a restored motion if there is one.
+Plan solve_or_restore(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
+  Plan plan = solve_plan(asked, solver, options);
+  const std::optional<Trajectory> motion = restore(asked, options, plan);
+  return motion ? solved_again(asked, solver, options, plan, *motion) : plan;
+}
+
 }  // namespace
 
 bool is_stopped(SolveStatus status) { return status == SolveStatus::interrupted || status == SolveStatus::time_limit; }
@@ -233,16 +240,6 @@ void judge(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOpti
                                              : certify(DiscreteProblem(asked.problem, plan.mesh), plan.trajectory);
   std::ranges::move(hints(asked, plan, solver, options), std::back_inserter(plan.hints));
 }
-
-namespace {
-
-Plan solve_or_restore(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
-  Plan plan = solve_plan(asked, solver, options);
-  const std::optional<Trajectory> motion = restore(asked, options, plan);
-  return motion ? solved_again(asked, solver, options, plan, *motion) : plan;
-}
-
-}  // namespace
 
 Plan make_plan(const DiscreteProblem& asked, const NlpSolver& solver, const PlanOptions& options) {
   if (has_repetitions(asked.problem)) {

@@ -76,8 +76,7 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
   options.control_rate = arguments.control_rate.value_or(options.control_rate);
   options.record_rate = arguments.record_rate;
   options.delay = 1e-3 * arguments.delay_ms;
-  options.physics.collisions = std::make_shared<const CollisionShapes>(
-      collision_shapes(plan.task.problem.robot, package_search(arguments.package_dirs)));
+  options.physics.collisions = collision_shapes(plan.task.problem.robot, package_search(arguments.package_dirs));
   options.physics.friction = arguments.friction ? arguments.friction : plan.task.simulated_friction;
   if (arguments.push.size() % 4 != 0) {
     throw InputError(fmt::format("--push: {} numbers; need four for each: time [s] and impulse in x, y, z [N s]",

@@ -54,8 +54,7 @@ int run_sweep(const SweepArguments& arguments) {
   const Tracker tracker = read_tracker(arguments.directory, problem);
   SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = arguments.ranges};
   SimulationOptions base = arguments.options;
-  base.physics.collisions =
-      std::make_shared<const CollisionShapes>(collision_shapes(problem.robot, package_search(arguments.package_dirs)));
+  base.physics.collisions = collision_shapes(problem.robot, package_search(arguments.package_dirs));
   base.physics.friction = plan.task.simulated_friction;
   std::vector<SimulationOptions> options;
   for (int i = 0; i < arguments.cases; ++i) {
@@ -69,10 +68,9 @@ int run_sweep(const SweepArguments& arguments) {
     return run_cases(problem, tracker, plan.task.success, options, on_done, &interrupted);
   });
   if (arguments.breakdown_cases > 0 && !interrupted) {
-    const SimulationOptions& alone = base;
     record.breakdowns =
         with_bar("simulations of one perturbation alone", interrupted, [&](const SweepProgress& on_done) {
-          return find_breakdowns(problem, tracker, plan.task.success, alone, arguments.seed, arguments.breakdown_cases,
+          return find_breakdowns(problem, tracker, plan.task.success, base, arguments.seed, arguments.breakdown_cases,
                                  on_done, &interrupted);
         });
   }

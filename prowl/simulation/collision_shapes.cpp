@@ -58,14 +58,11 @@ std::vector<float> scaled_points(const RobotVisual& mesh, const std::filesystem:
   return points;
 }
 
-/// A plane under the contacts of the nominal posture, where the posture is on level ground.
-Surface nominal_ground() { return {.name = "ground"}; }
-
-/// Leaves out what overlaps in the nominal posture.
+/// Leaves out what overlaps in the nominal posture, which stands on z = 0.
 void leave_out_overlaps(const RobotModel& robot, CollisionShapes& all) {
   PhysicsOptions options;
   options.collisions = std::make_shared<const CollisionShapes>(all);
-  const MujocoModel built = make_mujoco_model(robot, {nominal_ground()}, options);
+  const MujocoModel built = make_mujoco_model(robot, {Surface{}}, options);
   const mjModel* const model = built.model.get();
   const std::unique_ptr<mjData, decltype(&mj_deleteData)> data(mj_makeData(model), &mj_deleteData);
   const Eigen::VectorXd qpos = mujoco_qpos(robot.nominal_configuration());
@@ -101,7 +98,7 @@ void leave_out_overlaps(const RobotModel& robot, CollisionShapes& all) {
 
 }  // namespace
 
-CollisionShapes collision_shapes(const RobotModel& robot, const PackageSearch& search) {
+std::shared_ptr<const CollisionShapes> collision_shapes(const RobotModel& robot, const PackageSearch& search) {
   CollisionShapes all;
   std::set<std::string> of_contacts;
   for (const ContactPoint& contact : robot.contacts()) of_contacts.insert(contact.frame);
@@ -119,7 +116,7 @@ CollisionShapes collision_shapes(const RobotModel& robot, const PackageSearch& s
     all.shapes.push_back(std::move(one));
   }
   leave_out_overlaps(robot, all);
-  return all;
+  return std::make_shared<const CollisionShapes>(std::move(all));
 }
 
 }  // namespace prowl

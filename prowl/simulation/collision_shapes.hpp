@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +27,6 @@ struct CollisionShapes {
 
 /// Shapes of the robot's <collision> elements, meshes as their convex hulls of at most 64 vertices. Neighbouring bodies
 /// never collide. Shapes on the frames of contacts are left out: the contacts stand for them.
-CollisionShapes collision_shapes(const RobotModel& robot, const PackageSearch& search);
+std::shared_ptr<const CollisionShapes> collision_shapes(const RobotModel& robot, const PackageSearch& search);
 
 }  // namespace prowl

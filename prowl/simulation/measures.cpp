@@ -110,8 +110,7 @@ std::optional<Measures::Found> Measures::touch_near(int contact, double from, do
 
 /// Of a contact that holds in this segment.
 int Measures::planned_surface(int contact, std::size_t segment) const {
-  const std::size_t phase = std::min(segment, problem_.phases.size() - 1);  // after the end it stands on
-  const auto& held = problem_.phases[phase].contacts;
+  const auto& held = phase_of_segment(problem_, segment).contacts;
   const auto found = std::ranges::find(held, contact, &PhaseContact::contact);
   return found == held.end() ? -1 : found->surface;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prowl/simulation/simulation.hpp"
+
 namespace prowl {
 namespace {
 
@@ -23,12 +25,10 @@ EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {
 std::vector<Stand> make_stands(const MotionProblem& problem, const Tracker& tracker) {
   std::vector<Stand> stands;
   for (std::size_t s = 0; s < tracker.plan().segments.size(); ++s) {
-    const std::size_t p =
-        std::min(s, problem.phases.size() - 1);  // after the end the contacts are those of the last phase
     Stand& stand = stands.emplace_back();
     stand.in_contact = tracker.plan().segments[s].in_contact;
     stand.normals.assign(problem.robot.contacts().size(), Eigen::Vector3d::UnitZ());
-    for (const PhaseContact& contact : problem.phases[p].contacts) {
+    for (const PhaseContact& contact : phase_of_segment(problem, s).contacts) {
       stand.normals[contact.contact] = problem.surfaces[contact.surface].normal;
     }
   }

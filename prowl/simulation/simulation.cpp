@@ -246,6 +246,10 @@ SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, 
   return result;
 }
 
+const Phase& phase_of_segment(const MotionProblem& problem, std::size_t segment) {
+  return problem.phases[std::min(segment, problem.phases.size() - 1)];
+}
+
 void check_fit(const MotionProblem& problem, const Tracker& tracker) {
   const TrackingPlan& plan = tracker.plan();
   if (plan.joint_names != problem.robot.joint_names() || plan.contact_names.size() != problem.robot.contacts().size() ||
@@ -254,7 +258,7 @@ void check_fit(const MotionProblem& problem, const Tracker& tracker) {
   }
   for (std::size_t s = 0; s < plan.segments.size(); ++s) {
     std::vector<bool> held(problem.robot.contacts().size(), false);
-    for (const PhaseContact& contact : problem.phases[std::min(s, problem.phases.size() - 1)].contacts)
+    for (const PhaseContact& contact : phase_of_segment(problem, s).contacts)
       held[static_cast<std::size_t>(contact.contact)] = true;
     if (held != plan.segments[s].in_contact)
       throw InputError(

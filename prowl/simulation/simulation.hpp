@@ -82,7 +82,10 @@ SimulationResult simulate(const MotionProblem& problem, const Tracker& tracker, 
                           const SimulationOptions& options,
                           const std::function<void(double t, double end)>& on_time = {});
 
-/// Throws InputError unless robot and phases of tracker and problem agree.
+/// Phase of a segment of the tracker: after the end the robot stands on as in the last.
+const Phase& phase_of_segment(const MotionProblem& problem, std::size_t segment);
+
+/// Throws InputError unless robot, contacts and phases of tracker and problem agree.
 void check_fit(const MotionProblem& problem, const Tracker& tracker);
 
 }  // namespace prowl

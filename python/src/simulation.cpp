@@ -71,8 +71,7 @@ std::shared_ptr<SimulationObject> simulate_plan(std::shared_ptr<const PlanObject
   options.physics.step = step;
   options.physics.mass_scale = mass;
   options.physics.friction = friction ? friction : plan->record.task.simulated_friction;
-  options.physics.collisions =
-      std::make_shared<const CollisionShapes>(collision_shapes(plan->problem().robot, package_search({})));
+  options.physics.collisions = collision_shapes(plan->problem().robot, package_search({}));
   if (!(push_duration > 0.0))
     throw InputError(fmt::format("push_duration: {} is not allowed; need > 0 s", push_duration));
   if (!(record_rate > 0.0)) throw InputError(fmt::format("record_rate: {} is not allowed; need > 0 Hz", record_rate));

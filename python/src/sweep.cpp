@@ -115,8 +115,7 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
   const Tracker& tracker = *plan->tracker;
   SimulationOptions options;
   options.open_loop = open_loop;
-  options.physics.collisions =
-      std::make_shared<const CollisionShapes>(collision_shapes(plan->problem().robot, package_search({})));
+  options.physics.collisions = collision_shapes(plan->problem().robot, package_search({}));
   options.physics.friction = task.simulated_friction;
   std::vector<SimulationOptions> all;
   for (int i = 0; i < n; ++i)
@@ -129,10 +128,9 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
         return run_cases(task.problem, tracker, task.success, all, on_done, interrupt);
       });
   if (breakdown > 0 && !python.stop()) {
-    const SimulationOptions& alone = options;
     sweep.record.breakdowns =
         watched(python, on_progress, [&](const SweepProgress& on_done, const std::atomic<bool>* interrupt) {
-          return find_breakdowns(task.problem, tracker, task.success, alone, seed, breakdown, on_done, interrupt);
+          return find_breakdowns(task.problem, tracker, task.success, options, seed, breakdown, on_done, interrupt);
         });
   }
   if (auto& error = python.error()) {

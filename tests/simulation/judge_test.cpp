@@ -99,8 +99,7 @@ class Sabotaged : public testing::Test {
     return simulate(problem, tracker, {}, options).failures;
   }
   MotionProblem problem_ = test::standing_problem();
-  std::shared_ptr<const CollisionShapes> collisions_ =
-      std::make_shared<const CollisionShapes>(collision_shapes(problem_.robot, test::test_search()));
+  std::shared_ptr<const CollisionShapes> collisions_ = collision_shapes(problem_.robot, test::test_search());
 };
 
 TEST_F(Sabotaged, NotAtAllItSucceeds) {
@@ -165,7 +164,7 @@ TEST_F(Sabotaged, WhatTouchesTheTrunkIsSeen) {
 TEST(CollisionShapes, AreThoseOfTheWholeRobot) {
   for (const RobotModel& robot : {test::hyq(), test::go2(), test::solo12(), test::anymal_c(), test::talos()}) {
     PhysicsOptions options;
-    options.collisions = std::make_shared<const CollisionShapes>(collision_shapes(robot, test::test_search()));
+    options.collisions = collision_shapes(robot, test::test_search());
     EXPECT_GT(options.collisions->shapes.size(), 8u) << robot.name();
     Physics physics(robot, {Surface{}}, options);
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(robot.nu()), still = Eigen::VectorXd::Zero(robot.nv());
