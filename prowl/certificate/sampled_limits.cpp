@@ -94,22 +94,29 @@ class SwingChecks {
 /// Checks the contact forces of the true dynamics.
 class ForceChecks {
  public:
-  explicit ForceChecks(const MotionProblem& problem)
+  ForceChecks(const MotionProblem& problem, const ContactStates& states)
       : problem_(problem),
+        states_(states),
         friction_("friction cone", "N", Limits::force_over_weight * problem.robot.weight()),
         unilateral_("unilateral force", "N", Limits::force_over_weight * problem.robot.weight()),
+        least_load_("least load of a held foot", "N", Limits::force_over_weight * problem.robot.weight()),
         planned_("planned contact force", "N", Limits::planned_force_over_weight * problem.robot.weight()) {}
 
-  void record(const TrajectoryPoint& point, ConstrainedDynamicsOracle& dynamics, bool at_node) {
+  /// `at_end`: in the last interval of the phase.
+  void record(const TrajectoryPoint& point, ConstrainedDynamicsOracle& dynamics, bool at_node, bool at_end) {
     const auto motion = true_motion(point, dynamics);
     acceleration_.record(motion.residual, point.time, "");
-    for (const PhaseContact& held : problem_.phases[point.phase].contacts) {
+    const Phase& phase = problem_.phases[point.phase];
+    for (const PhaseContact& held : phase.contacts) {
       const Surface& surface = problem_.surfaces[held.surface];
       const std::string& name = problem_.robot.contacts()[held.contact].name;
       const Eigen::Vector3d force = motion.force.segment<3>(3 * held.contact);
       const double normal = surface.normal.dot(force);
       const double tangential = (force - normal * surface.normal).norm();
       unilateral_.record(-normal, point.time, name);
+      const double least = least_load(problem_, phase, held);
+      const bool is_opening = at_end && states_[point.phase][held.contact].opens;
+      if (least > 0.0 && !is_opening) least_load_.record(least - normal, point.time, name);
       // The unilateral check reports a pull; here it only allows no friction.
       friction_.record(tangential - surface.friction * std::max(normal, 0.0), point.time, name);
     }
@@ -121,12 +128,14 @@ class ForceChecks {
   }
 
   void append_to(std::vector<CertificateCheck>& checks) const {
-    for (const WorstCase* check : {&friction_, &unilateral_, &planned_, &acceleration_}) check->append_to(checks);
+    for (const WorstCase* check : {&friction_, &unilateral_, &least_load_, &planned_, &acceleration_})
+      check->append_to(checks);
   }
 
  private:
   const MotionProblem& problem_;
-  WorstCase friction_, unilateral_, planned_;
+  const ContactStates& states_;
+  WorstCase friction_, unilateral_, least_load_, planned_;
   WorstCase acceleration_{"contact acceleration", "m/s^2", Limits::contact_acceleration};
 };
 
@@ -163,17 +172,19 @@ std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const
                                              const ContactStates& states, PhaseDynamics& dynamics) {
   ContactChecks contacts(problem, states);
   SwingChecks swings(problem, states);
-  ForceChecks forces(problem);
+  ForceChecks forces(problem, states);
   JointChecks joints(problem.robot);
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
     const double h = interval.step();
+    const bool at_end =
+        &interval.right == &trajectory.nodes.back() || (&interval.right)[1].phase != interval.right.phase;
     const int pieces = std::max(Limits::grid_intervals, static_cast<int>(std::ceil(h / Limits::grid_step)));
     for (int i = 0; i <= pieces; ++i) {
       const TrajectoryPoint point = interval.at(h * i / pieces);
       const auto points = dynamics[point.phase].contact_points(point.q, point.v);
       contacts.record(point, points);
       swings.record(point, points);
-      forces.record(point, dynamics[point.phase], i == 0 || i == pieces);
+      forces.record(point, dynamics[point.phase], i == 0 || i == pieces, at_end);
       joints.record(point);
     }
   }

@@ -344,6 +344,12 @@ Eigen::VectorXd Cycle::moved_configuration(const VectorXd& q) const {
   return result;
 }
 
+double least_load(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact) {
+  if (contact.unloaded) return 0.0;
+  const double even = problem.robot.weight() / static_cast<double>(phase.contacts.size());
+  return problem.least_load * even * std::max(0.0, problem.surfaces[contact.surface].normal.z());
+}
+
 void validate(const MotionProblem& problem) {
   for (std::size_t i = 0; i < problem.surfaces.size(); ++i) {
     check_surface(fmt::format("surfaces[{}]", i), problem.surfaces[i]);
@@ -356,6 +362,9 @@ void validate(const MotionProblem& problem) {
   check_footholds(problem);
   if (!(problem.swing_clearance >= 0.0) || !std::isfinite(problem.swing_clearance)) {
     refuse("swing_clearance: {} is not allowed; need a length >= 0 [m]", problem.swing_clearance);
+  }
+  if (!(problem.least_load >= 0.0) || !(problem.least_load < 1.0)) {
+    refuse("least_load: {} is not allowed; need a share >= 0 and < 1", problem.least_load);
   }
   if (problem.boundary_constraints.empty()) {
     refuse("boundary_constraints: an empty list is not allowed; need the start as the first");

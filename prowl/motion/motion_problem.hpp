@@ -60,6 +60,9 @@ struct GoalTolerance {
 /// Default swing clearance, as a part of the standing height.
 constexpr double kSwingClearanceShare = 0.05;
 
+/// Default least load of a held contact, as a share of its even load: docs/simulated-tasks.md.
+constexpr double kLeastLoadShare = 0.2;
+
 /// Everything that defines a motion, before any discretisation.
 /// All limits of the robot (joint position, velocity, torque) and of the surfaces (friction, unilateral force) are
 /// hard.
@@ -73,6 +76,7 @@ struct MotionProblem {
   QuadraticCost terminal_cost;
   FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
+  double least_load = 0.0;       ///< of each held contact, as a share of its even load [-]: least_load()
   GoalTolerance goal_tolerance;
   std::optional<Cycle> cycle = {};  ///< with it, the start is free, and footholds move from cycle to cycle
 
@@ -80,6 +84,10 @@ struct MotionProblem {
   const BoundaryConstraint& start() const { return boundary_constraints.front(); }
   const Eigen::VectorXd& start_configuration() const { return start().q_ref; }
 };
+
+/// Normal force [N] that a contact of this phase carries at least, but in the interval before it opens: its share of an
+/// even load. Even: the weight, times the cosine of the surface's slope, over the number of contacts.
+double least_load(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact);
 
 /// Throws InputError that names the field unless sizes, indices, ranges and finiteness are right and the start is
 /// inside the joint limits, with the contacts of the first phase on their surfaces (within 1 mm) and, where it is

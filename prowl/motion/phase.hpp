@@ -13,6 +13,7 @@ struct PhaseContact {
   int surface = 0;  ///< index into MotionProblem::surfaces
   /// Foothold of a contact that lands in this phase: on the surface, world frame [m]. Free if not given.
   std::optional<Eigen::Vector3d> foothold = {};
+  bool unloaded = false;  ///< may carry nothing: exempt from MotionProblem::least_load
 };
 
 /// Indices into RobotModel::contacts().

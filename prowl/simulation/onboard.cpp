@@ -9,7 +9,7 @@ namespace prowl {
 namespace {
 
 // Unmodelled joint accelerations as white noise [rad²/s³]; choice: docs/simulation.md.
-constexpr double kJointDensity = 1.0;
+constexpr double kJointDensity = 30.0;
 
 /// Noise assumed by the filter, which divides by it: never zero.
 EstimatorNoise estimator_noise(const SensorNoise& sensors, double scale) {

@@ -81,6 +81,7 @@ std::vector<PhaseContact> read_phase_contacts(const TomlValue& value, const Cont
         contact.surface = static_cast<int>(surface->as_one_of("surface", names.surfaces));
       }
       if (const auto point = table.find("place_m")) contact.foothold = point->as_vector3();
+      if (const auto unloaded = table.find("unloaded")) contact.unloaded = unloaded->as_boolean();
     } else {
       contact.contact = static_cast<int>(entry.as_one_of("contact", names.contacts));
     }
@@ -280,11 +281,13 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
                         .terminal_cost = {},
                         .friction_model = {},
                         .swing_clearance = 0.0,
+                        .least_load = kLeastLoadShare,
                         .goal_tolerance = {},
                         .cycle = gait ? gait->cycle : std::nullopt};
   const auto clearance = root.find("swing_clearance_m");
   problem.swing_clearance =
       clearance ? clearance->as_number() : kSwingClearanceShare * problem.robot.nominal_configuration()(2);
+  if (const auto share = root.find("least_load")) problem.least_load = share->as_number();
   if (const auto model = root.find("friction_model")) {
     problem.friction_model =
         model->as_choice("friction model") == "cone" ? FrictionModel::cone : FrictionModel::pyramid;

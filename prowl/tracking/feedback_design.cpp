@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -18,14 +19,22 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// docs/tracking.md#riccati-equation.
+constexpr double kStanceLegs = 0.1;  ///< share of the weight on their joints that finds the nearest allowed deviation
+constexpr double kFading = 1.2;      ///< of the impedance after a landing, in times sqrt(standing height / gravity)
+
 /// Dynamics at one sample, reduced to the deviations that its contacts allow.
 struct Reduced {
   MatrixXd Z, A, B;
+  MatrixXd Q;  ///< cost of a deviation per second, xi' Q xi
 };
 
-Reduced reduce(const LinearisedDynamics& linear, const VectorXd& weight, MatrixXd Z) {
+/// `swing`: displacements of the feet in the air per deviation, over those that cost 1 (rows x nv).
+Reduced reduce(const LinearisedDynamics& linear, const VectorXd& weight, const MatrixXd& swing, MatrixXd Z) {
   const MatrixXd left = Z.transpose() * weight.asDiagonal();
-  return {Z, left * linear.A() * Z, left * linear.B()};
+  const MatrixXd feet = swing * Z.topRows(swing.cols());
+  const MatrixXd identity = MatrixXd::Identity(Z.cols(), Z.cols());
+  return {Z, left * linear.A() * Z, left * linear.B(), identity + feet.transpose() * feet};
 }
 
 /// `Z` rotated within its space to be closest to the basis of the next sample. Along a phase the
@@ -87,16 +96,17 @@ class BackwardPass {
       const TrajectoryPoint& point = phase.samples[k];
       linear.evaluate(point.q, point.v, point.tau);
       const MatrixXd Z = linear.consistent_directions(weight_);
+      const MatrixXd swing = swing_feet(p, point.q);
       if (Z.cols() == 0) {
         throw NumericalError(
             fmt::format("no feedback gains in phase \"{}\": its contacts allow no motion", phase.name));
       }
       if (k + 1 == phase.samples.size()) {
-        transition =
-            p + 1 < design_.phases.size() ? land(reduce(linear, weight_, Z)) : begin_at_end(reduce(linear, weight_, Z));
+        transition = p + 1 < design_.phases.size() ? land(reduce(linear, weight_, swing, Z))
+                                                   : begin_at_end(reduce(linear, weight_, swing, Z));
       } else if (Z.cols() == now_.Z.cols()) {
         transition =
-            (transition * step_back(reduce(linear, weight_, aligned(Z, now_.Z, weight_)), phase.step())).eval();
+            (transition * step_back(reduce(linear, weight_, swing, aligned(Z, now_.Z, weight_)), phase.step())).eval();
       } else {
         throw NumericalError(
             fmt::format("no feedback gains in phase \"{}\": at t = {:.3f} s the rank of its contacts changes "
@@ -108,11 +118,51 @@ class BackwardPass {
             fmt::format("no feedback gains in phase \"{}\" at t = {:.3f} s: the Riccati equation is not finite",
                         phase.name, point.time));
       }
-      design_.gains[p][k] = gain_ * now_.Z.transpose() * weight_.asDiagonal();
-      if (on_sample_) on_sample_({static_cast<int>(p), static_cast<int>(k), now_.Z, now_.A, now_.B, S_});
+      design_.gains[p][k] = gain_ * allowed_part(linear) + linear.impedance(impedance_rates(p, point.time));
+      if (on_sample_) on_sample_({static_cast<int>(p), static_cast<int>(k), now_.Z, now_.A, now_.B, now_.Q, S_});
     }
     record(p, transition);
-    if (p > 0) landing_ = linear.landing(weight_);
+    if (p > 0) landing_ = linear.landing(linear.with_stance_legs(weight_, kStanceLegs));
+  }
+
+  bool holds(std::size_t p, int contact) const { return std::ranges::count(design_.phases[p].contacts, contact) > 0; }
+
+  /// Displacements by dq of the feet that are in the air and will land, over the one that costs 1 (rows x nv).
+  MatrixXd swing_feet(std::size_t p, const VectorXd& q) {
+    std::vector<int> feet;
+    for (int contact = 0; contact < static_cast<int>(robot_.contacts().size()); ++contact) {
+      std::size_t next = p;
+      while (next < design_.phases.size() && !holds(next, contact)) ++next;
+      if (next > p && next < design_.phases.size()) feet.push_back(contact);
+    }
+    if (feet.empty()) return MatrixXd::Zero(0, robot_.nv());
+    ContactKinematics kinematics(feet);
+    terms_.update_kinematics(q);
+    kinematics.set_configuration(terms_);
+    return kinematics.positions_dq() / options_.swing_foot_deviation;
+  }
+
+  /// xi of a measured deviation (n x 2 nv): of the nearest that the contacts allow.
+  MatrixXd allowed_part(const LinearisedDynamics& linear) const {
+    const VectorXd metric = linear.with_stance_legs(weight_, kStanceLegs);
+    const MatrixXd left = now_.Z.transpose() * metric.asDiagonal();
+    return MatrixXd(left * now_.Z).llt().solve(left);
+  }
+
+  /// Of the impedance of each contact in stance [1/s]: the largest bandwidth when it lands. It fades, since a foot that
+  /// holds elsewhere should stay there.
+  VectorXd impedance_rates(std::size_t p, double time) const {
+    const std::vector<int>& contacts = design_.phases[p].contacts;
+    const double fading = kFading * std::sqrt(robot_.nominal_configuration().z() / RobotModel::kGravity);
+    VectorXd result = VectorXd::Zero(static_cast<Eigen::Index>(contacts.size()));
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      std::size_t first = p;
+      while (first > 0 && holds(first - 1, contacts[i])) --first;
+      if (first == 0) continue;  // stands from the start
+      const double left = 1.0 - (time - design_.phases[first].start()) / fading;
+      result(static_cast<Eigen::Index>(i)) = std::max(0.0, left) * options_.largest_bandwidth;
+    }
+    return result;
   }
 
   /// Records the decay of a phase, except for the one after the end of the motion.
@@ -155,8 +205,7 @@ class BackwardPass {
   /// S at the end: of standing for ever in the final posture or, if impossible, for one second.
   MatrixXd begin_at_end(Reduced end) {
     now_ = std::move(end);
-    const Eigen::Index n = now_.A.rows();
-    RiccatiFlow flow = riccati_flow(now_.A, control_of(now_.B), MatrixXd::Identity(n, n), options_.step);
+    RiccatiFlow flow = riccati_flow(now_.A, control_of(now_.B), now_.Q, options_.step);
     const std::optional<MatrixXd> stationary = stationary_cost(flow);
     design_.stands_on = has_phase_after_end_ && stationary;
     if (stationary) {
@@ -173,7 +222,7 @@ class BackwardPass {
       // The limited bandwidth may leave gains too small to stabilise.
       design_.stands_on = design_.stands_on && design_.slowest_rate > 0.0;
     }
-    return MatrixXd::Identity(n, n);
+    return MatrixXd::Identity(now_.A.rows(), now_.A.rows());
   }
 
   /// S before the transition to the later phase, whose first sample is current; returns the effect
@@ -192,8 +241,7 @@ class BackwardPass {
 
   MatrixXd step_back(Reduced left, double h) {
     const MatrixXd A = 0.5 * (left.A + now_.A), B = 0.5 * (left.B + now_.B);
-    const Eigen::Index n = A.rows();
-    const RiccatiFlow flow = riccati_flow(A, control_of(B), MatrixXd::Identity(n, n), h);
+    const RiccatiFlow flow = riccati_flow(A, control_of(B), 0.5 * (left.Q + now_.Q), h);
     MatrixXd optimal = flow.closed_loop(S_);
     const MatrixXd gain_at_end = gain_;
     const bool was_limited = is_limited_;
@@ -207,6 +255,7 @@ class BackwardPass {
   MatrixXd control_of(const MatrixXd& B) const { return B * control_weight_.asDiagonal() * B.transpose(); }
 
   const RobotModel& robot_;
+  RigidBodyTerms terms_{robot_};
   const TrackingOptions& options_;
   bool has_phase_after_end_;
   FeedbackDesign& design_;

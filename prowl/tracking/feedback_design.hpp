@@ -49,6 +49,7 @@ struct ReducedSample {
   const Eigen::MatrixXd& Z;  ///< 2 nv x n, orthonormal in the weights
   const Eigen::MatrixXd& A;  ///< n x n, xi' = A xi + B dtau
   const Eigen::MatrixXd& B;  ///< n x nu
+  const Eigen::MatrixXd& Q;  ///< n x n, cost xi' Q xi per second
   const Eigen::MatrixXd& S;  ///< n x n, cost to go xi' S xi
 };
 

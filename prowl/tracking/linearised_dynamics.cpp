@@ -46,13 +46,12 @@ void LinearisedDynamics::evaluate(const VectorXd& q, const VectorXd& v, const Ve
   terms_.update_kinematics(q);
   kinematics_.set_configuration(terms_);
   kinematics_.set_motion(VectorXd::Zero(nv), v);  // the acceleration is then J v
-  MatrixXd turned_velocity;
-  kinematics_.acceleration_dq(turned_velocity);
+  kinematics_.acceleration_dq(turned_velocity_);
   const MatrixXd V = dynamics_.projector().row_space();
   const MatrixXd rows = V.transpose() * dynamics_.projector().pseudo_inverse();
   C_.setZero(2 * V.cols(), 2 * nv);
   C_.topLeftCorner(V.cols(), nv) = rows * kinematics_.positions_dq();
-  C_.bottomLeftCorner(V.cols(), nv) = rows * turned_velocity;
+  C_.bottomLeftCorner(V.cols(), nv) = rows * turned_velocity_;
   C_.bottomRightCorner(V.cols(), nv) = V.transpose();
 }
 
@@ -65,6 +64,34 @@ MatrixXd LinearisedDynamics::consistent_directions(const VectorXd& weight) const
     basis.applyOnTheLeft(Eigen::HouseholderQR<MatrixXd>(normals).householderQ());
   }
   return scale.asDiagonal() * basis;
+}
+
+VectorXd LinearisedDynamics::with_stance_legs(VectorXd weight, double share) const {
+  const Eigen::Index nv = v_.size();
+  for (Eigen::Index j = 6; j < nv; ++j) {
+    if (kinematics_.rows() == 0 || kinematics_.jacobian().col(j).isZero(0.0)) continue;
+    weight(j) *= share;
+    weight(nv + j) *= share;
+  }
+  return weight;
+}
+
+MatrixXd LinearisedDynamics::impedance(const VectorXd& rates) {
+  const Eigen::Index nv = v_.size(), nu = nv - 6, rows = kinematics_.rows();
+  if (rates.isZero(0.0)) return MatrixXd::Zero(nu, 2 * nv);
+  terms_.update_with_derivatives(q_, v_, VectorXd::Zero(nv));
+  MatrixXd wanted(rows, 2 * nv);  // accelerations, without their sign
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const double rate = rates(row / 3);
+    wanted.row(row) << 0.25 * rate * rate * kinematics_.positions_dq().row(row) + rate * turned_velocity_.row(row),
+        rate * kinematics_.jacobian().row(row);
+  }
+  // Of the lever of the longest leg, squared: below 3 % of it a direction counts as singular.
+  constexpr double kSingular = 1e-3;
+  const auto of_joints = kinematics_.jacobian().rightCols(nu);
+  MatrixXd gram = of_joints * of_joints.transpose();
+  gram.diagonal().array() += kSingular * gram.diagonal().maxCoeff();
+  return terms_.mass_matrix().bottomRightCorner(nu, nu) * (of_joints.transpose() * gram.llt().solve(wanted));
 }
 
 MatrixXd LinearisedDynamics::landing(const VectorXd& weight) {

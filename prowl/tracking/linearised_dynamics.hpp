@@ -32,6 +32,14 @@ class LinearisedDynamics {
   /// allow, orthonormal in the metric of `weight` (2 nv, > 0).
   Eigen::MatrixXd consistent_directions(const Eigen::VectorXd& weight) const;
 
+  /// `weight` (2 nv) with this share of it on the joints that move a contact in stance.
+  Eigen::VectorXd with_stance_legs(Eigen::VectorXd weight, double share) const;
+
+  /// Critically damped impedance of the contacts in stance, F (nu x 2 nv): joint torques -F dx accelerate a contact
+  /// with the displacement e by -rate² e / 4 - rate e', if the base stays. `rates`: one per contact [1/s]. F dx = 0 for
+  /// every deviation that the contacts allow. Singular directions (straight legs) are damped.
+  Eigen::MatrixXd impedance(const Eigen::VectorXd& rates);
+
   /// Effect L of landing on a deviation, dx -> L dx with C L = 0 (2 nv x 2 nv). Positions move to
   /// the nearest that the contacts allow, in the metric of `weight`: a foot stays where it lands.
   /// Velocities change by an impact without rebound: impulses stop the contact points, M dv+ = M dv
@@ -44,6 +52,7 @@ class LinearisedDynamics {
   ContactKinematics kinematics_;
   Eigen::VectorXd q_, v_;
   Eigen::MatrixXd A_, B_, C_;
+  Eigen::MatrixXd turned_velocity_;  ///< derivative of the contacts' velocities in q
 };
 
 /// Velocity (nv) after contacts close at (q, v), without rebound: minimises the kinetic energy of

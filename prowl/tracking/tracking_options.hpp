@@ -15,6 +15,7 @@ struct DefaultDeviations {
   double base_angular_velocity = 0.4;  ///< [rad/s]
   double joint_velocity = 10.0;        ///< [rad/s]
   double torque_share = 0.1;           ///< of the torque limit [-]
+  double swing_foot = 0.01;            ///< each axis [m]
 };
 
 /// Weights of the gains as deviations, each of which costs 1 per second (Bryson and Ho, Applied
@@ -25,6 +26,8 @@ struct TrackingOptions {
   double step = 2e-3;                ///< largest step of the grid of gains [s]
   Eigen::VectorXd state_deviation;   ///< 2 nv, > 0: tangent of configuration.hpp [m, rad], v [m/s, rad/s]
   Eigen::VectorXd torque_deviation;  ///< nu, > 0 [N m]
+  /// Of a foot that will land, besides its joints, each axis [m]: the base may not swing it aside to keep its balance.
+  double swing_foot_deviation = DefaultDeviations{}.swing_foot;
   /// A foot that lands beside its foothold stays there. The deviation removed by a landing costs as
   /// if it lasted this long [s].
   double landing_time = 1.0;

@@ -55,6 +55,9 @@ std::vector<Sabotage> landing_sabotage() {
       {"foot under a plane without an edge",
        [](Case& c) { c.discrete.problem.surfaces.push_back({.name = "high", .point = {0.0, 0.0, 0.04}}); },
        {"penetration"}},
+      {"feet without the load that is asked for",
+       [](Case& c) { c.discrete.problem.least_load = 0.7; },
+       {"least load of a held foot"}},
       {"foot in the side of a block", [](Case& c) { add_block(c, 0.0197); }, {"penetration"}},
   };
 }
@@ -65,6 +68,19 @@ void expect_caught(const Sabotage& sabotage, Case c) {
   const Certificate certificate = certify(c.discrete, c.trajectory);
   EXPECT_EQ(failed_checks(certificate), sabotage.fails);
   EXPECT_EQ(certificate.grade, CertificateGrade::failed);
+}
+
+/// What may carry nothing is not asked for its load, nor what is about to open.
+TEST(CertificateContacts, AsksForTheLoadOfHeldFeet) {
+  Case c = SteppingMotion(test::hyq()).make();
+  EXPECT_EQ(certify(c.discrete, c.trajectory).find("least load of a held foot"), nullptr);
+  c.discrete.problem.least_load = 0.7;
+  const Certificate asked = certify(c.discrete, c.trajectory);
+  const double even = c.discrete.problem.robot.weight() / 4.0;
+  EXPECT_NEAR(find(asked, "least load of a held foot").worst, 0.7 * even, 0.3 * even);
+  for (Phase& phase : c.discrete.problem.phases)
+    for (PhaseContact& held : phase.contacts) held.unloaded = true;
+  EXPECT_EQ(failed_checks(certify(c.discrete, c.trajectory)), Names{});
 }
 
 TEST(CertificateContacts, AStepPasses) {

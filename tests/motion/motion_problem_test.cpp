@@ -163,6 +163,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"negative", [](P& p) { p.running_cost.velocity_weight(3) = -1.0; },
                 "running_cost.velocity_weight[3]: -1 is not allowed; need a weight >= 0"},
         Mistake{"clearance", [](P& p) { p.swing_clearance = -0.1; }, "swing_clearance: -0.1 is not allowed"},
+        Mistake{"load", [](P& p) { p.least_load = 1.0; }, "least_load: 1 is not allowed; need a share >= 0 and < 1"},
         Mistake{"clockwise", [](P& p) { p.surfaces[0].patch = {{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}; },
                 "surfaces[0].patch: the corners after corner 1 do not turn left"},
         Mistake{"two_corners", [](P& p) { p.surfaces[0].patch = {{0.0, 0.0}, {0.0, 1.0}}; },
@@ -217,6 +218,21 @@ TEST(MotionProblem, StartMayBeAMillimetreOffTheGroundAndSwingFeetAnywhere) {
               p.boundary_constraints[0].q_ref(9) -= 0.3;
             }),
             "accepted");
+}
+
+TEST(MotionProblem, AskForAShareOfAnEvenLoad) {
+  MotionProblem problem = standing();
+  problem.least_load = 0.2;
+  const Phase& phase = problem.phases.front();
+  const double share = 0.2 * problem.robot.weight() / static_cast<double>(phase.contacts.size());
+  PhaseContact held = phase.contacts.front();
+  EXPECT_DOUBLE_EQ(least_load(problem, phase, held), share);
+  problem.surfaces[static_cast<std::size_t>(held.surface)].normal = {-0.6, 0.0, 0.8};
+  EXPECT_DOUBLE_EQ(least_load(problem, phase, held), 0.8 * share);
+  problem.surfaces[static_cast<std::size_t>(held.surface)].normal = {-1.0, 0.0, 0.0};
+  EXPECT_EQ(least_load(problem, phase, held), 0.0) << "a wall carries no weight";
+  held.unloaded = true;
+  EXPECT_EQ(least_load(problem, phase, held), 0.0);
 }
 
 }  // namespace

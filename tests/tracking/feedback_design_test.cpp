@@ -32,19 +32,19 @@ FeedbackDesign design(const std::string& name) { return design(solved(name), sol
 
 class FeedbackOfTask : public testing::TestWithParam<std::string> {};
 
-// Independent and redundant contacts, contacts that change: deviations that the contacts do not allow get no torque, in
-// the metric of the weights: K W⁻¹ C' = 0.
+// Independent and redundant contacts, but just after a landing: deviations that the contacts do not allow get no
+// torque, in the metric of the weights with less on the legs in stance: K W⁻¹ C' = 0.
 TEST_P(FeedbackOfTask, HasNoGainOnWhatTheContactsForbid) {
   const test::SolvedTask& task = solved(GetParam());
   const FeedbackDesign found = design(GetParam());
-  const VectorXd deviation = task.task.tracking.state_deviation.array().square();
-  for (std::size_t p = 0; p < found.phases.size(); ++p) {
+  for (const std::size_t p : {std::size_t{0}, found.phases.size() - 1}) {
     const ReferencePhase& phase = found.phases[p];
     LinearisedDynamics linear(task.task.problem.robot, phase.contacts);
     for (std::size_t k = 0; k < phase.samples.size(); k += 37) {
       const TrajectoryPoint& point = phase.samples[k];
       linear.evaluate(point.q, point.v, point.tau);
-      const MatrixXd forbidden = deviation.asDiagonal() * linear.C().transpose();
+      const VectorXd weight = linear.with_stance_legs(task.task.tracking.state_weight(), 0.1);
+      const MatrixXd forbidden = weight.cwiseInverse().asDiagonal() * linear.C().transpose();
       const MatrixXd& K = found.gains[p][k];
       EXPECT_GT(K.norm(), 1.0);
       EXPECT_LT((K * forbidden).norm(), 1e-9 * K.norm() * forbidden.norm()) << phase.name << ", sample " << k;
@@ -150,6 +150,38 @@ TEST(FeedbackDesign, CountsWhatALandingCutsOff) {
   const MatrixXd once = at_landing[1] - at_landing[0], twice = at_landing[2] - at_landing[1];
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(once).eigenvalues().maxCoeff(), 0.1) << "a foot beside its place";
   EXPECT_LT((twice - 2.0 * once).norm(), 1e-9 * at_landing[2].norm());
+}
+
+/// A leg whose foot is not at its foothold: pulled back when it should have landed, let be once it stands.
+TEST(FeedbackDesign, StiffensALegThatLands) {
+  constexpr std::size_t kLanded = 2;
+  const FeedbackDesign found = design("hyq/step");
+  const std::vector<int>& before = found.phases[kLanded - 1].contacts;
+  const std::vector<int>& after = found.phases[kLanded].contacts;
+  const auto landed = std::ranges::find_if(after, [&](int c) { return std::ranges::count(before, c) == 0; });
+  ASSERT_NE(landed, after.end());
+  const Eigen::Index knee = 6 + 3 * *landed + 2;  // HyQ's contacts are in the order of its legs
+  const auto pull = [&](std::size_t sample) { return found.gains[kLanded][sample].col(knee)(knee - 6); };
+  EXPECT_GT(pull(0), 10.0);
+  EXPECT_LT(std::abs(pull(found.gains[kLanded].size() - 1)), 0.3 * pull(0));
+}
+
+/// Feet in the air cost besides their joints: more, the smaller the deviation that costs 1.
+TEST(FeedbackDesign, CountsFeetInTheAir) {
+  const test::SolvedTask& task = solved("solo12/step");
+  std::vector<MatrixXd> in_swing;
+  for (const double deviation : {0.1, 0.01}) {
+    TrackingOptions options = task.task.tracking;
+    options.swing_foot_deviation = deviation;
+    MatrixXd cost;
+    design_feedback(task.task.problem, task.trajectory, options, [&](const ReducedSample& at) {
+      if (at.phase == 1) cost = at.Z * at.S * at.Z.transpose();  // of the first sample in the end; Z turns
+    });
+    in_swing.push_back(cost);
+  }
+  const VectorXd more = Eigen::SelfAdjointEigenSolver<MatrixXd>(in_swing[1] - in_swing[0]).eigenvalues();
+  EXPECT_GT(more.maxCoeff(), 0.0);
+  EXPECT_GT(more.minCoeff(), -1e-6 * more.maxCoeff());
 }
 
 TEST(FeedbackDesign, WeighsAsItIsTold) {

@@ -165,5 +165,45 @@ TEST(LinearisedDynamics, LandingEndsOnTheContactsWithTheirImpulsesOnly) {
   }
 }
 
+/// The impedance of the contacts accelerates their displacement as asked while the base stays, and gives nothing to
+/// deviations that the contacts allow.
+TEST(LinearisedDynamics, ImpedanceReturnsTheContactsAlone) {
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.name);
+    test::RandomStates random(c.robot, c.window);
+    test::NullSpaceDynamics reference(c.robot, c.contacts);
+    const Sample s = sample(random, reference);
+    const int nv = c.robot.nv(), nu = c.robot.nu();
+    LinearisedDynamics linear(c.robot, c.contacts);
+    linear.evaluate(s.q, s.v, s.tau);
+    const VectorXd rates = VectorXd::LinSpaced(static_cast<Eigen::Index>(c.contacts.size()), 20.0, 50.0);
+    const MatrixXd F = linear.impedance(rates);
+    ASSERT_EQ(F.rows(), nu);
+    if (c.contacts.empty()) {
+      EXPECT_TRUE(F.isZero(0.0));
+      continue;
+    }
+    const MatrixXd allowed = linear.consistent_directions(VectorXd::Ones(2 * nv));
+    EXPECT_LT((F * allowed).norm(), 1e-9 * F.norm() * allowed.norm());
+    if (c.contacts.size() != 4) continue;  // feet of their own
+    RigidBodyTerms terms(c.robot);
+    terms.update_with_derivatives(s.q, s.v, VectorXd::Zero(nv));
+    ContactKinematics feet(c.contacts);
+    feet.set_configuration(terms);
+    std::mt19937 generator(7);
+    VectorXd dx = test::random_vector(generator, 2 * nv, 1.0);
+    dx.tail(nv).setZero();  // and the velocity of the contacts depends on q only through s.v
+    feet.set_motion(VectorXd::Zero(nv), s.v);
+    MatrixXd turned;
+    feet.acceleration_dq(turned);
+    const VectorXd e = feet.positions_dq() * dx.head(nv), rate = turned * dx.head(nv);
+    VectorXd wanted(12);
+    for (int i = 0; i < 4; ++i)
+      wanted.segment<3>(3 * i) = -0.25 * rates(i) * rates(i) * e.segment<3>(3 * i) - rates(i) * rate.segment<3>(3 * i);
+    const VectorXd joints = terms.mass_matrix().bottomRightCorner(nu, nu).llt().solve(-(F * dx));
+    EXPECT_LT((feet.jacobian().rightCols(nu) * joints - wanted).norm(), 0.05 * wanted.norm());
+  }
+}
+
 }  // namespace
 }  // namespace prowl

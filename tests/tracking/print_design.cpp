@@ -1,6 +1,6 @@
 // Plans the task argv[1] and prints what the backward pass of the feedback design sees, for riccati_scipy_test.py: one
-// line a sample, last first: phase, sample, step [s], n, nu, then R⁻¹ (nu), A (n x n), B (n x nu), S (n x n), row by
-// row, with all digits. At most argv[2] samples of each phase, counted from its end.
+// line a sample, last first: phase, sample, step [s], n, nu, then R⁻¹ (nu), A (n x n), B (n x nu), Q and S (n x n), row
+// by row, with all digits. At most argv[2] samples of each phase, counted from its end.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -32,6 +32,7 @@ int main(int, char** argv) {
     print_numbers(options.torque_weight().cwiseInverse());
     print_numbers(at.A);
     print_numbers(at.B);
+    print_numbers(at.Q);
     print_numbers(at.S);
     fmt::print("\n");
   };

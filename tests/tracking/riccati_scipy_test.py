@@ -1,6 +1,6 @@
 """The Riccati solution of the feedback design against SciPy, on the linearised system that print_design prints.
 
-Backwards from the last sample of each phase, SciPy integrates -S' = A'S + S A - S B R⁻¹ B' S + I with the coefficients of the
+Backwards from the last sample of each phase, SciPy integrates -S' = A'S + S A - S B R⁻¹ B' S + Q with the coefficients of the
 grid (mean of both ends of a step) by an adaptive Runge-Kutta method of order 8, and solves the algebraic equation at the end
 by Schur vectors. Both share nothing with Prowl's doubling and matrix exponentials.
 """
@@ -26,6 +26,7 @@ class Sample:
         self.r_inverse, rest = rest[:nu], rest[nu:]
         self.A, rest = rest[: n * n].reshape(n, n), rest[n * n :]
         self.B, rest = rest[: n * nu].reshape(n, nu), rest[n * nu :]
+        self.Q, rest = rest[: n * n].reshape(n, n), rest[n * n :]
         self.S = rest.reshape(n, n)
 
 
@@ -41,12 +42,12 @@ def design(task, samples):
 
 def step_back(left, right, S):
     n = len(S)
-    A, B = (left.A + right.A) / 2, (left.B + right.B) / 2
+    A, B, Q = (left.A + right.A) / 2, (left.B + right.B) / 2, (left.Q + right.Q) / 2
     G = B @ np.diag(left.r_inverse) @ B.T
 
     def rate(_, flat):
         S = flat.reshape(n, n)
-        return (A.T @ S + S @ A - S @ G @ S + np.eye(n)).ravel()
+        return (A.T @ S + S @ A - S @ G @ S + Q).ravel()
 
     return solve_ivp(rate, (0, left.step), S.ravel(), method="DOP853", rtol=1e-11, atol=1e-13).y[:, -1].reshape(n, n)
 
@@ -65,7 +66,7 @@ class RiccatiAgainstScipy(unittest.TestCase):
                 compared += 1
         end = phases[max(phases)][-1]
         self.assertEqual(directions, len(end.S))
-        stationary = solve_continuous_are(end.A, end.B, np.eye(directions), np.diag(1 / end.r_inverse))
+        stationary = solve_continuous_are(end.A, end.B, end.Q, np.diag(1 / end.r_inverse))
         self.assertLess(np.abs(end.S - stationary).max() / np.abs(stationary).max(), TOLERANCE, f"{task}, end")
         print(f"{task}: {len(phases)} phases, {compared} steps, {directions} directions at the end")
         self.assertGreater(compared, 20)

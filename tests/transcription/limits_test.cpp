@@ -82,8 +82,8 @@ TEST_F(Limits, AreInTheirUnits) {
       const int contact = problem().robot.contact_index(limit.subject);
       const Eigen::Vector3d force = point.force.segment<3>(3 * contact);
       const double friction = problem().surfaces[0].friction;
-      const std::size_t held = problem().phases[limit.phase].contacts.size();
-      const FrictionCone cone{.mu = friction, .smoothing = cone_smoothing(problem(), friction, held)};
+      const Phase& phase = problem().phases[limit.phase];
+      const FrictionCone cone{.mu = friction, .smoothing = cone_smoothing(problem(), phase, phase.contacts.front())};
       EXPECT_NEAR(g(limit.index) * limit.si, cone.value(force), 1e-6) << limit.subject;
       ++looked_at;
     } else if (limit.kind == LimitKind::torque && limit.is_row) {

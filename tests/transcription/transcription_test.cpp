@@ -300,6 +300,19 @@ TEST(Transcription, LimitsAndGoalsAreBounds) {
   EXPECT_TRUE(nlp.variable_upper().segment<3>(last + 3).isZero(0.0)) << "the chart is the goal's rotation";
 }
 
+/// The cone asks for the least load, and for nothing more than its tip without one.
+TEST(Transcription, ConesAskForTheLeastLoad) {
+  auto [problem, mesh] = everything(test::hyq(), {phase_on("four", {0, 1, 2, 3}, 0.3, 3)});
+  const Phase& phase = problem.phases[0];
+  const double friction = problem.surfaces[0].friction, weight = problem.robot.weight();
+  EXPECT_DOUBLE_EQ(cone_smoothing(problem, phase, phase.contacts[0]), weight * std::min(0.01, 0.05 * friction));
+  problem.least_load = 0.4;
+  const double level = problem.surfaces[0].normal.z();
+  EXPECT_DOUBLE_EQ(cone_smoothing(problem, phase, phase.contacts[0]), 0.1 * weight * level * friction);
+  problem.phases[0].contacts[0].unloaded = true;
+  EXPECT_DOUBLE_EQ(cone_smoothing(problem, phase, phase.contacts[0]), weight * std::min(0.01, 0.05 * friction));
+}
+
 /// The running cost is integrated by the trapezoid: a motion that stands still costs its rate times the time.
 TEST(Transcription, CostIsTheIntegralAndTheTerminalCost) {
   auto [problem, mesh] =

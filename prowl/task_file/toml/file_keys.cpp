@@ -85,6 +85,13 @@ void add_top(FileKeys& keys) {
            .unit = "m",
            .fallback = fmt::format("{:g} % of the standing height", 100.0 * kSwingClearanceShare),
            .meaning = "height of contacts above the surfaces that they pass, in the middle of the swing"});
+  top.add({.name = "least_load",
+           .form = "number",
+           .range = {.lower = 0.0, .upper = 0.9},
+           .unit = "-",
+           .fallback = number_text(kLeastLoadShare),
+           .meaning = "normal force that each contact carries at least while it holds, as a share of its even load: "
+                      "the weight on that slope / number of contacts"});
   top.add({.name = "solver", .form = "[solver]", .meaning = "stopping criteria of the solver"});
   top.add({.name = "tracking", .form = "[tracking]", .meaning = "weights of the feedback gains"});
   top.add({.name = "simulation", .form = "[simulation]", .meaning = "conditions for success in `prowl simulate`"});
@@ -163,7 +170,7 @@ void add_phase(FileKeys& keys) {
              .fallback = "\"phase 1\", \"phase 2\", ...",
              .meaning = "name for goals and messages"});
   phase.add({.name = "contacts",
-             .form = "\"all\", or a list of contacts or {contact, surface, place_m}",
+             .form = "\"all\", or a list of contacts or {contact, surface, place_m, unloaded}",
              .meaning = "contacts that hold, on the first surface unless another is given"});
   phase.add({.name = "duration_s",
              .form = kOneOrRange,
@@ -189,6 +196,10 @@ void add_phase(FileKeys& keys) {
                 .unit = "m",
                 .fallback = "free on the surface",
                 .meaning = "foothold of a contact that lands in this phase, world frame; on the surface"});
+  contacts.add({.name = "unloaded",
+                .form = "true or false",
+                .fallback = "false",
+                .meaning = "the contact may carry nothing: `least_load` does not count for it"});
 }
 
 std::vector<std::string> gait_names() {
@@ -435,6 +446,8 @@ void add_tracking(FileKeys& keys) {
   add_deviation("torque_share", "number", "-", deviations.torque_share,
                 "torque that costs 1 per second, as a share of the limit; without a limit, of the weight of the robot "
                 "times the reach of its legs");
+  add_deviation("swing_foot_m", "number", "m", deviations.swing_foot,
+                "deviation that costs 1 per second, of each foot in the air that will land, each axis");
   tracking.add({.name = "landing_s",
                 .form = "number",
                 .range = kNonnegative,

@@ -44,8 +44,10 @@ std::vector<double> per_gain_step(const DiscreteProblem& discrete, int phase) {
 
 }  // namespace
 
-double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts) {
-  return problem.robot.weight() * std::min(0.01, 0.2 * friction / static_cast<double>(contacts));
+double cone_smoothing(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact) {
+  const double friction = problem.surfaces[contact.surface].friction;
+  const double sharpest = std::min(0.01, 0.2 * friction / static_cast<double>(phase.contacts.size()));
+  return std::max(problem.robot.weight() * sharpest, friction * least_load(problem, phase, contact));
 }
 
 NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const PhaseContacts& contacts,
@@ -68,7 +70,7 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[i];
     const Surface& surface = problem.surfaces[contact.surface];
-    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, surface.friction, held.size()));
+    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, problem.phases[phase], contact));
     coefficients_.push_back(surface.friction);
     contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
     opens_.push_back(schedule.opens(phase, i));

@@ -18,10 +18,10 @@
 
 namespace prowl {
 
-/// Smoothing eps of the friction cones' tips [N]: 1 % of the weight, 8.5 N for HyQ. Sharper tips
-/// cost iterations when a foot lifts. Each contact must carry eps / friction: eps is smaller for
-/// low friction or many contacts, so all together carry at most a fifth of the weight.
-double cone_smoothing(const MotionProblem& problem, double friction, std::size_t contacts);
+/// Smoothing eps of the friction cone's tip [N]. The cone asks for a normal force of eps / friction at least: eps is
+/// set by the least load. Without one it is 1 % of the weight, 8.5 N for HyQ, as sharper tips cost iterations when a
+/// foot lifts; less for low friction or many contacts, so all together carry at most a fifth of the weight.
+double cone_smoothing(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact);
 
 /// Dependence of the contacts of a phase, determined once: see independent_contacts.hpp.
 struct PhaseContacts {
