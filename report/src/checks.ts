@@ -7,7 +7,14 @@ export const kGroups: [string, string[]][] = [
   ["Limits of the robot", ["joint "]],
   [
     "Contact forces",
-    ["friction cone", "unilateral force", "planned contact force", "force before opening", "contact acceleration"],
+    [
+      "friction cone",
+      "unilateral force",
+      "least load",
+      "planned contact force",
+      "force before opening",
+      "contact acceleration",
+    ],
   ],
   ["Contact positions", ["contact ", "penetration", "swing clearance"]],
   ["Accuracy of the dynamics", [""]],
