@@ -16,16 +16,16 @@ enum class FrictionModel {
 /// Friction limit on the force f of one point contact (world frame [N]), as rows that must be >= 0 [N].
 ///
 /// The pyramid has its corners on the cone, along the axes (t1, t2) of the surface turned by 45 degrees:
-///   mu / sqrt(2) fn - t1 . f,   mu / sqrt(2) fn + t1 . f,   the same for t2.
-/// Two opposite ones add up to fn >= 0.
+///   mu / sqrt(2) (fn - least) - t1 . f,   mu / sqrt(2) (fn - least) + t1 . f,   the same for t2.
+/// Two opposite ones add up to fn >= least.
 class FrictionLimit {
  public:
   static constexpr int kMostRows = 4;
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostRows, 1>;
   using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostRows, 3>;
 
-  /// `smoothing` of the cone's tip [N]; the pyramid has none.
-  FrictionLimit(FrictionModel model, const Surface& surface, double smoothing);
+  /// `smoothing` of the cone's tip [N]; the pyramid has none, and its tip at the normal force `least` [N].
+  FrictionLimit(FrictionModel model, const Surface& surface, double smoothing, double least = 0.0);
 
   int count() const { return cone_ ? 1 : kMostRows; }
   Rows rows(const Eigen::Vector3d& force) const;
@@ -36,6 +36,7 @@ class FrictionLimit {
  private:
   std::optional<FrictionCone> cone_;
   Eigen::Matrix<double, kMostRows, 3> planes_;
+  double offset_ = 0.0;  ///< of the planes from the origin [N]
 };
 
 }  // namespace prowl

@@ -49,6 +49,20 @@ TEST(FrictionLimit, PyramidIsInsideTheConeAndTouchesIt) {
   EXPECT_NEAR(limit.rows(corner).minCoeff(), 0.0, 1e-15);
 }
 
+/// With a least load its tip is there, and no wider.
+TEST(FrictionLimit, PyramidAsksForTheLeastLoad) {
+  constexpr double kLeast = 10.0;
+  const FrictionLimit limit(FrictionModel::pyramid, kSlope, 2.0, kLeast), free(FrictionModel::pyramid, kSlope, 2.0);
+  int accepted = 0;
+  for (const Vector3d& force : forces()) {
+    EXPECT_LT((limit.rows(force) - free.rows(force - kLeast * kSlope.normal)).norm(), 1e-12);
+    if (limit.rows(force).minCoeff() < 0.0) continue;
+    ++accepted;
+    EXPECT_GE(kSlope.normal.dot(force), kLeast);
+  }
+  EXPECT_GT(accepted, 50);
+}
+
 TEST(FrictionLimit, PyramidIsLinear) {
   const FrictionLimit limit(FrictionModel::pyramid, kSlope, 2.0);
   for (const Vector3d& force : forces()) {

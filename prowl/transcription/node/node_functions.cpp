@@ -70,7 +70,9 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[i];
     const Surface& surface = problem.surfaces[contact.surface];
-    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, problem.phases[phase], contact));
+    const Phase& held_in = problem.phases[phase];
+    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, held_in, contact),
+                           least_load(problem, held_in, contact));
     coefficients_.push_back(surface.friction);
     contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
     opens_.push_back(schedule.opens(phase, i));
