@@ -14,6 +14,7 @@ struct MeshInterval {
   const TrajectoryPoint& right;
   Interpolation interpolation = Interpolation::trapezoid;
   const Eigen::VectorXd* middle_torque = nullptr;  ///< null: torque is linear
+  bool ends_phase = false;
 
   double step() const { return right.time - left.time; }
   bool is_hermite() const { return interpolation == Interpolation::hermite; }
@@ -36,7 +37,8 @@ inline std::vector<MeshInterval> mesh_intervals(const Trajectory& trajectory) {
     if (left.phase != right.phase) continue;
     const bool bent = !trajectory.middle_torques.empty();
     const Eigen::VectorXd* middle = bent ? &trajectory.middle_torques[intervals.size()] : nullptr;
-    intervals.push_back({left, right, trajectory.interpolation, middle});
+    const bool ends_phase = k + 2 == trajectory.nodes.size() || trajectory.nodes[k + 2].phase != right.phase;
+    intervals.push_back({left, right, trajectory.interpolation, middle, ends_phase});
   }
   return intervals;
 }

@@ -176,15 +176,13 @@ std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const
   JointChecks joints(problem.robot);
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
     const double h = interval.step();
-    const bool at_end =
-        &interval.right == &trajectory.nodes.back() || (&interval.right)[1].phase != interval.right.phase;
     const int pieces = std::max(Limits::grid_intervals, static_cast<int>(std::ceil(h / Limits::grid_step)));
     for (int i = 0; i <= pieces; ++i) {
       const TrajectoryPoint point = interval.at(h * i / pieces);
       const auto points = dynamics[point.phase].contact_points(point.q, point.v);
       contacts.record(point, points);
       swings.record(point, points);
-      forces.record(point, dynamics[point.phase], i == 0 || i == pieces, at_end);
+      forces.record(point, dynamics[point.phase], i == 0 || i == pieces, interval.ends_phase);
       joints.record(point);
     }
   }

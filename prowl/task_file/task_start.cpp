@@ -123,11 +123,11 @@ void put_contacts_down(const RobotModel& robot, const std::vector<Surface>& surf
   std::vector<ContactTarget> targets;
   double largest = 0.0;
   for (std::size_t i = 0; i < first.contacts.size(); ++i) {
-    const auto [contact, surface] = std::pair(first.contacts[i].contact, first.contacts[i].surface);
+    const PhaseContact& held = first.contacts[i];
     const Eigen::Vector3d position = footing.kinematics.positions().segment<3>(static_cast<Eigen::Index>(3 * i));
-    const Surface& below = surfaces[static_cast<std::size_t>(surface)];
-    const double gap = below.distance(position) - robot.contacts()[static_cast<std::size_t>(contact)].radius;
-    targets.push_back({contact, position - gap * below.normal});
+    const Surface& below = surfaces[static_cast<std::size_t>(held.surface)];
+    const double gap = below.distance(position) - robot.contacts()[static_cast<std::size_t>(held.contact)].radius;
+    targets.push_back({held.contact, position - gap * below.normal});
     largest = std::max(largest, std::abs(gap));
   }
   if (!(largest > kLeastGap && largest <= kLargestGap)) return;

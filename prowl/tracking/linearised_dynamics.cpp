@@ -68,8 +68,9 @@ MatrixXd LinearisedDynamics::consistent_directions(const VectorXd& weight) const
 
 VectorXd LinearisedDynamics::with_stance_legs(VectorXd weight, double share) const {
   const Eigen::Index nv = v_.size();
+  if (kinematics_.rows() == 0) return weight;
   for (Eigen::Index j = 6; j < nv; ++j) {
-    if (kinematics_.rows() == 0 || kinematics_.jacobian().col(j).isZero(0.0)) continue;
+    if (kinematics_.jacobian().col(j).isZero(0.0)) continue;
     weight(j) *= share;
     weight(nv + j) *= share;
   }
