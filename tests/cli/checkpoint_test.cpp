@@ -101,7 +101,7 @@ TEST_F(Checkpoints, GoOnWithTheirMeshAndThoseAfterIt) {
 TEST_F(Checkpoints, AreKeptWhereTheyAreResumed) {
   const std::string plan =
       "$prowl plan bow.toml $dirs --intervals 20 --one-mesh --out out --checkpoint so_far --checkpoint-every 0 ";
-  ASSERT_EQ(run(plan + "--max-iterations 4").status, 6);
+  ASSERT_EQ(run(plan + "--max-iterations 2").status, 6);
   const auto violation = [&] { return read_plan("so_far").at("solver").at("constraint_violation").get<double>(); };
   const double before = violation();
   const Outcome resumed = run(plan + "--max-iterations 1 --resume so_far");
