@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "prowl/model/configuration.hpp"
 #include "prowl/simulation/simulation.hpp"
 
 namespace prowl {
@@ -43,6 +44,17 @@ StateEstimator make_estimator(const MotionProblem& problem, const Tracker& track
   return {problem.robot, q, v, stand, estimator_noise(options.noise, options.noise_scale), kJointDensity};
 }
 
+GroundEstimator make_ground_estimator(const MotionProblem& problem, const Tracker& tracker,
+                                      const std::vector<Stand>& stands) {
+  Eigen::VectorXd q(problem.robot.nq()), v(problem.robot.nv());
+  tracker.reference(tracker.start(), q, v);
+  std::vector<bool> footed(problem.robot.contacts().size(), false);
+  for (const Stand& stand : stands) {
+    for (std::size_t c = 0; c < footed.size(); ++c) footed[c] = footed[c] || stand.in_contact[c];
+  }
+  return {problem.robot, q, stands.front(), std::move(footed)};
+}
+
 }  // namespace
 
 Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options, double period)
@@ -51,9 +63,12 @@ Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const Sim
       period_(period),
       stands_(make_stands(problem, tracker)),
       estimator_(make_estimator(problem, tracker, stands_.front(), options)),
+      ground_(make_ground_estimator(problem, tracker, stands_)),
       feedforward_(problem.robot.nu()),
       feedback_(problem.robot.nu()),
-      command_(problem.robot.nu()) {
+      command_(problem.robot.nu()),
+      q_planned_(problem.robot.nq()),
+      v_planned_(problem.robot.nv()) {
   tracker.feedforward(tracker.start(), command_);
   commands_.assign(1 + static_cast<std::size_t>(std::lround(options.delay / period)), command_);
 }
@@ -66,6 +81,8 @@ void Onboard::act(double t) {
   std::rotate(commands_.begin(), commands_.begin() + 1, commands_.end());
   q_ = estimator_.q();
   v_ = estimator_.v();
+  tracker_.reference(t, q_planned_, v_planned_);
+  ground_.update(period_, q_, q_planned_, stand(t));
   double acts = t;
   for (std::size_t i = 0; i + 1 < commands_.size(); ++i, acts += period_) {
     estimator_.predict(period_, commands_[i], stand(acts), q_, v_);
@@ -74,11 +91,16 @@ void Onboard::act(double t) {
   if (options_.open_loop) {
     feedback_.setZero();
   } else {
-    tracker_.feedback(acts, q_, v_, feedback_);
+    tracker_.feedback(acts, on_planned_ground(acts), v_, feedback_);
   }
   command_ = feedforward_ + feedback_;
   tracker_.limit(q_, v_, command_);
   commands_.back() = command_;
+}
+
+Eigen::VectorXd Onboard::on_planned_ground(double t) {
+  tracker_.reference(t, q_planned_, v_planned_);
+  return integrate(q_, -ground_.correction(q_planned_));
 }
 
 const Stand& Onboard::stand(double t) const { return stands_[&tracker_.segment(t) - tracker_.plan().segments.data()]; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prowl/estimation/ground_estimator.hpp"
 #include "prowl/estimation/state_estimator.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/simulation/simulation_options.hpp"
@@ -7,7 +8,7 @@
 
 namespace prowl {
 
-/// On-board software: state estimator and tracker, from sensor readings to torques. It knows the
+/// On-board software: estimators of state and ground, and tracker, from sensor readings to torques. It knows the
 /// plan, the nominal robot model, the sensor noise and the delay, but not the true state.
 class Onboard {
  public:
@@ -28,14 +29,17 @@ class Onboard {
 
  private:
   const Stand& stand(double t) const;
+  /// The estimated state q_ as it would be on the ground of the plan at time t [s].
+  Eigen::VectorXd on_planned_ground(double t);
 
   const Tracker& tracker_;
   const SimulationOptions& options_;
   double period_;
   std::vector<Stand> stands_;  ///< of each segment of the tracker
   StateEstimator estimator_;
+  GroundEstimator ground_;
   std::vector<Eigen::VectorXd> commands_;  ///< pending, oldest first; the first acts until the next reading
-  Eigen::VectorXd feedforward_, feedback_, command_, q_, v_;
+  Eigen::VectorXd feedforward_, feedback_, command_, q_, v_, q_planned_, v_planned_;
 };
 
 }  // namespace prowl
