@@ -114,7 +114,9 @@ void advise(const PlanArguments& arguments, const PlannedTask& planned, int stat
     print_message(fmt::format("to continue from there, repeat the command with --resume {}{}\n", out.string(),
                               arguments.warm_start.empty() ? "" : " instead of --warm-start"));
   }
-  if (status == kNotSolved || status == kLimit) {
+  if (status == kNotSolved && is_good(planned.record.plan)) {
+    print_message("the plan is good, but not as robust as asked: it is kept; see docs/robust.md\n");
+  } else if (status == kNotSolved || status == kLimit) {
     print_message(fmt::format("to find out why, and what would help: prowl diagnose {}\n", arguments.task));
   }
 }
@@ -157,8 +159,8 @@ int run_plan(const PlanArguments& arguments) {
   if (arguments.report) write_report(record, out, out / kReportFile, search);
   if (!arguments.json)
     print_result(wrap(plan_brief(record, out, columns()) + fmt::format("written to {}\n", out.string())));
-  const int status =
-      planned.interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
+  int status = planned.interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
+  if (status == kPassed && record.robustness && !record.robustness->is_full()) status = kNotSolved;
   advise(arguments, planned, status, out);
   if (arguments.json) {
     print_json({.verb = "plan",
@@ -179,6 +181,8 @@ void add_plan_command(CLI::App& app, int& status) {
   add_task(*verb, arguments->task);
   add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays the plan in a browser");
+  verb->add_flag("--robust", arguments->overrides.robust,
+                 "Keep margins, so that the plan holds under pushes, other masses and less friction");
   add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, including those of a gait, without planning");

@@ -58,6 +58,11 @@ void ForwardDynamics::evaluate_with_derivatives(const Eigen::VectorXd& q, const 
   if (!projector_.full_rank()) add_turn_of_force_space(df_.q);
 }
 
+Eigen::MatrixXd ForwardDynamics::forces_by_force() const {
+  const Eigen::MatrixXd& M = terms_.mass_matrix();
+  return pinv_.transpose() * (M * acceleration_by_force() - Eigen::MatrixXd::Identity(M.rows(), M.cols()));
+}
+
 // Redundant contacts leave a part e = (I − J J⁺)(J a + J̇ v) that no acceleration can remove (zero if J v = 0). It
 // enters d(J⁺ e) = J⁺ (de + J⁺' dJ' e) = 0.
 void ForwardDynamics::add_turn_of_lost_acceleration(Eigen::MatrixXd& dg_dq) const {

@@ -10,6 +10,7 @@
 #include "prowl/model/surface.hpp"
 #include "prowl/motion/cost.hpp"
 #include "prowl/motion/friction_limit.hpp"
+#include "prowl/motion/margins.hpp"
 #include "prowl/motion/phase.hpp"
 
 namespace prowl {
@@ -77,6 +78,7 @@ struct MotionProblem {
   FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
   double least_load = 0.0;       ///< of each held contact, as a share of its even load [-]: least_load()
+  Margins margins = {};          ///< of the limits; none by default
   GoalTolerance goal_tolerance;
   std::optional<Cycle> cycle = {};  ///< with it, the start is free, and footholds move from cycle to cycle
 

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
-constexpr int kSchemaVersion = 6;
+constexpr int kSchemaVersion = 7;
 constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
@@ -113,6 +113,7 @@ Json overrides_to_json(const TaskOverrides& overrides) {
   if (overrides.max_iterations) json["max_iterations"] = *overrides.max_iterations;
   if (overrides.max_seconds) json["max_time_s"] = *overrides.max_seconds;
   if (overrides.tolerance) json["tolerance"] = *overrides.tolerance;
+  if (overrides.robust) json["robust"] = true;
   return json;
 }
 
@@ -129,6 +130,7 @@ class Reader {
 
   Reader object(const char* key) const { return {where_ + "." + key, need(key)}; }
   bool has(const char* key) const { return json_->contains(key); }
+  bool is_null(const char* key) const { return need(key).is_null(); }
   std::string text(const char* key) const { return get<std::string>(key, need(key).is_string(), "a string"); }
   int integer(const char* key) const {
     constexpr auto kLargest = std::numeric_limits<int>::max();
@@ -305,6 +307,7 @@ TaskOverrides read_overrides(const Reader& json) {
   if (json.has("max_iterations")) overrides.max_iterations = json.integer("max_iterations");
   if (json.has("max_time_s")) overrides.max_seconds = json.number("max_time_s");
   if (json.has("tolerance")) overrides.tolerance = json.number("tolerance");
+  if (json.has("robust")) overrides.robust = json.flag("robust");
   return overrides;
 }
 
@@ -400,6 +403,42 @@ Json tracking_to_json(const PlanRecord& record) {
           {"phases", phases}};
 }
 
+/// null if the plan was not to be robust.
+Json robustness_to_json(const std::optional<Robustness>& robustness) {
+  if (!robustness) return nullptr;
+  const Disturbances& sizes = robustness->sizes;
+  return {{"share", robustness->share},
+          {"solves", robustness->solves},
+          {"tightest", robustness->tightest},
+          {"sizes",
+           {{"base_position_m", sizes.base_position},
+            {"base_angle_rad", sizes.base_angle},
+            {"base_velocity_mps", sizes.base_velocity},
+            {"base_rate_radps", sizes.base_rate},
+            {"mass", sizes.mass},
+            {"center_m", sizes.center},
+            {"friction", sizes.friction},
+            {"push_mps", sizes.push},
+            {"push_s", sizes.push_duration}}}};
+}
+
+std::optional<Robustness> read_robustness(const Reader& plan, int version) {
+  if (version < 7 || plan.is_null("robustness")) return std::nullopt;
+  const Reader json = plan.object("robustness"), sizes = json.object("sizes");
+  return Robustness{.sizes = {.base_position = sizes.number("base_position_m"),
+                              .base_angle = sizes.number("base_angle_rad"),
+                              .base_velocity = sizes.number("base_velocity_mps"),
+                              .base_rate = sizes.number("base_rate_radps"),
+                              .mass = sizes.number("mass"),
+                              .center = sizes.number("center_m"),
+                              .friction = sizes.number("friction"),
+                              .push = sizes.number("push_mps"),
+                              .push_duration = sizes.number("push_s")},
+                    .share = json.number("share"),
+                    .solves = json.integer("solves"),
+                    .tightest = json.text("tightest")};
+}
+
 }  // namespace
 
 nlohmann::ordered_json certificate_to_json(const Certificate& certificate) {
@@ -447,6 +486,7 @@ nlohmann::ordered_json plan_to_json(const PlanRecord& record) {
           {"certificate", certificate_to_json(record.plan.certificate)},
           {"solver", solver_to_json(record)},
           {"tracking", tracking_to_json(record)},
+          {"robustness", robustness_to_json(record.robustness)},
           {"problem", problem_to_json(record)},
           {"versions", record.versions},
           {"overrides", overrides_to_json(task.overrides)},
@@ -483,6 +523,7 @@ PlanRecord plan_from_json(const SourceText& source, const PackageSearch& search)
   record.iterations = read_convergence(plan.object("solver"), version);
   record.warm_start = plan.object("solver").text("warm_start");
   record.plan.certificate = read_certificate(plan.object("certificate"), version);
+  record.robustness = read_robustness(plan, version);
   record.plan.reasons = plan.texts("reasons");
   record.plan.hints = plan.texts("hints");
   if (version >= 5) record.plan.trajectory.interpolation = read_interpolation(plan.object("problem"));

@@ -68,6 +68,7 @@ std::string plan_command(const PlanRecord& record) {
   if (overrides.max_iterations) command += fmt::format(" --max-iterations {}", *overrides.max_iterations);
   if (overrides.max_seconds) command += fmt::format(" --max-time {}", *overrides.max_seconds);
   if (overrides.tolerance) command += fmt::format(" --tolerance {}", *overrides.tolerance);
+  if (overrides.robust) command += " --robust";
   if (!record.warm_start.empty()) command += " --warm-start " + shell_quoted(record.warm_start);
   return command;
 }

@@ -149,6 +149,12 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
     plan = make_plan(asked, *solver, options);
     planned.interrupted = plan.result.status == SolveStatus::interrupted;
   }
+  if (const auto& sizes = planned.record.task.robust; sizes && is_good(plan)) {
+    RobustPlan robust = make_robust_plan(asked.problem, std::move(plan), planned.record.task.tracking, *sizes, *solver,
+                                         options, refine);
+    plan = std::move(robust.plan);
+    planned.record.robustness = std::move(robust.robustness);
+  }
   planned.record.iterations = watch.take();
   if (request.gains && is_good(plan)) planned.why_no_gains = add_gains(request, planned.record);
   return planned;

@@ -5,6 +5,7 @@
 
 #include "prowl/files/text_file.hpp"
 #include "prowl/mesh/mesh.hpp"
+#include "prowl/motion/disturbances.hpp"
 #include "prowl/motion/motion_problem.hpp"
 #include "prowl/nlp/nlp_solver.hpp"
 #include "prowl/simulation/simulation_options.hpp"
@@ -18,6 +19,7 @@ struct TaskOverrides {
   std::optional<int> max_iterations;
   std::optional<double> max_seconds;
   std::optional<double> tolerance;
+  bool robust = false;  ///< true: as with a table [robust], if the file has none
 };
 
 /// A parsed task file with its sources, sufficient to parse it again (see
@@ -28,6 +30,7 @@ struct Task {
   bool has_intervals = true;  ///< false: `mesh` is first_mesh(), which planning refines
   SolverOptions solver;
   TrackingOptions tracking;
+  std::optional<Disturbances> robust = {};        ///< what the plan is made robust against; nullopt: nothing
   SuccessCriteria success = {};                   ///< of simulations
   std::optional<double> simulated_friction = {};  ///< of all surfaces in simulations; nullopt: as planned
   SourceText task_file;

@@ -15,6 +15,7 @@
 #include "prowl/task_file/task_cost.hpp"
 #include "prowl/task_file/task_gait.hpp"
 #include "prowl/task_file/task_goals.hpp"
+#include "prowl/task_file/task_robust.hpp"
 #include "prowl/task_file/task_simulation.hpp"
 #include "prowl/task_file/task_start.hpp"
 #include "prowl/task_file/task_tracking.hpp"
@@ -346,6 +347,7 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
     throw InputError(in_terms_of_the_file(task_file, error.what()));
   }
   TrackingOptions tracking = read_tracking(root, problem.robot);
+  const std::optional<Disturbances> robust = read_robust(root, problem, overrides.robust);
   const double planned = std::ranges::min(problem.surfaces, {}, &Surface::friction).friction;
   const std::optional<double> simulated_friction =
       simulation.friction.value_or(planned) < planned ? simulation.friction : std::nullopt;
@@ -354,6 +356,7 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
           .has_intervals = has_intervals,
           .solver = solver,
           .tracking = std::move(tracking),
+          .robust = robust,
           .success = simulation.success,
           .simulated_friction = simulated_friction,
           .task_file = task_file,

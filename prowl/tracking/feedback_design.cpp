@@ -101,12 +101,14 @@ class BackwardPass {
         throw NumericalError(
             fmt::format("no feedback gains in phase \"{}\": its contacts allow no motion", phase.name));
       }
+      MatrixXd step;
       if (k + 1 == phase.samples.size()) {
-        transition = p + 1 < design_.phases.size() ? land(reduce(linear, weight_, swing, Z))
-                                                   : begin_at_end(reduce(linear, weight_, swing, Z));
+        step = p + 1 < design_.phases.size() ? land(reduce(linear, weight_, swing, Z))
+                                             : begin_at_end(reduce(linear, weight_, swing, Z));
+        transition = step;
       } else if (Z.cols() == now_.Z.cols()) {
-        transition =
-            (transition * step_back(reduce(linear, weight_, swing, aligned(Z, now_.Z, weight_)), phase.step())).eval();
+        step = step_back(reduce(linear, weight_, swing, aligned(Z, now_.Z, weight_)), phase.step());
+        transition = (transition * step).eval();
       } else {
         throw NumericalError(
             fmt::format("no feedback gains in phase \"{}\": at t = {:.3f} s the rank of its contacts changes "
@@ -119,7 +121,9 @@ class BackwardPass {
                         phase.name, point.time));
       }
       design_.gains[p][k] = gain_ * allowed_part(linear) + linear.impedance(impedance_rates(p, point.time));
-      if (on_sample_) on_sample_({static_cast<int>(p), static_cast<int>(k), now_.Z, now_.A, now_.B, now_.Q, S_});
+      if (on_sample_)
+        on_sample_({static_cast<int>(p), static_cast<int>(k), now_.Z, now_.A, now_.B, now_.Q, S_, design_.gains[p][k],
+                    step, point, linear});
     }
     record(p, transition);
     if (p > 0) landing_ = linear.landing(linear.with_stance_legs(weight_, kStanceLegs));

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "prowl/tracking/linearised_dynamics.hpp"
 #include "prowl/tracking/reference_grid.hpp"
 #include "prowl/tracking/tracking_options.hpp"
 
@@ -51,6 +52,12 @@ struct ReducedSample {
   const Eigen::MatrixXd& B;  ///< n x nu
   const Eigen::MatrixXd& Q;  ///< n x n, cost xi' Q xi per second
   const Eigen::MatrixXd& S;  ///< n x n, cost to go xi' S xi
+  const Eigen::MatrixXd& K;  ///< nu x 2 nv, dtau = -K dx
+  /// Closed-loop effect on xi up to the next sample, or of the landing at the end of the phase; identity at the end of
+  /// all.
+  const Eigen::MatrixXd& step;
+  const TrajectoryPoint& point;
+  const LinearisedDynamics& linear;  ///< at the point
 };
 
 /// A phase for standing after the end of a motion, one step long: at rest in the last

@@ -24,9 +24,10 @@ class LinearisedDynamics {
   /// Throws NumericalError if the dynamics are not finite.
   void evaluate(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& tau);
 
-  const Eigen::MatrixXd& A() const { return A_; }  ///< 2 nv x 2 nv
-  const Eigen::MatrixXd& B() const { return B_; }  ///< 2 nv x nu
-  const Eigen::MatrixXd& C() const { return C_; }  ///< 2 rank J x 2 nv
+  const Eigen::MatrixXd& A() const { return A_; }                ///< 2 nv x 2 nv
+  const Eigen::MatrixXd& B() const { return B_; }                ///< 2 nv x nu
+  const Eigen::MatrixXd& C() const { return C_; }                ///< 2 rank J x 2 nv
+  const ForwardDynamics& dynamics() const { return dynamics_; }  ///< at the state of the last evaluation
 
   /// Z (2 nv x n) with C Z = 0 and Z' diag(weight) Z = I: basis of the deviations that the contacts
   /// allow, orthonormal in the metric of `weight` (2 nv, > 0).

@@ -81,6 +81,17 @@ VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLa
     bounds.upper.segment(layout.v(k) + 6, nu) = robot.velocity_limit();
     bounds.lower.segment(layout.tau(k), nu) = -robot.torque_limit();
     bounds.upper.segment(layout.tau(k), nu) = robot.torque_limit();
+    if (problem.margins.phases.empty()) continue;
+    const MeshNode& node = discrete.nodes[k];
+    const Margins::OfPhase& margins = problem.margins.phases[node.phase];
+    const double fraction = discrete.mesh.phases[node.phase].node_time(node.node, 1.0);
+    const Eigen::VectorXd torque = margin_at(margins.torque, fraction);
+    Eigen::VectorXd joint = margin_at(margins.joint, fraction);
+    if (std::ranges::count(discrete.boundary_nodes, k) > 0) joint.setZero();  // prescribed, perhaps near a limit
+    bounds.lower.segment(layout.q(k) + 6, nu) += joint;
+    bounds.upper.segment(layout.q(k) + 6, nu) -= joint;
+    bounds.lower.segment(layout.tau(k), nu) += torque;
+    bounds.upper.segment(layout.tau(k), nu) -= torque;
   }
   for (int p = 0; p < static_cast<int>(problem.phases.size()); ++p) {
     const Duration& duration = problem.phases[p].duration;

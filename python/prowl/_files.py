@@ -86,11 +86,12 @@ def read_task(
     max_iterations: int | None = None,
     max_time: float | None = None,
     tolerance: float | None = None,
+    robust: bool = False,
 ) -> _prowl.Task:
     """Reads a task file (docs/task-file.md), or a shipped task by name: read_task("hyq/crouch").
 
     intervals, max_iterations, max_time [s] and tolerance replace those of the file; intervals: of all phases
-    together. package_dirs: folders to search for package://, before those of ROS. Raises InputError with
+    together. robust: as with a table [robust], if the file has none. package_dirs: folders to search for package://, before those of ROS. Raises InputError with
     file, line and column.
     """
     return _prowl.read_task(
@@ -100,6 +101,7 @@ def read_task(
         max_iterations=max_iterations,
         max_time=max_time,
         tolerance=tolerance,
+        robust=robust,
     )
 
 
@@ -112,6 +114,7 @@ def parse_task(
     max_iterations: int | None = None,
     max_time: float | None = None,
     tolerance: float | None = None,
+    robust: bool = False,
 ) -> _prowl.Task:
     """A task from the text of a task file, or from a dict with the same keys, like tomllib.loads(task.text).
 
@@ -130,4 +133,5 @@ def parse_task(
         max_iterations=max_iterations,
         max_time=max_time,
         tolerance=tolerance,
+        robust=robust,
     )

@@ -52,8 +52,9 @@ std::vector<Point> corners(const Surface& surface) {
 using Folders = std::vector<std::string>;
 
 Task read_task(const std::filesystem::path& path, const Folders& package_dirs, std::optional<int> intervals,
-               std::optional<int> max_iterations, std::optional<double> max_time, std::optional<double> tolerance) {
-  return read_task_file(path, package_search(package_dirs), {intervals, max_iterations, max_time, tolerance});
+               std::optional<int> max_iterations, std::optional<double> max_time, std::optional<double> tolerance,
+               bool robust) {
+  return read_task_file(path, package_search(package_dirs), {intervals, max_iterations, max_time, tolerance, robust});
 }
 
 /// A robot file: path and text.
@@ -62,9 +63,9 @@ using RobotFile = std::pair<std::filesystem::path, std::string>;
 Task parse_task_text(const std::string& text, const std::filesystem::path& path,
                      const std::optional<RobotFile>& robot_file, const Folders& package_dirs,
                      std::optional<int> intervals, std::optional<int> max_iterations, std::optional<double> max_time,
-                     std::optional<double> tolerance) {
+                     std::optional<double> tolerance, bool robust) {
   const SourceText task_file{std::filesystem::absolute(path), text};
-  const TaskOverrides overrides{intervals, max_iterations, max_time, tolerance};
+  const TaskOverrides overrides{intervals, max_iterations, max_time, tolerance, robust};
   const PackageSearch search = package_search(package_dirs);
   if (!robot_file) return read_task_text(task_file, search, overrides);
   return parse_task(task_file, {robot_file->first, robot_file->second}, search, overrides);
@@ -133,12 +134,12 @@ void bind_task(nb::module_& module) {
       });
   module.def("read_task", &read_task, nb::arg("path"), nb::kw_only(), nb::arg("package_dirs") = Folders{},
              nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
-             nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
+             nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(), nb::arg("robust") = false,
              "Reads a task file, docs/task-file.md.");
   module.def("parse_task", &parse_task_text, nb::arg("text"), nb::arg("path"), nb::kw_only(),
              nb::arg("robot_file").none() = nb::none(), nb::arg("package_dirs") = Folders{},
              nb::arg("intervals") = nb::none(), nb::arg("max_iterations") = nb::none(),
-             nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(),
+             nb::arg("max_time") = nb::none(), nb::arg("tolerance") = nb::none(), nb::arg("robust") = false,
              "Reads the text of a task file; paths in it are relative to the folder of `path`, which need not exist.\n"
              "robot_file: path and text that replace the robot file of the task.");
 }

@@ -269,5 +269,21 @@ INSTANTIATE_TEST_SUITE_P(All, ForwardDynamicsDerivatives,
                                          DerivativeCase{"TalosBothSoles", test::talos, kBothSoles}),
                          testing::PrintToStringParamName());
 
+/// Torques are generalised forces on the joints.
+TEST(ForwardDynamicsTest, ForcesActLikeTorques) {
+  const RobotModel robot = test::hyq();
+  for (const std::vector<int>& contacts : {std::vector<int>{0, 1, 2, 3}, std::vector<int>{1, 2}}) {
+    ForwardDynamics dynamics(robot, contacts);
+    RandomStates random(robot, 1);
+    for (int i = 0; i < 20; ++i) {
+      dynamics.evaluate_with_derivatives(random.configuration(), random.velocity(), random.torque());
+      const MatrixXd a = dynamics.acceleration_by_force().rightCols(robot.nu());
+      const MatrixXd f = dynamics.forces_by_force().rightCols(robot.nu());
+      EXPECT_LT((a - dynamics.acceleration_derivatives().tau).norm(), 1e-9 * a.norm());
+      EXPECT_LT((f - dynamics.force_derivatives().tau).norm(), 1e-9 * f.norm());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace prowl

@@ -75,6 +75,15 @@ ALLOWED = {
         "prowl/trajectory",
         "prowl/tracker",
     ],
+    "prowl/robust": [
+        "prowl",
+        "prowl/model",
+        "prowl/dynamics",
+        "prowl/motion",
+        "prowl/trajectory",
+        "prowl/nlp",
+        "prowl/tracking",
+    ],
     "prowl/estimation": ["prowl/model", "prowl/dynamics"],
     # Of dynamics nothing: an independent judge. What runs on board the robot, the estimator, may use them.
     "prowl/mjcf": [],
@@ -121,6 +130,7 @@ ALLOWED = {
         "prowl/mesh",
         "prowl/solvers",
         "prowl/tracking",
+        "prowl/robust",
         "prowl/simulation",
         "prowl/task_file",
     ],

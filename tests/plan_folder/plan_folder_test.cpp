@@ -134,7 +134,7 @@ TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
 TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
   write_plan(out_, record_);
   const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
-  EXPECT_EQ(json.at("schema_version"), 6);
+  EXPECT_EQ(json.at("schema_version"), 7);
   EXPECT_EQ(json.at("status"), "interrupted");
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ(json.at("certificate").at("passed"), true);
@@ -187,7 +187,7 @@ TEST_F(PlanDirectory, SamplesAUniformGrid) {
 TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
-  edit("plan.json", "\"schema_version\": 6", "\"schema_version\": 4294967297");
+  edit("plan.json", "\"schema_version\": 7", "\"schema_version\": 4294967297");
   EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from "))
       << "1 modulo 2^32";
   write_plan(out_, record_);
@@ -216,7 +216,11 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
     change(json);
     folder_.write("out/plan.json", json.dump());
   };
-  const auto remove_guess = [](auto& json) { ASSERT_EQ(json["solver"]["evaluation"].erase("guess"), 1u); };
+  const auto remove_robustness = [](auto& json) { ASSERT_EQ(json.erase("robustness"), 1u); };
+  const auto remove_guess = [&](auto& json) {
+    remove_robustness(json);
+    ASSERT_EQ(json["solver"]["evaluation"].erase("guess"), 1u);
+  };
   const auto remove_interpolation = [&](auto& json) {
     remove_guess(json);
     ASSERT_EQ(json["problem"].erase("interpolation"), 1u);
@@ -258,18 +262,22 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   EXPECT_EQ(read_plan(out_, test::test_search()).plan.result.times.guess, 0.0);
   write_version(6, remove_guess);
   EXPECT_EQ(message(), "out/plan.json: plan.solver.evaluation.guess: missing");
+  write_version(6, remove_robustness);
+  EXPECT_FALSE(read_plan(out_, test::test_search()).robustness.has_value());
+  write_version(7, remove_robustness);
+  EXPECT_EQ(message(), "out/plan.json: plan.robustness: missing");
   write_version(5, [](auto& json) { json["problem"]["interpolation"] = "linear"; });
   EXPECT_EQ(message(),
             "out/plan.json: plan.problem.interpolation: \"linear\" is not allowed; need trapezoid or hermite");
-  write_version(7, [](auto&) {});
+  write_version(8, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 7, written by a newer Prowl; this one reads 1 to 6: use that Prowl, or "
+      "out/plan.json: plan.schema_version: 8, written by a newer Prowl; this one reads 1 to 7: use that Prowl, or "
       "plan again with this one");
   write_version(0, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 6: plan again with prowl plan; its "
+      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 7: plan again with prowl plan; its "
       "task_file contains the task");
   write_version(5, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");

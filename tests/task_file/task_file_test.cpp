@@ -249,6 +249,28 @@ TEST_F(TaskFile, RefusesTrackingThatMakesNoSense) {
   }
 }
 
+TEST_F(TaskFile, RobustSizesReplaceThoseOfTheSweep) {
+  EXPECT_FALSE(read(kTaskFile).robust.has_value());
+  const Disturbances defaults = default_disturbances(read(kTaskFile).problem.robot);
+  const auto asked = read(kTaskFile, kHyqFile, {.robust = true}).robust, table = read(kTaskFile + "[robust]\n").robust;
+  ASSERT_TRUE(asked && table);
+  EXPECT_EQ(asked->push, defaults.push);
+  EXPECT_EQ(table->center, defaults.center);
+  const auto own = read(kTaskFile + "[robust]\nbase_position_m = 0.03\nmass = 0.2\npush_mps = 0.5\n").robust;
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->base_position, 0.03);
+  EXPECT_EQ(own->mass, 0.2);
+  EXPECT_EQ(own->push, 0.5);
+  EXPECT_EQ(own->friction, defaults.friction);
+}
+
+TEST_F(TaskFile, RefusesRobustSizesOutOfRange) {
+  for (const char* line : {"mass = 1", "friction = -0.1", "push_mps = 3", "push_s = 0", "center_m = 0.3", "wind = 1"}) {
+    const std::string key = std::string(line).substr(0, std::string(line).find(' '));
+    EXPECT_THAT(message_of(kTaskFile + "\n[robust]\n" + line + "\n"), HasSubstr(key)) << line;
+  }
+}
+
 TEST_F(TaskFile, OverridesReplaceTheFilesValues) {
   const Task task =
       read(kTaskFile, kHyqFile, {.intervals = 40, .max_iterations = 7, .max_seconds = 1.5, .tolerance = 1e-9});

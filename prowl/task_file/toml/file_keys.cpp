@@ -94,6 +94,7 @@ void add_top(FileKeys& keys) {
                       "the weight on that slope / number of contacts"});
   top.add({.name = "solver", .form = "[solver]", .meaning = "stopping criteria of the solver"});
   top.add({.name = "tracking", .form = "[tracking]", .meaning = "weights of the feedback gains"});
+  top.add({.name = "robust", .form = "[robust]", .meaning = "makes the plan hold under disturbances of these sizes"});
   top.add({.name = "simulation", .form = "[simulation]", .meaning = "conditions for success in `prowl simulate`"});
 }
 
@@ -462,6 +463,33 @@ void add_tracking(FileKeys& keys) {
                 .meaning = "largest bandwidth of the feedback; faster gains are reduced to it"});
 }
 
+void add_robust(FileKeys& keys) {
+  Table robust(keys, "robust");
+  const auto add = [&](const char* name, const char* unit, double most, const char* fallback, const char* meaning) {
+    robust.add({.name = name,
+                .form = "number",
+                .range = {.lower = 0.0, .upper = most},
+                .unit = unit,
+                .fallback = fallback,
+                .meaning = meaning});
+  };
+  add("base_position_m", "m", 0.2, "0.01, scaled with the height", "error of the start, each axis");
+  add("base_angle_rad", "rad", 0.5, "0.02", "the same");
+  add("base_velocity_mps", "m/s", 1.0, "0.05, scaled with the root of the height", "the same");
+  add("base_rate_radps", "rad/s", 2.0, "0.1", "the same");
+  add("mass", "-", 0.9, "0.1", "error of mass and inertia of each body, as a share");
+  add("center_m", "m", 0.2, "0.02, scaled with the height", "error of the centre of mass of the base, each axis");
+  add("friction", "-", 0.9, "0.2", "share of the friction that may be missing");
+  add("push_mps", "m/s", 2.0, "0.12, scaled with the root of the height",
+      "change of velocity by one horizontal push on the base at its worst time");
+  robust.add({.name = "push_s",
+              .form = "number",
+              .range = {.lower = 0.01, .upper = 1.0},
+              .unit = "s",
+              .fallback = "0.1",
+              .meaning = "duration of that push"});
+}
+
 void add_simulation(FileKeys& keys) {
   const SuccessCriteria defaults;
   Table simulation(keys, "simulation");
@@ -484,7 +512,7 @@ FileKeys make_task_file_keys() {
   add_state_weights(keys, "cost");
   add_running_weights(keys);
   add_state_weights(keys, "terminal_cost");
-  for (const auto add : {add_tracking, add_solver, add_simulation}) add(keys);
+  for (const auto add : {add_tracking, add_solver, add_robust, add_simulation}) add(keys);
   return keys;
 }
 

@@ -45,7 +45,7 @@ std::vector<double> per_gain_step(const DiscreteProblem& discrete, int phase) {
 }  // namespace
 
 double cone_smoothing(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact) {
-  const double friction = problem.surfaces[contact.surface].friction;
+  const double friction = (1.0 - problem.margins.friction) * problem.surfaces[contact.surface].friction;
   const double sharpest = std::min(0.01, 0.2 * friction / static_cast<double>(phase.contacts.size()));
   return std::max(problem.robot.weight() * sharpest, friction * least_load(problem, phase, contact));
 }
@@ -71,9 +71,11 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
     const PhaseContact& contact = held[i];
     const Surface& surface = problem.surfaces[contact.surface];
     const Phase& held_in = problem.phases[phase];
-    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, held_in, contact),
+    Surface slippery = surface;
+    slippery.friction *= 1.0 - problem.margins.friction;
+    friction_.emplace_back(problem.friction_model, slippery, cone_smoothing(problem, held_in, contact),
                            least_load(problem, held_in, contact));
-    coefficients_.push_back(surface.friction);
+    coefficients_.push_back(slippery.friction);
     contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
     opens_.push_back(schedule.opens(phase, i));
     if (schedule.stances()[schedule.stance(phase, i)].lands()) landed_.push_back(i);
@@ -88,6 +90,15 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
 
   const double size = problem.robot.size();
   force_scale_ = 1.0 / problem.robot.weight();
+  if (!problem.margins.phases.empty()) {
+    cone_margins_.resize(num_contacts(), intervals_ + 1);
+    torque_margins_.resize(nu_, intervals_ + 1);
+    for (int k = 0; k <= intervals_; ++k) {
+      const double fraction = discrete.mesh.phases[phase].node_time(k, 1.0);
+      cone_margins_.col(k) = force_scale_ * margin_at(problem.margins.phases[phase].cone, fraction);
+      torque_margins_.col(k) = margin_at(problem.margins.phases[phase].torque, fraction);
+    }
+  }
   dynamics_scale_.setConstant(nv_, force_scale_);
   dynamics_scale_.segment<3>(3) /= size;
   for (int i = 0; i < 6; ++i) force_names_.push_back(std::string("base ") + kBaseForce[i]);
@@ -104,7 +115,16 @@ int NodeFunctions::contact_row(int k, int contact) const {
 }
 
 double NodeFunctions::lower(int k, int row) const {
-  return row < placement_row(k) ? 0.0 : placement_.lower(k, row - placement_row(k));
+  if (row >= placement_row(k)) return placement_.lower(k, row - placement_row(k));
+  if (cone_margins_.size() == 0) return 0.0;
+  if (row >= torque_row(k)) {
+    const int limit = row - torque_row(k);
+    return torque_margins_(torques_.joint(limit), k) / torques_.largest(limit);
+  }
+  for (int i = 0; i < num_contacts(); ++i) {
+    if (row >= contact_row(k, i) && row < contact_row(k, i + 1) && !unloads(k, i)) return cone_margins_(i, k);
+  }
+  return 0.0;
 }
 
 double NodeFunctions::upper(int k, int row) const {

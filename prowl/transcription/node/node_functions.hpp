@@ -137,6 +137,8 @@ class NodeFunctions {
   std::vector<Eigen::Matrix<double, 3, 2>> landed_axes_;  ///< d anchor / d foothold coordinates, per entry of landed_
   std::vector<FrictionLimit> friction_;
   std::vector<double> coefficients_;  ///< of friction
+  /// Margins of the contacts' cones, scaled, and of the joints' torques [N m]: a column for each node; empty if none.
+  Eigen::MatrixXd cone_margins_, torque_margins_;
   TorqueRows torques_;
   PlacementRows placement_;
   NodeCost cost_;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "prowl/refine.hpp"
+#include "prowl/robust/tube.hpp"
+
+namespace prowl {
+
+/// What a plan is robust against.
+struct Robustness {
+  Disturbances sizes;    ///< asked for
+  double share = 0.0;    ///< of the sizes, for which the plan leaves the margins that its tube needs [-]
+  int solves = 0;        ///< with margins
+  std::string tightest;  ///< limit and moment that lack most at the full sizes, in words
+
+  bool is_full() const { return share == 1.0; }
+};
+
+struct RobustPlan {
+  Plan plan;
+  Robustness robustness;
+};
+
+/// Robust motion by zero-order robust optimisation (docs/robust.md): alternates the tube of a motion and a solve with
+/// its margins fixed. `nominal`: a good plan of the problem; it is returned where no margins have a motion.
+/// SolverOptions::max_seconds holds for all solves together. Throws what make_refined_plan() and design_feedback()
+/// throw.
+RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const TrackingOptions& tracking,
+                            const Disturbances& sizes, const NlpSolver& solver, const PlanOptions& options,
+                            const RefineOptions& refine);
+
+}  // namespace prowl

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "prowl/dynamics/inertia_errors.hpp"
+#include "prowl/motion/disturbances.hpp"
+#include "prowl/motion/margins.hpp"
+#include "prowl/motion/motion_problem.hpp"
+#include "prowl/tracking/feedback_design.hpp"
+#include "prowl/trajectory/trajectory.hpp"
+
+namespace prowl {
+
+/// How far the closed loop leaves a motion under disturbances, to first order: standard deviations of what is drawn
+/// once (start, masses) and the largest effect of one push.
+struct Tube {
+  /// Of one phase of the motion, one column for each of its samples.
+  struct OfPhase {
+    std::vector<double> times;  ///< [s]
+    Eigen::MatrixXd state;      ///< dx, standard deviation without pushes (2 nv rows) [m, rad, m/s, rad/s]
+    Eigen::MatrixXd pushed;     ///< dx, largest by a push (2 nv rows)
+    Margins::OfPhase needed;    ///< of the limits: docs/robust.md#margins
+    Margins::OfPhase left;      ///< of the limits by the motion, with all friction
+    Eigen::MatrixXd load;       ///< normal force of each contact [N]
+  };
+  std::vector<OfPhase> phases;
+};
+
+/// Propagates deviations through the closed loop of design_feedback() along the motion.
+class TubeDesign {
+ public:
+  /// `tracking`: options of the design.
+  TubeDesign(const MotionProblem& problem, const TrackingOptions& tracking, const Disturbances& disturbances);
+
+  /// Takes a sample of the backward pass, last first.
+  void add(const ReducedSample& sample);
+  /// Once the first sample of the motion is in: forward to its end.
+  Tube propagate() const;
+
+ private:
+  /// Deviations xi and limits at one sample. Limits: rows of the cones of its contacts | torques | joints.
+  struct Sample {
+    double time;
+    Eigen::MatrixXd Z, step;                ///< of ReducedSample
+    Eigen::MatrixXd drift, push;            ///< d xi/dt by what is constant, and by a push along x and y
+    Eigen::MatrixXd limits;                 ///< by xi
+    Eigen::MatrixXd by_constants, by_push;  ///< of the limits, at fixed xi
+    Eigen::VectorXd cone = {}, load = {}, torque = {}, joint = {};  ///< left of the limits by the motion
+  };
+  Eigen::MatrixXd start_deviations(const ReducedSample& first) const;
+
+  const MotionProblem& problem_;
+  Eigen::VectorXd weight_;  ///< of the metric of xi
+  Disturbances disturbances_;
+  InertiaErrors inertia_;
+  std::vector<std::vector<Sample>> samples_;  ///< of each phase, last first
+  Eigen::MatrixXd start_;                     ///< deviations xi at the start, one column for each draw
+};
+
+}  // namespace prowl

@@ -1,0 +1,2 @@
+prowl_test(robust/tube prowl::prowl)
+prowl_test(robust/robust_plan prowl::prowl)
