@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "prowl/refine.hpp"
@@ -23,11 +24,12 @@ struct RobustPlan {
 };
 
 /// Robust motion by zero-order robust optimisation (docs/robust.md): alternates the tube of a motion and a solve with
-/// its margins fixed. `nominal`: a good plan of the problem; it is returned where no margins have a motion.
+/// its margins fixed. `nominal`: a good plan of the problem; it is returned where no margins have a motion. Its mesh is
+/// kept unless `refine` tells how to refine it.
 /// SolverOptions::max_seconds holds for all solves together. Throws what make_refined_plan() and design_feedback()
 /// throw.
 RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const TrackingOptions& tracking,
                             const Disturbances& sizes, const NlpSolver& solver, const PlanOptions& options,
-                            const RefineOptions& refine);
+                            const std::optional<RefineOptions>& refine);
 
 }  // namespace prowl

@@ -20,17 +20,35 @@ constexpr double kCoverage = 2.0;
 const double kEven = 1.0 / std::sqrt(3.0);
 constexpr double kPushEvery = 0.05;  // [s]; pushes begin at these times
 constexpr double kForgotten = 1.5;   // [s] after it began, a push has no effect
-/// Before a contact opens, its load goes to zero: so does what is kept of its cone [s].
-constexpr double kUnloading = 0.1;
+/// The load of a contact grows from zero when it lands and goes to zero before it opens, and what is kept of its cone
+/// with it: too short to slip far [s].
+constexpr double kLoading = 0.1;
 constexpr int kDirections = 8;  // around the axis of a friction cone
 
 /// Euclidean lengths of the rows.
 VectorXd lengths(const MatrixXd& rows) { return rows.rowwise().norm(); }
 
-bool opens(const MotionProblem& problem, std::size_t phase, const PhaseContact& held) {
-  if (phase + 1 >= problem.phases.size()) return false;
-  const auto& next = problem.phases[phase + 1].contacts;
-  return std::ranges::find(next, held.contact, &PhaseContact::contact) == next.end();
+bool holds(const MotionProblem& problem, std::size_t phase, int contact) {
+  return std::ranges::count(problem.phases[phase].contacts, contact, &PhaseContact::contact) > 0;
+}
+
+/// What is kept of its cone while a contact loads and unloads, 0 to 1. Times of the phases: tube.phases[p].times.
+void fade(const MotionProblem& problem, Tube& tube) {
+  for (std::size_t p = 0; p < tube.phases.size(); ++p) {
+    Tube::OfPhase& phase = tube.phases[p];
+    for (Eigen::Index i = 0; i < phase.needed.cone.rows(); ++i) {
+      const int contact = problem.phases[p].contacts[static_cast<std::size_t>(i)].contact;
+      std::size_t first = p, last = p;
+      while (first > 0 && holds(problem, first - 1, contact)) --first;
+      while (last + 1 < tube.phases.size() && holds(problem, last + 1, contact)) ++last;
+      for (Eigen::Index k = 0; k < phase.needed.cone.cols(); ++k) {
+        const double time = phase.times[static_cast<std::size_t>(k)];
+        double& cone = phase.needed.cone(i, k);
+        if (first > 0) cone *= std::min(1.0, (time - tube.phases[first].times.front()) / kLoading);
+        if (last + 1 < tube.phases.size()) cone *= std::min(1.0, (tube.phases[last].times.back() - time) / kLoading);
+      }
+    }
+  }
 }
 
 /// Slopes of the friction cone in its force, towards directions all around: the force may be anywhere near its axis,
@@ -197,13 +215,8 @@ Tube TubeDesign::propagate() const {
       }
       start = at.step * start;
     }
-    const double end = phase.times.back();
-    for (Eigen::Index i = 0; i < contacts; ++i) {
-      if (!opens(problem_, p, held[static_cast<std::size_t>(i)])) continue;
-      for (Eigen::Index k = 0; k < count; ++k)
-        phase.needed.cone(i, k) *= std::min(1.0, (end - phase.times[static_cast<std::size_t>(k)]) / kUnloading);
-    }
   }
+  fade(problem_, tube);
   return tube;
 }
 

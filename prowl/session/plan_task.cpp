@@ -151,7 +151,7 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
   }
   if (const auto& sizes = planned.record.task.robust; sizes && is_good(plan)) {
     RobustPlan robust = make_robust_plan(asked.problem, std::move(plan), planned.record.task.tracking, *sizes, *solver,
-                                         options, refine);
+                                         options, tolerance ? std::optional(refine) : std::nullopt);
     plan = std::move(robust.plan);
     planned.record.robustness = std::move(robust.robustness);
   }

@@ -514,5 +514,33 @@ on = "slope"
   EXPECT_THAT(check.out, HasSubstr("(as planned): infeasible"));
 }
 
+TEST_F(Command, MakesARobustPlanOrTellsHowRobustItIs) {
+  const Outcome robust = run("$prowl plan hold.toml $dirs --out out --robust");
+  ASSERT_EQ(robust.status, 0) << robust.error;
+  EXPECT_THAT(robust.out, HasSubstr("Robust against all disturbances asked for.\n"));
+  EXPECT_EQ(plan().at("robustness").at("share"), 1.0);
+  EXPECT_EQ(plan().at("overrides").at("robust"), true);
+  EXPECT_EQ(run("$prowl check out $dirs").status, 0);
+
+  // No feet bear a base that may weigh anywhere within 40 cm.
+  folder_.write("hold.toml", kHold + "[robust]\ncenter_m = 0.2\nbase_position_m = 0.2\n");
+  const Outcome less = run("$prowl plan hold.toml $dirs --out out");
+  EXPECT_EQ(less.status, 3);
+  EXPECT_THAT(less.out, HasSubstr(" of the sizes; what lacks most for all of them is the "));
+  EXPECT_THAT(less.error, HasSubstr("the plan is good, but not as robust as asked: it is kept"));
+  EXPECT_LT(plan().at("robustness").at("share"), 1.0);
+  EXPECT_EQ(plan().at("good"), true);
+  EXPECT_EQ(run("$prowl simulate out $dirs").status, 0);
+}
+
+TEST_F(Command, RefusesRobustStridesThatRepeat) {
+  folder_.write("hold.toml",
+                "robot = \"hyq.toml\"\n[gait]\nkind = \"trot\"\nperiodic = true\nstrides = 1\n"
+                "stride_s = 0.8\nstride_length_m = 0.1\nduty_factor = 0.55\n");
+  const Outcome refused = run("$prowl plan hold.toml $dirs --robust");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.error, HasSubstr("strides that repeat have no robust plan (--robust)"));
+}
+
 }  // namespace
 }  // namespace prowl
