@@ -106,6 +106,7 @@ RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const Tr
   RobustPlan best{.plan = std::move(nominal), .robustness = {.sizes = sizes, .tightest = ""}};
   double share = share_to_begin_with(problem, tube, sizes);
   Robustness& found = best.robustness;
+  bool has_margins = false;
   const auto is_robust = [&](double at) { return largest_lack(problem, tube, sizes, at).part <= kEnough; };
   while (true) {
     if (is_robust(share)) {
@@ -129,10 +130,11 @@ RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const Tr
     const DiscreteProblem asked(std::move(with_margins), best.plan.mesh);
     Plan plan = refine ? make_refined_plan(asked, solver, next, *refine).plan : make_plan(asked, solver, next);
     ++found.solves;
-    const bool is_another = found.share > 0.0 && plan.result.cost > kAnother * best.plan.result.cost;
+    const bool is_another = has_margins && plan.result.cost > kAnother * best.plan.result.cost;
     if (is_good(plan) && !is_another) {
       add_books(best.plan, plan);
       best.plan = std::move(plan);
+      has_margins = true;
       tube = tube_of(problem, best.plan, tracking, sizes);
       found.share = share;
     } else {

@@ -52,6 +52,7 @@ const std::map<std::string, Context>& task_contexts() {
         ""}},
       {"solver", {task + "[solver]\n", {}, ""}},
       {"tracking", {task + "[tracking]\n", {}, ""}},
+      {"robust", {task + "[robust]\n", {}, ""}},
       {"simulation", {task + "[simulation]\n", {}, ""}},
   };
   return contexts;
@@ -107,6 +108,13 @@ std::string letters(std::string name) {
   return name;
 }
 
+bool is_one_letter_off(const std::string& name, const std::string& wrong) {
+  if (name.size() != wrong.size()) return false;
+  int off = 0;
+  for (std::size_t i = 0; i < name.size(); ++i) off += name[i] != wrong[i];
+  return off == 1;
+}
+
 class FileMistakes : public testing::Test {
  protected:
   std::string robot_message(const std::string& text) const {
@@ -130,9 +138,9 @@ class FileMistakes : public testing::Test {
         if (std::find(names.begin(), names.end(), wrong) != names.end()) continue;
         const File broken = with_mistake(contexts.at(key.table), key.name, "  " + wrong + " = 1");
         std::vector<testing::Matcher<std::string>>
-            suggestions;  // strides and stride_s are both one letter from stride_
+            suggestions;  // strides and stride_s are both one letter from stride_, robot and robust from robst
         for (const std::string& name : names) {
-          if (letters(name) == letters(key.name))
+          if (letters(name) == letters(key.name) || is_one_letter_off(name, wrong))
             suggestions.push_back(HasSubstr(wrong + ": unknown key; did you mean '" + name + "'?"));
         }
         EXPECT_THAT(message(broken.text),
