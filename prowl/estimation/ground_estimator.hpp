@@ -29,8 +29,8 @@ class GroundEstimator {
   Eigen::Vector2d tilt() const { return state_.tail<2>(); }      ///< w_x, w_y, world frame [rad]
   Eigen::Vector3d displacement(const Eigen::Vector3d& p) const;  ///< d(p), world frame [m]
 
-  /// Step (nv) from q_planned (nq) that lays the plan on the ground: the base keeps its height above the ground and its
-  /// orientation, the footed contacts move with the ground.
+  /// Step (nv) from q_planned (nq) that lays the plan on the ground: the base stays, the footed contacts move with the
+  /// ground.
   Eigen::VectorXd correction(const Eigen::VectorXd& q_planned);
 
  private:

@@ -48,6 +48,7 @@ SimulationSample as_simulation_sample(const RobotModel& robot, const Tracker& tr
   sample.q_ref.resize(robot.nq());
   sample.v_ref.resize(robot.nv());
   tracker.reference(from.time, sample.q_ref, sample.v_ref);
+  sample.q_tracked = sample.q_ref;
   sample.q = sample.q_seen = from.q;
   sample.v = sample.v_seen = from.v;
   sample.feedforward.resize(robot.nu());

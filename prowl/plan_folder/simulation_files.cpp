@@ -78,6 +78,7 @@ std::vector<std::string> csv_columns(const RobotModel& robot) {
       columns.push_back(fmt::format("{}_base_{}", kind, name));
     for (const auto& joint : robot.joint_names()) columns.push_back(fmt::format("{}_v_{}_radps", kind, joint));
   }
+  for (const auto& joint : robot.joint_names()) columns.push_back(fmt::format("tracked_q_{}_rad", joint));
   for (const char* kind : {"feedforward", "feedback", "tau"}) {
     for (const auto& joint : robot.joint_names()) columns.push_back(fmt::format("{}_{}_Nm", kind, joint));
   }
@@ -204,10 +205,12 @@ std::string simulation_csv(const RobotModel& robot, const std::vector<Simulation
   const auto append = [&row](const Eigen::VectorXd& values) { row.insert(row.end(), values.begin(), values.end()); };
   for (const SimulationSample& sample : samples) {
     row = {sample.time};
-    for (const Eigen::VectorXd* part : {&sample.q_ref, &sample.v_ref, &sample.q, &sample.v, &sample.q_seen,
-                                        &sample.v_seen, &sample.feedforward, &sample.feedback, &sample.tau}) {
+    for (const Eigen::VectorXd* part :
+         {&sample.q_ref, &sample.v_ref, &sample.q, &sample.v, &sample.q_seen, &sample.v_seen}) {
       append(*part);
     }
+    append(sample.q_tracked.tail(robot.nu()));
+    for (const Eigen::VectorXd* part : {&sample.feedforward, &sample.feedback, &sample.tau}) append(*part);
     for (const ContactReading& contact : sample.contacts) {
       row.push_back(contact.touches ? 1.0 : 0.0);
       append(contact.force);

@@ -67,6 +67,7 @@ Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const Sim
       feedforward_(problem.robot.nu()),
       feedback_(problem.robot.nu()),
       command_(problem.robot.nu()),
+      ground_correction_(Eigen::VectorXd::Zero(problem.robot.nv())),
       q_planned_(problem.robot.nq()),
       v_planned_(problem.robot.nv()) {
   tracker.feedforward(tracker.start(), command_);
@@ -87,20 +88,17 @@ void Onboard::act(double t) {
   for (std::size_t i = 0; i + 1 < commands_.size(); ++i, acts += period_) {
     estimator_.predict(period_, commands_[i], stand(acts), q_, v_);
   }
+  tracker_.reference(acts, q_planned_, v_planned_);
+  ground_correction_ = ground_.correction(q_planned_);
   tracker_.feedforward(acts, feedforward_);
   if (options_.open_loop) {
     feedback_.setZero();
   } else {
-    tracker_.feedback(acts, on_planned_ground(acts), v_, feedback_);
+    tracker_.feedback(acts, integrate(q_, -ground_correction_), v_, feedback_);
   }
   command_ = feedforward_ + feedback_;
   tracker_.limit(q_, v_, command_);
   commands_.back() = command_;
-}
-
-Eigen::VectorXd Onboard::on_planned_ground(double t) {
-  tracker_.reference(t, q_planned_, v_planned_);
-  return integrate(q_, -ground_.correction(q_planned_));
 }
 
 const Stand& Onboard::stand(double t) const { return stands_[&tracker_.segment(t) - tracker_.plan().segments.data()]; }

@@ -25,12 +25,12 @@ class Onboard {
   void act(double t);
   const Eigen::VectorXd& feedforward() const { return feedforward_; }
   const Eigen::VectorXd& feedback() const { return feedback_; }
+  /// Step (nv) from the planned state to the tracked one, whose feet are on the ground that they found.
+  const Eigen::VectorXd& ground_correction() const { return ground_correction_; }
   const Eigen::VectorXd& command() const { return command_; }
 
  private:
   const Stand& stand(double t) const;
-  /// The estimated state q_ as it would be on the ground of the plan at time t [s].
-  Eigen::VectorXd on_planned_ground(double t);
 
   const Tracker& tracker_;
   const SimulationOptions& options_;
@@ -39,7 +39,7 @@ class Onboard {
   StateEstimator estimator_;
   GroundEstimator ground_;
   std::vector<Eigen::VectorXd> commands_;  ///< pending, oldest first; the first acts until the next reading
-  Eigen::VectorXd feedforward_, feedback_, command_, q_, v_, q_planned_, v_planned_;
+  Eigen::VectorXd feedforward_, feedback_, command_, ground_correction_, q_, v_, q_planned_, v_planned_;
 };
 
 }  // namespace prowl

@@ -194,6 +194,7 @@ class Run {
     sample_.q_seen = onboard_.q();
     sample_.v_seen = onboard_.v();
     onboard_.act(t);
+    sample_.q_tracked = integrate(sample_.q_ref, onboard_.ground_correction());
     sample_.feedforward = onboard_.feedforward();
     sample_.feedback = onboard_.feedback();
     actuators_.command(onboard_.command());

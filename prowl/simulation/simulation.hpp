@@ -16,6 +16,7 @@ namespace prowl {
 struct SimulationSample {
   double time = 0.0;                           ///< [s]
   Eigen::VectorXd q_ref, v_ref;                ///< of the plan
+  Eigen::VectorXd q_tracked;                   ///< of the plan, with the feet on the ground that they found
   Eigen::VectorXd q, v;                        ///< true
   Eigen::VectorXd q_seen, v_seen;              ///< estimate given to the controller
   Eigen::VectorXd feedforward, feedback, tau;  ///< nu [N m]; tau acts at the joints, the others are commands

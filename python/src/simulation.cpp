@@ -27,7 +27,7 @@ struct SimulationObject {
   std::shared_ptr<const PlanObject> plan;
   SimulationRecord record;
   Eigen::VectorXd t;
-  RowMatrix q, v, q_ref, v_ref, q_seen, v_seen, feedforward, feedback, tau, f;
+  RowMatrix q, v, q_ref, v_ref, q_tracked, q_seen, v_seen, feedforward, feedback, tau, f;
 };
 
 SimulationObject::SimulationObject(std::shared_ptr<const PlanObject> simulated, SimulationRecord made)
@@ -37,6 +37,7 @@ SimulationObject::SimulationObject(std::shared_ptr<const PlanObject> simulated, 
   v = rows_of(samples, &SimulationSample::v);
   q_ref = rows_of(samples, &SimulationSample::q_ref);
   v_ref = rows_of(samples, &SimulationSample::v_ref);
+  q_tracked = rows_of(samples, &SimulationSample::q_tracked);
   q_seen = rows_of(samples, &SimulationSample::q_seen);
   v_seen = rows_of(samples, &SimulationSample::v_seen);
   feedforward = rows_of(samples, &SimulationSample::feedforward);
@@ -151,6 +152,8 @@ void bind_simulation(nb::module_& module) {
       .def_prop_ro("v", &rows_view<&SimulationObject::v>, "True velocities (S, nv).")
       .def_prop_ro("q_ref", &rows_view<&SimulationObject::q_ref>, "Planned configurations (S, nq).")
       .def_prop_ro("v_ref", &rows_view<&SimulationObject::v_ref>, "Planned velocities (S, nv).")
+      .def_prop_ro("q_tracked", &rows_view<&SimulationObject::q_tracked>,
+                   "Planned configurations with the feet on the ground that they found (S, nq).")
       .def_prop_ro("q_seen", &rows_view<&SimulationObject::q_seen>,
                    "Estimated configurations, given to the controller (S, nq).")
       .def_prop_ro("v_seen", &rows_view<&SimulationObject::v_seen>,

@@ -79,7 +79,7 @@ def rotation_vector(before: np.ndarray, after: np.ndarray) -> np.ndarray:
 
 
 def state_difference(sim, joints) -> np.ndarray:
-    """x* ⊖ x of docs/tracking.md, rows."""
+    """x* ⊖ x of docs/tracking.md, rows; x* with the feet on the ground that they found."""
     quaternions = [columns(sim, [f"{kind}_base_q{c}" for c in "xyzw"]) for kind in ("true", "ref")]
     velocities = [
         f"base_{c}_{unit}" for c, unit in zip(("vx", "vy", "vz", "wx", "wy", "wz"), ["mps"] * 3 + ["radps"] * 3)
@@ -89,7 +89,7 @@ def state_difference(sim, joints) -> np.ndarray:
         [
             less([f"base_p{c}_m" for c in "xyz"]),
             rotation_vector(*quaternions),
-            less([f"q_{j}_rad" for j in joints]),
+            columns(sim, [f"tracked_q_{j}_rad" for j in joints]) - columns(sim, [f"true_q_{j}_rad" for j in joints]),
             less(velocities),
             less([f"v_{j}_radps" for j in joints]),
         ]

@@ -243,7 +243,7 @@ TEST(ReportFile, ShowsASimulationUpToWhereItDiverged) {
                           tau = Eigen::VectorXd::Ones(12);
     SimulationSample sample;
     sample.time = 0.02 * i;
-    sample.q_ref = sample.q = sample.q_seen = q;
+    sample.q_ref = sample.q_tracked = sample.q = sample.q_seen = q;
     sample.v_ref = sample.v = sample.v_seen = v;
     sample.feedforward = sample.feedback = sample.tau = tau;
     sample.contacts.resize(4);
