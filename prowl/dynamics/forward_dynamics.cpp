@@ -58,9 +58,9 @@ void ForwardDynamics::evaluate_with_derivatives(const Eigen::VectorXd& q, const 
   if (!projector_.full_rank()) add_turn_of_force_space(df_.q);
 }
 
-Eigen::MatrixXd ForwardDynamics::forces_by_force() const {
-  const Eigen::MatrixXd& M = terms_.mass_matrix();
-  return pinv_.transpose() * (M * acceleration_by_force() - Eigen::MatrixXd::Identity(M.rows(), M.cols()));
+ForwardDynamics::Response ForwardDynamics::response(const Eigen::MatrixXd& applied) const {
+  const Eigen::MatrixXd acceleration = constrained_mass_.solve(P_ * applied);
+  return {acceleration, pinv_.transpose() * (terms_.mass_matrix() * acceleration - applied)};
 }
 
 // Redundant contacts leave a part e = (I − J J⁺)(J a + J̇ v) that no acceleration can remove (zero if J v = 0). It

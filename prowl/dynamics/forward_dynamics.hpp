@@ -41,9 +41,12 @@ class ForwardDynamics {
   const Derivatives& acceleration_derivatives() const { return da_; }  ///< nv rows
   const Derivatives& force_derivatives() const { return df_; }         ///< 3 rows per contact
   const Projector& projector() const { return projector_; }            ///< of J at the last evaluation
-  /// Derivatives of a (nv rows) and f in a generalised force on the robot, from its left-hand side h (nv columns).
-  Eigen::MatrixXd acceleration_by_force() const { return constrained_mass_.solve(P_); }
-  Eigen::MatrixXd forces_by_force() const;
+  /// Change of a and f by generalised forces on the robot besides the torques, one column each.
+  struct Response {
+    Eigen::MatrixXd acceleration;  ///< nv rows
+    Eigen::MatrixXd forces;        ///< 3 rows per contact
+  };
+  Response response(const Eigen::MatrixXd& applied) const;  ///< nv rows
 
  private:
   void add_turn_of_lost_acceleration(Eigen::MatrixXd& dg_dq) const;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "prowl/model/robot_model.hpp"
 
 namespace prowl {
@@ -18,7 +20,36 @@ struct Disturbances {
   double push_duration = 0.1;  ///< [s]
 };
 
-/// The sizes that `prowl sweep` draws: docs/simulation.md#cases-of-a-sweep.
+/// Keys of the sizes in task files and plan.json, in their order there.
+struct DisturbanceKey {
+  const char* name;
+  double Disturbances::* size;
+};
+inline constexpr std::array kDisturbanceKeys{DisturbanceKey{"base_position_m", &Disturbances::base_position},
+                                             DisturbanceKey{"base_angle_rad", &Disturbances::base_angle},
+                                             DisturbanceKey{"base_velocity_mps", &Disturbances::base_velocity},
+                                             DisturbanceKey{"base_rate_radps", &Disturbances::base_rate},
+                                             DisturbanceKey{"mass", &Disturbances::mass},
+                                             DisturbanceKey{"center_m", &Disturbances::center},
+                                             DisturbanceKey{"friction", &Disturbances::friction},
+                                             DisturbanceKey{"push_mps", &Disturbances::push},
+                                             DisturbanceKey{"push_s", &Disturbances::push_duration}};
+
+/// What `prowl sweep` draws for a robot that stands 0.58 m high. For others lengths scale with the height, velocities
+/// with its root: docs/simulation.md#cases-of-a-sweep.
+inline constexpr Disturbances kSweptDisturbances{.base_position = 0.01,
+                                                 .base_angle = 0.02,
+                                                 .base_velocity = 0.05,
+                                                 .base_rate = 0.1,
+                                                 .mass = 0.1,
+                                                 .center = 0.02,
+                                                 .friction = 0.2,
+                                                 .push = 0.12};
+
+/// Standing height of the robot over that height.
+double height_share(const RobotModel& robot);
+
+/// kSweptDisturbances, scaled to the robot.
 Disturbances default_disturbances(const RobotModel& robot);
 
 }  // namespace prowl

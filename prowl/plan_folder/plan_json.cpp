@@ -406,37 +406,21 @@ Json tracking_to_json(const PlanRecord& record) {
 /// null if the plan was not to be robust.
 Json robustness_to_json(const std::optional<Robustness>& robustness) {
   if (!robustness) return nullptr;
-  const Disturbances& sizes = robustness->sizes;
+  Json sizes = Json::object();
+  for (const auto& [name, size] : kDisturbanceKeys) sizes[name] = robustness->sizes.*size;
   return {{"share", robustness->share},
           {"solves", robustness->solves},
           {"tightest", robustness->tightest},
-          {"sizes",
-           {{"base_position_m", sizes.base_position},
-            {"base_angle_rad", sizes.base_angle},
-            {"base_velocity_mps", sizes.base_velocity},
-            {"base_rate_radps", sizes.base_rate},
-            {"mass", sizes.mass},
-            {"center_m", sizes.center},
-            {"friction", sizes.friction},
-            {"push_mps", sizes.push},
-            {"push_s", sizes.push_duration}}}};
+          {"sizes", sizes}};
 }
 
 std::optional<Robustness> read_robustness(const Reader& plan, int version) {
   if (version < 7 || plan.is_null("robustness")) return std::nullopt;
   const Reader json = plan.object("robustness"), sizes = json.object("sizes");
-  return Robustness{.sizes = {.base_position = sizes.number("base_position_m"),
-                              .base_angle = sizes.number("base_angle_rad"),
-                              .base_velocity = sizes.number("base_velocity_mps"),
-                              .base_rate = sizes.number("base_rate_radps"),
-                              .mass = sizes.number("mass"),
-                              .center = sizes.number("center_m"),
-                              .friction = sizes.number("friction"),
-                              .push = sizes.number("push_mps"),
-                              .push_duration = sizes.number("push_s")},
-                    .share = json.number("share"),
-                    .solves = json.integer("solves"),
-                    .tightest = json.text("tightest")};
+  Robustness robustness{
+      .sizes = {}, .share = json.number("share"), .solves = json.integer("solves"), .tightest = json.text("tightest")};
+  for (const auto& [name, size] : kDisturbanceKeys) robustness.sizes.*size = sizes.number(name);
+  return robustness;
 }
 
 }  // namespace

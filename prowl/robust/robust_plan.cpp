@@ -15,12 +15,12 @@ using Eigen::MatrixXd;
 constexpr int kMostSolves = 3;       // with margins: a robust plan shall not take much longer than three nominal ones
 constexpr int kMostIterations = 60;  // of each: margins without a motion take many
 constexpr double kEnough = 0.2;      // missing part of a margin: the next tube would differ by as much
-// Shares of the sizes: the first, as a multiple of what the nominal motion has; the next after one with a motion, and
-// after one without.
 /// A motion with larger margins that costs so much more is another one: HyQ's walk then pitches by 1.1 rad/s and falls.
 constexpr double kAnother = 1.6;
-constexpr double kResolution = 0.01;  // of the share that is told
+// Shares of the sizes: the first, as a multiple of what the nominal motion has; the next after one with a motion, and
+// after one without.
 constexpr double kFirst = 1.7, kLarger = 1.6, kSmaller = 0.6, kLeastShare = 0.1;
+constexpr double kResolution = 0.01;  // of the share that is told
 
 /// What a motion lacks of a margin.
 struct Lack {
@@ -30,7 +30,7 @@ struct Lack {
 
 /// Left of the cones with less friction.
 MatrixXd cones_left(const MotionProblem& problem, const Tube& tube, std::size_t p, double friction) {
-  MatrixXd left = tube.phases[p].left.cone;
+  MatrixXd left = tube.phases[p].cone_left;
   for (Eigen::Index i = 0; i < left.rows(); ++i) {
     const PhaseContact& held = problem.phases[p].contacts[static_cast<std::size_t>(i)];
     const double coefficient = problem.surfaces[static_cast<std::size_t>(held.surface)].friction;
@@ -55,7 +55,7 @@ Lack largest_lack(const MotionProblem& problem, const Tube& tube, const Disturba
       const PhaseContact& held = problem.phases[p].contacts[static_cast<std::size_t>(row)];
       return "friction cone of " + problem.robot.contacts()[static_cast<std::size_t>(held.contact)].name;
     });
-    look(phase.needed.torque, phase.left.torque,
+    look(phase.needed.torque, phase.torque_left,
          [&](Eigen::Index row) { return "torque of " + problem.robot.joint_names()[static_cast<std::size_t>(row)]; });
   }
   return worst;
@@ -81,11 +81,32 @@ Margins margins_of(const Tube& tube, const Disturbances& sizes, double share) {
   return margins;
 }
 
-Tube tube_of(const MotionProblem& problem, const Plan& plan, const TrackingOptions& tracking,
-             const Disturbances& sizes) {
+/// A motion's gains, and where they let it go.
+struct ClosedLoop {
+  FeedbackDesign feedback;
+  Tube tube;
+};
+
+ClosedLoop closed_loop(const MotionProblem& problem, const Plan& plan, const TrackingOptions& tracking,
+                       const Disturbances& sizes) {
   TubeDesign design(problem, tracking, sizes);
-  design_feedback(problem, plan.trajectory, tracking, [&](const ReducedSample& sample) { design.add(sample); });
-  return design.propagate();
+  FeedbackDesign feedback =
+      design_feedback(problem, plan.trajectory, tracking, [&](const ReducedSample& sample) { design.add(sample); });
+  return {std::move(feedback), design.propagate()};
+}
+
+/// Options of the solves with margins, from the motion before.
+PlanOptions with_margins(const PlanOptions& options, const Plan& before, bool refines, double seconds_left) {
+  PlanOptions next = options;
+  next.solver.max_seconds = seconds_left;
+  next.solver.max_iterations = std::min(options.solver.max_iterations, kMostIterations);
+  next.warm_start = before.trajectory;
+  next.warm_start_multipliers.clear();
+  next.elastic_solver = {};
+  next.resume = false;
+  next.corrected = refines;
+  next.coarse_first = false;
+  return next;
 }
 
 /// Books of all solves in the plan that is returned.
@@ -102,12 +123,12 @@ RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const Tr
                             const Disturbances& sizes, const NlpSolver& solver, const PlanOptions& options,
                             const std::optional<RefineOptions>& refine) {
   const double begin = wall_seconds() - nominal.result.seconds;
-  Tube tube = tube_of(problem, nominal, tracking, sizes);
-  RobustPlan best{.plan = std::move(nominal), .robustness = {.sizes = sizes, .tightest = ""}};
-  double share = share_to_begin_with(problem, tube, sizes);
-  Robustness& found = best.robustness;
+  ClosedLoop loop = closed_loop(problem, nominal, tracking, sizes);
+  Plan best = std::move(nominal);
+  Robustness found{.sizes = sizes, .tightest = ""};
+  const auto is_robust = [&](double at) { return largest_lack(problem, loop.tube, sizes, at).part <= kEnough; };
+  double share = share_to_begin_with(problem, loop.tube, sizes);
   bool has_margins = false;
-  const auto is_robust = [&](double at) { return largest_lack(problem, tube, sizes, at).part <= kEnough; };
   while (true) {
     if (is_robust(share)) {
       found.share = share;
@@ -115,34 +136,26 @@ RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const Tr
       share = std::min(1.0, kLarger * share);
       continue;
     }
-    PlanOptions next = options;
-    next.solver.max_seconds = options.solver.max_seconds - (wall_seconds() - begin);
-    if (found.solves == kMostSolves || next.solver.max_seconds <= 0.0) break;
-    next.solver.max_iterations = std::min(options.solver.max_iterations, kMostIterations);
-    next.warm_start = best.plan.trajectory;
-    next.warm_start_multipliers.clear();
-    next.elastic_solver = {};
-    next.resume = false;
-    next.corrected = refine.has_value();
-    next.coarse_first = false;
-    MotionProblem with_margins = problem;
-    with_margins.margins = margins_of(tube, sizes, share);
-    const DiscreteProblem asked(std::move(with_margins), best.plan.mesh);
+    const double seconds_left = options.solver.max_seconds - (wall_seconds() - begin);
+    if (found.solves == kMostSolves || seconds_left <= 0.0) break;
+    const PlanOptions next = with_margins(options, best, refine.has_value(), seconds_left);
+    MotionProblem tighter = problem;
+    tighter.margins = margins_of(loop.tube, sizes, share);
+    const DiscreteProblem asked(std::move(tighter), best.mesh);
     Plan plan = refine ? make_refined_plan(asked, solver, next, *refine).plan : make_plan(asked, solver, next);
     ++found.solves;
-    const bool is_another = has_margins && plan.result.cost > kAnother * best.plan.result.cost;
+    const bool is_another = has_margins && plan.result.cost > kAnother * best.result.cost;
     if (is_good(plan) && !is_another) {
-      add_books(best.plan, plan);
-      best.plan = std::move(plan);
+      add_books(best, plan);
+      best = std::move(plan);
       has_margins = true;
-      tube = tube_of(problem, best.plan, tracking, sizes);
+      loop = closed_loop(problem, best, tracking, sizes);
       found.share = share;
-    } else {
-      add_books(plan, best.plan);
-      if (plan.result.status == SolveStatus::interrupted || found.share > 0.0) break;
-      share *= kSmaller;
-      if (share < kLeastShare) break;
+      continue;
     }
+    add_books(plan, best);
+    share *= kSmaller;
+    if (plan.result.status == SolveStatus::interrupted || found.share > 0.0 || share < kLeastShare) break;
   }
   // What the plan has, by its own tube.
   if (!is_robust(found.share)) {
@@ -153,8 +166,8 @@ RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const Tr
       (is_robust(middle) ? found.share : most) = middle;
     }
   }
-  found.tightest = largest_lack(problem, tube, sizes, 1.0).where;
-  return best;
+  found.tightest = largest_lack(problem, loop.tube, sizes, 1.0).where;
+  return {std::move(best), std::move(loop.feedback), std::move(found)};
 }
 
 }  // namespace prowl

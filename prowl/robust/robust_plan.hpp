@@ -20,6 +20,7 @@ struct Robustness {
 
 struct RobustPlan {
   Plan plan;
+  FeedbackDesign feedback;  ///< of the plan
   Robustness robustness;
 };
 

@@ -23,7 +23,8 @@ constexpr double kForgotten = 1.5;   // [s] after it began, a push has no effect
 /// The load of a contact grows from zero when it lands and goes to zero before it opens, and what is kept of its cone
 /// with it: too short to slip far [s].
 constexpr double kLoading = 0.1;
-constexpr int kDirections = 8;  // around the axis of a friction cone
+constexpr double kSharp = 1e-6;  // tip of the cone that measures what is left, over the weight
+constexpr int kDirections = 8;   // around the axis of a friction cone
 
 /// Euclidean lengths of the rows.
 VectorXd lengths(const MatrixXd& rows) { return rows.rowwise().norm(); }
@@ -63,11 +64,6 @@ Eigen::Matrix<double, kDirections, 3> friction_slopes(const Surface& surface) {
   return slopes;
 }
 
-struct Push {
-  double begin;
-  MatrixXd deviation;  ///< xi, one column for each direction
-};
-
 }  // namespace
 
 TubeDesign::TubeDesign(const MotionProblem& problem, const TrackingOptions& tracking, const Disturbances& disturbances)
@@ -100,51 +96,47 @@ void TubeDesign::add(const ReducedSample& at) {
   const ForwardDynamics& dynamics = at.linear.dynamics();
   const ForwardDynamics::Derivatives& df = dynamics.force_derivatives();
   const MatrixXd torques = -at.K * at.Z;
-  MatrixXd forces(df.q.rows(), at.Z.cols());
-  forces = df.q * at.Z.topRows(nv) + df.v * at.Z.bottomRows(nv) + df.tau * torques;
+  const MatrixXd forces = df.q * at.Z.topRows(nv) + df.v * at.Z.bottomRows(nv) + df.tau * torques;
 
-  const MatrixXd applied = -inertia_.forces(at.point.q, at.point.v, dynamics.acceleration(), kEven * disturbances_.mass,
-                                            kEven * disturbances_.center);
-  MatrixXd pushed = MatrixXd::Zero(nv, 2);
-  const double force = problem_.robot.mass() * disturbances_.push / disturbances_.push_duration;
-  pushed.topRows<3>() = force * base_rotation(at.point.q).transpose().leftCols<2>();
-  const MatrixXd left = (at.Z.transpose() * weight_.asDiagonal()).rightCols(nv) * dynamics.acceleration_by_force();
-  const MatrixXd by_force = dynamics.forces_by_force();
+  const auto constants = static_cast<Eigen::Index>(inertia_.count());
+  MatrixXd applied = MatrixXd::Zero(nv, constants + 2);  // constant errors, then the push
+  applied.leftCols(constants) = -inertia_.forces(at.point.q, at.point.v, dynamics.acceleration(),
+                                                 kEven * disturbances_.mass, kEven * disturbances_.center);
+  const double push = problem_.robot.mass() * disturbances_.push / disturbances_.push_duration;  // [N]
+  applied.topRightCorner<3, 2>() = push * base_rotation(at.point.q).transpose().leftCols<2>();
+  const auto [accelerations, contact_forces] = dynamics.response(applied);
+  const MatrixXd rates = (at.Z.transpose() * weight_.asDiagonal()).rightCols(nv) * accelerations;
 
   const auto& held = problem_.phases[phase].contacts;
-  const auto cones = kDirections * static_cast<Eigen::Index>(held.size()), rows = cones + 2 * nu;
+  const auto contacts = static_cast<Eigen::Index>(held.size()), cones = kDirections * contacts, rows = cones + 2 * nu;
   Sample sample{.time = at.point.time,
                 .Z = at.Z,
                 .step = at.step,
-                .drift = left * applied,
-                .push = left * pushed,
+                .drift = rates.leftCols(constants),
+                .push = rates.rightCols(2),
                 .limits = MatrixXd(rows, at.Z.cols()),
-                .by_constants = MatrixXd::Zero(rows, applied.cols()),
-                .by_push = MatrixXd::Zero(rows, 2)};
-  sample.cone.resize(static_cast<Eigen::Index>(held.size()));
-  sample.load = sample.cone;
+                .by_constants = MatrixXd::Zero(rows, constants),
+                .by_push = MatrixXd::Zero(rows, 2),
+                .cone_left = VectorXd(contacts),
+                .torque_left = VectorXd(nu),
+                .load = VectorXd(contacts)};
   const RobotModel& robot = problem_.robot;
-  sample.torque = robot.torque_limit() - at.point.tau.cwiseAbs();
-  for (const RobotModel::TorqueCurve& limit : robot.torque_curves()) {
-    const double tau = at.point.tau(limit.joint), velocity = at.point.v(6 + limit.joint);
-    const double position = at.point.q(7 + limit.joint);
-    const double upper = limit.curve.value(limit.over_velocity ? velocity : position);
-    const double lower = limit.curve.value(limit.over_velocity ? -velocity : position);
-    sample.torque(limit.joint) = std::min({sample.torque(limit.joint), upper - tau, lower + tau});
+  for (int j = 0; j < robot.nu(); ++j) {
+    const double tau = at.point.tau(j), position = at.point.q(7 + j), rate = at.point.v(6 + j);
+    sample.torque_left(j) =
+        std::min(robot.torque_upper(j, position, rate) - tau, tau - robot.torque_lower(j, position, rate));
   }
-  const VectorXd joints = at.point.q.tail(nu);
-  sample.joint = (robot.position_upper() - joints).cwiseMin(joints - robot.position_lower());
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const auto at_contact = static_cast<Eigen::Index>(3 * i), row = static_cast<Eigen::Index>(i) * kDirections;
-    const Eigen::Vector3d force_here = dynamics.forces().segment<3>(at_contact);
-    const Surface& surface = problem_.surfaces[static_cast<std::size_t>(held[i].surface)];
-    sample.load(static_cast<Eigen::Index>(i)) = surface.normal.dot(force_here);
-    sample.cone(static_cast<Eigen::Index>(i)) =
-        FrictionLimit(problem_.friction_model, surface, 1e-6 * robot.weight()).rows(force_here).minCoeff();
+  for (Eigen::Index i = 0; i < contacts; ++i) {
+    const auto& surface = problem_.surfaces[static_cast<std::size_t>(held[static_cast<std::size_t>(i)].surface)];
+    const Eigen::Vector3d force = dynamics.forces().segment<3>(3 * i);
+    sample.load(i) = surface.normal.dot(force);
+    sample.cone_left(i) =
+        FrictionLimit(problem_.friction_model, surface, kSharp * robot.weight()).rows(force).minCoeff();
     const auto slopes = friction_slopes(surface);
-    sample.limits.middleRows<kDirections>(row) = slopes * forces.middleRows<3>(at_contact);
-    sample.by_constants.middleRows<kDirections>(row) = slopes * by_force.middleRows<3>(at_contact) * applied;
-    sample.by_push.middleRows<kDirections>(row) = slopes * by_force.middleRows<3>(at_contact) * pushed;
+    const MatrixXd by_force = slopes * contact_forces.middleRows<3>(3 * i);
+    sample.limits.middleRows<kDirections>(kDirections * i) = slopes * forces.middleRows<3>(3 * i);
+    sample.by_constants.middleRows<kDirections>(kDirections * i) = by_force.leftCols(constants);
+    sample.by_push.middleRows<kDirections>(kDirections * i) = by_force.rightCols(2);
   }
   sample.limits.middleRows(cones, nu) = torques;
   sample.limits.bottomRows(nu) = at.Z.middleRows(6, nu);
@@ -152,68 +144,67 @@ void TubeDesign::add(const ReducedSample& at) {
   if (at.phase == 0 && at.sample == 0) start_ = start_deviations(at);
 }
 
+void TubeDesign::Deviations::advance(const Sample& at, const Sample* after, double push_duration) {
+  start = at.step * start;
+  constants = at.step * constants;
+  for (Push& push : pushes) push.deviation = at.step * push.deviation;
+  if (!after) return;  // a landing takes no time
+  const double h = after->time - at.time;
+  constants += 0.5 * h * (at.step * at.drift + after->drift);
+  for (Push& push : pushes) {
+    if (at.time < push.begin + push_duration) push.deviation += 0.5 * h * (at.step * at.push + after->push);
+  }
+}
+
+/// Fills column k of the phase.
+void TubeDesign::measure(const Sample& at, const Deviations& deviations, Tube::OfPhase& phase, Eigen::Index k) const {
+  MatrixXd drawn(at.Z.cols(), deviations.start.cols() + deviations.constants.cols());
+  drawn << deviations.start, deviations.constants;
+  MatrixXd of_limits = at.limits * drawn;
+  of_limits.rightCols(deviations.constants.cols()) += at.by_constants;
+  VectorXd worst = VectorXd::Zero(at.limits.rows());
+  for (const Push& push : deviations.pushes) {
+    MatrixXd effect = at.limits * push.deviation;
+    if (at.time < push.begin + disturbances_.push_duration) effect += at.by_push;
+    worst = worst.cwiseMax(lengths(effect));
+    phase.pushed.col(k) = phase.pushed.col(k).cwiseMax(lengths(at.Z * push.deviation));
+  }
+  phase.state.col(k) = lengths(at.Z * drawn);
+  const VectorXd needed = (kCoverage * kCoverage * lengths(of_limits).array().square() + worst.array().square()).sqrt();
+  const Eigen::Index contacts = at.load.size(), nu = at.torque_left.size();
+  for (Eigen::Index i = 0; i < contacts; ++i)
+    phase.needed.cone(i, k) = needed.segment<kDirections>(i * kDirections).maxCoeff();
+  phase.needed.torque.col(k) = needed.segment(kDirections * contacts, nu);
+  phase.needed.joint.col(k) = needed.tail(nu);
+  phase.cone_left.col(k) = at.cone_left;
+  phase.torque_left.col(k) = at.torque_left;
+  phase.load.col(k) = at.load;
+}
+
 Tube TubeDesign::propagate() const {
   Tube tube;
-  MatrixXd start = start_, constants = MatrixXd::Zero(start_.rows(), inertia_.count());
-  std::vector<Push> pushes;
+  Deviations deviations{start_, MatrixXd::Zero(start_.rows(), inertia_.count()), {}};
   double next_push = 0.0;
   const Eigen::Index nu = problem_.robot.nu(), nv = problem_.robot.nv();
-  for (std::size_t p = 0; p < samples_.size(); ++p) {
-    const std::vector<Sample>& backwards = samples_[p];
-    const auto& held = problem_.phases[p].contacts;
-    const auto count = static_cast<Eigen::Index>(backwards.size()), contacts = static_cast<Eigen::Index>(held.size());
+  for (const std::vector<Sample>& backwards : samples_) {
+    const auto count = static_cast<Eigen::Index>(backwards.size()), contacts = backwards.front().load.size();
     Tube::OfPhase& phase = tube.phases.emplace_back();
     phase.state.resize(2 * nv, count);
     phase.pushed.setZero(2 * nv, count);
-    phase.needed = phase.left = {MatrixXd(contacts, count), MatrixXd(nu, count), MatrixXd(nu, count)};
+    phase.needed = {MatrixXd(contacts, count), MatrixXd(nu, count), MatrixXd(nu, count)};
+    phase.cone_left.resize(contacts, count);
+    phase.torque_left.resize(nu, count);
     phase.load.resize(contacts, count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const Sample& at = backwards[static_cast<std::size_t>(count - 1 - k)];
-      phase.times.push_back(at.time);
-      if (at.time >= next_push) {
-        pushes.push_back({at.time, MatrixXd::Zero(at.Z.cols(), 2)});
+    for (auto at = backwards.rbegin(); at != backwards.rend(); ++at) {
+      if (at->time >= next_push) {
+        deviations.pushes.push_back({at->time, MatrixXd::Zero(at->Z.cols(), 2)});
         next_push += kPushEvery;
       }
-      std::erase_if(pushes, [&](const Push& push) { return at.time - push.begin > kForgotten; });
-
-      MatrixXd drawn(at.Z.cols(), start.cols() + constants.cols());
-      drawn << start, constants;
-      MatrixXd of_limits = at.limits * drawn;
-      of_limits.rightCols(constants.cols()) += at.by_constants;
-      VectorXd worst = VectorXd::Zero(at.limits.rows());
-      for (const Push& push : pushes) {
-        MatrixXd effect = at.limits * push.deviation;
-        if (at.time < push.begin + disturbances_.push_duration) effect += at.by_push;
-        worst = worst.cwiseMax(lengths(effect));
-        phase.pushed.col(k) = phase.pushed.col(k).cwiseMax(lengths(at.Z * push.deviation));
-      }
-      phase.state.col(k) = lengths(at.Z * drawn);
-      const VectorXd needed =
-          (kCoverage * kCoverage * lengths(of_limits).array().square() + worst.array().square()).sqrt();
-      const Eigen::Index cones = needed.size() - 2 * nu;
-      for (Eigen::Index i = 0; i < contacts; ++i)
-        phase.needed.cone(i, k) = needed.segment<kDirections>(i * kDirections).maxCoeff();
-      phase.needed.torque.col(k) = needed.segment(cones, nu);
-      phase.needed.joint.col(k) = needed.tail(nu);
-      phase.left.cone.col(k) = at.cone;
-      phase.left.torque.col(k) = at.torque;
-      phase.left.joint.col(k) = at.joint;
-      phase.load.col(k) = at.load;
-
-      if (k + 1 < count) {
-        const Sample& after = backwards[static_cast<std::size_t>(count - 2 - k)];
-        const double h = after.time - at.time;
-        constants = at.step * constants + 0.5 * h * (at.step * at.drift + after.drift);
-        for (Push& push : pushes) {
-          push.deviation = at.step * push.deviation;
-          if (at.time < push.begin + disturbances_.push_duration)
-            push.deviation += 0.5 * h * (at.step * at.push + after.push);
-        }
-      } else {
-        constants = at.step * constants;
-        for (Push& push : pushes) push.deviation = at.step * push.deviation;
-      }
-      start = at.step * start;
+      std::erase_if(deviations.pushes, [&](const Push& push) { return at->time - push.begin > kForgotten; });
+      measure(*at, deviations, phase, static_cast<Eigen::Index>(phase.times.size()));
+      phase.times.push_back(at->time);
+      const bool is_last = std::next(at) == backwards.rend();
+      deviations.advance(*at, is_last ? nullptr : &*std::next(at), disturbances_.push_duration);
     }
   }
   fade(problem_, tube);

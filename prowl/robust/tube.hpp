@@ -17,12 +17,13 @@ namespace prowl {
 struct Tube {
   /// Of one phase of the motion, one column for each of its samples.
   struct OfPhase {
-    std::vector<double> times;  ///< [s]
-    Eigen::MatrixXd state;      ///< dx, standard deviation without pushes (2 nv rows) [m, rad, m/s, rad/s]
-    Eigen::MatrixXd pushed;     ///< dx, largest by a push (2 nv rows)
-    Margins::OfPhase needed;    ///< of the limits: docs/robust.md#margins
-    Margins::OfPhase left;      ///< of the limits by the motion, with all friction
-    Eigen::MatrixXd load;       ///< normal force of each contact [N]
+    std::vector<double> times;    ///< [s]
+    Eigen::MatrixXd state;        ///< dx, standard deviation without pushes (2 nv rows) [m, rad, m/s, rad/s]
+    Eigen::MatrixXd pushed;       ///< dx, largest by a push (2 nv rows)
+    Margins::OfPhase needed;      ///< of the limits: docs/robust.md#margins
+    Eigen::MatrixXd cone_left;    ///< by the motion, of each contact, with all friction [N]
+    Eigen::MatrixXd torque_left;  ///< by the motion, nu rows [N m]
+    Eigen::MatrixXd load;         ///< normal force of each contact [N]
   };
   std::vector<OfPhase> phases;
 };
@@ -42,12 +43,25 @@ class TubeDesign {
   /// Deviations xi and limits at one sample. Limits: rows of the cones of its contacts | torques | joints.
   struct Sample {
     double time;
-    Eigen::MatrixXd Z, step;                ///< of ReducedSample
-    Eigen::MatrixXd drift, push;            ///< d xi/dt by what is constant, and by a push along x and y
-    Eigen::MatrixXd limits;                 ///< by xi
-    Eigen::MatrixXd by_constants, by_push;  ///< of the limits, at fixed xi
-    Eigen::VectorXd cone = {}, load = {}, torque = {}, joint = {};  ///< left of the limits by the motion
+    Eigen::MatrixXd Z, step;                       ///< of ReducedSample
+    Eigen::MatrixXd drift, push;                   ///< d xi/dt by what is constant, and by a push along x and y
+    Eigen::MatrixXd limits;                        ///< by xi
+    Eigen::MatrixXd by_constants, by_push;         ///< of the limits, at fixed xi
+    Eigen::VectorXd cone_left, torque_left, load;  ///< of Tube::OfPhase
   };
+  struct Push {
+    double begin;               ///< [s]
+    Eigen::MatrixXd deviation;  ///< xi, one column for each direction
+  };
+  /// xi at one sample, one column for each draw.
+  struct Deviations {
+    Eigen::MatrixXd start, constants;
+    std::vector<Push> pushes;
+
+    /// To the next sample of the phase; null: over the landing at its end.
+    void advance(const Sample& at, const Sample* after, double push_duration);
+  };
+  void measure(const Sample& at, const Deviations& deviations, Tube::OfPhase& phase, Eigen::Index k) const;
   Eigen::MatrixXd start_deviations(const ReducedSample& first) const;
 
   const MotionProblem& problem_;

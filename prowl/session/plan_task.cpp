@@ -154,9 +154,11 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
                                          options, tolerance ? std::optional(refine) : std::nullopt);
     plan = std::move(robust.plan);
     planned.record.robustness = std::move(robust.robustness);
+    if (request.gains) planned.record.feedback = std::move(robust.feedback);
   }
   planned.record.iterations = watch.take();
-  if (request.gains && is_good(plan)) planned.why_no_gains = add_gains(request, planned.record);
+  if (request.gains && is_good(plan) && !planned.record.feedback)
+    planned.why_no_gains = add_gains(request, planned.record);
   return planned;
 }
 

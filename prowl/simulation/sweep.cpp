@@ -37,12 +37,6 @@ Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, doubl
   return {size * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0), time, duration};
 }
 
-/// Over that of the robot of which the ranges speak.
-double height_share(const RobotModel& robot) {
-  constexpr double kHeight = 0.58;  // [m]
-  return robot.nominal_configuration().z() / kHeight;
-}
-
 /// A perturbation of one kind, of any size.
 struct Kind {
   static constexpr int kHalvings = 3;

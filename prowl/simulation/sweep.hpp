@@ -5,25 +5,28 @@
 #include <optional>
 #include <random>
 
+#include "prowl/motion/disturbances.hpp"
 #include "prowl/simulation/simulation.hpp"
 
 namespace prowl {
 
-/// Ranges of the simulated world around the planned one, for uniform distributions. Lengths and velocities are those of
-/// a robot that stands 0.58 m high; for others lengths scale with the height, velocities with its root.
+/// Ranges of the simulated world around the planned one, for uniform distributions. Lengths and velocities scale as
+/// those of kSweptDisturbances.
 struct PerturbationRanges {
-  double base_position = 0.01, base_angle = 0.02;  ///< of the start, each axis [m, rad]
-  double base_velocity = 0.05, base_rate = 0.1;    ///< likewise [m/s, rad/s]
-  double joint = 0.01;                             ///< of the start, where no contact holds [rad]
-  double mass = 0.1;                               ///< factor on mass and inertia of each body: 1 - mass to 1 + mass
-  double base_center = 0.02;                       ///< centre of mass of the base, each axis [m]
-  double friction_low = 0.8, friction_high = 1.6;  ///< factor on the planned coefficients
-  double bandwidth_low = 20.0, bandwidth_high = 60.0;  ///< of the actuators [Hz]
+  double base_position = kSweptDisturbances.base_position,
+         base_angle = kSweptDisturbances.base_angle;  ///< of the start, each axis [m, rad]
+  double base_velocity = kSweptDisturbances.base_velocity,
+         base_rate = kSweptDisturbances.base_rate;  ///< likewise [m/s, rad/s]
+  double joint = 0.01;                              ///< of the start, where no contact holds [rad]
+  double mass = kSweptDisturbances.mass;            ///< factor on mass and inertia of each body: 1 - mass to 1 + mass
+  double base_center = kSweptDisturbances.center;   ///< centre of mass of the base, each axis [m]
+  double friction_low = 1.0 - kSweptDisturbances.friction, friction_high = 1.6;  ///< factor on the planned coefficients
+  double bandwidth_low = 20.0, bandwidth_high = 60.0;                            ///< of the actuators [Hz]
   double delay_low = 1e-3, delay_high = 4e-3;  ///< from sensors to torques [s]; the controller knows its own value
   double ground_height = 0.005, ground_tilt = 0.035;  ///< [m, rad]: 2 degrees
   double noise_low = 0.5, noise_high = 2.0;           ///< factor on what the estimator is told
-  double push_velocity = 0.12;                        ///< impulse over mass, in a random horizontal direction [m/s]
-  double push_duration = 0.1;                         ///< [s]; starts at a random time of the motion
+  double push_velocity = kSweptDisturbances.push;     ///< impulse over mass, in a random horizontal direction [m/s]
+  double push_duration = kSweptDisturbances.push_duration;  ///< [s]; starts at a random time of the motion
   std::optional<double> push, push_on_two_feet;  ///< replace that impulse [N s]; the second with two contacts or fewer
   bool operator==(const PerturbationRanges&) const = default;
 };

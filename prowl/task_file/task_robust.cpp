@@ -12,18 +12,9 @@ std::optional<Disturbances> read_robust(const TomlTable& root, const MotionProbl
   }
   Disturbances sizes = default_disturbances(problem.robot);
   if (!table) return sizes;
-  const auto read = [&](const char* key, double& size) {
-    if (const auto value = table->find(key)) size = value->as_number();
-  };
-  read("base_position_m", sizes.base_position);
-  read("base_angle_rad", sizes.base_angle);
-  read("base_velocity_mps", sizes.base_velocity);
-  read("base_rate_radps", sizes.base_rate);
-  read("mass", sizes.mass);
-  read("center_m", sizes.center);
-  read("friction", sizes.friction);
-  read("push_mps", sizes.push);
-  read("push_s", sizes.push_duration);
+  for (const auto& [name, size] : kDisturbanceKeys) {
+    if (const auto value = table->find(name)) sizes.*size = value->as_number();
+  }
   return sizes;
 }
 

@@ -277,8 +277,7 @@ TEST(ForwardDynamicsTest, ForcesActLikeTorques) {
     RandomStates random(robot, 1);
     for (int i = 0; i < 20; ++i) {
       dynamics.evaluate_with_derivatives(random.configuration(), random.velocity(), random.torque());
-      const MatrixXd a = dynamics.acceleration_by_force().rightCols(robot.nu());
-      const MatrixXd f = dynamics.forces_by_force().rightCols(robot.nu());
+      const auto [a, f] = dynamics.response(MatrixXd::Identity(robot.nv(), robot.nv()).rightCols(robot.nu()));
       EXPECT_LT((a - dynamics.acceleration_derivatives().tau).norm(), 1e-9 * a.norm());
       EXPECT_LT((f - dynamics.force_derivatives().tau).norm(), 1e-9 * f.norm());
     }

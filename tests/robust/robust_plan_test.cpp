@@ -51,11 +51,11 @@ TEST(RobustPlan, LeavesWhatItsTubeNeeds) {
   for (std::size_t p = 0; p < tube.phases.size(); ++p) {
     const Tube::OfPhase& phase = tube.phases[p];
     constexpr double kMissing = 0.2;  // of a margin: the next tube would differ by as much
-    EXPECT_GT((phase.left.torque - robustness.share * phase.needed.torque).minCoeff(),
+    EXPECT_GT((phase.torque_left - robustness.share * phase.needed.torque).minCoeff(),
               -kMissing * robustness.share * phase.needed.torque.maxCoeff());
     const Eigen::MatrixXd slippery =
         robustness.share * robustness.sizes.friction * problem.surfaces.front().friction * phase.load;
-    EXPECT_GT((phase.left.cone - slippery - robustness.share * phase.needed.cone).minCoeff(),
+    EXPECT_GT((phase.cone_left - slippery - robustness.share * phase.needed.cone).minCoeff(),
               -kMissing * robustness.share * phase.needed.cone.maxCoeff() - kSolved * weight);
   }
 }

@@ -9,6 +9,7 @@
 #include "prowl/mesh/mesh.hpp"
 #include "prowl/model/robot_description.hpp"
 #include "prowl/model/surface.hpp"
+#include "prowl/motion/disturbances.hpp"
 #include "prowl/motion/duration_limits.hpp"
 #include "prowl/motion/gait.hpp"
 #include "prowl/motion/motion_problem.hpp"
@@ -465,29 +466,29 @@ void add_tracking(FileKeys& keys) {
 
 void add_robust(FileKeys& keys) {
   Table robust(keys, "robust");
-  const auto add = [&](const char* name, const char* unit, double most, const char* fallback, const char* meaning) {
+  const auto add = [&](const char* name, const char* unit, NumberRange range, double fallback, const char* meaning,
+                       const char* scaled = "") {
     robust.add({.name = name,
                 .form = "number",
-                .range = {.lower = 0.0, .upper = most},
+                .range = range,
                 .unit = unit,
-                .fallback = fallback,
+                .fallback = number_text(fallback) + scaled,
                 .meaning = meaning});
   };
-  add("base_position_m", "m", 0.2, "0.01, scaled with the height", "error of the start, each axis");
-  add("base_angle_rad", "rad", 0.5, "0.02", "the same");
-  add("base_velocity_mps", "m/s", 1.0, "0.05, scaled with the root of the height", "the same");
-  add("base_rate_radps", "rad/s", 2.0, "0.1", "the same");
-  add("mass", "-", 0.9, "0.1", "error of mass and inertia of each body, as a share");
-  add("center_m", "m", 0.2, "0.02, scaled with the height", "error of the centre of mass of the base, each axis");
-  add("friction", "-", 0.9, "0.2", "share of the friction that may be missing");
-  add("push_mps", "m/s", 2.0, "0.12, scaled with the root of the height",
-      "change of velocity by one horizontal push on the base at its worst time");
-  robust.add({.name = "push_s",
-              .form = "number",
-              .range = {.lower = 0.01, .upper = 1.0},
-              .unit = "s",
-              .fallback = "0.1",
-              .meaning = "duration of that push"});
+  constexpr Disturbances sizes = kSweptDisturbances;
+  const char* const as_length = ", scaled with the height";
+  const char* const as_velocity = ", scaled with the root of the height";
+  const auto up_to = [](double most) { return NumberRange{.lower = 0.0, .upper = most}; };
+  add("base_position_m", "m", up_to(0.2), sizes.base_position, "error of the start, each axis", as_length);
+  add("base_angle_rad", "rad", up_to(0.5), sizes.base_angle, "the same");
+  add("base_velocity_mps", "m/s", up_to(1.0), sizes.base_velocity, "the same", as_velocity);
+  add("base_rate_radps", "rad/s", up_to(2.0), sizes.base_rate, "the same");
+  add("mass", "-", up_to(0.9), sizes.mass, "error of mass and inertia of each body, as a share");
+  add("center_m", "m", up_to(0.2), sizes.center, "error of the centre of mass of the base, each axis", as_length);
+  add("friction", "-", up_to(0.9), sizes.friction, "share of the friction that may be missing");
+  add("push_mps", "m/s", up_to(2.0), sizes.push,
+      "change of velocity by one horizontal push on the base at its worst time", as_velocity);
+  add("push_s", "s", {.lower = 0.01, .upper = 1.0}, sizes.push_duration, "duration of that push");
 }
 
 void add_simulation(FileKeys& keys) {

@@ -42,10 +42,17 @@ std::vector<double> per_gain_step(const DiscreteProblem& discrete, int phase) {
   return result;
 }
 
+/// The surface under a contact, as rough as the motion may count on.
+Surface surface_used(const MotionProblem& problem, const PhaseContact& contact) {
+  Surface surface = problem.surfaces[contact.surface];
+  surface.friction *= 1.0 - problem.margins.friction;
+  return surface;
+}
+
 }  // namespace
 
 double cone_smoothing(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact) {
-  const double friction = (1.0 - problem.margins.friction) * problem.surfaces[contact.surface].friction;
+  const double friction = surface_used(problem, contact).friction;
   const double sharpest = std::min(0.01, 0.2 * friction / static_cast<double>(phase.contacts.size()));
   return std::max(problem.robot.weight() * sharpest, friction * least_load(problem, phase, contact));
 }
@@ -69,13 +76,11 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
   const auto& held = problem.phases[phase].contacts;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) {
     const PhaseContact& contact = held[i];
-    const Surface& surface = problem.surfaces[contact.surface];
+    const Surface surface = surface_used(problem, contact);
     const Phase& held_in = problem.phases[phase];
-    Surface slippery = surface;
-    slippery.friction *= 1.0 - problem.margins.friction;
-    friction_.emplace_back(problem.friction_model, slippery, cone_smoothing(problem, held_in, contact),
+    friction_.emplace_back(problem.friction_model, surface, cone_smoothing(problem, held_in, contact),
                            least_load(problem, held_in, contact));
-    coefficients_.push_back(slippery.friction);
+    coefficients_.push_back(surface.friction);
     contact_names_.push_back(problem.robot.contacts()[contact.contact].name);
     opens_.push_back(schedule.opens(phase, i));
     if (schedule.stances()[schedule.stance(phase, i)].lands()) landed_.push_back(i);
