@@ -58,6 +58,14 @@ std::string contact_table(const RobotModel& robot) {
   return aligned(rows, 2);
 }
 
+/// The largest losses of a joint; each is in --json.
+std::string losses(const RobotModel& robot) {
+  const JointLosses& all = robot.losses();
+  if (!all.any()) return "";
+  return fmt::format("  losses of joints: damping up to {:g} N m s/rad, friction up to {:g} N m\n",
+                     all.damping.maxCoeff(), all.dry_friction.maxCoeff());
+}
+
 std::string joint_table(const RobotModel& robot) {
   std::vector<Row> rows = {{"joint", "#", "nominal", "position", "velocity", "torque"}};
   for (int j = 0; j < robot.nu(); ++j) {
@@ -68,7 +76,7 @@ std::string joint_table(const RobotModel& robot) {
                     limit(robot.velocity_limit()(j), length + "/s"),
                     limit(robot.torque_limit()(j), slides ? "N" : "N m")});
   }
-  return aligned(rows, 1);
+  return aligned(rows, 1) + losses(robot);
 }
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -83,7 +91,9 @@ Json joints_to_json(const RobotModel& robot) {
                       {"position_lower", number_or_null(robot.position_lower()(j))},
                       {"position_upper", number_or_null(robot.position_upper()(j))},
                       {"velocity_limit", number_or_null(robot.velocity_limit()(j))},
-                      {"torque_limit", number_or_null(robot.torque_limit()(j))}});
+                      {"torque_limit", number_or_null(robot.torque_limit()(j))},
+                      {"damping", robot.losses().damping(j)},
+                      {"friction", robot.losses().dry_friction(j)}});
   }
   return joints;
 }

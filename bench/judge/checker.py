@@ -146,7 +146,8 @@ def judge(task: MotionTask, motion: Motion) -> Verdict:
             time, tau = motion.time[k] + share * step, motion.torque_at(k, share)
             a, forces, speeds = dynamics[phase](q, v, tau)
             rates[i] = running_cost(task, q, v, a, tau, forces)
-            _see_joints(task, q, v, tau, time, findings)
+            losses = robot.model.damping[6:] * v[6:] if motion.has_losses else 0.0
+            _see_joints(task, q, v, tau + losses, time, findings)
             _see_contacts(task, phase, robot.places(q), forces, speeds, time, anchors, findings)
             if i == SAMPLES and (k + 2 == len(motion.time) or motion.phase[k + 2] != phase):
                 _see_opening(task, phase, dynamics[phase], forces, time, findings)
@@ -173,7 +174,7 @@ def running_cost(task: MotionTask, q, v, a, tau, forces) -> float:
 def _see_joints(task, q, v, tau, time, findings) -> None:
     robot, model = task.robot, task.robot.model
     excess = {
-        "torque": np.abs(tau) / robot.torque_bound(q) - 1.0,
+        "torque": np.abs(tau) / robot.torque_bound(q, tau) - 1.0,
         "joint position": np.maximum(model.lowerPositionLimit[7:] - q[7:], q[7:] - model.upperPositionLimit[7:]),
         "joint velocity": np.abs(v[6:]) / model.velocityLimit[6:] - 1.0,
     }

@@ -21,6 +21,7 @@ class Motion:
     v: np.ndarray
     tau: np.ndarray
     torque: str  # "held" or "linear"
+    has_losses: bool = False  # motors give the damping of the URDF besides the torques
 
     def __post_init__(self):
         if self.torque not in ("held", "linear"):
@@ -83,4 +84,5 @@ def read_plan_motion(plan: pathlib.Path) -> Motion:
         v=np.hstack([table[:, moving], columns("v_", "_radps")]),
         tau=columns("tau_", "_Nm"),
         torque="linear",
+        has_losses=True,
     )

@@ -27,7 +27,8 @@ class Robot:
     contacts: tuple[Contact, ...]
     nominal: np.ndarray  # configuration at rest, mean of the contacts over the origin, lowest ball on z = 0
     torque_limit: np.ndarray  # both ways, one a joint [N m]
-    torque_curves: dict[int, BSpline] = field(default_factory=dict)  # joint -> limit over its position
+    # joint -> limits over its position, of positive and of negative torques
+    torque_curves: dict[int, tuple[BSpline, BSpline]] = field(default_factory=dict)
 
     @property
     def joints(self) -> list[str]:
@@ -40,11 +41,11 @@ class Robot:
     def contact(self, name: str) -> Contact:
         return next(contact for contact in self.contacts if contact.name == name)
 
-    def torque_bound(self, q: np.ndarray) -> np.ndarray:
-        """Limit of every joint's torque at configuration q, both ways."""
+    def torque_bound(self, q: np.ndarray, tau: np.ndarray) -> np.ndarray:
+        """Limit of every joint's torque at configuration q, in the direction of tau."""
         bound = self.torque_limit.copy()
-        for joint, curve in self.torque_curves.items():
-            bound[joint] = min(bound[joint], float(curve(q[7 + joint])))
+        for joint, curves in self.torque_curves.items():
+            bound[joint] = min(bound[joint], float(curves[int(tau[joint] < 0)](q[7 + joint])))
         return bound
 
     def places(self, q: np.ndarray) -> dict[str, np.ndarray]:
@@ -123,8 +124,10 @@ def read_robot(robot_file: pathlib.Path, package_dirs: list[pathlib.Path]) -> Ro
         lower[7 + j], upper[7 + j] = limits.get("position_rad", (lower[7 + j], upper[7 + j]))
         speed[6 + j] = limits.get("velocity_radps", speed[6 + j])
         if "torque_over_position" in limits:
-            curves[j] = limit_curve(limits["torque_over_position"])
-        if unknown := set(limits) - {"torque_Nm", "position_rad", "velocity_radps", "torque_over_position"}:
+            both = limits["torque_over_position"]
+            curves[j] = (limit_curve(both), limit_curve(limits.get("negative_torque_over_position", both)))
+        known = {"torque_Nm", "position_rad", "velocity_radps", "torque_over_position", "negative_torque_over_position"}
+        if unknown := set(limits) - known:
             raise SystemExit(f"bench: {robot_file}: limits.{joint}: {', '.join(unknown)} is not translated")
     model.lowerPositionLimit, model.upperPositionLimit, model.velocityLimit = lower, upper, speed
 

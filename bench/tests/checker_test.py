@@ -217,11 +217,12 @@ def test_torque_beyond_the_knee_curve_and_the_limit():
     task = standing_task(DURATION)
     motion = standing_still(task, 1, "linear")
     tau = motion.tau.copy()
-    tau[:, 2] = 1.1 * task.robot.torque_bound(task.start)[2]
+    tau[:, 2] = 1.1 * task.robot.torque_bound(task.start, np.ones(12))[2]
     finding = judge(task, dataclasses.replace(motion, tau=tau)).findings["torque"]
     assert finding.where == "lf_kfe_joint" and finding.value >= 0.0999
     assert (
-        task.robot.torque_bound(task.start)[2] == pytest.approx(144.3, abs=0.5) and task.robot.torque_limit[2] == 150.0
+        task.robot.torque_bound(task.start, np.ones(12))[2] == pytest.approx(144.3, abs=0.5)
+        and task.robot.torque_limit[2] == 150.0
     )
 
 

@@ -151,7 +151,8 @@ class JointChecks {
       if (outside > -std::numeric_limits<double>::infinity())
         position_.record(outside, point.time, name, robot_.joint_is_prismatic()[i] ? "m" : "rad");
       velocity_.record(std::abs(point.v(6 + i)) / robot_.velocity_limit()(i), point.time, name);
-      torque_.record(torque_share(robot_, i, position, point.v(6 + i), point.tau(i)), point.time, name);
+      const double rate = point.v(6 + i), motor = point.tau(i) + robot_.losses().torque(i, rate);
+      torque_.record(torque_share(robot_, i, position, rate, motor), point.time, name);
     }
   }
 

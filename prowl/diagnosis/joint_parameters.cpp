@@ -21,9 +21,11 @@ void widen(JointLimits& limits, double lower, double upper, double factor) {
   const double more = 0.5 * (upper - lower) * (factor - 1.0);
   limits.position_lower = lower - more;
   limits.position_upper = upper + more;
-  if (limits.torque_over_position.empty()) return;
-  limits.position_lower = std::max(*limits.position_lower, std::min(lower, limits.torque_over_position.front().first));
-  limits.position_upper = std::min(*limits.position_upper, std::max(upper, limits.torque_over_position.back().first));
+  for (const LimitCurve::Table* table : {&limits.torque_over_position, &limits.negative_torque_over_position}) {
+    if (table->empty()) continue;
+    limits.position_lower = std::max(*limits.position_lower, std::min(lower, table->front().first));
+    limits.position_upper = std::min(*limits.position_upper, std::max(upper, table->back().first));
+  }
 }
 
 MotionProblem with_joints(const MotionProblem& problem, LimitKind kind, const std::vector<int>& joints, double factor) {
@@ -34,6 +36,7 @@ MotionProblem with_joints(const MotionProblem& problem, LimitKind kind, const st
     if (kind == LimitKind::torque) {
       if (std::isfinite(robot.torque_limit()(j))) limits.torque = factor * robot.torque_limit()(j);
       limits.torque_over_position = times(limits.torque_over_position, factor);
+      limits.negative_torque_over_position = times(limits.negative_torque_over_position, factor);
       limits.torque_over_velocity = times(limits.torque_over_velocity, factor);
     } else if (kind == LimitKind::joint_velocity) {
       limits.velocity = factor * robot.velocity_limit()(j);
@@ -57,6 +60,8 @@ std::string tables_with_torque(const RobotModel& robot, const std::vector<int>& 
   for (const RobotModel::TorqueCurve& curve : robot.torque_curves()) {
     if (std::ranges::find(joints, curve.joint) == joints.end()) continue;
     tables.insert(curve.over_velocity ? "torque_over_velocity" : "torque_over_position");
+    if (!robot.description().limits.at(robot.joint_names()[curve.joint]).negative_torque_over_position.empty())
+      tables.insert("negative_torque_over_position");
   }
   return tables.empty() ? "" : fmt::format("and {} times {:.5g}", fmt::join(tables, " and "), factor);
 }

@@ -97,12 +97,14 @@ class UrdfWriter {
                           {"effort", fmt::to_string(model_.torque_limit(joint).value_or(0.0))},
                           {"velocity", "0"}});
     add_mimic(joint);
-    xml_.CloseElement();
     const int degree = model_->jnt_dofadr[joint];
+    const double damping = model_->dof_damping[degree], friction = model_->dof_frictionloss[degree];
+    if (damping > 0.0 || friction > 0.0)
+      add_element("dynamics", {{"damping", fmt::to_string(damping)}, {"friction", fmt::to_string(friction)}});
+    xml_.CloseElement();
     if (model_->dof_armature[degree] > 0.0) result_.armature[name] = model_->dof_armature[degree];
     if (zero != 0.0) moved_zeros_.push_back(name);
     if (model_.actuators(joint).empty()) passive_.push_back(name);
-    if (model_->dof_damping[degree] > 0.0 || model_->dof_frictionloss[degree] > 0.0) ++damped_;
     if (model_->jnt_stiffness[joint] > 0.0) ++sprung_;
   }
 
@@ -196,7 +198,6 @@ class UrdfWriter {
     };
     add(moved_zeros_, "joints whose position 0 is their `ref` in the MJCF");
     add(passive_, "joints without an actuator, which Prowl moves by torques; see locked_joints");
-    if (damped_ > 0) result_.notes.push_back(fmt::format("damping and friction of {} joints are left out", damped_));
     if (sprung_ > 0) result_.notes.push_back(fmt::format("springs of {} joints are left out", sprung_));
   }
 
@@ -204,7 +205,7 @@ class UrdfWriter {
   const fs::path& folder_;
   MjcfRobot result_;
   std::vector<std::string> moved_zeros_, passive_;
-  int damped_ = 0, sprung_ = 0;
+  int sprung_ = 0;
   tinyxml2::XMLPrinter xml_;
 };
 

@@ -26,10 +26,19 @@ struct JointLimits {
   std::optional<double> position_upper;  ///< [rad] or [m]
   std::optional<double> velocity;        ///< [rad/s] or [m/s], symmetric
   std::optional<double> torque;          ///< [N m] or [N], symmetric
-  /// Torque limit in both directions over the joint position: (position, limit), for the whole range. Empty: none.
+  /// Torque limit over the joint position: (position, limit), for the whole range. Empty: none.
   LimitCurve::Table torque_over_position = {};
+  /// The same for negative torques alone; limits are positive. Empty: as for positive ones.
+  LimitCurve::Table negative_torque_over_position = {};
   /// Limit of positive torques over the velocity: (velocity, limit). Mirrored for negative torques. Empty: none.
   LimitCurve::Table torque_over_velocity = {};
+};
+
+/// A body without moment of inertia of its own that moves with a link.
+struct Payload {
+  std::string body;                                  ///< link (or fixed joint) of the URDF
+  double mass = 0.0;                                 ///< [kg], >= 0
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< of mass, in the frame of the link [m]
 };
 
 /// Content of a robot file, as plain data. RobotModel checks its names against the URDF.
@@ -45,6 +54,7 @@ struct RobotDescription {
   std::map<std::string, double> armature = {};
   Eigen::Vector3d nominal_base_rpy = Eigen::Vector3d::Zero();  ///< [rad]; x, y and height follow from the contacts
   std::map<std::string, JointLimits> limits;                   ///< by joint name
+  std::vector<Payload> payloads = {};                          ///< of a task: part of mass and inertia
 };
 
 }  // namespace prowl

@@ -73,6 +73,26 @@ void set_armature(const RobotDescription& description, pinocchio::Model& model) 
   }
 }
 
+/// The link of that name or, if there is none, the fixed joint; no frame that Pinocchio adds itself.
+std::optional<pinocchio::FrameIndex> find_frame(const pinocchio::Model& model, const std::string& name) {
+  for (const pinocchio::FrameType type : {pinocchio::BODY, pinocchio::FIXED_JOINT}) {
+    if (name != kWorldFrame && model.existFrame(name, type)) return model.getFrameId(name, type);
+  }
+  return std::nullopt;
+}
+
+void add_payloads(const RobotDescription& description, pinocchio::Model& model) {
+  for (const Payload& payload : description.payloads) {
+    const auto frame = find_frame(model, payload.body);
+    if (!frame || !(payload.mass >= 0.0) || !std::isfinite(payload.mass) || !payload.center.allFinite()) {
+      throw InputError(fmt::format("robot '{}': payload of {} kg on '{}': need a link of the URDF, and finite numbers",
+                                   description.name, payload.mass, shown(payload.body)));
+    }
+    const pinocchio::Inertia point(payload.mass, payload.center, Eigen::Matrix3d::Zero());
+    model.inertias[model.frames[*frame].parentJoint] += model.frames[*frame].placement.act(point);
+  }
+}
+
 void read_urdf(RobotDescription& description, PinocchioModel& pin) {
   if (description.urdf_text.empty()) description.urdf_text = read_text(description.urdf);
   pin.urdf = check_urdf(description.urdf.string(), description.urdf_text, description.locked_joints);
@@ -83,6 +103,7 @@ void read_urdf(RobotDescription& description, PinocchioModel& pin) {
   }
   lock_joints(description, pin);
   set_armature(description, pin.model);
+  add_payloads(description, pin.model);
 }
 
 /// Links joined by fixed joints move as one body; the inertia of that body matters, not that of each link. One without
@@ -119,14 +140,6 @@ std::vector<std::string> link_names(const pinocchio::Model& model) {
     if ((frame.type & kLinkOrFixedJoint) != 0 && frame.name != kWorldFrame) names.push_back(frame.name);
   }
   return names;
-}
-
-/// The link of that name or, if there is none, the fixed joint; no frame that Pinocchio adds itself.
-std::optional<pinocchio::FrameIndex> find_frame(const pinocchio::Model& model, const std::string& name) {
-  for (const pinocchio::FrameType type : {pinocchio::BODY, pinocchio::FIXED_JOINT}) {
-    if (name != kWorldFrame && model.existFrame(name, type)) return model.getFrameId(name, type);
-  }
-  return std::nullopt;
 }
 
 std::vector<pinocchio::FrameIndex> add_contact_frames(const RobotDescription& description,
@@ -247,14 +260,14 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   position_upper_ = model.upperPositionLimit.tail(nu());
   velocity_limit_ = model.upperVelocityLimit.tail(nu());
   torque_limit_ = model.upperEffortLimit.tail(nu());
+  losses_ = {model.damping.tail(nu()), model.upperDryFrictionLimit.tail(nu())};
   for (const auto& [name, limits] : description_.limits) {
     const Eigen::Index j = joint_index(description_, joint_names_, "limits", name);
     position_lower_(j) = limits.position_lower.value_or(position_lower_(j));
     position_upper_(j) = limits.position_upper.value_or(position_upper_(j));
     velocity_limit_(j) = limits.velocity.value_or(velocity_limit_(j));
     torque_limit_(j) = limits.torque.value_or(torque_limit_(j));
-    add_torque_curve(name, static_cast<int>(j), limits.torque_over_position, false);
-    add_torque_curve(name, static_cast<int>(j), limits.torque_over_velocity, true);
+    add_torque_curves(name, static_cast<int>(j), limits);
   }
   check_limits(*this);
   check_torque_curves();
@@ -279,14 +292,29 @@ RobotModel::RobotModel(RobotDescription description) : description_(std::move(de
   pinocchio_ = std::move(pin);
 }
 
-void RobotModel::add_torque_curve(const std::string& name, int joint, const LimitCurve::Table& table,
-                                  bool over_velocity) {
-  if (table.empty()) return;
-  try {
-    torque_curves_.push_back({joint, over_velocity, LimitCurve(table)});
-  } catch (const InputError& error) {
-    throw DescriptionError("limits." + name, fmt::format("limits.{}.torque_over_{}: {}", name,
-                                                         over_velocity ? "velocity" : "position", error.what()));
+void RobotModel::add_torque_curves(const std::string& name, int joint, const JointLimits& limits) {
+  const auto fail = [&](const char* key, const std::string& why) {
+    throw DescriptionError("limits." + name, fmt::format("limits.{}.{}: {}", name, key, why));
+  };
+  const auto curve = [&](const char* key, const LimitCurve::Table& table) -> LimitCurve {
+    try {
+      return LimitCurve(table);
+    } catch (const InputError& error) {
+      fail(key, error.what());
+      throw;
+    }
+  };
+  const LimitCurve::Table& negative = limits.negative_torque_over_position;
+  if (!limits.torque_over_position.empty()) {
+    const LimitCurve positive = curve("torque_over_position", limits.torque_over_position);
+    torque_curves_.push_back(
+        {joint, false, positive, negative.empty() ? positive : curve("negative_torque_over_position", negative)});
+  } else if (!negative.empty()) {
+    fail("negative_torque_over_position", "needs torque_over_position, for positive torques");
+  }
+  if (!limits.torque_over_velocity.empty()) {
+    const LimitCurve both = curve("torque_over_velocity", limits.torque_over_velocity);
+    torque_curves_.push_back({joint, true, both, both});
   }
 }
 
@@ -295,14 +323,16 @@ void RobotModel::check_torque_curves() const {
   for (const TorqueCurve& limit : torque_curves_) {
     const double lower = limit.over_velocity ? -velocity_limit_(limit.joint) : position_lower_(limit.joint);
     const double upper = limit.over_velocity ? velocity_limit_(limit.joint) : position_upper_(limit.joint);
-    if (limit.curve.lower_end() <= lower && limit.curve.upper_end() >= upper) continue;
-    const std::string& name = joint_names_[limit.joint];
-    throw DescriptionError(
-        "limits." + name,
-        fmt::format("limits.{}.torque_over_{}: a table from {:g} to {:g} is not allowed; need the joint's "
-                    "range, {:g} to {:g}",
-                    name, limit.over_velocity ? "velocity" : "position", limit.curve.lower_end(),
-                    limit.curve.upper_end(), lower, upper));
+    for (const LimitCurve* curve : {&limit.positive, &limit.negative}) {
+      if (curve->lower_end() <= lower && curve->upper_end() >= upper) continue;
+      const std::string& name = joint_names_[limit.joint];
+      throw DescriptionError(
+          "limits." + name,
+          fmt::format("limits.{}.{}torque_over_{}: a table from {:g} to {:g} is not allowed; need the joint's "
+                      "range, {:g} to {:g}",
+                      name, curve == &limit.positive ? "" : "negative_", limit.over_velocity ? "velocity" : "position",
+                      curve->lower_end(), curve->upper_end(), lower, upper));
+    }
   }
 }
 
@@ -316,6 +346,7 @@ RobotModel::RobotModel(const RobotModel& other)
       velocity_limit_(other.velocity_limit_),
       torque_limit_(other.torque_limit_),
       torque_curves_(other.torque_curves_),
+      losses_(other.losses_),
       nominal_configuration_(other.nominal_configuration_),
       mass_(other.mass_),
       size_(other.size_) {}
@@ -332,6 +363,7 @@ RobotModel& RobotModel::operator=(RobotModel other) noexcept {
   std::swap(velocity_limit_, other.velocity_limit_);
   std::swap(torque_limit_, other.torque_limit_);
   std::swap(torque_curves_, other.torque_curves_);
+  std::swap(losses_, other.losses_);
   std::swap(nominal_configuration_, other.nominal_configuration_);
   std::swap(mass_, other.mass_);
   std::swap(size_, other.size_);
@@ -345,13 +377,17 @@ Eigen::VectorXd RobotModel::armature() const { return pinocchio_->model.armature
 double RobotModel::torque_upper(int joint, double position, double velocity) const {
   double limit = torque_limit_(joint);
   for (const TorqueCurve& curve : torque_curves_) {
-    if (curve.joint == joint) limit = std::min(limit, curve.curve.value(curve.over_velocity ? velocity : position));
+    if (curve.joint == joint) limit = std::min(limit, curve.upper(position, velocity));
   }
   return limit;
 }
 
 double RobotModel::torque_lower(int joint, double position, double velocity) const {
-  return -torque_upper(joint, position, -velocity);
+  double limit = -torque_limit_(joint);
+  for (const TorqueCurve& curve : torque_curves_) {
+    if (curve.joint == joint) limit = std::max(limit, curve.lower(position, velocity));
+  }
+  return limit;
 }
 
 int RobotModel::contact_index(const std::string& name) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "prowl/model/joint_losses.hpp"
 #include "prowl/model/robot_description.hpp"
 
 namespace prowl {
@@ -43,15 +44,21 @@ class RobotModel {
   const Eigen::VectorXd& velocity_limit() const { return velocity_limit_; }  ///< nu [rad/s]; +inf where none
   const Eigen::VectorXd& torque_limit() const { return torque_limit_; }      ///< nu [N m]; +inf where none
   Eigen::VectorXd armature() const;                                          ///< nu [kg m^2], see RobotDescription
-  /// Torque limits that depend on the state, besides torque_limit(): -phi(q) <= tau <= phi(q) of one joint, and
-  /// -psi(-v) <= tau <= psi(v).
+  const JointLosses& losses() const { return losses_; }                      ///< damping and dry friction
+  /// Torque limits that depend on the state, besides torque_limit(): -negative(q) <= tau <= positive(q) of one joint,
+  /// and -negative(-v) <= tau <= positive(v), where both are the same curve.
   struct TorqueCurve {
     int joint = 0;  ///< 0 ... nu - 1
     bool over_velocity = false;
-    LimitCurve curve;
+    LimitCurve positive, negative;
+
+    double upper(double position, double velocity) const { return positive.value(over_velocity ? velocity : position); }
+    double lower(double position, double velocity) const {
+      return -negative.value(over_velocity ? -velocity : position);
+    }
   };
   const std::vector<TorqueCurve>& torque_curves() const { return torque_curves_; }
-  /// Largest and smallest torque of a joint at this position and velocity, from all limits [N m].
+  /// Largest and smallest torque of a motor at this position and velocity of its joint, from all limits [N m].
   double torque_upper(int joint, double position, double velocity) const;
   double torque_lower(int joint, double position, double velocity) const;
 
@@ -69,7 +76,7 @@ class RobotModel {
   static constexpr double kGravity = 9.81;  ///< [m/s^2], Pinocchio's default
 
  private:
-  void add_torque_curve(const std::string& name, int joint, const LimitCurve::Table& table, bool over_velocity);
+  void add_torque_curves(const std::string& name, int joint, const JointLimits& limits);
   void check_torque_curves() const;
 
   RobotDescription description_;
@@ -78,6 +85,7 @@ class RobotModel {
   std::vector<bool> joint_is_prismatic_;
   Eigen::VectorXd position_lower_, position_upper_, velocity_limit_, torque_limit_;
   std::vector<TorqueCurve> torque_curves_;
+  JointLosses losses_;
   Eigen::VectorXd nominal_configuration_;
   double mass_ = 0.0;
   double size_ = 1.0;

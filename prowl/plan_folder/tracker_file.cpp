@@ -38,7 +38,7 @@ std::string payload_of(const TrackingPlan& plan) {
   }
   for (const TrackingPlan::TorqueCurve& curve : plan.torque_curves) {
     append_count(bytes, static_cast<std::size_t>(curve.joint));
-    append_count(bytes, curve.over_velocity ? 1 : 0);
+    append_count(bytes, (curve.over_velocity ? 1 : 0) + 2 * static_cast<std::size_t>(curve.torques));
     append_count(bytes, static_cast<std::size_t>(curve.values.size()));
     append(bytes, curve.lower);
     append(bytes, curve.upper);

@@ -201,6 +201,8 @@ MujocoSpec make_mujoco_spec(const RobotModel& robot, const std::vector<Surface>&
     joint->type = from.prismatic ? mjJNT_SLIDE : mjJNT_HINGE;
     copy(from.axis, joint->axis);
     joint->armature = armature(j);
+    joint->damping[0] = robot.losses().damping(j);
+    joint->frictionloss = robot.losses().dry_friction(j);
     joint->range[0] = robot.position_lower()(j);
     joint->range[1] = robot.position_upper()(j);
     joint->limited =

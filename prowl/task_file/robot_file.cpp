@@ -68,6 +68,8 @@ JointLimits read_limits(const TomlTable& table) {
   if (const auto velocity = table.find("velocity_radps")) limits.velocity = velocity->as_number();
   if (const auto torque = table.find("torque_Nm")) limits.torque = torque->as_number();
   if (const auto curve = table.find("torque_over_position")) limits.torque_over_position = read_curve(*curve);
+  if (const auto curve = table.find("negative_torque_over_position"))
+    limits.negative_torque_over_position = read_curve(*curve);
   if (const auto curve = table.find("torque_over_velocity")) limits.torque_over_velocity = read_curve(*curve);
   return limits;
 }

@@ -15,6 +15,7 @@
 #include "prowl/task_file/task_cost.hpp"
 #include "prowl/task_file/task_gait.hpp"
 #include "prowl/task_file/task_goals.hpp"
+#include "prowl/task_file/task_payload.hpp"
 #include "prowl/task_file/task_robust.hpp"
 #include "prowl/task_file/task_simulation.hpp"
 #include "prowl/task_file/task_start.hpp"
@@ -338,7 +339,7 @@ Task read_document(const TomlDocument& document, const SourceText& task_file, co
   const SolverOptions solver = read_solver(root, overrides);
   const TaskSimulation simulation = read_simulation(root);
   auto [problem, mesh, has_intervals, file_intervals] =
-      read_problem(root, robot_of(document, robot_file, search, urdf), robot_file, overrides);
+      read_problem(root, with_payloads(root, robot_of(document, robot_file, search, urdf)), robot_file, overrides);
   const auto name = root.find("name");
   problem.name = name ? name->as_name() : name_of_file(task_file.path);
   try {

@@ -11,8 +11,8 @@
 ///   payload  names of joints and contacts; a text is its length (uint32) and its bytes
 ///            segments: name, start and end [s] (double), samples (uint32), one byte per contact: 1
 ///            in contact, 0 not
-///            torque curves: joint, over_velocity, number of values (uint32), lower, upper, values
-///            (double)
+///            torque curves: joint, 1 if over the velocity, plus 2 if of positive torques alone or 4
+///            if of negative ones, number of values (uint32), lower, upper, values (double)
 ///            torque limits (nu), then q, v, tau and gains, sample after sample (double)
 ///
 /// The file ends with the payload. Writer: prowl/plan_folder; reader: Tracker::read.
@@ -20,7 +20,7 @@ namespace prowl::tracker_file {
 
 constexpr char kMagic[] = "PROWLTRK";
 constexpr std::size_t kMagicBytes = 8;
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;  ///< 1: curves of both torques only
 constexpr std::size_t kHeaderBytes = kMagicBytes + 6 * sizeof(std::uint32_t) + 2 * sizeof(std::uint64_t);
 constexpr std::uint64_t kLongestFile = std::uint64_t{1} << 30;  // [bytes]
 

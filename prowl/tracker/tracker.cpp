@@ -103,9 +103,11 @@ void Tracker::limit(const ConstVector& q, const ConstVector& v, Vector tau) cons
   if (!q.allFinite() || !v.allFinite()) return;
   for (const TrackingPlan::TorqueCurve& curve : plan_.torque_curves) {
     const double position = q(7 + curve.joint), velocity = v(6 + curve.joint);
-    const double upper = value(curve, curve.over_velocity ? velocity : position);
-    const double lower = -value(curve, curve.over_velocity ? -velocity : position);
-    tau(curve.joint) = std::clamp(tau(curve.joint), lower, upper);
+    double& torque = tau(curve.joint);
+    if (curve.torques != TrackingPlan::Torques::negative)
+      torque = std::min(torque, value(curve, curve.over_velocity ? velocity : position));
+    if (curve.torques != TrackingPlan::Torques::positive)
+      torque = std::max(torque, -value(curve, curve.over_velocity ? -velocity : position));
   }
 }
 

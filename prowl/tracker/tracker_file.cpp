@@ -100,7 +100,7 @@ Header read_header(Bytes& bytes) {
   bytes.take(magic.data(), magic.size(), "the header");
   if (magic != tracker_file::kMagic) bytes.fail("not a tracker file; need tracker.bin of a plan");
   const auto count = [&bytes] { return bytes.number<std::uint32_t>("the header"); };
-  if (const std::uint32_t version = count(); version != tracker_file::kVersion) {
+  if (const std::uint32_t version = count(); version < 1 || version > tracker_file::kVersion) {
     bytes.fail("version " + std::to_string(version) + " of the format; need " + std::to_string(tracker_file::kVersion));
   }
   Header header{};
@@ -139,7 +139,10 @@ TrackingPlan::TorqueCurve read_curve(Bytes& bytes) {
   const char* const what = "the torque curves";
   TrackingPlan::TorqueCurve curve;
   curve.joint = bytes.count(what);
-  curve.over_velocity = bytes.number<std::uint32_t>(what) != 0;
+  const auto kind = bytes.number<std::uint32_t>(what);
+  if (kind > 5) bytes.fail("an unknown kind of torque curve");
+  curve.over_velocity = (kind & 1u) != 0;
+  curve.torques = static_cast<TrackingPlan::Torques>(kind / 2);
   const auto values = bytes.number<std::uint32_t>(what);
   curve.lower = bytes.number<double>(what);
   curve.upper = bytes.number<double>(what);

@@ -20,11 +20,15 @@ struct TrackingPlan {
     std::vector<bool> in_contact;       ///< per contact
   };
 
-  /// A torque limit that depends on the state: |tau| <= value(position), or tau <= value(velocity) and -tau <=
-  /// value(-velocity). Linear between `values` at equally spaced arguments from lower to upper, constant beyond.
+  enum class Torques { both, positive, negative };  ///< those that a curve limits
+
+  /// A torque limit that depends on the state: tau <= value(position) and -tau <= value(position), or tau <=
+  /// value(velocity) and -tau <= value(-velocity); or one of these. Linear between `values` at equally spaced arguments
+  /// from lower to upper, constant beyond.
   struct TorqueCurve {
     int joint = 0;
     bool over_velocity = false;
+    Torques torques = Torques::both;
     double lower = 0.0, upper = 0.0;  ///< [rad] or [rad/s]
     Eigen::VectorXd values;           ///< >= 0 [N m], two or more
   };

@@ -6,12 +6,12 @@ namespace prowl {
 namespace {
 
 /// Samples a curve densely: linear interpolation errs by less than the rounding in a robot file.
-TrackingPlan::TorqueCurve tabulated(const RobotModel::TorqueCurve& curve) {
+TrackingPlan::TorqueCurve tabulated(const RobotModel::TorqueCurve& limit, TrackingPlan::Torques torques) {
   constexpr int kValues = 513;
-  TrackingPlan::TorqueCurve table{
-      curve.joint, curve.over_velocity, curve.curve.lower_end(), curve.curve.upper_end(), {}};
+  const LimitCurve& curve = torques == TrackingPlan::Torques::negative ? limit.negative : limit.positive;
+  TrackingPlan::TorqueCurve table{limit.joint, limit.over_velocity, torques, curve.lower_end(), curve.upper_end(), {}};
   table.values = Eigen::VectorXd::LinSpaced(kValues, table.lower, table.upper).unaryExpr([&](double x) {
-    return std::max(curve.curve.value(x), 0.0);
+    return std::max(curve.value(x), 0.0);
   });
   return table;
 }
@@ -24,7 +24,10 @@ TrackingPlan make_tracking_plan(const MotionProblem& problem, const FeedbackDesi
   plan.joint_names = robot.joint_names();
   for (const ContactPoint& contact : robot.contacts()) plan.contact_names.push_back(contact.name);
   plan.torque_limit = robot.torque_limit();
-  for (const RobotModel::TorqueCurve& curve : robot.torque_curves()) plan.torque_curves.push_back(tabulated(curve));
+  for (const RobotModel::TorqueCurve& limit : robot.torque_curves()) {
+    for (const auto torques : {TrackingPlan::Torques::positive, TrackingPlan::Torques::negative})
+      plan.torque_curves.push_back(tabulated(limit, torques));
+  }
 
   int samples = 0;
   for (const ReferencePhase& phase : design.phases) {
@@ -49,7 +52,7 @@ TrackingPlan make_tracking_plan(const MotionProblem& problem, const FeedbackDesi
       plan.q.col(column) = point.q;
       plan.q.block<4, 1>(3, column).normalize();
       plan.v.col(column) = point.v;
-      plan.tau.col(column) = point.tau;
+      plan.tau.col(column) = point.tau + robot.losses().torques(point.v.tail(robot.nu()));
       plan.gains.col(column) = design.gains[p][k].reshaped();
     }
   }

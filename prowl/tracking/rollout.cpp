@@ -33,6 +33,7 @@ class Motion {
  public:
   Motion(const RobotModel& robot, const Tracker& tracker, const RolloutOptions& options, int segment)
       : tracker_(tracker),
+        losses_(robot.losses()),
         options_(options),
         segment_(segment),
         contacts_(contacts_of(tracker.plan().segments[segment])),
@@ -49,13 +50,13 @@ class Motion {
   VectorXd torque(double t, const State& x) const { return options_.control_step > 0.0 ? held_ : torque_now(t, x); }
 
   const VectorXd& acceleration(double t, const State& x) {
-    dynamics_.evaluate(x.q, x.v, torque(t, x));
+    dynamics_.evaluate(x.q, x.v, moving(torque(t, x), x));
     return dynamics_.acceleration();
   }
 
   RolloutSample sample(double t, const State& x) {
     const VectorXd tau = torque(t, x);
-    dynamics_.evaluate(x.q, x.v, tau);
+    dynamics_.evaluate(x.q, x.v, moving(tau, x));
     RolloutSample result{t, x.q, x.v, tau, VectorXd::Zero(force_size_), segment_};
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       result.force.segment<3>(3 * contacts_[i]) = dynamics_.forces().segment<3>(3 * static_cast<Eigen::Index>(i));
@@ -66,6 +67,9 @@ class Motion {
   const std::vector<int>& contacts() const { return contacts_; }
 
  private:
+  /// What moves the links of a motor torque.
+  VectorXd moving(const VectorXd& tau, const State& x) const { return tau - losses_.torques(x.v.tail(tau.size())); }
+
   VectorXd torque_now(double t, const State& x) const {
     t = std::min(t, last_moment_);  // at the end itself the tracker returns the next segment
     VectorXd tau(held_.size());
@@ -79,6 +83,7 @@ class Motion {
   }
 
   const Tracker& tracker_;
+  const JointLosses& losses_;
   const RolloutOptions& options_;
   int segment_;
   std::vector<int> contacts_;

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/transcription/node/torque_rows.hpp"
 
 namespace prowl {
 
@@ -74,13 +76,18 @@ VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLa
   VariableBounds bounds;
   bounds.lower.setConstant(layout.num_variables(), -kInfinity);
   bounds.upper.setConstant(layout.num_variables(), kInfinity);
+  Eigen::VectorXd torque_limit = robot.torque_limit();
+  for (int j = 0; j < nu; ++j) {
+    const double room = room_for_losses(robot, j);
+    torque_limit(j) = std::isfinite(room) ? torque_limit(j) - room : kInfinity;  // TorqueRows contains it
+  }
   for (int k = 0; k < layout.num_nodes(); ++k) {
     bounds.lower.segment(layout.q(k) + 6, nu) = robot.position_lower();
     bounds.upper.segment(layout.q(k) + 6, nu) = robot.position_upper();
     bounds.lower.segment(layout.v(k) + 6, nu) = -robot.velocity_limit();
     bounds.upper.segment(layout.v(k) + 6, nu) = robot.velocity_limit();
-    bounds.lower.segment(layout.tau(k), nu) = -robot.torque_limit();
-    bounds.upper.segment(layout.tau(k), nu) = robot.torque_limit();
+    bounds.lower.segment(layout.tau(k), nu) = -torque_limit;
+    bounds.upper.segment(layout.tau(k), nu) = torque_limit;
     if (problem.margins.phases.empty()) continue;
     const MeshNode& node = discrete.nodes[k];
     const Margins::OfPhase& margins = problem.margins.phases[node.phase];

@@ -119,7 +119,8 @@ nb::dict torque_over_position(const RobotModel& robot) {
   nb::dict ends;
   for (const RobotModel::TorqueCurve& limit : robot.torque_curves()) {
     if (limit.over_velocity) continue;
-    ends[robot.joint_names()[limit.joint].c_str()] = nb::make_tuple(limit.curve.lower_end(), limit.curve.upper_end());
+    ends[robot.joint_names()[limit.joint].c_str()] =
+        nb::make_tuple(limit.positive.lower_end(), limit.positive.upper_end());
   }
   return ends;
 }
@@ -191,6 +192,13 @@ void bind_robot(nb::module_& module) {
                    "(nu) [rad/s or m/s]; inf without limit.")
       .def_prop_ro("torque_limit", &robot_view<&RobotModel::torque_limit>,
                    "(nu) [N m or N]; inf without limit. Joints may have further limits over position or velocity.")
+      .def_prop_ro(
+          "damping", [](nb::handle self) { return view(nb::cast<const RobotModel&>(self).losses().damping, self); },
+          "Torque that the joints lose over their rates, as the URDF says: (nu) [N m s/rad or N s/m].")
+      .def_prop_ro(
+          "dry_friction",
+          [](nb::handle self) { return view(nb::cast<const RobotModel&>(self).losses().dry_friction, self); },
+          "The same while they move, whatever their rate: (nu) [N m or N].")
       .def_prop_ro("torque_over_position", &torque_over_position,
                    nb::sig("def torque_over_position(self) -> dict[str, tuple[float, float]]"),
                    "Joints with a torque limit over position: smallest and largest position of its table [rad].")

@@ -93,21 +93,26 @@ def test_limits_are_those_of_the_posture(step):
     loader.exec_module(plot_knee)
     robot = step.robot
     limits = tomllib.loads(step.task.robot_text)["limits"]
-    points = {joint: keys["torque_over_position"] for joint, keys in limits.items() if "torque_over_position" in keys}
+    points = {
+        joint: (keys["torque_over_position"], keys["negative_torque_over_position"])
+        for joint, keys in limits.items()
+        if "torque_over_position" in keys
+    }
     assert len(points) == 4 and list(robot.torque_over_position) == list(points)
     lower, upper = robot.torque_limits(step.q, step.v)
     for j, name in enumerate(robot.joint_names):
-        expected = np.full(len(step), robot.torque_limit[j])
-        if name in points:
-            expected = np.minimum(expected, plot_knee.limit_curve(points[name])(step.q[:, 7 + j]))
-        np.testing.assert_allclose(upper[:, j], expected, rtol=1e-12)
-        np.testing.assert_allclose(lower[:, j], -expected, rtol=1e-12)
+        for side, limit in enumerate((upper, -lower)):
+            expected = np.full(len(step), robot.torque_limit[j])
+            if name in points:
+                expected = np.minimum(expected, plot_knee.limit_curve(points[name][side])(step.q[:, 7 + j]))
+            np.testing.assert_allclose(limit[:, j], expected, rtol=1e-12)
     curves = tables.limit_curves(robot)
     assert list(curves) == list(points)
-    for joint, (positions, limit) in curves.items():
+    for joint, (positions, upper, lower) in curves.items():
         np.testing.assert_allclose((positions[0], positions[-1]), robot.torque_over_position[joint], rtol=1e-12)
-        expected = np.minimum(plot_knee.limit_curve(points[joint])(positions), robot.torque_limit.max())
-        np.testing.assert_allclose(limit, expected, rtol=1e-9)
+        for table, limit in zip(points[joint], (upper, -lower)):
+            expected = np.minimum(plot_knee.limit_curve(table)(positions), robot.torque_limit.max())
+            np.testing.assert_allclose(limit, expected, rtol=1e-9)
 
 
 def test_legs_are_what_moves_contacts():

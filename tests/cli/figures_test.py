@@ -260,18 +260,26 @@ class Figures(unittest.TestCase):
         plot_knee = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot_knee", loader))
         loader.exec_module(plot_knee)
         robot = tomllib.loads(json.loads((self.plan / "plan.json").read_text())["robot_file"]["text"])
-        knees = {j: v["torque_over_position"] for j, v in robot["limits"].items() if "torque_over_position" in v}
+        knees = {
+            j: (v["torque_over_position"], v["negative_torque_over_position"])
+            for j, v in robot["limits"].items()
+            if "torque_over_position" in v
+        }
         self.assertEqual(len(knees), 4)
         with open(self.plan / "figures/limit_curves.csv", newline="") as file:
             curves = list(csv.DictReader(file))
         with open(self.plan / "figures/torque_over_position.csv", newline="") as file:
             rows = list(csv.DictReader(file))
-        for joint, points in knees.items():
-            curve = plot_knee.limit_curve(points)
-            x, limit = np.array(
-                [(float(r["position_rad"]), float(r["limit_Nm"])) for r in curves if r["joint"] == joint]
+        for joint, (positive, negative) in knees.items():
+            x, upper, lower = np.array(
+                [
+                    [float(r[key]) for key in ("position_rad", "limit_Nm", "lower_limit_Nm")]
+                    for r in curves
+                    if r["joint"] == joint
+                ]
             ).T
-            np.testing.assert_allclose(limit, curve(x), rtol=1e-9)
+            np.testing.assert_allclose(upper, plot_knee.limit_curve(positive)(x), rtol=1e-9)
+            np.testing.assert_allclose(lower, -plot_knee.limit_curve(negative)(x), rtol=1e-9)
             for series, source, prefix in (("plan", self.nodes, ""), ("simulation", self.sim, "true_")):
                 drawn = np.array(
                     [
@@ -283,7 +291,9 @@ class Figures(unittest.TestCase):
                 np.testing.assert_allclose(
                     drawn, columns(source, [f"{prefix}q_{joint}_rad", f"tau_{joint}_Nm"]), rtol=1e-8, atol=1e-8
                 )
-                self.assertLessEqual(np.max(np.abs(drawn[:, 1]) / curve(drawn[:, 0])), 1.001, series)
+                at, torque = drawn.T
+                limit = np.where(torque < 0, plot_knee.limit_curve(negative)(at), plot_knee.limit_curve(positive)(at))
+                self.assertLessEqual(np.max(np.abs(torque) / limit), 1.001, series)
 
     def test_tells_that_there_is_no_simulation(self):
         self.assertEqual(self.early.returncode, 0, self.early.stderr)

@@ -49,7 +49,7 @@ const std::string kBiped = R"(
         <joint name="right_slide" type="slide" axis="0 0 1" range="-0.1 0.1"/>
         <geom type="ellipsoid" size="0.05 0.05 0.2" pos="0 0 -0.2" mass="3"/>
         <body name="right_shin" pos="0 0 -0.4">
-          <joint name="right_knee" range="5 150" damping="0.1"/>
+          <joint name="right_knee" range="5 150" damping="0.1" frictionloss="0.2"/>
           <geom type="cylinder" size="0.03 0.2" pos="0 0 -0.2" mass="2"/>
         </body>
       </body>
@@ -129,8 +129,10 @@ TEST(MjcfRobot, HasTheMassMatrixAndLimitsOfMujoco) {
   EXPECT_DOUBLE_EQ(robot.torque_limit()(index("left_knee")), 90.0);
   EXPECT_DOUBLE_EQ(robot.armature()(index("left_roll")), 0.01);
   EXPECT_DOUBLE_EQ(robot.armature()(index("left_knee")), 0.02);
-  EXPECT_THAT(mjcf.notes, testing::UnorderedElementsAre(HasSubstr("left_pitch"), HasSubstr("right_slide"),
-                                                        HasSubstr("damping and friction of 1 joints")));
+  EXPECT_DOUBLE_EQ(robot.losses().damping(index("right_knee")), 0.1);
+  EXPECT_DOUBLE_EQ(robot.losses().dry_friction(index("right_knee")), 0.2);
+  EXPECT_DOUBLE_EQ(robot.losses().damping(index("left_knee")), 0.0);
+  EXPECT_THAT(mjcf.notes, testing::UnorderedElementsAre(HasSubstr("left_pitch"), HasSubstr("right_slide")));
 }
 
 struct Shipped {

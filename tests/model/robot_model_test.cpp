@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <limits>
 #include <pinocchio/algorithm/frames.hpp>
 
@@ -375,6 +376,25 @@ TEST(RobotModel, ArmatureIsOnTheDiagonalOfTheMassMatrix) {
   description.armature = {{"left_hip", 0.03}};
   description.locked_joints = {"left_hip"};
   EXPECT_DOUBLE_EQ(RobotModel(description).armature().sum(), 0.0);
+}
+
+TEST(RobotModel, TakesDampingAndDryFrictionFromTheUrdf) {
+  EXPECT_FALSE(test::go2().losses().damping.any() || test::go2().losses().dry_friction.any());
+  EXPECT_TRUE((test::hyq().losses().damping.array() == 0.1).all());
+  RobotDescription description = test::talos_description();
+  const RobotModel talos(description);
+  const auto index = [](const RobotModel& robot, const std::string& joint) {
+    return std::ranges::find(robot.joint_names(), joint) - robot.joint_names().begin();
+  };
+  EXPECT_EQ(talos.losses().dry_friction(index(talos, "torso_1_joint")), 1.0);
+  description.locked_joints.push_back("torso_1_joint");
+  const RobotModel locked(description);
+  ASSERT_EQ(locked.losses().damping.size(), locked.nu());
+  for (const std::string& joint : locked.joint_names()) {
+    EXPECT_EQ(locked.losses().damping(index(locked, joint)), talos.losses().damping(index(talos, joint))) << joint;
+    EXPECT_EQ(locked.losses().dry_friction(index(locked, joint)), talos.losses().dry_friction(index(talos, joint)))
+        << joint;
+  }
 }
 
 TEST(RobotModel, JointsThatCopyOthersAreLockedUnlessTheyCarryAContact) {

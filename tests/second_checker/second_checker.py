@@ -16,6 +16,7 @@ from scipy.interpolate import PchipInterpolator
 GRAVITY = 9.81
 # Shares of the weight (forces), of the limit (torques), and [m, rad, m/s].
 FORCE, BALANCE, TORQUE, POSITION, ANGLE, RATE, RANGE = 0.01, 1e-4, 0.02, 1e-3, 1e-3, 5e-3, 1e-3
+SLOW = 0.05  # of a joint, over which dry friction is smoothed [rad/s]
 
 
 def numbers(element, name: str, otherwise: str) -> np.ndarray:
@@ -115,7 +116,9 @@ class Plan:
         urdf = packages / self.robot["urdf"].removeprefix("package://")
         self.model, self.limits, self.carriers = floating(urdf)
         self.model.opt.gravity[:] = (0, 0, -GRAVITY)
-        self.model.dof_damping[:] = self.model.dof_frictionloss[:] = 0  # plans know neither
+        # Motors make up for both losses, and their torque is limited; the plan's torque moves the links.
+        self.damping, self.friction = self.model.dof_damping.copy(), self.model.dof_frictionloss.copy()
+        self.model.dof_damping[:] = self.model.dof_frictionloss[:] = 0
         self.data = mujoco.MjData(self.model)
         with (folder / "trajectory.csv").open() as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
@@ -182,11 +185,15 @@ def point(plan: Plan, contact: dict) -> np.ndarray:
     return body.xpos + body.xmat.reshape(3, 3) @ (place @ [*contact.get("offset_m", (0, 0, 0)), 1])[:3]
 
 
-def largest_torque(plan: Plan, joint: str, position: float) -> float:
+def largest_torque(plan: Plan, joint: str, position: float, torque: float) -> float:
+    """In the direction of the torque."""
     own = plan.robot.get("limits", {}).get(joint, {})
     largest = own.get("torque_Nm", plan.limits[joint]["effort"])
-    if "torque_over_position" in own:
-        largest = min(largest, float(PchipInterpolator(*np.array(own["torque_over_position"]).T)(position)))
+    table = own.get("torque_over_position")
+    if torque < 0:
+        table = own.get("negative_torque_over_position", table)
+    if table:
+        largest = min(largest, float(PchipInterpolator(*np.array(table).T)(position)))
     return largest
 
 
@@ -220,7 +227,9 @@ def check_node(plan: Plan, k: int) -> set[str]:
         limit = plan.limits[joint]
         if not limit["lower"] - RANGE <= q <= limit["upper"] + RANGE or not abs(v) <= limit["velocity"] + RANGE:
             wrong.add("range of a joint")
-        if not abs(tau) <= (1 + TORQUE) * largest_torque(plan, joint, q):
+        degree = plan.model.joint(joint).dofadr[0]
+        motor = tau + plan.damping[degree] * v + plan.friction[degree] * np.tanh(v / SLOW)
+        if not abs(motor) <= (1 + TORQUE) * largest_torque(plan, joint, q, motor):
             wrong.add("torque")
     return wrong
 

@@ -39,6 +39,28 @@ TEST_P(EveryRobot, HasTheMassMatrixAndBiasOfPinocchio) {
   }
 }
 
+/// In free flight, over a step so short that it is an acceleration.
+TEST(Physics, DampsJoints) {
+  const RobotModel robot = test::hyq();
+  const pinocchio::Model& model = robot.pinocchio().model;
+  pinocchio::Data data(model);
+  constexpr double kStep = 1e-6;
+  Physics physics(robot, {}, {.step = kStep});
+  test::RandomStates states(robot, 4);
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::VectorXd q = states.configuration(), v = states.velocity(), tau = states.torque();
+    physics.set_state(q, v);
+    Eigen::VectorXd applied = -pinocchio::nonLinearEffects(model, data, q, v);
+    applied.tail(robot.nu()) += tau - robot.losses().damping.cwiseProduct(v.tail(robot.nu()));
+    Eigen::MatrixXd mass = pinocchio::crba(model, data, Eigen::Ref<const Eigen::VectorXd>(q));
+    mass.triangularView<Eigen::StrictlyLower>() = mass.transpose().triangularView<Eigen::StrictlyLower>();
+    const Eigen::VectorXd expected = mass.llt().solve(applied).tail(robot.nu());
+    ASSERT_TRUE(physics.step(tau));
+    const Eigen::VectorXd actual = (physics.v() - v).tail(robot.nu()) / kStep;
+    EXPECT_LT((actual - expected).norm(), 1e-4 * expected.norm()) << robot.name();
+  }
+}
+
 RobotDescription hyq_with_motors() {
   RobotDescription description = test::hyq_description();
   for (const auto& [joint, position] : description.nominal_joints) description.armature[joint] = 0.05 + 0.01 * position;

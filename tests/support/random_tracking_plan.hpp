@@ -9,7 +9,7 @@
 namespace prowl::test {
 
 /// Three segments with random references and gains, 4 contacts, the last joint without a torque limit, a torque curve
-/// over position and one over velocity. For `joints` >= 3.
+/// over position, one over velocity and one for negative torques alone. For `joints` >= 3.
 inline TrackingPlan random_tracking_plan(int joints = 12, int samples_each = 11, unsigned seed = 1) {
   std::mt19937 rng(seed);
   TrackingPlan plan;
@@ -17,8 +17,10 @@ inline TrackingPlan random_tracking_plan(int joints = 12, int samples_each = 11,
   plan.contact_names = {"lf", "rf", "lh", "rh"};
   plan.torque_limit = Eigen::VectorXd::Constant(joints, 150.0);
   plan.torque_limit(joints - 1) = std::numeric_limits<double>::infinity();
-  plan.torque_curves = {{0, false, -1.0, 1.0, Eigen::Vector3d(20.0, 100.0, 40.0)},
-                        {1, true, -5.0, 5.0, Eigen::Vector3d(120.0, 90.0, 10.0)}};
+  using enum TrackingPlan::Torques;
+  plan.torque_curves = {{0, false, both, -1.0, 1.0, Eigen::Vector3d(20.0, 100.0, 40.0)},
+                        {1, true, both, -5.0, 5.0, Eigen::Vector3d(120.0, 90.0, 10.0)},
+                        {2, false, negative, -1.0, 1.0, Eigen::Vector3d(30.0, 30.0, 30.0)}};
   for (int s = 0; s < 3; ++s) {
     plan.segments.push_back({"phase " + std::to_string(s),
                              0.5 * s,

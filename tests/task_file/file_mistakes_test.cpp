@@ -36,6 +36,7 @@ const std::map<std::string, Context>& task_contexts() {
   static const std::map<std::string, Context> contexts = {
       {"", {"", {"robot = \"hyq.toml\"", "phase = [{ contacts = \"all\", duration_s = 2, intervals = 5 }]"}, ""}},
       {"surface", {task + "[[surface]]\n", {"name = \"floor\""}, ""}},
+      {"payload", {task + "[[payload]]\n", {"body = \"trunk\"", "mass_kg = 5"}, ""}},
       {"start", {task + "[start]\n", {}, ""}},
       {"phase", {robot + "[[phase]]\n", {"contacts = \"all\"", "duration_s = 2", "intervals = 5"}, ""}},
       {"phase.contacts",

@@ -49,7 +49,8 @@ TEST(TrackerFile, ReadsBackEveryBit) {
     EXPECT_EQ(read.segments[s].samples, plan.segments[s].samples);
     EXPECT_EQ(read.segments[s].in_contact, plan.segments[s].in_contact);
   }
-  ASSERT_EQ(read.torque_curves.size(), 2u);
+  ASSERT_EQ(read.torque_curves.size(), 3u);
+  EXPECT_EQ(read.torque_curves[2].torques, TrackingPlan::Torques::negative);
   EXPECT_EQ(read.torque_curves[1].over_velocity, true);
   EXPECT_EQ(read.torque_curves[1].values, plan.torque_curves[1].values);
   EXPECT_EQ(tracker_file_bytes(read), tracker_file_bytes(plan));

@@ -23,6 +23,8 @@ class Limits : public testing::Test {
     RobotDescription description = test::hyq_description();
     description.limits["lf_kfe_joint"].torque_over_position = {
         {-2.5, 70.0}, {-2.0, 120.0}, {-1.4, 145.0}, {-1.0, 130.0}, {-0.3, 70.0}};
+    description.limits["lf_kfe_joint"].negative_torque_over_position = {
+        {-2.5, 40.0}, {-2.0, 70.0}, {-1.4, 85.0}, {-1.0, 80.0}, {-0.3, 40.0}};
     auto [problem, mesh] =
         test::everything(RobotModel(description),
                          {test::phase_on("four", {0, 1, 2, 3}, 0.4, 2), test::phase_on("swing", {1, 2, 3}, 0.4, 4),
@@ -87,10 +89,13 @@ TEST_F(Limits, AreInTheirUnits) {
       EXPECT_NEAR(g(limit.index) * limit.si, cone.value(force), 1e-6) << limit.subject;
       ++looked_at;
     } else if (limit.kind == LimitKind::torque && limit.is_row) {
-      const double most = problem().robot.torque_curves()[0].curve.value(point.q(9)), left = g(limit.index) * limit.si;
-      const bool is_upper = std::abs(left - (most - point.tau(2))) < 1e-9;
-      EXPECT_TRUE(is_upper || std::abs(left - (most + point.tau(2))) < 1e-9)
-          << left << " of " << most << " and " << point.tau(2);
+      const RobotModel& robot = problem().robot;
+      const double most = robot.torque_curves()[0].positive.value(point.q(9)),
+                   least = -robot.torque_curves()[0].negative.value(point.q(9)),
+                   motor = point.tau(2) + robot.losses().torque(2, point.v(8)), left = g(limit.index) * limit.si;
+      const bool is_upper = std::abs(left - (most - motor)) < 1e-9;
+      EXPECT_TRUE(is_upper || std::abs(left - (motor - least)) < 1e-9)
+          << left << " of " << least << " to " << most << " and " << motor;
       ++(is_upper ? upper : lower);
     }
   }

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <numeric>
+#include <regex>
 
+#include "prowl/files/text_file.hpp"
 #include "prowl/model/so3.hpp"
 #include "prowl/transcription/node/independent_contacts.hpp"
 #include "tests/support/allocations.hpp"
@@ -23,8 +25,12 @@ struct Case {
 
 RobotModel hyq_with_torque_curves() {
   RobotDescription description = test::hyq_description();
+  description.urdf_text =
+      std::regex_replace(read_text_file(description.urdf).text, std::regex("friction=\"0\""), "friction=\"2\"");
   description.limits["lf_kfe_joint"].torque_over_position = {
       {-2.5, 60.0}, {-1.8, 120.0}, {-1.2, 145.0}, {-0.6, 130.0}, {-0.3, 100.0}};
+  description.limits["lf_kfe_joint"].negative_torque_over_position = {
+      {-2.5, 40.0}, {-1.8, 70.0}, {-1.2, 90.0}, {-0.6, 80.0}, {-0.3, 60.0}};
   description.limits["rh_hfe_joint"].torque_over_velocity = {{-20.0, 150.0}, {0.0, 140.0}, {5.0, 100.0}, {20.0, 20.0}};
   return RobotModel(description);
 }

@@ -47,8 +47,8 @@ TEST(Transcription, BoundsOfJointsAreTheRobotsLimitsOnBothSides) {
     high.q.tail(robot.nu()) = robot.position_upper();
     low.v.tail(robot.nu()) = -robot.velocity_limit();
     high.v.tail(robot.nu()) = robot.velocity_limit();
-    low.tau = -robot.torque_limit();
-    high.tau = robot.torque_limit();
+    high.tau = robot.torque_limit() - robot.losses().torques(robot.velocity_limit());
+    low.tau = -high.tau;
   }
   const Transcription nlp(discrete, initial_guess(discrete));
   const Eigen::VectorXd low = nlp.pack(lowest), high = nlp.pack(highest);
@@ -285,12 +285,13 @@ TEST(Transcription, LimitsAndGoalsAreBounds) {
   const Transcription nlp(discrete, initial_guess(discrete));
   const RobotModel& robot = problem.robot;
   const int nv = robot.nv(), nu = robot.nu(), size = 3 * nv + nu;
+  const Eigen::VectorXd links = robot.torque_limit() - robot.losses().torques(robot.velocity_limit());
   for (int k = 1; k < 4; ++k) {
     EXPECT_EQ(nlp.variable_lower().segment(k * size + 6, nu), robot.position_lower());
     EXPECT_EQ(nlp.variable_upper().segment(k * size + 6, nu), robot.position_upper());
     EXPECT_EQ(nlp.variable_upper().segment(k * size + nv + 6, nu), robot.velocity_limit());
-    EXPECT_EQ(nlp.variable_upper().segment(k * size + 3 * nv, nu), robot.torque_limit());
-    EXPECT_EQ(nlp.variable_lower()(k * size + 3 * nv + 4), k == 3 ? 3.0 : -robot.torque_limit()(4));
+    EXPECT_EQ(nlp.variable_upper().segment(k * size + 3 * nv, nu), links);
+    EXPECT_EQ(nlp.variable_lower()(k * size + 3 * nv + 4), k == 3 ? 3.0 : -links(4));
   }
   const int last = 3 * size;
   EXPECT_EQ(nlp.variable_lower()(last + nv + 2), -0.1);

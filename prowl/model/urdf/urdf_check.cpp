@@ -81,6 +81,13 @@ void check_moving_joint(const Location& location, const XMLElement& joint, const
   for (const char* name : {"lower", "upper"}) {  // 0 if not given
     if (limit->Attribute(name) != nullptr) urdf_number(location, *limit, name, kAny);
   }
+  const XMLElement* losses = joint.FirstChildElement("dynamics");
+  if (losses == nullptr) return;
+  for (const char* name : {"damping", "friction"}) {  // 0 if not given
+    if (losses->Attribute(name) == nullptr) continue;
+    const double value = urdf_number(location, *losses, name);
+    if (value < 0.0) location.refuse(*losses, fmt::format("<dynamics {}=\"{}\">: expected a number >= 0", name, value));
+  }
 }
 
 void check_mimic(const Location& location, const XMLElement& mimic) {

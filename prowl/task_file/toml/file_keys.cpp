@@ -61,6 +61,10 @@ void add_top(FileKeys& keys) {
            .form = "[[surface]]",
            .fallback = "a floor at z = 0",
            .meaning = "planes and patches that contacts may touch"});
+  top.add({.name = "payload",
+           .form = "[[payload]]",
+           .fallback = "none",
+           .meaning = "what the robot carries: part of its mass in plan, gains, certificate and simulation"});
   top.add({.name = "start",
            .form = "[start]",
            .fallback = "the robot's nominal posture",
@@ -123,6 +127,17 @@ void add_surface(FileKeys& keys) {
                .unit = "-",
                .fallback = number_text(Surface{}.friction),
                .meaning = "Coulomb coefficient"});
+}
+
+void add_payload(FileKeys& keys) {
+  Table payload(keys, "payload");
+  payload.add({.name = "body", .form = "string", .meaning = "link of the URDF that it moves with"});
+  payload.add({.name = "mass_kg", .form = "number", .range = kPositive, .unit = "kg", .meaning = "its mass"});
+  payload.add({.name = "com_m",
+               .form = "3 numbers",
+               .unit = "m",
+               .fallback = "[0, 0, 0]",
+               .meaning = "its centre of mass in the frame of the link; it has no moment of inertia about that"});
 }
 
 void add_start(FileKeys& keys) {
@@ -509,7 +524,7 @@ void add_simulation(FileKeys& keys) {
 
 FileKeys make_task_file_keys() {
   FileKeys keys;
-  for (const auto add : {add_top, add_surface, add_start, add_phase, add_gait, add_goal}) add(keys);
+  for (const auto add : {add_top, add_surface, add_payload, add_start, add_phase, add_gait, add_goal}) add(keys);
   add_state_weights(keys, "cost");
   add_running_weights(keys);
   add_state_weights(keys, "terminal_cost");
@@ -590,6 +605,13 @@ FileKeys make_robot_file_keys() {
               .meaning = "torque limit over the joint position, in both directions: a smooth curve through these "
                          "points, which cover the range"});
   limits.add({.name = "torque_over_velocity",
+  limits.add({.name = "negative_torque_over_position",
+              .form = "4 or more [position, torque]",
+              .unit = "rad, N m",
+              .fallback = "torque_over_position",
+              .meaning =
+                  "the same for negative torques alone, as positive numbers; torque_over_position is then that of "
+                  "positive ones"});
               .form = "4 or more [velocity, torque]",
               .unit = "rad/s, N m",
               .fallback = "none",

@@ -1,15 +1,34 @@
 #include "prowl/transcription/node/torque_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace prowl {
 
-TorqueRows::TorqueRows(const RobotModel& robot) : curves_(robot.torque_curves()) {
+double room_for_losses(const RobotModel& robot, int joint) {
+  constexpr double kSmall = 0.05;  // of the limit; rows take time
+  if (!robot.losses().of(joint)) return 0.0;
+  const double fastest = robot.velocity_limit()(joint), limit = robot.torque_limit()(joint);
+  const double most = std::isfinite(fastest) ? robot.losses().torque(joint, fastest) : fastest;
+  return most <= kSmall * limit ? most : std::numeric_limits<double>::infinity();
+}
+
+TorqueRows::TorqueRows(const RobotModel& robot) : curves_(robot.torque_curves()), losses_(robot.losses()) {
+  for (std::size_t c = 0; c < curves_.size(); ++c) {
+    names_.push_back("torque of " + robot.joint_names()[curves_[c].joint] + " over its " +
+                     (curves_[c].over_velocity ? "velocity" : "position"));
+  }
+  for (int j = 0; j < robot.nu(); ++j) {
+    const double most = robot.torque_limit()(j);
+    if (!std::isfinite(most) || std::isfinite(room_for_losses(robot, j))) continue;
+    const LimitCurve constant({{-1.0, most}, {-0.5, most}, {0.5, most}, {1.0, most}});
+    curves_.push_back({j, true, constant, constant});
+    names_.push_back("torque of " + robot.joint_names()[j]);
+  }
   scale_.resize(static_cast<Eigen::Index>(curves_.size()));
   for (std::size_t c = 0; c < curves_.size(); ++c) {
-    const std::string& joint = robot.joint_names()[curves_[c].joint];
-    names_.push_back("torque of " + joint + " over its " + (curves_[c].over_velocity ? "velocity" : "position"));
-    scale_(static_cast<Eigen::Index>(c)) = 1.0 / curves_[c].curve.largest();
+    scale_(static_cast<Eigen::Index>(c)) = 1.0 / std::max(curves_[c].positive.largest(), curves_[c].negative.largest());
   }
 }
 
@@ -21,8 +40,9 @@ void TorqueRows::evaluate(const Vector& joints, const Vector& rates, const Vecto
                           Eigen::Ref<Eigen::VectorXd> values) const {
   for (int row = 0; row < count(); ++row) {
     const RobotModel::TorqueCurve& limit = curves_[row / 2];
-    const double phi = limit.curve.value(argument(limit, row % 2, joints, rates));
-    values(row) = scale_(row / 2) * (row % 2 == 0 ? phi - tau(limit.joint) : phi + tau(limit.joint));
+    const double phi = side(limit, row % 2).value(argument(limit, row % 2, joints, rates));
+    const double motor = tau(limit.joint) + losses_.torque(limit.joint, rates(limit.joint));
+    values(row) = scale_(row / 2) * (row % 2 == 0 ? phi - motor : phi + motor);
   }
 }
 
@@ -34,12 +54,13 @@ void TorqueRows::derivatives(const Vector& joints, const Vector& rates, Eigen::R
   for (int row = 0; row < count(); ++row) {
     const RobotModel::TorqueCurve& limit = curves_[row / 2];
     const double scale = scale_(row / 2), sign = row % 2 == 0 ? 1.0 : -1.0;
-    const double slope = scale * limit.curve.slope(argument(limit, row % 2, joints, rates));
+    const double slope = scale * side(limit, row % 2).slope(argument(limit, row % 2, joints, rates));
     if (limit.over_velocity) {
       d_rates(row, limit.joint) = sign * slope;
     } else {
       d_joints(row, limit.joint) = slope;
     }
+    d_rates(row, limit.joint) -= sign * scale * losses_.slope(limit.joint, rates(limit.joint));
     d_tau(row, limit.joint) = -sign * scale;
   }
 }
@@ -49,9 +70,11 @@ void TorqueRows::add_hessian(const Vector& joints, const Vector& rates, const Ve
                              Eigen::Ref<Eigen::VectorXd> rates_diagonal) const {
   for (int row = 0; row < count(); ++row) {
     const RobotModel::TorqueCurve& limit = curves_[row / 2];
-    const double curvature = limit.curve.curvature(argument(limit, row % 2, joints, rates));
+    const double curvature = side(limit, row % 2).curvature(argument(limit, row % 2, joints, rates));
     (limit.over_velocity ? rates_diagonal : joints_diagonal)(limit.joint) +=
         multipliers(row) * scale_(row / 2) * curvature;
+    const double bend = losses_.curvature(limit.joint, rates(limit.joint));
+    rates_diagonal(limit.joint) -= (row % 2 == 0 ? 1.0 : -1.0) * multipliers(row) * scale_(row / 2) * bend;
   }
 }
 

@@ -7,10 +7,15 @@
 
 namespace prowl {
 
-/// Torque limits that depend on the state, at one node: two rows >= 0 for each curve phi of the robot,
-///   over the position   phi(q) - tau,   phi(q) + tau
-///   over the velocity   phi(v) - tau,   phi(-v) + tau
-/// (Pardo et al. 2016 print one side), divided by the largest torque of the curve's table.
+/// What bounds of the torques of a plan leave of a constant torque limit for the losses of the joint [N m]: those at
+/// its largest rate, if they are small; else infinite.
+double room_for_losses(const RobotModel& robot, int joint);
+
+/// Torque limits that depend on the state, at one node: two rows >= 0 for each curve of the robot,
+///   over the position   positive(q) - motor,   negative(q) + motor
+///   over the velocity   positive(v) - motor,   negative(-v) + motor
+/// (Pardo et al. 2016 print one side), divided by the largest torque of its tables. motor = tau + loss(v). The constant
+/// limit of a joint is such a curve, too, if room_for_losses() is infinite.
 class TorqueRows {
  public:
   using Vector = Eigen::Ref<const Eigen::VectorXd>;
@@ -20,7 +25,7 @@ class TorqueRows {
   int count() const { return 2 * static_cast<int>(curves_.size()); }
   std::string describe(int row) const;
   int joint(int row) const { return curves_[row / 2].joint; }
-  double largest(int row) const { return 1.0 / scale_(row / 2); }  ///< largest torque of the curve's table [N m]
+  double largest(int row) const { return 1.0 / scale_(row / 2); }  ///< largest torque of the curve's tables [N m]
 
   /// joints, rates, tau: nu each; values: count().
   void evaluate(const Vector& joints, const Vector& rates, const Vector& tau, Eigen::Ref<Eigen::VectorXd> values) const;
@@ -37,7 +42,12 @@ class TorqueRows {
     return limit.over_velocity ? (side == 0 ? rates(limit.joint) : -rates(limit.joint)) : joints(limit.joint);
   }
 
+  static const LimitCurve& side(const RobotModel::TorqueCurve& limit, int side) {
+    return side == 0 ? limit.positive : limit.negative;
+  }
+
   std::vector<RobotModel::TorqueCurve> curves_;
+  JointLosses losses_;
   std::vector<std::string> names_;
   Eigen::VectorXd scale_;  ///< one a curve
 };

@@ -228,16 +228,19 @@ def draw_torque_over_position(shown: tables.Shown) -> Files:
     rows = (len(table) + 1) // 2
     figure, grid = style.grid(rows, 2, 8.5, 1.2 + 2.5 * rows, sharey=True, sharex=False)
     for axes, (joint, by_series) in zip(grid.flat, table.items()):
-        position, limit = shown.limit_curves[joint]
-        axes.fill_between(position, -limit, limit, color="0.955", zorder=0)
-        for sign in (1, -1):
-            axes.plot(position, sign * limit, color="black", lw=1.2)
+        position, upper, lower = shown.limit_curves[joint]
+        axes.fill_between(position, lower, upper, color="0.955", zorder=0)
+        for limit in (upper, lower):
+            axes.plot(position, limit, color="black", lw=1.2)
         for name, colour, width in (("simulation", style.SKY, 3.0), ("plan", style.VERMILLION, 1.1)):
             if name in by_series:
                 axes.plot(by_series[name][1], by_series[name][2], color=colour, lw=width)
         axes.plot(*by_series["plan"][1:, 0], "o", color=style.VERMILLION, mec="white", ms=6)
         shares = {
-            name: style.largest(rows[2] / np.interp(rows[1], position, limit)) for name, rows in by_series.items()
+            name: style.largest(
+                torque / np.where(torque < 0, np.interp(at, position, lower), np.interp(at, position, upper))
+            )
+            for name, (_, at, torque) in by_series.items()
         }
         axes.set_title(
             f"{joint}: " + ", ".join(f"{name} {share:.0%}" for name, share in shares.items()) + " of the limit",

@@ -66,24 +66,24 @@ def gains_joint(robot: _prowl.Robot, name: str | None) -> str:
 
 
 def limit_curves(robot: _prowl.Robot) -> dict[str, np.ndarray]:
-    """Per joint with a torque limit over position: positions and limits at rest (2 rows) over the range of
-    its table."""
+    """Per joint with a torque limit over position: positions, largest and smallest torque at rest (3 rows) over the
+    range of its table."""
     curves = {}
     for joint, (first, last) in robot.torque_over_position.items():
         j = robot.joint_names.index(joint)
         positions = first + (last - first) * np.arange(CURVE_POINTS) / (CURVE_POINTS - 1)
         q = np.tile(robot.nominal_configuration, (CURVE_POINTS, 1))
         q[:, 7 + j] = positions
-        _, upper = robot.torque_limits(q, np.zeros((CURVE_POINTS, robot.nv)))
-        curves[joint] = np.array([positions, upper[:, j]])
+        lower, upper = robot.torque_limits(q, np.zeros((CURVE_POINTS, robot.nv)))
+        curves[joint] = np.array([positions, upper[:, j], lower[:, j]])
     return curves
 
 
 def limit_curves_text(curves: dict[str, np.ndarray]) -> str:
     rows = (
-        f"{joint},{number(x)},{number(limit)}\n" for joint, curve in curves.items() for x, limit in curve.T.tolist()
+        f"{joint}," + ",".join(map(number, row)) + "\n" for joint, curve in curves.items() for row in curve.T.tolist()
     )
-    return "joint,position_rad,limit_Nm\n" + "".join(rows)
+    return "joint,position_rad,limit_Nm,lower_limit_Nm\n" + "".join(rows)
 
 
 def gains(plan: _prowl.Plan, joint: str) -> Table | None:
