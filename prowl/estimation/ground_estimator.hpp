@@ -22,15 +22,20 @@ class GroundEstimator {
   GroundEstimator(const RobotModel& robot, const Eigen::VectorXd& q_start, const Stand& stand,
                   std::vector<bool> footed);
 
-  /// Advances by dt [s] to the estimated state q (nq) at a time with the planned state q_planned (nq).
-  void update(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& q_planned, const Stand& stand);
+  /// Contacts begin to land this long before they do [s].
+  static constexpr double kLead = 0.03;
+
+  /// Advances by dt [s] to the estimated state q (nq) at a time with the planned state q_planned (nq); `soon`: what
+  /// stands kLead later.
+  void update(double dt, const Eigen::VectorXd& q, const Eigen::VectorXd& q_planned, const Stand& stand,
+              const Stand& soon);
 
   double height() const { return state_(0); }                    ///< h, at the pivot [m]
   Eigen::Vector2d tilt() const { return state_.tail<2>(); }      ///< w_x, w_y, world frame [rad]
   Eigen::Vector3d displacement(const Eigen::Vector3d& p) const;  ///< d(p), world frame [m]
 
   /// Step (nv) from q_planned (nq) that lays the plan on the ground: the base stays, the footed contacts move with the
-  /// ground.
+  /// ground. Those that land aim a little below it.
   Eigen::VectorXd correction(const Eigen::VectorXd& q_planned);
 
  private:
@@ -38,6 +43,8 @@ class GroundEstimator {
   std::vector<bool> footed_;
   std::vector<double> since_;  ///< time in stance of each contact, negative in the air [s]
   std::vector<Eigen::Vector3d> planned_;
+  std::vector<double> press_;  ///< of each contact, 0 to 1
+  std::vector<Eigen::Vector3d> normals_;
   double size_;  ///< standing height [m]
   Eigen::Vector3d pivot_;
   Eigen::Vector3d state_ = Eigen::Vector3d::Zero();  ///< (h, w_x, w_y)

@@ -34,6 +34,14 @@ ContactSchedule::ContactSchedule(const MotionProblem& problem)
   }
 }
 
+bool ContactSchedule::passes(const MotionProblem& problem, const ContactSwing& swing, int surface,
+                             double progress) const {
+  constexpr double kRounding = 1e-9;  // a node in the middle belongs to both halves
+  const auto is_of = [&](int stance) { return stance >= 0 && stances_[stance].surface == surface; };
+  return problem.surfaces[surface].patch.empty() || (is_of(swing.before) && progress <= 0.5 + kRounding) ||
+         (is_of(swing.after) && progress >= 0.5 - kRounding);
+}
+
 bool ContactSchedule::lands(int phase, int i) const {
   const ContactStance& held = stances_[stance(phase, i)];
   return held.lands() && held.first_phase == phase;

@@ -35,6 +35,11 @@ class ContactSchedule {
     return swings_;
   }  ///< every contact of the robot, also those never held
 
+  /// A contact in the air keeps its distance of this surface at this part of the swing, 0 to 1. Unbounded surfaces
+  /// count all the time. To avoid edge logic, the patch that the contact leaves counts in the first half, the patch on
+  /// which it lands in the second.
+  bool passes(const MotionProblem& problem, const ContactSwing& swing, int surface, double progress) const;
+
   /// Stance of the i-th contact of a phase; index into stances().
   int stance(int phase, int i) const { return held_[phase][i]; }
   /// The i-th contact of a phase lands at its first node.

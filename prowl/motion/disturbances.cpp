@@ -14,6 +14,7 @@ Disturbances default_disturbances(const RobotModel& robot) {
   Disturbances sizes = kSweptDisturbances;
   sizes.base_position *= height;
   sizes.center *= height;
+  sizes.ground *= height;
   sizes.base_velocity *= speed;
   sizes.push *= speed;
   return sizes;

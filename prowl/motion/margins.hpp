@@ -12,8 +12,9 @@ struct Margins {
   struct OfPhase {
     Eigen::MatrixXd
         cone;  ///< inside the friction cone of each contact of the phase, at its surface's full friction [N]
-    Eigen::MatrixXd torque;  ///< nu rows [N m]
-    Eigen::MatrixXd joint;   ///< of positions, nu rows [rad, m]
+    Eigen::MatrixXd torque;     ///< nu rows [N m]
+    Eigen::MatrixXd joint;      ///< of positions, nu rows [rad, m]
+    Eigen::MatrixXd clearance;  ///< below each contact of the robot while it is in the air [m]
   };
 
   double friction = 0.0;        ///< part of the coefficients of friction that is not used [-]

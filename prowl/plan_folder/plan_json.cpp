@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
-constexpr int kSchemaVersion = 7;
+constexpr int kSchemaVersion = 8;
 constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
@@ -419,7 +419,10 @@ std::optional<Robustness> read_robustness(const Reader& plan, int version) {
   const Reader json = plan.object("robustness"), sizes = json.object("sizes");
   Robustness robustness{
       .sizes = {}, .share = json.number("share"), .solves = json.integer("solves"), .tightest = json.text("tightest")};
-  for (const auto& [name, size] : kDisturbanceKeys) robustness.sizes.*size = sizes.number(name);
+  for (const auto& [name, size] : kDisturbanceKeys) {
+    const bool is_later = version < 8 && size == &Disturbances::ground;
+    robustness.sizes.*size = is_later ? 0.0 : sizes.number(name);
+  }
   return robustness;
 }
 

@@ -12,15 +12,15 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr int kMostSolves = 3;       // with margins: a robust plan shall not take much longer than three nominal ones
-constexpr int kMostIterations = 60;  // of each: margins without a motion take many
-constexpr double kEnough = 0.2;      // missing part of a margin: the next tube would differ by as much
-/// A motion with larger margins that costs so much more is another one: HyQ's walk then pitches by 1.1 rad/s and falls.
-constexpr double kAnother = 1.6;
-// Shares of the sizes: the first, as a multiple of what the nominal motion has; the next after one with a motion, and
-// after one without.
-constexpr double kFirst = 1.7, kLarger = 1.6, kSmaller = 0.6, kLeastShare = 0.1;
-constexpr double kResolution = 0.01;  // of the share that is told
+constexpr int kMostSolves = 8;            // rough ones: then a robust plan takes about three times a nominal one
+constexpr int kMostIterations = 40;       // of each: margins with a motion take up to 30
+constexpr double kLooseTolerance = 1e-4;  // of each: the tube of a motion does not need more
+constexpr double kRoughStep = 0.01;       // of its tube [s]
+constexpr int kTubes = 2;                 // for one share: a third would differ by less than a fifth of a margin
+constexpr double kEnough = 0.2;           // missing part of a margin: the next tube would differ by as much
+// Shares of the sizes: the first, as a multiple of what the nominal motion has, and at most; the next after one without
+// a motion; the least; the smallest step, and that of the share that is told.
+constexpr double kFirst = 1.7, kSmaller = 0.6, kLeastShare = 0.1, kStep = 0.1, kResolution = 0.01;
 
 /// What a motion lacks of a margin.
 struct Lack {
@@ -57,6 +57,9 @@ Lack largest_lack(const MotionProblem& problem, const Tube& tube, const Disturba
     });
     look(phase.needed.torque, phase.torque_left,
          [&](Eigen::Index row) { return "torque of " + problem.robot.joint_names()[static_cast<std::size_t>(row)]; });
+    look(phase.needed.clearance, phase.height, [&](Eigen::Index row) {
+      return "clearance of " + problem.robot.contacts()[static_cast<std::size_t>(row)].name;
+    });
   }
   return worst;
 }
@@ -71,13 +74,14 @@ double share_to_begin_with(const MotionProblem& problem, const Tube& tube, const
                                       cones_left(problem, tube, p, sizes.friction).colwise().sum();
     share = std::min(share, (left.array() / needed.array().max(1e-9)).minCoeff());
   }
-  return std::clamp(kFirst * share, kLeastShare, 1.0);
+  return std::clamp(kFirst * share, kLeastShare, kSmaller);
 }
 
 Margins margins_of(const Tube& tube, const Disturbances& sizes, double share) {
   Margins margins{.friction = share * sizes.friction, .phases = {}};
   for (const Tube::OfPhase& phase : tube.phases)
-    margins.phases.push_back({share * phase.needed.cone, share * phase.needed.torque, share * phase.needed.joint});
+    margins.phases.push_back({share * phase.needed.cone, share * phase.needed.torque, share * phase.needed.joint,
+                              share * phase.needed.clearance});
   return margins;
 }
 
@@ -89,17 +93,39 @@ struct ClosedLoop {
 
 ClosedLoop closed_loop(const MotionProblem& problem, const Plan& plan, const TrackingOptions& tracking,
                        const Disturbances& sizes) {
-  TubeDesign design(problem, tracking, sizes);
+  TubeDesign design(problem, plan.trajectory, tracking, sizes);
   FeedbackDesign feedback =
       design_feedback(problem, plan.trajectory, tracking, [&](const ReducedSample& sample) { design.add(sample); });
   return {std::move(feedback), design.propagate()};
 }
 
-/// Options of the solves with margins, from the motion before.
-PlanOptions with_margins(const PlanOptions& options, const Plan& before, bool refines, double seconds_left) {
+/// Iterations and times of all solves together.
+class Books {
+ public:
+  explicit Books(const Plan& first) { add(first); }
+
+  void add(const Plan& plan) {
+    levels_.insert(levels_.end(), plan.levels.begin(), plan.levels.end());
+    total_.iterations += plan.result.iterations;
+    total_.seconds += plan.result.seconds;
+    total_.times += plan.result.times;
+  }
+  void enter(Plan& plan) const {
+    plan.levels = levels_;
+    plan.result.iterations = total_.iterations;
+    plan.result.seconds = total_.seconds;
+    plan.result.times = total_.times;
+  }
+
+ private:
+  SolveResult total_;
+  std::vector<LevelResult> levels_;
+};
+
+/// Options of the next solve, from the motion before.
+PlanOptions options_from(const Plan& before, const PlanOptions& options, bool refines, double seconds) {
   PlanOptions next = options;
-  next.solver.max_seconds = seconds_left;
-  next.solver.max_iterations = std::min(options.solver.max_iterations, kMostIterations);
+  next.solver.max_seconds = seconds;
   next.warm_start = before.trajectory;
   next.warm_start_multipliers.clear();
   next.elastic_solver = {};
@@ -109,55 +135,121 @@ PlanOptions with_margins(const PlanOptions& options, const Plan& before, bool re
   return next;
 }
 
-/// Books of all solves in the plan that is returned.
-void add_books(const Plan& of, Plan& to) {
-  to.levels.insert(to.levels.begin(), of.levels.begin(), of.levels.end());
-  to.result.iterations += of.result.iterations;
-  to.result.seconds += of.result.seconds;
-  to.result.times += of.result.times;
-}
+/// A motion that keeps margins.
+struct Candidate {
+  Plan plan;
+  MotionProblem asked;
+  double share;
+};
+
+/// Looks for margins that have a motion, for ever larger shares of the sizes, by loose solves on a coarse mesh.
+class Search {
+ public:
+  /// `seconds_left`: of all solves.
+  Search(const DiscreteProblem& asked, const Plan& nominal, const TrackingOptions& tracking, const Disturbances& sizes,
+         const NlpSolver& solver, const PlanOptions& options, bool refines, std::function<double()> seconds_left)
+      : asked_(asked),
+        nominal_(nominal),
+        tracking_(tracking),
+        sizes_(sizes),
+        solver_(solver),
+        options_(options),
+        refines_(refines),
+        seconds_left_(std::move(seconds_left)),
+        books_(nominal) {
+    tracking_.step = std::max(tracking.step, kRoughStep);
+    options_.solver.max_iterations = std::min(options.solver.max_iterations, kMostIterations);
+    options_.solver.tolerance = std::max(options.solver.tolerance, kLooseTolerance);
+  }
+
+  /// In order of their shares; empty: the nominal motion has all margins, or no margins have a motion.
+  std::vector<Candidate> run() {
+    Tube tube = closed_loop(asked_.problem, nominal_, tracking_, sizes_).tube;
+    double share = share_to_begin_with(asked_.problem, tube, sizes_);
+    double kept = 0.0, none = std::numeric_limits<double>::infinity();  // largest with a motion, smallest without
+    std::vector<Candidate> found;
+    while (true) {
+      const bool is_tried = std::ranges::count(found, share, &Candidate::share) == kTubes;
+      if (is_tried || largest_lack(asked_.problem, tube, sizes_, share).part <= kEnough) {
+        kept = share;
+        if (kept == 1.0 || none - kept < kStep) return found;
+        share = std::isfinite(none) ? 0.5 * (kept + none) : std::min(1.0, kept / kSmaller);
+        continue;
+      }
+      if (solves_ == kMostSolves || seconds_left_() <= 0.0) return found;
+      MotionProblem tighter = asked_.problem;
+      tighter.margins = margins_of(tube, sizes_, share);
+      Plan plan = solve(tighter, found.empty() ? nullptr : &found.back().plan);
+      if (plan.result.status == SolveStatus::converged) {
+        tube = closed_loop(asked_.problem, plan, tracking_, sizes_).tube;
+        found.push_back({std::move(plan), std::move(tighter), share});
+        continue;
+      }
+      none = share;
+      share = kept > 0.0 ? 0.5 * (kept + none) : kSmaller * none;
+      if (is_stopped(plan.result.status) || none - kept < kStep || share < kLeastShare) return found;
+    }
+  }
+
+  int solves() const { return solves_; }
+  Books& books() { return books_; }
+
+ private:
+  /// From the motion before; the first, where that fails, from the task.
+  Plan solve(const MotionProblem& tighter, const Plan* before) {
+    const DiscreteProblem program(tighter, refines_ ? asked_.mesh : nominal_.mesh);
+    PlanOptions options = options_from(before ? *before : nominal_, options_, refines_, seconds_left_());
+    Plan plan = solve_plan(program, solver_, options);
+    books_.add(plan);
+    ++solves_;
+    if (before || !has_failed(plan.result.status)) return plan;
+    options.warm_start = {};
+    options.corrected = false;
+    plan = solve_plan(program, solver_, options);
+    books_.add(plan);
+    return plan;
+  }
+
+  const DiscreteProblem& asked_;
+  const Plan& nominal_;
+  TrackingOptions tracking_;
+  const Disturbances& sizes_;
+  const NlpSolver& solver_;
+  PlanOptions options_;
+  bool refines_;
+  std::function<double()> seconds_left_;
+  Books books_;
+  int solves_ = 0;
+};
 
 }  // namespace
 
-RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const TrackingOptions& tracking,
+RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const TrackingOptions& tracking,
                             const Disturbances& sizes, const NlpSolver& solver, const PlanOptions& options,
                             const std::optional<RefineOptions>& refine) {
-  const double begin = wall_seconds() - nominal.result.seconds;
-  ClosedLoop loop = closed_loop(problem, nominal, tracking, sizes);
-  Plan best = std::move(nominal);
-  Robustness found{.sizes = sizes, .tightest = ""};
-  const auto is_robust = [&](double at) { return largest_lack(problem, loop.tube, sizes, at).part <= kEnough; };
-  double share = share_to_begin_with(problem, loop.tube, sizes);
-  bool has_margins = false;
-  while (true) {
-    if (is_robust(share)) {
-      found.share = share;
-      if (share == 1.0) break;
-      share = std::min(1.0, kLarger * share);
-      continue;
-    }
-    const double seconds_left = options.solver.max_seconds - (wall_seconds() - begin);
-    if (found.solves == kMostSolves || seconds_left <= 0.0) break;
-    const PlanOptions next = with_margins(options, best, refine.has_value(), seconds_left);
-    MotionProblem tighter = problem;
-    tighter.margins = margins_of(loop.tube, sizes, share);
-    const DiscreteProblem asked(std::move(tighter), best.mesh);
-    Plan plan = refine ? make_refined_plan(asked, solver, next, *refine).plan : make_plan(asked, solver, next);
-    ++found.solves;
-    const bool is_another = has_margins && plan.result.cost > kAnother * best.result.cost;
-    if (is_good(plan) && !is_another) {
-      add_books(best, plan);
-      best = std::move(plan);
-      has_margins = true;
-      loop = closed_loop(problem, best, tracking, sizes);
-      found.share = share;
-      continue;
-    }
-    add_books(plan, best);
-    share *= kSmaller;
-    if (plan.result.status == SolveStatus::interrupted || found.share > 0.0 || share < kLeastShare) break;
+  const MotionProblem& problem = asked.problem;
+  const auto seconds_left = [limit = options.solver.max_seconds, begin = wall_seconds() - nominal.result.seconds] {
+    return limit - (wall_seconds() - begin);
+  };
+  Search search(asked, nominal, tracking, sizes, solver, options, refine.has_value(), seconds_left);
+  std::vector<Candidate> candidates = search.run();
+  Plan best = nominal;
+  Robustness found{.sizes = sizes, .share = 1.0, .solves = search.solves(), .tightest = ""};
+  // The one with the largest share that is as exact as the nominal one.
+  for (; !candidates.empty() && seconds_left() > 0.0; candidates.pop_back()) {
+    const Candidate& rough = candidates.back();
+    const PlanOptions last = options_from(rough.plan, options, refine.has_value(), seconds_left());
+    const DiscreteProblem program(rough.asked, rough.plan.mesh);
+    Plan plan = refine ? make_refined_plan(program, solver, last, *refine).plan : make_plan(program, solver, last);
+    search.books().add(plan);
+    if (!is_good(plan)) continue;
+    best = std::move(plan);
+    found.share = rough.share;
+    break;
   }
+  ClosedLoop loop = closed_loop(problem, best, tracking, sizes);
   // What the plan has, by its own tube.
+  const auto is_robust = [&](double share) { return largest_lack(problem, loop.tube, sizes, share).part <= kEnough; };
   if (!is_robust(found.share)) {
     double most = found.share;
     found.share = 0.0;
@@ -167,6 +259,7 @@ RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const Tr
     }
   }
   found.tightest = largest_lack(problem, loop.tube, sizes, 1.0).where;
+  search.books().enter(best);
   return {std::move(best), std::move(loop.feedback), std::move(found)};
 }
 

@@ -25,11 +25,10 @@ struct RobustPlan {
 };
 
 /// Robust motion by zero-order robust optimisation (docs/robust.md): alternates the tube of a motion and a solve with
-/// its margins fixed. `nominal`: a good plan of the problem; it is returned where no margins have a motion. Its mesh is
-/// kept unless `refine` tells how to refine it.
-/// SolverOptions::max_seconds holds for all solves together. Throws what make_refined_plan() and design_feedback()
-/// throw.
-RobustPlan make_robust_plan(const MotionProblem& problem, Plan nominal, const TrackingOptions& tracking,
+/// its margins fixed, on the mesh of `asked`, then refines. Without `refine` the mesh of `nominal` is kept. `nominal`:
+/// a good plan of `asked`, on any mesh; it is returned where no margins have a motion. SolverOptions::max_seconds holds
+/// for all solves together. Throws what make_refined_plan() and design_feedback() throw.
+RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const TrackingOptions& tracking,
                             const Disturbances& sizes, const NlpSolver& solver, const PlanOptions& options,
                             const std::optional<RefineOptions>& refine);
 

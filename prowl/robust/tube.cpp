@@ -3,7 +3,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "prowl/model/configuration.hpp"
 #include "prowl/motion/friction_limit.hpp"
@@ -23,8 +25,17 @@ constexpr double kForgotten = 1.5;   // [s] after it began, a push has no effect
 /// The load of a contact grows from zero when it lands and goes to zero before it opens, and what is kept of its cone
 /// with it: too short to slip far [s].
 constexpr double kLoading = 0.1;
+/// Before it lands and after it opens a contact is low: so long may it land early, as prowl/simulation/judge.hpp says
+/// [s], and share of the swing.
+constexpr double kLow = 0.1, kLowShare = 0.25;
 constexpr double kSharp = 1e-6;  // tip of the cone that measures what is left, over the weight
 constexpr int kDirections = 8;   // around the axis of a friction cone
+
+std::vector<int> all_contacts(const RobotModel& robot) {
+  std::vector<int> contacts(robot.contacts().size());
+  std::iota(contacts.begin(), contacts.end(), 0);
+  return contacts;
+}
 
 /// Euclidean lengths of the rows.
 VectorXd lengths(const MatrixXd& rows) { return rows.rowwise().norm(); }
@@ -52,6 +63,23 @@ void fade(const MotionProblem& problem, Tube& tube) {
   }
 }
 
+/// Time at which each phase begins, and the end [s].
+std::vector<double> times_of(const MotionProblem& problem, const Trajectory& motion) {
+  std::vector<double> times(problem.phases.size() + 1, motion.nodes.back().time);
+  for (auto node = motion.nodes.rbegin(); node != motion.nodes.rend(); ++node) times[node->phase] = node->time;
+  return times;
+}
+
+/// What a contact keeps of its clearance at this time of its swing, 0 to 1.
+double kept_clearance(const ContactSwing& swing, const std::pair<double, double>& times, double time) {
+  const double low = std::min(kLow, kLowShare * (times.second - times.first));
+  double part = 1.0;
+  if (swing.before >= 0) part = std::min(part, (time - times.first) / low);
+  if (swing.after >= 0) part = std::min(part, (times.second - time) / low);
+  part = std::max(part, 0.0);
+  return part * part;  // contacts leave and land at rest
+}
+
 /// Slopes of the friction cone in its force, towards directions all around: the force may be anywhere near its axis,
 /// where its own direction says nothing (kDirections x 3).
 Eigen::Matrix<double, kDirections, 3> friction_slopes(const Surface& surface) {
@@ -66,12 +94,20 @@ Eigen::Matrix<double, kDirections, 3> friction_slopes(const Surface& surface) {
 
 }  // namespace
 
-TubeDesign::TubeDesign(const MotionProblem& problem, const TrackingOptions& tracking, const Disturbances& disturbances)
+TubeDesign::TubeDesign(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+                       const Disturbances& disturbances)
     : problem_(problem),
       weight_(tracking.state_weight()),
       disturbances_(disturbances),
       inertia_(problem.robot),
-      samples_(problem.phases.size()) {}
+      schedule_(problem),
+      terms_(problem.robot),
+      feet_(all_contacts(problem.robot)),
+      samples_(problem.phases.size()) {
+  const std::vector<double> times = times_of(problem, motion);
+  for (const ContactSwing& swing : schedule_.swings())
+    swings_.emplace_back(times[swing.first_phase], times[swing.last_phase + 1]);
+}
 
 MatrixXd TubeDesign::start_deviations(const ReducedSample& first) const {
   const Eigen::Index nv = problem_.robot.nv(), nu = problem_.robot.nu();
@@ -108,7 +144,8 @@ void TubeDesign::add(const ReducedSample& at) {
   const MatrixXd rates = (at.Z.transpose() * weight_.asDiagonal()).rightCols(nv) * accelerations;
 
   const auto& held = problem_.phases[phase].contacts;
-  const auto contacts = static_cast<Eigen::Index>(held.size()), cones = kDirections * contacts, rows = cones + 2 * nu;
+  const auto contacts = static_cast<Eigen::Index>(held.size()), cones = kDirections * contacts;
+  const Eigen::Index feet = feet_.rows() / 3, rows = cones + 2 * nu + feet;
   Sample sample{.time = at.point.time,
                 .Z = at.Z,
                 .step = at.step,
@@ -119,10 +156,12 @@ void TubeDesign::add(const ReducedSample& at) {
                 .by_push = MatrixXd::Zero(rows, 2),
                 .cone_left = VectorXd(contacts),
                 .torque_left = VectorXd(nu),
-                .load = VectorXd(contacts)};
+                .load = VectorXd(contacts),
+                .height = VectorXd::Constant(feet, std::numeric_limits<double>::infinity())};
   const RobotModel& robot = problem_.robot;
   for (int j = 0; j < robot.nu(); ++j) {
-    const double tau = at.point.tau(j), position = at.point.q(7 + j), rate = at.point.v(6 + j);
+    const double position = at.point.q(7 + j), rate = at.point.v(6 + j);
+    const double tau = at.point.tau(j) + robot.losses().torque(j, rate);
     sample.torque_left(j) =
         std::min(robot.torque_upper(j, position, rate) - tau, tau - robot.torque_lower(j, position, rate));
   }
@@ -139,9 +178,33 @@ void TubeDesign::add(const ReducedSample& at) {
     sample.by_push.middleRows<kDirections>(kDirections * i) = by_force.rightCols(2);
   }
   sample.limits.middleRows(cones, nu) = torques;
-  sample.limits.bottomRows(nu) = at.Z.middleRows(6, nu);
+  sample.limits.middleRows(cones + nu, nu) = at.Z.middleRows(6, nu);
+  add_heights(at, sample);
   samples_[phase].push_back(std::move(sample));
   if (at.phase == 0 && at.sample == 0) start_ = start_deviations(at);
+}
+
+/// Of the contacts in the air.
+void TubeDesign::add_heights(const ReducedSample& at, Sample& sample) {
+  auto rows = sample.limits.bottomRows(feet_.rows() / 3);
+  rows.setZero();
+  terms_.update_kinematics(at.point.q);
+  feet_.set_configuration(terms_);
+  for (std::size_t i = 0; i < swings_.size(); ++i) {
+    const ContactSwing& swing = schedule_.swings()[i];
+    if (at.phase < swing.first_phase || at.phase > swing.last_phase) continue;
+    const double progress = (at.point.time - swings_[i].first) / (swings_[i].second - swings_[i].first);
+    for (int s = 0; s < static_cast<int>(problem_.surfaces.size()); ++s) {
+      const Surface& surface = problem_.surfaces[s];
+      if (!schedule_.passes(problem_, swing, s, progress)) continue;
+      const double height = surface.distance(feet_.positions().segment<3>(3 * swing.contact)) -
+                            problem_.robot.contacts()[swing.contact].radius;
+      if (height >= sample.height(swing.contact)) continue;
+      sample.height(swing.contact) = height;
+      rows.row(swing.contact) = surface.normal.transpose() * feet_.positions_dq().middleRows<3>(3 * swing.contact) *
+                                at.Z.topRows(problem_.robot.nv());
+    }
+  }
 }
 
 void TubeDesign::Deviations::advance(const Sample& at, const Sample* after, double push_duration) {
@@ -175,7 +238,17 @@ void TubeDesign::measure(const Sample& at, const Deviations& deviations, Tube::O
   for (Eigen::Index i = 0; i < contacts; ++i)
     phase.needed.cone(i, k) = needed.segment<kDirections>(i * kDirections).maxCoeff();
   phase.needed.torque.col(k) = needed.segment(kDirections * contacts, nu);
-  phase.needed.joint.col(k) = needed.tail(nu);
+  phase.needed.joint.col(k) = needed.segment(kDirections * contacts + nu, nu);
+  const auto rise = needed.tail(at.height.size()).array().square() + disturbances_.ground * disturbances_.ground;
+  phase.needed.clearance.col(k).setZero();
+  for (std::size_t i = 0; i < swings_.size(); ++i) {
+    const ContactSwing& swing = schedule_.swings()[i];
+    if (at.time < swings_[i].first || at.time > swings_[i].second) continue;
+    if (!std::isfinite(at.height(swing.contact))) continue;  // held: the phase before or after
+    phase.needed.clearance(swing.contact, k) =
+        kept_clearance(swing, swings_[i], at.time) * std::sqrt(rise(swing.contact));
+  }
+  phase.height.col(k) = at.height;
   phase.cone_left.col(k) = at.cone_left;
   phase.torque_left.col(k) = at.torque_left;
   phase.load.col(k) = at.load;
@@ -191,7 +264,9 @@ Tube TubeDesign::propagate() const {
     Tube::OfPhase& phase = tube.phases.emplace_back();
     phase.state.resize(2 * nv, count);
     phase.pushed.setZero(2 * nv, count);
-    phase.needed = {MatrixXd(contacts, count), MatrixXd(nu, count), MatrixXd(nu, count)};
+    phase.needed = {MatrixXd(contacts, count), MatrixXd(nu, count), MatrixXd(nu, count),
+                    MatrixXd(feet_.rows() / 3, count)};
+    phase.height.resize(feet_.rows() / 3, count);
     phase.cone_left.resize(contacts, count);
     phase.torque_left.resize(nu, count);
     phase.load.resize(contacts, count);

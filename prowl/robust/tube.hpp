@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "prowl/dynamics/contact_kinematics.hpp"
 #include "prowl/dynamics/inertia_errors.hpp"
+#include "prowl/motion/contact_schedule.hpp"
 #include "prowl/motion/disturbances.hpp"
 #include "prowl/motion/margins.hpp"
 #include "prowl/motion/motion_problem.hpp"
@@ -24,6 +26,7 @@ struct Tube {
     Eigen::MatrixXd cone_left;    ///< by the motion, of each contact, with all friction [N]
     Eigen::MatrixXd torque_left;  ///< by the motion, nu rows [N m]
     Eigen::MatrixXd load;         ///< normal force of each contact [N]
+    Eigen::MatrixXd height;       ///< of each contact of the robot in the air, above its surfaces; else infinite [m]
   };
   std::vector<OfPhase> phases;
 };
@@ -31,8 +34,9 @@ struct Tube {
 /// Propagates deviations through the closed loop of design_feedback() along the motion.
 class TubeDesign {
  public:
-  /// `tracking`: options of the design.
-  TubeDesign(const MotionProblem& problem, const TrackingOptions& tracking, const Disturbances& disturbances);
+  /// `motion`, `tracking`: of the design.
+  TubeDesign(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+             const Disturbances& disturbances);
 
   /// Takes a sample of the backward pass, last first.
   void add(const ReducedSample& sample);
@@ -40,14 +44,15 @@ class TubeDesign {
   Tube propagate() const;
 
  private:
-  /// Deviations xi and limits at one sample. Limits: rows of the cones of its contacts | torques | joints.
+  /// Deviations xi and limits at one sample. Limits: rows of the cones of its contacts | torques | joints | heights of
+  /// the contacts of the robot.
   struct Sample {
     double time;
-    Eigen::MatrixXd Z, step;                       ///< of ReducedSample
-    Eigen::MatrixXd drift, push;                   ///< d xi/dt by what is constant, and by a push along x and y
-    Eigen::MatrixXd limits;                        ///< by xi
-    Eigen::MatrixXd by_constants, by_push;         ///< of the limits, at fixed xi
-    Eigen::VectorXd cone_left, torque_left, load;  ///< of Tube::OfPhase
+    Eigen::MatrixXd Z, step;                               ///< of ReducedSample
+    Eigen::MatrixXd drift, push;                           ///< d xi/dt by what is constant, and by a push along x and y
+    Eigen::MatrixXd limits;                                ///< by xi
+    Eigen::MatrixXd by_constants, by_push;                 ///< of the limits, at fixed xi
+    Eigen::VectorXd cone_left, torque_left, load, height;  ///< of Tube::OfPhase
   };
   struct Push {
     double begin;               ///< [s]
@@ -63,13 +68,18 @@ class TubeDesign {
   };
   void measure(const Sample& at, const Deviations& deviations, Tube::OfPhase& phase, Eigen::Index k) const;
   Eigen::MatrixXd start_deviations(const ReducedSample& first) const;
+  void add_heights(const ReducedSample& at, Sample& sample);
 
   const MotionProblem& problem_;
   Eigen::VectorXd weight_;  ///< of the metric of xi
   Disturbances disturbances_;
   InertiaErrors inertia_;
-  std::vector<std::vector<Sample>> samples_;  ///< of each phase, last first
-  Eigen::MatrixXd start_;                     ///< deviations xi at the start, one column for each draw
+  ContactSchedule schedule_;
+  RigidBodyTerms terms_;
+  ContactKinematics feet_;                         ///< all contacts of the robot
+  std::vector<std::pair<double, double>> swings_;  ///< begin and end of each of the schedule [s]
+  std::vector<std::vector<Sample>> samples_;       ///< of each phase, last first
+  Eigen::MatrixXd start_;                          ///< deviations xi at the start, one column for each draw
 };
 
 }  // namespace prowl

@@ -150,11 +150,15 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
     planned.interrupted = plan.result.status == SolveStatus::interrupted;
   }
   if (const auto& sizes = planned.record.task.robust; sizes && is_good(plan)) {
-    RobustPlan robust = make_robust_plan(asked.problem, std::move(plan), planned.record.task.tracking, *sizes, *solver,
-                                         options, tolerance ? std::optional(refine) : std::nullopt);
-    plan = std::move(robust.plan);
-    planned.record.robustness = std::move(robust.robustness);
-    if (request.gains) planned.record.feedback = std::move(robust.feedback);
+    try {
+      RobustPlan robust = make_robust_plan(asked, plan, planned.record.task.tracking, *sizes, *solver, options,
+                                           tolerance ? std::optional(refine) : std::nullopt);
+      plan = std::move(robust.plan);
+      planned.record.robustness = std::move(robust.robustness);
+      if (request.gains) planned.record.feedback = std::move(robust.feedback);
+    } catch (const NumericalError& error) {  // no gains, no tube
+      planned.record.robustness = {.sizes = *sizes, .tightest = fmt::format("feedback: {}", error.what())};
+    }
   }
   planned.record.iterations = watch.take();
   if (request.gains && is_good(plan) && !planned.record.feedback)

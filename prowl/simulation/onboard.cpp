@@ -64,6 +64,7 @@ Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const Sim
       stands_(make_stands(problem, tracker)),
       estimator_(make_estimator(problem, tracker, stands_.front(), options)),
       ground_(make_ground_estimator(problem, tracker, stands_)),
+      losses_(problem.robot.losses()),
       feedforward_(problem.robot.nu()),
       feedback_(problem.robot.nu()),
       command_(problem.robot.nu()),
@@ -71,7 +72,8 @@ Onboard::Onboard(const MotionProblem& problem, const Tracker& tracker, const Sim
       q_planned_(problem.robot.nq()),
       v_planned_(problem.robot.nv()) {
   tracker.feedforward(tracker.start(), command_);
-  commands_.assign(1 + static_cast<std::size_t>(std::lround(options.delay / period)), command_);
+  tracker.reference(tracker.start(), q_planned_, v_planned_);
+  commands_.assign(1 + static_cast<std::size_t>(std::lround(options.delay / period)), moving(command_));
 }
 
 void Onboard::sense(double t, const SensorReading& reading) {
@@ -83,7 +85,7 @@ void Onboard::act(double t) {
   q_ = estimator_.q();
   v_ = estimator_.v();
   tracker_.reference(t, q_planned_, v_planned_);
-  ground_.update(period_, q_, q_planned_, stand(t));
+  ground_.update(period_, q_, q_planned_, stand(t), stand(t + GroundEstimator::kLead));
   double acts = t;
   for (std::size_t i = 0; i + 1 < commands_.size(); ++i, acts += period_) {
     estimator_.predict(period_, commands_[i], stand(acts), q_, v_);
@@ -98,7 +100,11 @@ void Onboard::act(double t) {
   }
   command_ = feedforward_ + feedback_;
   tracker_.limit(q_, v_, command_);
-  commands_.back() = command_;
+  commands_.back() = moving(command_);
+}
+
+Eigen::VectorXd Onboard::moving(const Eigen::VectorXd& command) const {
+  return command - losses_.torques(v_planned_.tail(command.size()));
 }
 
 const Stand& Onboard::stand(double t) const { return stands_[&tracker_.segment(t) - tracker_.plan().segments.data()]; }

@@ -31,6 +31,8 @@ class Onboard {
 
  private:
   const Stand& stand(double t) const;
+  /// What moves the links of a command, at planned rates.
+  Eigen::VectorXd moving(const Eigen::VectorXd& command) const;
 
   const Tracker& tracker_;
   const SimulationOptions& options_;
@@ -38,7 +40,9 @@ class Onboard {
   std::vector<Stand> stands_;  ///< of each segment of the tracker
   StateEstimator estimator_;
   GroundEstimator ground_;
-  std::vector<Eigen::VectorXd> commands_;  ///< pending, oldest first; the first acts until the next reading
+  const JointLosses& losses_;
+  /// Pending, oldest first, less the losses of joints that move as planned; the first acts until the next reading.
+  std::vector<Eigen::VectorXd> commands_;
   Eigen::VectorXd feedforward_, feedback_, command_, ground_correction_, q_, v_, q_planned_, v_planned_;
 };
 

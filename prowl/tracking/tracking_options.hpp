@@ -15,7 +15,7 @@ struct DefaultDeviations {
   double base_angular_velocity = 0.4;  ///< [rad/s]
   double joint_velocity = 10.0;        ///< [rad/s]
   double torque_share = 0.1;           ///< of the torque limit [-]
-  double swing_foot = 0.01;            ///< each axis [m]
+  double swing_foot = 0.02;            ///< each axis [m]
 };
 
 /// Weights of the gains as deviations, each of which costs 1 per second (Bryson and Ho, Applied

@@ -36,7 +36,7 @@ class GroundEstimatorTest : public ::testing::Test {
     return inverse_kinematics(robot_, planned_, targets).q;
   }
   void stand(const Eigen::VectorXd& q, double seconds) {
-    for (int i = 0; i * kStep < seconds; ++i) estimator_.update(kStep, q, planned_, stand_);
+    for (int i = 0; i * kStep < seconds; ++i) estimator_.update(kStep, q, planned_, stand_, stand_);
   }
 };
 
@@ -77,10 +77,32 @@ TEST_F(GroundEstimatorTest, DoesNotBelieveAFootThatHasJustLanded) {
   EXPECT_GT(std::abs(estimator_.height()), 1e-4);
 }
 
+/// Else a foot that is late hovers while its leg pushes.
+TEST_F(GroundEstimatorTest, AimsBelowTheGroundWhereAFootLands) {
+  const auto height = [this](int foot) {
+    return position(integrate(planned_, estimator_.correction(planned_)), foot).z() - position(planned_, foot).z();
+  };
+  Stand three = stand_;
+  three.in_contact[3] = false;
+  const auto advance = [&](const Stand& now, const Stand& soon, double seconds) {
+    for (int i = 0; i * kStep < seconds; ++i) estimator_.update(kStep, planned_, planned_, now, soon);
+  };
+  advance(three, three, 0.2);
+  EXPECT_LT(std::abs(height(3)), 1e-4);
+  advance(three, stand_, GroundEstimator::kLead);
+  const double below = height(3);
+  EXPECT_LT(below, -0.005 * robot_.nominal_configuration().z());
+  EXPECT_LT(std::abs(height(0)), 1e-4);
+  advance(stand_, stand_, 0.04);
+  EXPECT_NEAR(height(3), below, 1e-4);
+  advance(stand_, stand_, 0.3);
+  EXPECT_LT(std::abs(height(3)), 1e-4);
+}
+
 TEST_F(GroundEstimatorTest, LeavesContactsThatNeverStand) {
   GroundEstimator three(robot_, planned_, stand_, {true, true, true, false});
   const Eigen::VectorXd q = standing({0, 1, 2, 3});
-  for (int i = 0; i < 500; ++i) three.update(kStep, q, planned_, stand_);
+  for (int i = 0; i < 500; ++i) three.update(kStep, q, planned_, stand_, stand_);
   const Eigen::VectorXd step = three.correction(planned_);
   EXPECT_TRUE(step.tail<3>().isZero(0.0)) << step.tail<3>();
   EXPECT_GT(step.segment<3>(6).norm(), 1e-3);

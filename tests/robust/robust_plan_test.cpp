@@ -43,7 +43,7 @@ TEST(RobustPlan, LeavesWhatItsTubeNeeds) {
   EXPECT_NE(robustness.tightest.find(" s in phase '"), std::string::npos) << robustness.tightest;
 
   const MotionProblem& problem = record.task.problem;
-  TubeDesign design(problem, record.task.tracking, robustness.sizes);
+  TubeDesign design(problem, record.plan.trajectory, record.task.tracking, robustness.sizes);
   design_feedback(problem, record.plan.trajectory, record.task.tracking,
                   [&](const ReducedSample& sample) { design.add(sample); });
   const Tube tube = design.propagate();

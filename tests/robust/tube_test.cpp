@@ -20,7 +20,7 @@ class TubeOfCrouch : public ::testing::Test {
   const MotionProblem& problem_ = solved_.task.problem;
 
   Tube tube(const Disturbances& sizes, FeedbackDesign* feedback = nullptr) const {
-    TubeDesign design(problem_, solved_.task.tracking, sizes);
+    TubeDesign design(problem_, solved_.trajectory, solved_.task.tracking, sizes);
     FeedbackDesign made = design_feedback(problem_, solved_.trajectory, solved_.task.tracking,
                                           [&](const ReducedSample& sample) { design.add(sample); });
     if (feedback) *feedback = std::move(made);

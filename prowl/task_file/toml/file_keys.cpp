@@ -504,6 +504,7 @@ void add_robust(FileKeys& keys) {
   add("push_mps", "m/s", up_to(2.0), sizes.push,
       "change of velocity by one horizontal push on the base at its worst time", as_velocity);
   add("push_s", "s", {.lower = 0.01, .upper = 1.0}, sizes.push_duration, "duration of that push");
+  add("ground_m", "m", up_to(0.1), sizes.ground, "error of the height of the ground where feet land", as_length);
 }
 
 void add_simulation(FileKeys& keys) {
@@ -604,7 +605,6 @@ FileKeys make_robot_file_keys() {
               .fallback = "none",
               .meaning = "torque limit over the joint position, in both directions: a smooth curve through these "
                          "points, which cover the range"});
-  limits.add({.name = "torque_over_velocity",
   limits.add({.name = "negative_torque_over_position",
               .form = "4 or more [position, torque]",
               .unit = "rad, N m",
@@ -612,6 +612,7 @@ FileKeys make_robot_file_keys() {
               .meaning =
                   "the same for negative torques alone, as positive numbers; torque_over_position is then that of "
                   "positive ones"});
+  limits.add({.name = "torque_over_velocity",
               .form = "4 or more [velocity, torque]",
               .unit = "rad/s, N m",
               .fallback = "none",

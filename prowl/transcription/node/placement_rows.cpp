@@ -81,8 +81,6 @@ void PlacementRows::add_landing(const DiscreteProblem& discrete, int phase, cons
   }
 }
 
-// Unbounded surfaces count during the whole swing. To avoid edge logic, the patch that the foot
-// leaves counts in the first half, the patch on which it lands in the second.
 void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, const ContactSwing& swing,
                                   int intervals_at_rest) {
   const MotionProblem& problem = discrete.problem;
@@ -97,7 +95,6 @@ void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, co
   const double at_rest = swing.after < 0 ? 0.0 : intervals_at_rest * last_step;
   const double moving = at_rest < 1.0 ? 1.0 - at_rest : 1.0;
   const bool is_last_phase = phase + 1 == static_cast<int>(problem.phases.size());
-  const auto surface_of = [&](int stance) { return stance < 0 ? -1 : discrete.schedule.stances()[stance].surface; };
   const ContactPoint& contact = problem.robot.contacts()[swing.contact];
   for (int k = 0; k <= intervals; ++k) {
     // The swing leaves at its first node and lands at its last; a phase transition in between needs
@@ -106,13 +103,13 @@ void PlacementRows::add_clearance(const DiscreteProblem& discrete, int phase, co
     if (k == intervals && !is_last_phase) continue;
     const double progress = before + mesh.node_time(k, part);
     const double risen = std::min(progress / moving, 1.0);
+    const double margin = problem.margins.phases.empty() ? 0.0
+                                                         : margin_at(problem.margins.phases[phase].clearance,
+                                                                     mesh.node_time(k, 1.0))(swing.contact);
+    const double height = std::max(problem.swing_clearance * clearance_profile(swing, risen), margin);
     for (int s = 0; s < static_cast<int>(problem.surfaces.size()); ++s) {
       const Surface& surface = problem.surfaces[s];
-      constexpr double kRounding = 1e-9;  // a node in the middle belongs to both halves
-      const bool passes = surface.patch.empty() || (s == surface_of(swing.before) && progress <= 0.5 + kRounding) ||
-                          (s == surface_of(swing.after) && progress >= 0.5 - kRounding);
-      if (!passes) continue;
-      const double height = problem.swing_clearance * clearance_profile(swing, risen);
+      if (!discrete.schedule.passes(problem, swing, s, progress)) continue;
       rows_[k].push_back({Kind::clearance, point_of(swing.contact), -1, surface.normal,
                           surface.normal.dot(surface.point) + contact.radius, height / length_, 1.0 / length_,
                           contact.name + ", clearance above " + surface.name});
