@@ -37,7 +37,9 @@ def model_tables(planner: Planner, motion: Motion, *options: str) -> pathlib.Pat
 def draw_knee_limit(motions: dict[str, Motion], tables: pathlib.Path, out: pathlib.Path) -> None:
     """Figure 1: the curve of limit_curves.csv, and the knees of all motions under it."""
     rows = [line.split(",") for line in (tables / "limit_curves.csv").read_text(encoding="utf-8").splitlines()[1:]]
-    curve = np.array([(-float(position), float(limit)) for joint, position, limit in rows if joint == "lf_kfe_joint"])
+    curve = np.array(
+        [(-float(position), float(limit)) for joint, position, limit, _ in rows if joint == "lf_kfe_joint"]
+    )
     figure, grid = style.grid(1, 1, 6.4, 4.2)
     axes = grid[0, 0]
     axes.fill_between(*curve.T, color="0.955", zorder=0)

@@ -18,8 +18,8 @@ RobotModel with_payloads(const TomlTable& root, RobotModel robot) {
     const TomlValue body = table.need("body");
     Payload payload{.body = body.as_text(), .mass = table.need("mass_kg").as_number()};
     if (std::ranges::find(frames, payload.body) == frames.end()) {
-      body.fail(fmt::format("robot '{}' has no link '{}'{}", robot.name(), payload.body,
-                            did_you_mean(payload.body, frames)));
+      body.fail(
+          fmt::format("robot '{}' has no link '{}'{}", robot.name(), payload.body, did_you_mean(payload.body, frames)));
     }
     if (const auto center = table.find("com_m")) payload.center = center->as_vector3();
     description.payloads.push_back(std::move(payload));

@@ -94,7 +94,7 @@ def test_limits_are_those_of_the_posture(step):
     robot = step.robot
     limits = tomllib.loads(step.task.robot_text)["limits"]
     points = {
-        joint: (keys["torque_over_position"], keys["negative_torque_over_position"])
+        joint: (keys["torque_over_position"], keys.get("negative_torque_over_position", keys["torque_over_position"]))
         for joint, keys in limits.items()
         if "torque_over_position" in keys
     }

@@ -261,7 +261,7 @@ class Figures(unittest.TestCase):
         loader.exec_module(plot_knee)
         robot = tomllib.loads(json.loads((self.plan / "plan.json").read_text())["robot_file"]["text"])
         knees = {
-            j: (v["torque_over_position"], v["negative_torque_over_position"])
+            j: (v["torque_over_position"], v.get("negative_torque_over_position", v["torque_over_position"]))
             for j, v in robot["limits"].items()
             if "torque_over_position" in v
         }

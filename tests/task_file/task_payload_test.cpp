@@ -23,8 +23,7 @@ class TaskPayload : public test::TaskTest {
 /// Its weight acts at its centre of mass, its inertia where the link moves it.
 TEST_F(TaskPayload, IsAMassAtItsPlace) {
   const RobotModel empty = read(test::kTaskFile).problem.robot;
-  const RobotModel loaded =
-      read(with("body = \"lf_lowerleg\"\nmass_kg = 5\ncom_m = [0.3, -0.1, 0.2]\n")).problem.robot;
+  const RobotModel loaded = read(with("body = \"lf_lowerleg\"\nmass_kg = 5\ncom_m = [0.3, -0.1, 0.2]\n")).problem.robot;
   EXPECT_NEAR(loaded.mass(), empty.mass() + kMass, 1e-12);
   // A contact there moves as the payload does.
   RobotDescription marked = empty.description();
