@@ -12,6 +12,7 @@
 #include "prowl/mesh/mesh_refinement.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/repeat.hpp"
+#include "prowl/solve_books.hpp"
 #include "prowl/transcription/deferred_correction.hpp"
 
 namespace prowl {
@@ -76,10 +77,7 @@ class Meshes {
     std::optional<DiscreteProblem> other;  // asked_ is prepared already
     if (mesh != asked_.mesh) other.emplace(asked_.problem, mesh);
     Plan plan = solve_plan(other ? *other : asked_, solver_, options);
-    levels_.insert(levels_.end(), plan.levels.begin(), plan.levels.end());
-    total_.iterations += plan.result.iterations;
-    total_.seconds += plan.result.seconds;
-    total_.times += plan.result.times;
+    books_.add(plan);
     return {.plan = std::move(plan), .is_exact = options.solver.tolerance <= tolerance_};
   }
   /// From the motion of another solve, converged or stopped.
@@ -117,12 +115,7 @@ class Meshes {
   }
   void judge(Plan& plan) const { prowl::judge(asked_, solver_, options_, plan); }
   /// Replaces times and iterations of one mesh by those of all.
-  void enter_books(Plan& plan) const {
-    plan.levels = levels_;
-    plan.result.iterations = total_.iterations;
-    plan.result.seconds = total_.seconds;
-    plan.result.times = total_.times;
-  }
+  void enter_books(Plan& plan) const { books_.enter(plan); }
 
  private:
   /// From a motion of restore(), or as it was.
@@ -131,7 +124,7 @@ class Meshes {
     options.solver.max_seconds = seconds_left();
     const double before = std::exchange(failed.plan.result.seconds, 0.0);
     const std::optional<Trajectory> motion = restore(asked_, options, failed.plan);
-    total_.seconds += failed.plan.result.seconds;
+    books_.add_seconds(failed.plan.result.seconds);
     failed.plan.result.seconds += before;
     if (!motion) return failed;
     Plan from;
@@ -146,8 +139,7 @@ class Meshes {
   PlanOptions options_;
   double tolerance_;
   double begin_ = wall_seconds();
-  SolveResult total_;
-  std::vector<LevelResult> levels_;
+  SolveBooks books_;
 };
 
 /// Estimates errors, decides on the next solve, and knows when to end.

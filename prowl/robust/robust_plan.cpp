@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "prowl/nlp/stopwatch.hpp"
+#include "prowl/solve_books.hpp"
 
 namespace prowl {
 namespace {
@@ -99,29 +100,6 @@ ClosedLoop closed_loop(const MotionProblem& problem, const Plan& plan, const Tra
   return {std::move(feedback), design.propagate()};
 }
 
-/// Iterations and times of all solves together.
-class Books {
- public:
-  explicit Books(const Plan& first) { add(first); }
-
-  void add(const Plan& plan) {
-    levels_.insert(levels_.end(), plan.levels.begin(), plan.levels.end());
-    total_.iterations += plan.result.iterations;
-    total_.seconds += plan.result.seconds;
-    total_.times += plan.result.times;
-  }
-  void enter(Plan& plan) const {
-    plan.levels = levels_;
-    plan.result.iterations = total_.iterations;
-    plan.result.seconds = total_.seconds;
-    plan.result.times = total_.times;
-  }
-
- private:
-  SolveResult total_;
-  std::vector<LevelResult> levels_;
-};
-
 /// Options of the next solve, from the motion before.
 PlanOptions options_from(const Plan& before, const PlanOptions& options, bool refines, double seconds) {
   PlanOptions next = options;
@@ -155,8 +133,8 @@ class Search {
         solver_(solver),
         options_(options),
         refines_(refines),
-        seconds_left_(std::move(seconds_left)),
-        books_(nominal) {
+        seconds_left_(std::move(seconds_left)) {
+    books_.add(nominal);
     tracking_.step = std::max(tracking.step, kRoughStep);
     options_.solver.max_iterations = std::min(options.solver.max_iterations, kMostIterations);
     options_.solver.tolerance = std::max(options.solver.tolerance, kLooseTolerance);
@@ -192,7 +170,7 @@ class Search {
   }
 
   int solves() const { return solves_; }
-  Books& books() { return books_; }
+  SolveBooks& books() { return books_; }
 
  private:
   /// From the motion before; the first, where that fails, from the task.
@@ -218,7 +196,7 @@ class Search {
   PlanOptions options_;
   bool refines_;
   std::function<double()> seconds_left_;
-  Books books_;
+  SolveBooks books_;
   int solves_ = 0;
 };
 

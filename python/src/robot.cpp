@@ -131,6 +131,12 @@ Vector robot_view(nb::handle self) {
   return view((nb::cast<const RobotModel&>(self).*vector)(), self);
 }
 
+/// A property: read-only view of one kind of the losses.
+template <Eigen::VectorXd JointLosses::* vector>
+Vector losses_view(nb::handle self) {
+  return view(nb::cast<const RobotModel&>(self).losses().*vector, self);
+}
+
 }  // namespace
 
 nb::object with_source(nb::object robot, const SourceText& file) {
@@ -192,13 +198,10 @@ void bind_robot(nb::module_& module) {
                    "(nu) [rad/s or m/s]; inf without limit.")
       .def_prop_ro("torque_limit", &robot_view<&RobotModel::torque_limit>,
                    "(nu) [N m or N]; inf without limit. Joints may have further limits over position or velocity.")
-      .def_prop_ro(
-          "damping", [](nb::handle self) { return view(nb::cast<const RobotModel&>(self).losses().damping, self); },
-          "Torque that the joints lose over their rates, as the URDF says: (nu) [N m s/rad or N s/m].")
-      .def_prop_ro(
-          "dry_friction",
-          [](nb::handle self) { return view(nb::cast<const RobotModel&>(self).losses().dry_friction, self); },
-          "The same while they move, whatever their rate: (nu) [N m or N].")
+      .def_prop_ro("damping", &losses_view<&JointLosses::damping>,
+                   "Torque that the joints lose over their rates, as the URDF says: (nu) [N m s/rad or N s/m].")
+      .def_prop_ro("dry_friction", &losses_view<&JointLosses::dry_friction>,
+                   "The same while they move, whatever their rate: (nu) [N m or N].")
       .def_prop_ro("torque_over_position", &torque_over_position,
                    nb::sig("def torque_over_position(self) -> dict[str, tuple[float, float]]"),
                    "Joints with a torque limit over position: smallest and largest position of its table [rad].")
