@@ -22,15 +22,8 @@ double longest_interval(const Phase& phase, const PhaseMesh& mesh) {
 
 /// "" unless the motion ends at rest above a line, about which no contact gives a moment.
 std::string why_nothing_holds_its_end(const MotionProblem& problem) {
-  const auto last = static_cast<int>(problem.phases.size()) - 1;
-  const auto ends_at_rest = [&](const BoundaryConstraint& goal) {
-    return goal.at == PhaseFraction::end_of(last) && goal.velocity_lower.head<6>().isZero(0.0) &&
-           goal.velocity_upper.head<6>().isZero(0.0);
-  };
   const std::size_t contacts = problem.phases.back().contacts.size();
-  if (problem.cycle || contacts == 0 || contacts > 2 ||
-      std::ranges::none_of(problem.boundary_constraints, ends_at_rest))
-    return "";
+  if (!ends_at_rest(problem) || stands_at_end(problem) || contacts == 0) return "";
   return fmt::format(
       "the motion ends at rest on {}: no torque holds a robot there for long; end on three or more contacts",
       contacts == 1 ? "one point" : "two points");

@@ -344,6 +344,19 @@ Eigen::VectorXd Cycle::moved_configuration(const VectorXd& q) const {
   return result;
 }
 
+bool ends_at_rest(const MotionProblem& problem) {
+  const auto last = static_cast<int>(problem.phases.size()) - 1;
+  return !problem.cycle && std::ranges::any_of(problem.boundary_constraints, [&](const BoundaryConstraint& goal) {
+    return goal.at == PhaseFraction::end_of(last) && goal.velocity_lower.head<6>().isZero(0.0) &&
+           goal.velocity_upper.head<6>().isZero(0.0);
+  });
+}
+
+bool stands_at_end(const MotionProblem& problem) {
+  constexpr std::size_t kFewest = 3;  // two give no moment about their line
+  return ends_at_rest(problem) && problem.phases.back().contacts.size() >= kFewest;
+}
+
 double least_load(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact) {
   if (contact.unloaded) return 0.0;
   const double even = problem.robot.weight() / static_cast<double>(phase.contacts.size());

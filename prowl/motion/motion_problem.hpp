@@ -87,6 +87,13 @@ struct MotionProblem {
   const Eigen::VectorXd& start_configuration() const { return start().q_ref; }
 };
 
+/// True if a goal stops the base at the end of the last phase, and the motion does not repeat itself.
+bool ends_at_rest(const MotionProblem& problem);
+
+/// True if it ends at rest on contacts that can balance the base: three or more. Its base does not accelerate there, so
+/// the last forces hold it after the end.
+bool stands_at_end(const MotionProblem& problem);
+
 /// Normal force [N] that a contact of this phase carries at least, but in the interval before it opens: its share of an
 /// even load. Even: the weight, times the cosine of the surface's slope, over the number of contacts.
 double least_load(const MotionProblem& problem, const Phase& phase, const PhaseContact& contact);

@@ -14,7 +14,7 @@ bool binds(const VectorXd& lower, const VectorXd& upper, int i) {
   return std::isfinite(lower(i)) || std::isfinite(upper(i));
 }
 
-/// Limits of the goals, by decision variable.
+/// Limits of the goals and of standing at the end, by decision variable.
 std::map<int, MotionLimit> limits_of_goals(const DiscreteProblem& discrete, const DecisionLayout& layout) {
   const MotionProblem& problem = discrete.problem;
   const RobotModel& robot = problem.robot;
@@ -35,6 +35,10 @@ std::map<int, MotionLimit> limits_of_goals(const DiscreteProblem& discrete, cons
       limit.subject = goal.name + ", torque of " + limit.subject;
       limits.insert_or_assign(layout.tau(k) + j, limit);
     }
+  }
+  if (!stands_at_end(problem)) return limits;
+  for (int i = 0; i < 6; ++i) {
+    limits.insert_or_assign(layout.a(layout.num_nodes() - 1) + i, limit_of_standing(robot, i));
   }
   return limits;
 }
@@ -76,6 +80,7 @@ std::vector<MotionLimit> motion_limits(const NodeProgram& program) {
     for (int i = 0; i < 6 && !is_start; ++i) {
       add_base(layout.q(k) + i);
       add_base(layout.v(k) + i);
+      add_base(layout.a(k) + i);
     }
     for (int j = 0; j < layout.nu(); ++j) {
       if (!is_start) {

@@ -17,7 +17,7 @@ struct VariableBounds {
   Eigen::VectorXd lower, upper;  ///< per decision variable
 };
 /// Bounds from robot limits at every node, boundary constraints at theirs, durations and free
-/// footholds. Throws InputError for contradictions.
+/// footholds; no acceleration of the base where the robot stands at the end. Throws InputError for contradictions.
 VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLayout& layout);
 
 }  // namespace prowl

@@ -51,6 +51,30 @@ std::string message_after(const std::function<void(MotionProblem&)>& change) {
 
 TEST(MotionProblem, StandingIsAccepted) { EXPECT_EQ(message_for(standing()), "accepted"); }
 
+/// A goal that stops the base at the end, of a motion that is not repeated, on three contacts or more.
+TEST(MotionProblem, StandsAtItsEndIfAGoalStopsItOnThreeContacts) {
+  MotionProblem problem = standing();
+  EXPECT_FALSE(ends_at_rest(problem)) << "no goal of velocity";
+  BoundaryConstraint& goal = problem.boundary_constraints.back();
+  goal.velocity_lower.head<6>().setZero();
+  goal.velocity_upper.head<6>().setZero();
+  EXPECT_TRUE(ends_at_rest(problem));
+  EXPECT_TRUE(stands_at_end(problem));
+  problem.phases.back().contacts.resize(2);
+  EXPECT_TRUE(ends_at_rest(problem));
+  EXPECT_FALSE(stands_at_end(problem)) << "two contacts give no moment about their line";
+  problem = standing();
+  problem.boundary_constraints.back().velocity_lower.head<6>().setZero();
+  problem.boundary_constraints.back().velocity_upper.head<6>().setConstant(0.1);
+  EXPECT_FALSE(ends_at_rest(problem)) << "it may move";
+  problem.boundary_constraints.back().velocity_upper.head<6>().setZero();
+  problem.boundary_constraints.back().at.fraction = 0.5;
+  EXPECT_FALSE(ends_at_rest(problem)) << "only for a moment";
+  problem.boundary_constraints.back().at.fraction = 1.0;
+  problem.cycle = Cycle{};
+  EXPECT_FALSE(ends_at_rest(problem)) << "it goes on";
+}
+
 TEST(MotionProblem, AnUnboundedConstraintBindsNothing) {
   const RobotModel robot = test::hyq();
   const auto constraint = BoundaryConstraint::unbounded(robot, "goal", {1, 0.4}, robot.nominal_configuration());

@@ -166,6 +166,18 @@ TEST(FeedbackDesign, CountsWhatALandingCutsOff) {
   EXPECT_LT((twice - 2.0 * once).norm(), 1e-9 * at_landing[2].norm());
 }
 
+/// Where the motion ends at rest, its last torques go on: they are those that friction and limits hold for.
+TEST(FeedbackDesign, StandsOnWithTheLastTorques) {
+  for (const char* name : {"hyq/step", "hyq/wall", "solo12/trot"}) {
+    const FeedbackDesign found = design(name);
+    ASSERT_EQ(found.phases.back().name, "stand on") << name;
+    const TrajectoryPoint& last = found.phases[found.phases.size() - 2].samples.back();
+    const TrajectoryPoint& after = found.phases.back().samples.front();
+    const VectorXd limit = solved(name).task.problem.robot.torque_limit();
+    EXPECT_LT((after.tau - last.tau).cwiseQuotient(limit).lpNorm<Eigen::Infinity>(), 1e-4) << name;
+  }
+}
+
 /// A leg whose foot is not at its foothold: pulled back when it should have landed, let be once it stands.
 TEST(FeedbackDesign, StiffensALegThatLands) {
   constexpr std::size_t kLanded = 2;

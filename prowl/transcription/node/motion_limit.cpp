@@ -22,6 +22,13 @@ MotionLimit limit_of_goal(const RobotModel& robot, const std::string& goal, int 
           .size = (is_length ? robot.size() : 1.0) * (is_velocity ? rate(robot) : 1.0)};
 }
 
+MotionLimit limit_of_standing(const RobotModel& robot, int i) {
+  return {.kind = LimitKind::goal,
+          .subject = "standing at the end, acceleration of " + coordinate_name(robot, i),
+          .unit = i < 3 ? "m/s^2" : "rad/s^2",
+          .size = RobotModel::kGravity / (i < 3 ? 1.0 : robot.size())};
+}
+
 MotionLimit limit_of_joint(const RobotModel& robot, LimitKind kind, int joint) {
   const bool is_prismatic = robot.joint_is_prismatic()[joint];
   const double length = is_prismatic ? robot.size() : 1.0;

@@ -32,6 +32,9 @@ struct MotionLimit {
 /// subject, unit and size.
 MotionLimit limit_of_goal(const RobotModel& robot, const std::string& goal, int i, bool is_velocity);
 
+/// Limit of a goal, that the base does not accelerate at the end, on entry i of its acceleration, 0 <= i < 6.
+MotionLimit limit_of_standing(const RobotModel& robot, int i);
+
 /// Limit of a joint (torque, joint_position, joint_velocity). Sets kind, subject, unit and size.
 /// Sizes scale with the robot, not the limit; otherwise overloading a far too weak joint would cost
 /// more than overloading a strong one.
