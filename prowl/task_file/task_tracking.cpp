@@ -21,6 +21,7 @@ TrackingOptions read_tracking(const TomlTable& root, const RobotModel& robot) {
   }
   if (const auto value = table->find("swing_foot_m")) options.swing_foot_deviation = value->as_number();
   if (const auto value = table->find("landing_s")) options.landing_time = value->as_number();
+  if (const auto value = table->find("goal_s")) options.goal_time = value->as_number();
   if (const auto value = table->find("bandwidth_radps")) options.largest_bandwidth = value->as_number();
   return options;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 
 #include "prowl/error.hpp"
 #include "prowl/linear_algebra/factorisations.hpp"
@@ -70,6 +71,7 @@ class BackwardPass {
   BackwardPass(const MotionProblem& problem, const TrackingOptions& options, bool has_phase_after_end,
                FeedbackDesign& design, const std::function<void(const ReducedSample&)>& on_sample)
       : robot_(problem.robot),
+        goals_(std::span(problem.boundary_constraints).subspan(1)),
         options_(options),
         has_phase_after_end_(has_phase_after_end),
         design_(design),
@@ -115,6 +117,7 @@ class BackwardPass {
                         "(a leg is straight)",
                         phase.name, point.time));
       }
+      reach_goals(p, k);
       if (!S_.allFinite()) {
         throw NumericalError(
             fmt::format("no feedback gains in phase \"{}\" at t = {:.3f} s: the Riccati equation is not finite",
@@ -130,6 +133,23 @@ class BackwardPass {
   }
 
   bool holds(std::size_t p, int contact) const { return std::ranges::count(design_.phases[p].contacts, contact) > 0; }
+
+  /// Adds the cost of deviations from goals of the configuration at sample k of phase p.
+  void reach_goals(std::size_t p, std::size_t k) {
+    const auto last = static_cast<double>(design_.phases[p].samples.size() - 1);
+    for (const BoundaryConstraint& goal : goals_) {
+      if (goal.at.phase != static_cast<int>(p) || std::lround(goal.at.fraction * last) != static_cast<long>(k))
+        continue;
+      const auto is_bounded = [&](Eigen::Index i) {
+        return i < robot_.nv() &&
+               (std::isfinite(goal.configuration_lower(i)) || std::isfinite(goal.configuration_upper(i)));
+      };
+      VectorXd weight = options_.goal_time * weight_;
+      for (Eigen::Index i = 0; i < weight.size(); ++i) weight(i) *= is_bounded(i);
+      S_ += now_.Z.transpose() * weight.asDiagonal() * now_.Z;
+      set_gain();
+    }
+  }
 
   /// Displacements by dq of the feet that are in the air and will land, over the one that costs 1 (rows x nv).
   MatrixXd swing_feet(std::size_t p, const VectorXd& q) {
@@ -259,6 +279,7 @@ class BackwardPass {
   MatrixXd control_of(const MatrixXd& B) const { return B * control_weight_.asDiagonal() * B.transpose(); }
 
   const RobotModel& robot_;
+  const std::span<const BoundaryConstraint> goals_;
   RigidBodyTerms terms_{robot_};
   const TrackingOptions& options_;
   bool has_phase_after_end_;

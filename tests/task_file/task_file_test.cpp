@@ -225,12 +225,14 @@ joint_velocity_radps = 7
 torque_share = 0.2
 swing_foot_m = 0.03
 landing_s = 0
+goal_s = 0.5
 bandwidth_radps = 60
 )")
                                        .tracking;
   EXPECT_EQ(tracking.step, 0.004);
   EXPECT_EQ(tracking.swing_foot_deviation, 0.03);
   EXPECT_EQ(tracking.landing_time, 0.0);
+  EXPECT_EQ(tracking.goal_time, 0.5);
   EXPECT_EQ(tracking.largest_bandwidth, 60.0);
   Eigen::VectorXd expected(36);
   expected << 0.01, 0.02, 0.03, Eigen::Vector3d::Constant(0.05), defaults.state_deviation.segment(6, 12),
@@ -243,7 +245,7 @@ bandwidth_radps = 60
 TEST_F(TaskFile, RefusesTrackingThatMakesNoSense) {
   for (const char* line :
        {"base_position_m = 0", "joint_position_rad = -1", "step_s = 1", "torque_share = 0", "swing_foot_m = 0",
-        "landing_s = -1", "bandwidth_radps = 0", "stiffness = 3", "joint_position_rad = { nose = 1 }"}) {
+        "landing_s = -1", "goal_s = -1", "bandwidth_radps = 0", "stiffness = 3", "joint_position_rad = { nose = 1 }"}) {
     const std::string key = std::string(line).substr(0, std::string(line).find(' '));
     EXPECT_THAT(message_of(kTaskFile + "\n[tracking]\n" + line + "\n"), HasSubstr(key)) << line;
   }

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "prowl/dynamics/forward_dynamics.hpp"
 #include "prowl/tracker/tracker.hpp"
 #include "prowl/tracking/linearised_dynamics.hpp"
 #include "prowl/tracking/make_tracking_plan.hpp"
+#include "prowl/tracking/reference_grid.hpp"
 #include "tests/support/solved_task.hpp"
 
 namespace prowl {
@@ -176,6 +178,41 @@ TEST(FeedbackDesign, StandsOnWithTheLastTorques) {
     const VectorXd limit = solved(name).task.problem.robot.torque_limit();
     EXPECT_LT((after.tau - last.tau).cwiseQuotient(limit).lpNorm<Eigen::Infinity>(), 1e-4) << name;
   }
+}
+
+/// A deviation from a goal costs in proportion to TrackingOptions::goal_time, of the entries that the goal bounds only.
+TEST(FeedbackDesign, CountsWhatMissesAGoal) {
+  const test::SolvedTask& task = solved("hyq/rear");
+  MotionProblem problem = task.task.problem;
+  problem.boundary_constraints.resize(2, problem.start());  // the start and one goal, in the middle of the motion
+  const BoundaryConstraint& goal = problem.boundary_constraints[1];
+  std::vector<MatrixXd> at_goal;
+  MatrixXd basis;
+  for (const double time : {0.0, 1.0, 3.0}) {
+    TrackingOptions options = task.task.tracking;
+    options.goal_time = time;
+    MatrixXd cost;
+    const auto phase = reference_grid(problem, task.trajectory, options.step).at(goal.at.phase);
+    const long sample = std::lround(goal.at.fraction * static_cast<double>(phase.samples.size() - 1));
+    design_feedback(problem, task.trajectory, options, [&](const ReducedSample& at) {
+      if (at.phase != goal.at.phase || at.sample != sample) return;
+      cost = at.S;
+      basis = at.Z;
+    });
+    at_goal.push_back(cost);
+  }
+  VectorXd weight = task.task.tracking.state_weight();
+  for (Eigen::Index i = 0; i < weight.size(); ++i) {
+    const bool is_turn = i >= 3 && i < 6;
+    if (!is_turn) weight(i) = 0.0;
+  }
+  EXPECT_TRUE(goal.configuration_upper.segment<3>(3).allFinite());
+  EXPECT_FALSE(goal.configuration_upper.head<3>().array().isFinite().any());
+  const MatrixXd expected = basis.transpose() * weight.asDiagonal() * basis;
+  // What follows the goal costs the same in all three, in the same basis: Z comes from what follows, too.
+  const double accuracy = 1e-9 * at_goal[2].norm();
+  EXPECT_LT((at_goal[1] - at_goal[0] - expected).norm(), accuracy);
+  EXPECT_LT((at_goal[2] - at_goal[0] - 3.0 * expected).norm(), accuracy);
 }
 
 /// A leg whose foot is not at its foothold: pulled back when it should have landed, let be once it stands.

@@ -471,6 +471,12 @@ void add_tracking(FileKeys& keys) {
                 .unit = "s",
                 .fallback = number_text(defaults.landing_time),
                 .meaning = "a landing beside the foothold costs as much as that deviation for this time"});
+  tracking.add({.name = "goal_s",
+                .form = "number",
+                .range = kNonnegative,
+                .unit = "s",
+                .fallback = number_text(defaults.goal_time),
+                .meaning = "a goal of the posture that is missed costs as much as that deviation for this time"});
   tracking.add({.name = "bandwidth_radps",
                 .form = "number",
                 .range = kPositive,
