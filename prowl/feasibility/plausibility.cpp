@@ -23,7 +23,7 @@ double longest_interval(const Phase& phase, const PhaseMesh& mesh) {
 /// "" unless the motion ends at rest above a line, about which no contact gives a moment.
 std::string why_nothing_holds_its_end(const MotionProblem& problem) {
   const std::size_t contacts = problem.phases.back().contacts.size();
-  if (!ends_at_rest(problem) || stands_at_end(problem) || contacts == 0) return "";
+  if (!ends_at_rest(problem) || can_stand_at_end(problem) || contacts == 0) return "";
   return fmt::format(
       "the motion ends at rest on {}: no torque holds a robot there for long; end on three or more contacts",
       contacts == 1 ? "one point" : "two points");

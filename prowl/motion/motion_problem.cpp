@@ -352,7 +352,7 @@ bool ends_at_rest(const MotionProblem& problem) {
   });
 }
 
-bool stands_at_end(const MotionProblem& problem) {
+bool can_stand_at_end(const MotionProblem& problem) {
   constexpr std::size_t kFewest = 3;  // two give no moment about their line
   return ends_at_rest(problem) && problem.phases.back().contacts.size() >= kFewest;
 }
@@ -378,6 +378,9 @@ void validate(const MotionProblem& problem) {
   }
   if (!(problem.least_load >= 0.0) || !(problem.least_load < 1.0)) {
     refuse("least_load: {} is not allowed; need a share >= 0 and < 1", problem.least_load);
+  }
+  if (problem.stands_at_end && !can_stand_at_end(problem)) {
+    refuse("stands_at_end: true is not allowed; need a goal that stops the base at the end, on three contacts or more");
   }
   if (problem.boundary_constraints.empty()) {
     refuse("boundary_constraints: an empty list is not allowed; need the start as the first");

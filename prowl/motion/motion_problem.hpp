@@ -77,6 +77,7 @@ struct MotionProblem {
   QuadraticCost terminal_cost;
   FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
+  bool stands_at_end = false;    ///< the base does not accelerate at the end, so the last forces go on to hold it
   double least_load = 0.0;       ///< of each held contact, as a share of its even load [-]: least_load()
   Margins margins = {};          ///< of the limits; none by default
   GoalTolerance goal_tolerance;
@@ -90,9 +91,8 @@ struct MotionProblem {
 /// True if a goal stops the base at the end of the last phase, and the motion does not repeat itself.
 bool ends_at_rest(const MotionProblem& problem);
 
-/// True if it ends at rest on contacts that can balance the base: three or more. Its base does not accelerate there, so
-/// the last forces hold it after the end.
-bool stands_at_end(const MotionProblem& problem);
+/// True if it ends at rest on contacts that can balance the base: three or more.
+bool can_stand_at_end(const MotionProblem& problem);
 
 /// Normal force [N] that a contact of this phase carries at least, but in the interval before it opens: its share of an
 /// even load. Even: the weight, times the cosine of the surface's slope, over the number of contacts.

@@ -294,6 +294,8 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
     problem.friction_model =
         model->as_choice("friction model") == "cone" ? FrictionModel::cone : FrictionModel::pyramid;
   }
+  // A mesh of the user's own may be too coarse to end the acceleration within its last interval.
+  problem.stands_at_end = !has_intervals && can_stand_at_end(problem);
   read_costs(root, problem);
   return {std::move(problem), std::move(mesh), has_intervals, std::move(file_intervals)};
 }

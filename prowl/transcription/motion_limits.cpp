@@ -36,7 +36,7 @@ std::map<int, MotionLimit> limits_of_goals(const DiscreteProblem& discrete, cons
       limits.insert_or_assign(layout.tau(k) + j, limit);
     }
   }
-  if (!stands_at_end(problem)) return limits;
+  if (!problem.stands_at_end) return limits;
   for (int i = 0; i < 6; ++i) {
     limits.insert_or_assign(layout.a(layout.num_nodes() - 1) + i, limit_of_standing(robot, i));
   }

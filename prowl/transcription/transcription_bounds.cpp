@@ -126,7 +126,7 @@ VariableBounds variable_bounds(const DiscreteProblem& discrete, const DecisionLa
     tighten(bounds, layout.v(k), constraint.velocity_lower, constraint.velocity_upper, constraint.name + ", velocity");
     tighten(bounds, layout.tau(k), constraint.torque_lower, constraint.torque_upper, constraint.name + ", torque");
   }
-  if (stands_at_end(problem)) {
+  if (problem.stands_at_end) {
     const int base = layout.a(layout.num_nodes() - 1);
     bounds.lower.segment<6>(base).setZero();
     bounds.upper.segment<6>(base).setZero();

@@ -52,17 +52,17 @@ std::string message_after(const std::function<void(MotionProblem&)>& change) {
 TEST(MotionProblem, StandingIsAccepted) { EXPECT_EQ(message_for(standing()), "accepted"); }
 
 /// A goal that stops the base at the end, of a motion that is not repeated, on three contacts or more.
-TEST(MotionProblem, StandsAtItsEndIfAGoalStopsItOnThreeContacts) {
+TEST(MotionProblem, CanStandAtItsEndIfAGoalStopsItOnThreeContacts) {
   MotionProblem problem = standing();
   EXPECT_FALSE(ends_at_rest(problem)) << "no goal of velocity";
   BoundaryConstraint& goal = problem.boundary_constraints.back();
   goal.velocity_lower.head<6>().setZero();
   goal.velocity_upper.head<6>().setZero();
   EXPECT_TRUE(ends_at_rest(problem));
-  EXPECT_TRUE(stands_at_end(problem));
+  EXPECT_TRUE(can_stand_at_end(problem));
   problem.phases.back().contacts.resize(2);
   EXPECT_TRUE(ends_at_rest(problem));
-  EXPECT_FALSE(stands_at_end(problem)) << "two contacts give no moment about their line";
+  EXPECT_FALSE(can_stand_at_end(problem)) << "two contacts give no moment about their line";
   problem = standing();
   problem.boundary_constraints.back().velocity_lower.head<6>().setZero();
   problem.boundary_constraints.back().velocity_upper.head<6>().setConstant(0.1);
@@ -187,6 +187,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"negative", [](P& p) { p.running_cost.velocity_weight(3) = -1.0; },
                 "running_cost.velocity_weight[3]: -1 is not allowed; need a weight >= 0"},
         Mistake{"clearance", [](P& p) { p.swing_clearance = -0.1; }, "swing_clearance: -0.1 is not allowed"},
+        Mistake{"stand", [](P& p) { p.stands_at_end = true; },
+                "stands_at_end: true is not allowed; need a goal that stops the base at the end, on three contacts or "
+                "more"},
         Mistake{"load", [](P& p) { p.least_load = 1.0; }, "least_load: 1 is not allowed; need a share >= 0 and < 1"},
         Mistake{"clockwise", [](P& p) { p.surfaces[0].patch = {{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}; },
                 "surfaces[0].patch: the corners after corner 1 do not turn left"},
