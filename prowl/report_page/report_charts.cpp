@@ -8,11 +8,13 @@
 #include "prowl/files/base64.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/report_page/report_json.hpp"
+#include "prowl/trajectory/state_scale.hpp"
 
 namespace prowl {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using Eigen::MatrixXd;
 using Points = std::vector<TrajectoryPoint>;
 using Value = std::function<double(const TrajectoryPoint&)>;
 
@@ -24,6 +26,13 @@ Json series(const char* label, const char* style, const char* time, const Points
   std::vector<float> values;
   for (const TrajectoryPoint& point : points) values.push_back(static_cast<float>(value(point)));
   return {{"label", label}, {"style", style}, {"time", time}, {"values", base64(values)}};
+}
+
+Json series(const char* label, const char* style, const char* time, const Eigen::RowVectorXd& values) {
+  return {{"label", label},
+          {"style", style},
+          {"time", time},
+          {"values", base64(std::vector<float>(values.begin(), values.end()))}};
 }
 
 /// Charts of the planned motion and, if present, of the simulated one.
@@ -141,8 +150,85 @@ class Charts {
     return charts;
   }
 
+  /// Deviations of the base from the plan within the band of the tube, and what the plan leaves of its limits beside
+  /// what the tube needs.
+  Json deviations_in(const Tube& tube) const {
+    Json charts = Json::array();
+    const Eigen::Index nv = robot_.nv();
+    const MatrixXd band = at_plan(tube, 2 * nv, [](const Tube::OfPhase& phase, std::size_t) { return phase.band(); });
+    const MatrixXd off = deviations();
+    for (const Eigen::Index row : {0, 1, 2, 3, 4, 5}) {
+      for (const bool is_rate : {false, true}) {
+        const std::string unit = row < 3 ? "m" : "rad";
+        Json one = {
+            {"title", fmt::format("{}{}, deviation", is_rate ? "velocity of " : "", coordinate_name(robot_, row))},
+            {"unit", is_rate ? unit + "/s" : unit},
+            {"series", Json::array()}};
+        const Eigen::Index k = is_rate ? nv + row : row;
+        for (const double side : {1.0, -1.0})
+          one["series"].push_back(series("band", "band", "plan", side * band.row(k)));
+        if (off.cols() > 0) one["series"].push_back(series("simulation", "simulation", "simulation", off.row(k)));
+        charts.push_back(one);
+      }
+    }
+    const auto add = [&](const std::string& title, const char* unit, const Eigen::RowVectorXd& left,
+                         const Eigen::RowVectorXd& needed) {
+      Json both = Json::array({series("plan", "plan", "plan", left), series("needed", "band", "plan", needed)});
+      charts.push_back({{"title", title}, {"unit", unit}, {"series", both}});
+    };
+    const auto contacts = static_cast<Eigen::Index>(robot_.contacts().size());
+    const auto of_contacts = [&](const auto& rows) {
+      return at_plan(tube, contacts, [&](const Tube::OfPhase& phase, std::size_t p) {
+        MatrixXd all = MatrixXd::Constant(contacts, static_cast<Eigen::Index>(phase.times.size()), kNothing);
+        const auto& held = problem_.phases[p].contacts;
+        for (std::size_t i = 0; i < held.size(); ++i)
+          all.row(held[i].contact) = rows(phase).row(static_cast<Eigen::Index>(i));
+        return all;
+      });
+    };
+    const MatrixXd cone = of_contacts([](const Tube::OfPhase& phase) { return phase.cone_left; });
+    const MatrixXd cone_needed = of_contacts([](const Tube::OfPhase& phase) { return phase.needed.cone; });
+    for (Eigen::Index c = 0; c < contacts; ++c)
+      add("left of the friction cone, " + robot_.contacts()[static_cast<std::size_t>(c)].name, "N", cone.row(c),
+          cone_needed.row(c));
+    const MatrixXd torque =
+        at_plan(tube, robot_.nu(), [](const Tube::OfPhase& phase, std::size_t) { return phase.torque_left; });
+    const MatrixXd torque_needed =
+        at_plan(tube, robot_.nu(), [](const Tube::OfPhase& phase, std::size_t) { return phase.needed.torque; });
+    for (int j = 0; j < robot_.nu(); ++j)
+      add("left of the torque, " + joint(j), prismatic(j) ? "N" : "N m", torque.row(j), torque_needed.row(j));
+    return charts;
+  }
+
  private:
   using Share = double (Charts::*)(const TrajectoryPoint&, int) const;
+
+  /// Rows of the tube at the points of the plan, linear between its samples. `rows`: of a phase, a column a sample.
+  template <class Rows>
+  MatrixXd at_plan(const Tube& tube, Eigen::Index count, const Rows& rows) const {
+    MatrixXd result(count, static_cast<Eigen::Index>(plan_.size()));
+    std::vector<MatrixXd> of_phases;
+    for (std::size_t p = 0; p < tube.phases.size(); ++p) of_phases.push_back(rows(tube.phases[p], p));
+    for (std::size_t k = 0; k < plan_.size(); ++k) {
+      const auto phase = static_cast<std::size_t>(plan_[k].phase);
+      const std::vector<double>& times = tube.phases[phase].times;
+      const double part = (plan_[k].time - times.front()) / (times.back() - times.front());
+      result.col(static_cast<Eigen::Index>(k)) = margin_at(of_phases[phase], std::clamp(part, 0.0, 1.0));
+    }
+    return result;
+  }
+
+  /// Of the simulated motion from the plan, whose end goes on: 2 nv rows, a column a point.
+  MatrixXd deviations() const {
+    MatrixXd result(2 * robot_.nv(), static_cast<Eigen::Index>(simulation_.size()));
+    const Trajectory plan{plan_};
+    for (std::size_t k = 0; k < simulation_.size(); ++k) {
+      const TrajectoryPoint& point = simulation_[k];
+      const TrajectoryPoint planned = sample(plan, std::min(point.time, plan.duration()));
+      result.col(static_cast<Eigen::Index>(k)) << difference(planned.q, point.q), point.v - planned.v;
+    }
+    return result;
+  }
 
   const std::string& joint(int j) const { return robot_.joint_names()[j]; }
   bool prismatic(int j) const { return robot_.joint_is_prismatic()[j]; }
@@ -207,14 +293,16 @@ class Charts {
 
 }  // namespace
 
-Json report_charts(const MotionProblem& problem, const Points& plan, const Points& simulation) {
+Json report_charts(const MotionProblem& problem, const Points& plan, const Points& simulation, const Tube* tube) {
   const Charts charts(problem, plan, simulation);
-  return {{{"name", "Torques"}, {"charts", charts.torques()}},
-          {{"name", "Base"}, {"charts", charts.base()}},
-          {{"name", "Joints"}, {"charts", charts.joint_positions()}},
-          {{"name", "Rates"}, {"charts", charts.joint_velocities()}},
-          {{"name", "Forces"}, {"charts", charts.forces()}},
-          {{"name", "Margins"}, {"charts", charts.margins()}}};
+  Json tabs = {{{"name", "Torques"}, {"charts", charts.torques()}},
+               {{"name", "Base"}, {"charts", charts.base()}},
+               {{"name", "Joints"}, {"charts", charts.joint_positions()}},
+               {{"name", "Rates"}, {"charts", charts.joint_velocities()}},
+               {{"name", "Forces"}, {"charts", charts.forces()}},
+               {{"name", "Margins"}, {"charts", charts.margins()}}};
+  if (tube) tabs.push_back({{"name", "Tube"}, {"charts", charts.deviations_in(*tube)}});
+  return tabs;
 }
 
 Json report_gains(const TrackingPlan& plan, double step) {

@@ -23,6 +23,7 @@ constexpr const char* kPlaceholder = "PROWL_REPORT_DATA";
 constexpr const char* kPolicy = "default-src 'none';";
 constexpr const char* kServedPolicy = "default-src 'none'; connect-src 'self';";
 constexpr double kGainStep = 0.02;  ///< [s]
+constexpr double kTubeStep = 0.01;  ///< [s]
 
 /// Phases with their planned times and contacts.
 Json phases_json(const MotionProblem& problem, const Plan& plan) {
@@ -102,6 +103,18 @@ std::string served(std::string page) {
   return page.replace(index, std::string_view(kPolicy).size(), kServedPolicy);
 }
 
+/// Of a robust plan; none without gains.
+std::optional<Tube> tube_of(const PlanRecord& record) {
+  if (!record.robustness) return std::nullopt;
+  TrackingOptions tracking = record.task.tracking;
+  tracking.step = std::max(tracking.step, kTubeStep);
+  try {
+    return make_tube(record.task.problem, record.plan.trajectory, tracking, record.robustness->sizes);
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+}
+
 /// Data of one plan and its simulation.
 Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::vector<std::string>& warnings) {
   const PlanRecord& record = inputs.plan;
@@ -113,6 +126,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
   const std::vector<TrajectoryPoint> plan = report_points(trajectory, step);
   std::vector<TrajectoryPoint> simulation;
   if (inputs.simulation) simulation = simulated_points(robot, read_csv_table(*inputs.simulation), step);
+  const std::optional<Tube> tube = tube_of(record);
 
   Json data = {{"format", 1},
                {"directory", inputs.directory},
@@ -128,7 +142,7 @@ Json report_data(const ReportInputs& inputs, const PackageSearch& search, std::v
                {"plan", report_motion_json(robot, plan)},
                {"simulation", nullptr},
                {"simulation_json", parse_simulation(inputs)},
-               {"charts", report_charts(problem, plan, simulation)},
+               {"charts", report_charts(problem, plan, simulation, tube ? &*tube : nullptr)},
                {"gains", nullptr},
                {"live", nullptr}};
   if (record.task.simulated_friction) data["simulated_friction"] = *record.task.simulated_friction;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/robust/tube.hpp"
 #include "prowl/tracker/tracking_plan.hpp"
 
 namespace prowl {
@@ -19,9 +20,10 @@ nlohmann::ordered_json report_scene(const MotionProblem& problem, const PackageS
 /// (of the whole robot, world frame [m]).
 nlohmann::ordered_json report_motion_json(const RobotModel& robot, const std::vector<TrajectoryPoint>& points);
 
-/// Array of tabs; a tab contains charts, a chart series over the time of "plan" or "simulation".
+/// Array of tabs; a tab contains charts, a chart series over the time of "plan" or "simulation". `tube`: of a robust
+/// plan, else null.
 nlohmann::ordered_json report_charts(const MotionProblem& problem, const std::vector<TrajectoryPoint>& plan,
-                                     const std::vector<TrajectoryPoint>& simulation);
+                                     const std::vector<TrajectoryPoint>& simulation, const Tube* tube = nullptr);
 
 /// K(t) at samples about `step` [s] apart: "time" and "values", nu x 2 nv each, row by row.
 nlohmann::ordered_json report_gains(const TrackingPlan& plan, double step);

@@ -94,6 +94,17 @@ Eigen::Matrix<double, kDirections, 3> friction_slopes(const Surface& surface) {
 
 }  // namespace
 
+MatrixXd Tube::OfPhase::band() const {
+  return (kCoverage * kCoverage * state.array().square() + pushed.array().square()).sqrt();
+}
+
+Tube make_tube(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+               const Disturbances& disturbances) {
+  TubeDesign design(problem, motion, tracking, disturbances);
+  design_feedback(problem, motion, tracking, [&](const ReducedSample& sample) { design.add(sample); });
+  return design.propagate();
+}
+
 TubeDesign::TubeDesign(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
                        const Disturbances& disturbances)
     : problem_(problem),

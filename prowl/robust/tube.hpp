@@ -27,6 +27,9 @@ struct Tube {
     Eigen::MatrixXd torque_left;  ///< by the motion, nu rows [N m]
     Eigen::MatrixXd load;         ///< normal force of each contact [N]
     Eigen::MatrixXd height;       ///< of each contact of the robot in the air, above its surfaces; else infinite [m]
+
+    /// Size of dx that 95 % of the cases keep (2 nv rows): two standard deviations and the worst push, as squares.
+    Eigen::MatrixXd band() const;
   };
   std::vector<OfPhase> phases;
 };
@@ -81,5 +84,9 @@ class TubeDesign {
   std::vector<std::vector<Sample>> samples_;       ///< of each phase, last first
   Eigen::MatrixXd start_;                          ///< deviations xi at the start, one column for each draw
 };
+
+/// The tube of `motion` under the gains that design_feedback() finds for it. Throws NumericalError if there are none.
+Tube make_tube(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+               const Disturbances& disturbances);
 
 }  // namespace prowl

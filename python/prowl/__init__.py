@@ -55,12 +55,14 @@ from ._prowl import (
     SweepCase,
     Task,
     Tracker,
+    Tube,
     __version__,
     difference,
     integrate,
     read_plan,
     simulate,
     solver_names,
+    tube,
     versions,
 )
 from ._runs.diagnose import diagnose
@@ -100,6 +102,7 @@ __all__ = [
     "SweepCase",
     "Task",
     "Tracker",
+    "Tube",
     "__version__",
     "diagnose",
     "difference",
@@ -118,5 +121,6 @@ __all__ = [
     "solve",
     "solver_names",
     "sweep",
+    "tube",
     "versions",
 ]

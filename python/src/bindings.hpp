@@ -13,6 +13,7 @@ void bind_certificate(nanobind::module_& module);
 void bind_motion(nanobind::module_& module);
 void bind_tracker(nanobind::module_& module);
 void bind_plan(nanobind::module_& module);
+void bind_tube(nanobind::module_& module);
 void bind_simulation(nanobind::module_& module);
 void bind_sweep(nanobind::module_& module);
 void bind_page(nanobind::module_& module);

@@ -16,6 +16,7 @@ NB_MODULE(_prowl, module) {
   bind_motion(module);
   bind_tracker(module);
   bind_plan(module);
+  bind_tube(module);
   bind_simulation(module);
   bind_sweep(module);
   bind_page(module);

@@ -89,6 +89,23 @@ def equal_steps() -> prowl.Plan:
     return prowl.solve(prowl.read_task("hyq/crouch", intervals=80), progress=False)
 
 
+def test_the_tube_of_a_plan_has_a_band_for_each_state_and_what_limits_leave(crouch):
+    tube = prowl.tube(crouch)
+    nv, nu = crouch.robot.nv, crouch.robot.nv - 6
+    count = len(tube)
+    assert tube.t.shape == tube.phase.shape == (count,) and tube.band.shape == (count, 2 * nv)
+    assert tube.cone_left.shape == tube.cone_needed.shape == (count, 4)
+    assert tube.torque_left.shape == tube.torque_needed.shape == (count, nu)
+    assert tube.t[0] == 0.0 and tube.t[-1] == pytest.approx(crouch.duration) and np.diff(tube.t).max() < 0.0101
+    assert (tube.band > 0.0).all() and (tube.torque_needed > 0.0).all()
+    limit = np.interp(tube.t, crouch.t, crouch.tau[:, 0]) + tube.torque_left[:, 0]
+    assert (limit > 0.0).all(), "torque and what is left of it are the limit"
+    finer = prowl.tube(crouch, step=0.005)
+    np.testing.assert_allclose(np.interp(tube.t, finer.t, finer.band[:, 2]), tube.band[:, 2], rtol=0.02)
+    with pytest.raises(prowl.InputError, match="step: 0.0 is not allowed"):
+        prowl.tube(crouch, step=0.0)
+
+
 def test_samples_between_nodes_lie_on_the_motion(equal_steps):
     crouch = equal_steps
     motion = crouch.sample(0.01)

@@ -46,7 +46,7 @@ export interface MotionData {
 
 export interface SeriesData {
   label: string;
-  style: "plan" | "other" | "simulation" | "other-simulation" | "limit";
+  style: "plan" | "other" | "simulation" | "other-simulation" | "limit" | "band";
   time: "plan" | "other" | "simulation" | "other-simulation";
   values: string;
 }

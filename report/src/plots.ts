@@ -14,6 +14,7 @@ interface Tab {
 
 const kOther = "other plan";
 const kOtherSimulation = "other simulation";
+const kBand = "95 % band";
 const kAxes = ["x", "y", "z"];
 const kAxisColours = ["axis-x", "axis-y", "axis-z"];
 
@@ -194,12 +195,14 @@ export class Plots {
     if (styles.has("simulation")) legend.push(["simulation", "simulation", false]);
     if (styles.has("other-simulation")) legend.push([kOtherSimulation, "second", true]);
     if (styles.has("limit")) legend.push(["limit", "limit", true]);
+    if (styles.has("band")) legend.push([kBand, "limit", true]);
     // In this order one lies over the other, and values stand side by side: the plan is a broad line below the rest.
-    const order = { limit: 0, plan: 1, other: 2, simulation: 3, "other-simulation": 4 };
+    const order = { limit: 0, band: 0, plan: 1, other: 2, simulation: 3, "other-simulation": 4 };
     const isAlone = !styles.has("other") && !styles.has("simulation");
-    const widths = { limit: 1, plan: isAlone ? 1.5 : 3, other: 1.5, simulation: 1.2, "other-simulation": 1.2 };
+    const widths = { limit: 1, band: 1, plan: isAlone ? 1.5 : 3, other: 1.5, simulation: 1.2, "other-simulation": 1.2 };
     const dashes = new Map([
       ["limit", [4, 3]],
+      ["band", [4, 3]],
       ["other-simulation", [2, 2]],
     ]);
     const lines = (all: SeriesData[]): Line[] =>
@@ -209,7 +212,7 @@ export class Plots {
           label: series.label,
           time: this.times[series.time],
           values: floats(series.values),
-          colour: series.style.startsWith("other") ? "second" : series.style,
+          colour: series.style.startsWith("other") ? "second" : series.style === "band" ? "limit" : series.style,
           dash: dashes.get(series.style),
           width: widths[series.style],
           limit: series.style === "limit",
@@ -217,7 +220,7 @@ export class Plots {
     return {
       name: tab.name,
       legend,
-      wide: tab.name === "Margins",
+      wide: ["Margins", "Tube"].includes(tab.name),
       limits: tab.name !== "Rates",
       charts: (options) =>
         tab.charts.map(

@@ -20,6 +20,13 @@ function make(name: string, task: string, simulated: boolean, ...options: string
   prowl(["report", folder(name)]);
 }
 
+/// With a push that takes it a part of its tube from the plan.
+function makeRobust(): void {
+  prowl(["plan", "tasks/hyq/stand.toml", "--robust", "--out", folder("robust")]);
+  prowl(["simulate", folder("robust"), "--push", "0.3", "0", "5", "0"]);
+  prowl(["report", folder("robust")]);
+}
+
 /// HyQ's crouch, asked to go lower than it can.
 function makeFailed(): void {
   const task = readFileSync(path.join(root, "tasks/hyq/crouch.toml"), "utf8")
@@ -61,6 +68,7 @@ export default function (): void {
   make("squat", "tasks/talos/squat.toml", true);
   make("rollout", "tasks/hyq/stand.toml", true, "--engine", "rollout");
   makeOdd();
+  makeRobust();
   makeFailed();
   mkdirSync(folder("two"));
   prowl(["report", folder("walk"), folder("trot"), "--out", report("two")]);

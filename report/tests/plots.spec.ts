@@ -218,6 +218,35 @@ test("a click in a plot goes there, and a zoom does not", async ({ page }) => {
   expect(await timeOf(page)).toBe(there);
 });
 
+test("of a robust plan the tube lies around the simulated deviations, and no other plan has one", async ({ page }) => {
+  const { errors } = await open(page, "robust");
+  await tab(page, "Tube");
+  const [joints, contacts] = await page.evaluate(() => [
+    window.prowl!.data.joints.length,
+    window.prowl!.data.scene.contacts.length,
+  ]);
+  await expect(page.locator(".plots figure.chart canvas")).toHaveCount(12 + contacts + joints);
+  await expect(page.locator(".plots .legend .key")).toHaveText(["plan", "simulation", "95 % band"]);
+  const planned = readTable(`${folder("robust")}/trajectory.csv`).time_s.at(-1)!;
+  const simulated = readTable(`${folder("robust")}/simulate.csv`);
+  for (const time of [0.1, 0.35, 0.5, 0.8]) {
+    expect(time).toBeLessThan(planned);
+    await seek(page, time);
+    const [upper, lower, off] = await values(page, "base y, deviation");
+    const row = simulated.time_s.findIndex((t) => t >= time);
+    expect(upper).toBeGreaterThan(0.002);
+    expect(lower).toBeCloseTo(-upper, 6);
+    expect(off).toBeCloseTo(simulated.true_base_py_m[row] - simulated.ref_base_py_m[row], 3);
+    expect(Math.abs(off)).toBeLessThan(upper);
+  }
+  const [left, needed] = await values(page, "left of the friction cone, lf_foot");
+  expect(needed).toBeGreaterThan(0);
+  expect(left).toBeGreaterThan(needed);
+  expect(errors).toEqual([]);
+  await open(page, "crouch");
+  await expect(page.getByRole("tab", { name: "Tube" })).toHaveCount(0);
+});
+
 test("every tab draws all of its charts, and says in which unit", async ({ page }) => {
   const { errors } = await open(page, "squat");
   const joints = await page.evaluate(() => window.prowl!.data.joints.length);

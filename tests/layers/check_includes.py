@@ -155,6 +155,7 @@ ALLOWED = {
         "prowl/trajectory",
         "prowl/solvers",
         "prowl/tracker",
+        "prowl/robust",
         "prowl/plan_folder",
     ],
     "prowl/starter": [
@@ -243,6 +244,7 @@ ALLOWED = {
         "prowl/certificate",
         "prowl/tracker",
         "prowl/tracking",
+        "prowl/robust",
         "prowl/simulation",
         "prowl/task_file",
         "prowl/session",

@@ -19,19 +19,15 @@ class TubeOfCrouch : public ::testing::Test {
   test::SolvedTask solved_ = test::solve_task("hyq/crouch");
   const MotionProblem& problem_ = solved_.task.problem;
 
-  Tube tube(const Disturbances& sizes, FeedbackDesign* feedback = nullptr) const {
-    TubeDesign design(problem_, solved_.trajectory, solved_.task.tracking, sizes);
-    FeedbackDesign made = design_feedback(problem_, solved_.trajectory, solved_.task.tracking,
-                                          [&](const ReducedSample& sample) { design.add(sample); });
-    if (feedback) *feedback = std::move(made);
-    return design.propagate();
+  Tube tube(const Disturbances& sizes) const {
+    return make_tube(problem_, solved_.trajectory, solved_.task.tracking, sizes);
   }
 };
 
 TEST_F(TubeOfCrouch, HoldsRolloutsFromDisplacedStarts) {
   const Disturbances sizes{.base_position = 0.005, .base_angle = 0.01};
-  FeedbackDesign design;
-  const Tube::OfPhase phase = tube(sizes, &design).phases.front();
+  const FeedbackDesign design = design_feedback(problem_, solved_.trajectory, solved_.task.tracking);
+  const Tube::OfPhase phase = tube(sizes).phases.front();
   const Tracker tracker(make_tracking_plan(problem_, design));
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -84,6 +80,17 @@ TEST_F(TubeOfCrouch, IsProportionalToTheSizes) {
 }
 
 /// A push moves the base by about impulse / mass times its duration, then feedback brings it back.
+/// Two standard deviations of what is drawn, and the worst push, as squares.
+TEST_F(TubeOfCrouch, HasABandOfDrawsAndPush) {
+  const Tube::OfPhase drawn = tube({.base_position = 0.005, .mass = 0.1}).phases.front();
+  EXPECT_LT((drawn.band() - 2.0 * drawn.state).norm(), 1e-12 * drawn.state.norm());
+  const Tube::OfPhase pushed = tube({.push = 0.1}).phases.front();
+  EXPECT_LT((pushed.band() - pushed.pushed).norm(), 1e-12 * pushed.pushed.norm());
+  const Tube::OfPhase both = tube({.base_position = 0.005, .mass = 0.1, .push = 0.1}).phases.front();
+  const Eigen::MatrixXd squares = drawn.band().cwiseAbs2() + pushed.band().cwiseAbs2();
+  EXPECT_LT((both.band().cwiseAbs2() - squares).norm(), 1e-9 * squares.norm());
+}
+
 TEST_F(TubeOfCrouch, OfAPushIsThatOfItsVelocity) {
   const Tube::OfPhase phase = tube({.push = 0.1}).phases.front();
   const Eigen::Index nv = problem_.robot.nv();
