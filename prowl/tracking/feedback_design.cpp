@@ -72,6 +72,7 @@ class BackwardPass {
                FeedbackDesign& design, const std::function<void(const ReducedSample&)>& on_sample)
       : robot_(problem.robot),
         goals_(std::span(problem.boundary_constraints).subspan(1)),
+        end_(PhaseFraction::end_of(static_cast<int>(problem.phases.size()) - 1)),
         options_(options),
         has_phase_after_end_(has_phase_after_end),
         design_(design),
@@ -134,10 +135,12 @@ class BackwardPass {
 
   bool holds(std::size_t p, int contact) const { return std::ranges::count(design_.phases[p].contacts, contact) > 0; }
 
-  /// Adds the cost of deviations from goals of the configuration at sample k of phase p.
+  /// Adds the cost of deviations from goals of the configuration at sample k of phase p. Not at the end of all: there S
+  /// is that of standing on.
   void reach_goals(std::size_t p, std::size_t k) {
     const auto last = static_cast<double>(design_.phases[p].samples.size() - 1);
     for (const BoundaryConstraint& goal : goals_) {
+      if (goal.at == end_) continue;
       if (goal.at.phase != static_cast<int>(p) || std::lround(goal.at.fraction * last) != static_cast<long>(k))
         continue;
       const auto is_bounded = [&](Eigen::Index i) {
@@ -280,6 +283,7 @@ class BackwardPass {
 
   const RobotModel& robot_;
   const std::span<const BoundaryConstraint> goals_;
+  const PhaseFraction end_;
   RigidBodyTerms terms_{robot_};
   const TrackingOptions& options_;
   bool has_phase_after_end_;

@@ -31,8 +31,9 @@ struct TrackingOptions {
   /// A foot that lands beside its foothold stays there. The deviation removed by a landing costs as
   /// if it lasted this long [s].
   double landing_time = 1.0;
-  /// A deviation from a goal of the configuration costs, besides, as if it lasted this long at its moment [s]. Of 0.3,
-  /// 1, 3, 5 and 10 s, 3 s let most of HyQ's rears meet their goal: with less the pitch misses it, with more it falls.
+  /// A deviation from a goal of the configuration before the end costs, besides, as if it lasted this long at its
+  /// moment [s]. Of 0.3, 1, 3, 5 and 10 s, 3 s let most of HyQ's rears meet their goal: with less the pitch misses it,
+  /// with more it falls.
   double goal_time = 3.0;
   /// Largest crossover frequency of the loop gain from torque to torque [rad/s]. Faster gains are
   /// scaled down to it, in their directions of torque only: delays and filters of a robot cost
