@@ -19,7 +19,7 @@ Diagnosis diagnose_task(const Task& task, DiagnosisOptions options) {
   solver.on_iteration = std::move(options.solver.on_iteration);
   options.solver = std::move(solver);
   // What prowl plan ends with is about as fine.
-  const Mesh mesh = task.has_intervals ? task.mesh : split(task.mesh, 4);
+  const Mesh mesh = task.has_intervals ? task.mesh : split(task.mesh, 5);
   return diagnose({task.problem, mesh}, *make_solver(solver_names().front()), *make_solver("ipopt"), options);
 }
 

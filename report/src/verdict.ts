@@ -25,9 +25,9 @@ export function whyNot(plan: PlanJson): string {
   if (proof) return proof.startsWith("goal") ? "goal out of reach" : "a contact is out of reach";
   if (plan.reasons.length > 0 && plan.status === "infeasible") return "the task cannot be done";
   const failed = failedChecks(plan);
-  if (failed.some((check) => check.name.startsWith("goal"))) return "goal not reached";
-  // A doubt, not a proof: the guess misses its footholds.
+  // A doubt, not a proof: the guess misses its footholds. What the last iterate of such a solve misses says less.
   if (plan.hints.some((hint) => hint.startsWith("goal"))) return "goal seems out of reach";
+  if (failed.some((check) => check.name.startsWith("goal"))) return "goal not reached";
   if (plan.status !== "converged") return kLimits[plan.status] ?? plan.status.replaceAll("_", " ");
   return failed.length === 1 ? `${failed[0].name} exceeds its limit` : `${failed.length} checks failed`;
 }
