@@ -22,7 +22,7 @@ function make(name: string, task: string, simulated: boolean, ...options: string
 
 /// With a push that takes it a part of its tube from the plan.
 function makeRobust(): void {
-  prowl(["plan", "tasks/hyq/stand.toml", "--robust", "--out", folder("robust")]);
+  prowl(["plan", "tasks/hyq/step.toml", "--robust", "--out", folder("robust")]);
   prowl(["simulate", folder("robust"), "--push", "0.3", "0", "5", "0"]);
   prowl(["report", folder("robust")]);
 }

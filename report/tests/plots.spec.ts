@@ -239,7 +239,7 @@ test("of a robust plan the tube lies around the simulated deviations, and no oth
     expect(off).toBeCloseTo(simulated.true_base_py_m[row] - simulated.ref_base_py_m[row], 3);
     expect(Math.abs(off)).toBeLessThan(upper);
   }
-  const [left, needed] = await values(page, "left of the friction cone, lf_foot");
+  const [needed, left] = await values(page, "left of the friction cone, rh_foot");
   expect(needed).toBeGreaterThan(0);
   expect(left).toBeGreaterThan(needed);
   expect(errors).toEqual([]);
