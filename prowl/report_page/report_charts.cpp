@@ -179,11 +179,7 @@ class Charts {
     const auto contacts = static_cast<Eigen::Index>(robot_.contacts().size());
     const auto of_contacts = [&](const auto& rows) {
       return at_plan(tube, contacts, [&](const Tube::OfPhase& phase, std::size_t p) {
-        MatrixXd all = MatrixXd::Constant(contacts, static_cast<Eigen::Index>(phase.times.size()), kNothing);
-        const auto& held = problem_.phases[p].contacts;
-        for (std::size_t i = 0; i < held.size(); ++i)
-          all.row(held[i].contact) = rows(phase).row(static_cast<Eigen::Index>(i));
-        return all;
+        return rows_of_contacts(problem_, p, rows(phase));
       });
     };
     const MatrixXd cone = of_contacts([](const Tube::OfPhase& phase) { return phase.cone_left; });

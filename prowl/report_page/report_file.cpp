@@ -23,7 +23,6 @@ constexpr const char* kPlaceholder = "PROWL_REPORT_DATA";
 constexpr const char* kPolicy = "default-src 'none';";
 constexpr const char* kServedPolicy = "default-src 'none'; connect-src 'self';";
 constexpr double kGainStep = 0.02;  ///< [s]
-constexpr double kTubeStep = 0.01;  ///< [s]
 
 /// Phases with their planned times and contacts.
 Json phases_json(const MotionProblem& problem, const Plan& plan) {
@@ -109,7 +108,7 @@ std::optional<Tube> tube_of(const PlanRecord& record) {
   TrackingOptions tracking = record.task.tracking;
   tracking.step = std::max(tracking.step, kTubeStep);
   try {
-    return make_tube(record.task.problem, record.plan.trajectory, tracking, record.robustness->sizes);
+    return closed_loop(record.task.problem, record.plan.trajectory, tracking, record.robustness->sizes).tube;
   } catch (const NumericalError&) {
     return std::nullopt;
   }

@@ -16,7 +16,6 @@ using Eigen::MatrixXd;
 constexpr int kMostSolves = 8;            // rough ones: then a robust plan takes about three times a nominal one
 constexpr int kMostIterations = 40;       // of each: margins with a motion take up to 30
 constexpr double kLooseTolerance = 1e-4;  // of each: the tube of a motion does not need more
-constexpr double kRoughStep = 0.01;       // of its tube [s]
 constexpr int kTubes = 2;                 // for one share: a third would differ by less than a fifth of a margin
 constexpr double kEnough = 0.2;           // missing part of a margin: the next tube would differ by as much
 // Shares of the sizes: the first, as a multiple of what the nominal motion has, and at most; the next after one without
@@ -86,20 +85,6 @@ Margins margins_of(const Tube& tube, const Disturbances& sizes, double share) {
   return margins;
 }
 
-/// A motion's gains, and where they let it go.
-struct ClosedLoop {
-  FeedbackDesign feedback;
-  Tube tube;
-};
-
-ClosedLoop closed_loop(const MotionProblem& problem, const Plan& plan, const TrackingOptions& tracking,
-                       const Disturbances& sizes) {
-  TubeDesign design(problem, plan.trajectory, tracking, sizes);
-  FeedbackDesign feedback =
-      design_feedback(problem, plan.trajectory, tracking, [&](const ReducedSample& sample) { design.add(sample); });
-  return {std::move(feedback), design.propagate()};
-}
-
 /// Options of the next solve, from the motion before.
 PlanOptions options_from(const Plan& before, const PlanOptions& options, bool refines, double seconds) {
   PlanOptions next = options;
@@ -135,14 +120,14 @@ class Search {
         refines_(refines),
         seconds_left_(std::move(seconds_left)) {
     books_.add(nominal);
-    tracking_.step = std::max(tracking.step, kRoughStep);
+    tracking_.step = std::max(tracking.step, kTubeStep);
     options_.solver.max_iterations = std::min(options.solver.max_iterations, kMostIterations);
     options_.solver.tolerance = std::max(options.solver.tolerance, kLooseTolerance);
   }
 
   /// In order of their shares; empty: the nominal motion has all margins, or no margins have a motion.
   std::vector<Candidate> run() {
-    Tube tube = closed_loop(asked_.problem, nominal_, tracking_, sizes_).tube;
+    Tube tube = closed_loop(asked_.problem, nominal_.trajectory, tracking_, sizes_).tube;
     double share = share_to_begin_with(asked_.problem, tube, sizes_);
     double kept = 0.0, none = std::numeric_limits<double>::infinity();  // largest with a motion, smallest without
     std::vector<Candidate> found;
@@ -159,7 +144,7 @@ class Search {
       tighter.margins = margins_of(tube, sizes_, share);
       Plan plan = solve(tighter, found.empty() ? nullptr : &found.back().plan);
       if (plan.result.status == SolveStatus::converged) {
-        tube = closed_loop(asked_.problem, plan, tracking_, sizes_).tube;
+        tube = closed_loop(asked_.problem, plan.trajectory, tracking_, sizes_).tube;
         found.push_back({std::move(plan), std::move(tighter), share});
         continue;
       }
@@ -225,7 +210,7 @@ RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const Tr
     found.share = rough.share;
     break;
   }
-  ClosedLoop loop = closed_loop(problem, best, tracking, sizes);
+  ClosedLoop loop = closed_loop(problem, best.trajectory, tracking, sizes);
   // What the plan has, by its own tube.
   const auto is_robust = [&](double share) { return largest_lack(problem, loop.tube, sizes, share).part <= kEnough; };
   if (!is_robust(found.share)) {

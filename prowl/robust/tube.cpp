@@ -98,11 +98,20 @@ MatrixXd Tube::OfPhase::band() const {
   return (kCoverage * kCoverage * state.array().square() + pushed.array().square()).sqrt();
 }
 
-Tube make_tube(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
-               const Disturbances& disturbances) {
+ClosedLoop closed_loop(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+                       const Disturbances& disturbances) {
   TubeDesign design(problem, motion, tracking, disturbances);
-  design_feedback(problem, motion, tracking, [&](const ReducedSample& sample) { design.add(sample); });
-  return design.propagate();
+  FeedbackDesign feedback =
+      design_feedback(problem, motion, tracking, [&](const ReducedSample& sample) { design.add(sample); });
+  return {std::move(feedback), design.propagate()};
+}
+
+MatrixXd rows_of_contacts(const MotionProblem& problem, std::size_t phase, const MatrixXd& held) {
+  const auto contacts = static_cast<Eigen::Index>(problem.robot.contacts().size());
+  MatrixXd all = MatrixXd::Constant(contacts, held.cols(), std::numeric_limits<double>::quiet_NaN());
+  for (Eigen::Index i = 0; i < held.rows(); ++i)
+    all.row(problem.phases[phase].contacts[static_cast<std::size_t>(i)].contact) = held.row(i);
+  return all;
 }
 
 TubeDesign::TubeDesign(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,

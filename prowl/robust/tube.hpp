@@ -85,8 +85,20 @@ class TubeDesign {
   Eigen::MatrixXd start_;                          ///< deviations xi at the start, one column for each draw
 };
 
-/// The tube of `motion` under the gains that design_feedback() finds for it. Throws NumericalError if there are none.
-Tube make_tube(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
-               const Disturbances& disturbances);
+/// Gains of a motion, and where they let it go.
+struct ClosedLoop {
+  FeedbackDesign feedback;
+  Tube tube;
+};
+
+/// With the gains of design_feedback(). Throws NumericalError if there are none.
+ClosedLoop closed_loop(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+                       const Disturbances& disturbances);
+
+/// Step of the gains where a tube need not be exact [s].
+inline constexpr double kTubeStep = 0.01;
+
+/// Rows of the contacts of a phase as those of all contacts of the robot; NaN for those in the air.
+Eigen::MatrixXd rows_of_contacts(const MotionProblem& problem, std::size_t phase, const Eigen::MatrixXd& held);
 
 }  // namespace prowl

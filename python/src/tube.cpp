@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "bindings.hpp"
 #include "plan_object.hpp"
 #include "prowl/error.hpp"
@@ -27,16 +25,15 @@ TubeArrays tube_of(const PlanObject& plan, double step) {
   tracking.step = step;
   const Disturbances sizes = plan.record.robustness ? plan.record.robustness->sizes
                                                     : task.robust.value_or(default_disturbances(problem.robot));
-  const Tube tube = make_tube(problem, plan.record.plan.trajectory, tracking, sizes);
+  const Tube tube = closed_loop(problem, plan.record.plan.trajectory, tracking, sizes).tube;
   Eigen::Index count = 0;
   for (const Tube::OfPhase& phase : tube.phases) count += phase.state.cols();
   const auto contacts = static_cast<Eigen::Index>(problem.robot.contacts().size());
-  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   TubeArrays all{.t = Eigen::VectorXd(count),
                  .phase = Eigen::VectorXi(count),
                  .band = RowMatrix(count, 2 * problem.robot.nv()),
-                 .cone_left = RowMatrix::Constant(count, contacts, kNothing),
-                 .cone_needed = RowMatrix::Constant(count, contacts, kNothing),
+                 .cone_left = RowMatrix(count, contacts),
+                 .cone_needed = RowMatrix(count, contacts),
                  .torque_left = RowMatrix(count, problem.robot.nu()),
                  .torque_needed = RowMatrix(count, problem.robot.nu())};
   Eigen::Index row = 0;
@@ -46,12 +43,8 @@ TubeArrays tube_of(const PlanObject& plan, double step) {
     all.t.segment(row, rows) = Eigen::Map<const Eigen::VectorXd>(phase.times.data(), rows);
     all.phase.segment(row, rows).setConstant(static_cast<int>(p));
     all.band.middleRows(row, rows) = phase.band().transpose();
-    const auto& held = problem.phases[p].contacts;
-    for (std::size_t i = 0; i < held.size(); ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      all.cone_left.col(held[i].contact).segment(row, rows) = phase.cone_left.row(k).transpose();
-      all.cone_needed.col(held[i].contact).segment(row, rows) = phase.needed.cone.row(k).transpose();
-    }
+    all.cone_left.middleRows(row, rows) = rows_of_contacts(problem, p, phase.cone_left).transpose();
+    all.cone_needed.middleRows(row, rows) = rows_of_contacts(problem, p, phase.needed.cone).transpose();
     all.torque_left.middleRows(row, rows) = phase.torque_left.transpose();
     all.torque_needed.middleRows(row, rows) = phase.needed.torque.transpose();
     row += rows;
@@ -88,7 +81,7 @@ void bind_tube(nb::module_& module) {
           "torque_needed", [=](nb::handle self) { return view(tube(self).torque_needed, self); },
           "What the tube needs of it (N, nu) [N m or N].")
       .def("__len__", [](const TubeArrays& t) { return t.t.size(); });
-  module.def("tube", &tube_of, nb::arg("plan"), nb::arg("step") = 0.01,
+  module.def("tube", &tube_of, nb::arg("plan"), nb::arg("step") = kTubeStep,
              "The tube of a plan, at samples about `step` [s] apart, for the sizes of [robust], or else the defaults.");
 }
 

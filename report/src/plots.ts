@@ -205,6 +205,11 @@ export class Plots {
       ["band", [4, 3]],
       ["other-simulation", [2, 2]],
     ]);
+    const colours = new Map([
+      ["band", "limit"],
+      ["other", "second"],
+      ["other-simulation", "second"],
+    ]);
     const lines = (all: SeriesData[]): Line[] =>
       [...all]
         .sort((a, b) => order[a.style] - order[b.style])
@@ -212,7 +217,7 @@ export class Plots {
           label: series.label,
           time: this.times[series.time],
           values: floats(series.values),
-          colour: series.style.startsWith("other") ? "second" : series.style === "band" ? "limit" : series.style,
+          colour: colours.get(series.style) ?? series.style,
           dash: dashes.get(series.style),
           width: widths[series.style],
           limit: series.style === "limit",

@@ -43,10 +43,7 @@ TEST(RobustPlan, LeavesWhatItsTubeNeeds) {
   EXPECT_NE(robustness.tightest.find(" s in phase '"), std::string::npos) << robustness.tightest;
 
   const MotionProblem& problem = record.task.problem;
-  TubeDesign design(problem, record.plan.trajectory, record.task.tracking, robustness.sizes);
-  design_feedback(problem, record.plan.trajectory, record.task.tracking,
-                  [&](const ReducedSample& sample) { design.add(sample); });
-  const Tube tube = design.propagate();
+  const Tube tube = closed_loop(problem, record.plan.trajectory, record.task.tracking, robustness.sizes).tube;
   const double weight = problem.robot.weight();
   for (std::size_t p = 0; p < tube.phases.size(); ++p) {
     const Tube::OfPhase& phase = tube.phases[p];

@@ -20,7 +20,7 @@ class TubeOfCrouch : public ::testing::Test {
   const MotionProblem& problem_ = solved_.task.problem;
 
   Tube tube(const Disturbances& sizes) const {
-    return make_tube(problem_, solved_.trajectory, solved_.task.tracking, sizes);
+    return closed_loop(problem_, solved_.trajectory, solved_.task.tracking, sizes).tube;
   }
 };
 
@@ -79,7 +79,6 @@ TEST_F(TubeOfCrouch, IsProportionalToTheSizes) {
   EXPECT_LT((a.torque - 2.0 * b.torque).norm(), 1e-2 * a.torque.norm());
 }
 
-/// A push moves the base by about impulse / mass times its duration, then feedback brings it back.
 /// Two standard deviations of what is drawn, and the worst push, as squares.
 TEST_F(TubeOfCrouch, HasABandOfDrawsAndPush) {
   const Tube::OfPhase drawn = tube({.base_position = 0.005, .mass = 0.1}).phases.front();
@@ -91,6 +90,7 @@ TEST_F(TubeOfCrouch, HasABandOfDrawsAndPush) {
   EXPECT_LT((both.band().cwiseAbs2() - squares).norm(), 1e-9 * squares.norm());
 }
 
+/// A push moves the base by about impulse / mass times its duration, then feedback brings it back.
 TEST_F(TubeOfCrouch, OfAPushIsThatOfItsVelocity) {
   const Tube::OfPhase phase = tube({.push = 0.1}).phases.front();
   const Eigen::Index nv = problem_.robot.nv();
