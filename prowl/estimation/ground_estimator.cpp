@@ -1,8 +1,8 @@
 #include "prowl/estimation/ground_estimator.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "prowl/linear_algebra/factorisations.hpp"
 #include "prowl/model/configuration.hpp"
 
 namespace prowl {
@@ -75,20 +75,19 @@ Eigen::VectorXd GroundEstimator::correction(const Eigen::VectorXd& q_planned) {
   const Eigen::Vector3d base = base_position(q_planned);
   legs_.update(q_planned.tail(nu));
   const Eigen::Matrix3d R = base_rotation(q_planned);
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(nu, nu);
-  Eigen::VectorXd pull = Eigen::VectorXd::Zero(nu);
-  for (std::size_t c = 0; c < footed_.size(); ++c) {
-    if (!footed_[c]) continue;
+  const auto contacts = static_cast<Eigen::Index>(footed_.size());
+  Eigen::MatrixXd by_joints = Eigen::MatrixXd::Zero(3 * contacts, nu);
+  Eigen::VectorXd ways = Eigen::VectorXd::Zero(3 * contacts);
+  for (Eigen::Index c = 0; c < contacts; ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    if (!footed_[i]) continue;
     const int contact = static_cast<int>(c);
     const Eigen::Vector3d way =
-        displacement(base + R * legs_.position(contact)) - press_[c] * kPress * size_ * normals_[c];
-    gram += legs_.linear(contact).transpose() * legs_.linear(contact);
-    pull += legs_.linear(contact).transpose() * (R.transpose() * way);
+        displacement(base + R * legs_.position(contact)) - press_[i] * kPress * size_ * normals_[i];
+    by_joints.middleRows<3>(3 * c) = legs_.linear(contact);
+    ways.segment<3>(3 * c) = R.transpose() * way;
   }
-  // Of the lever of the longest leg, squared: below 3 % of it a direction counts as singular.
-  constexpr double kSingular = 1e-3;
-  gram.diagonal().array() += kSingular * std::max(gram.diagonal().maxCoeff(), 1e-12);
-  step.tail(nu) = gram.llt().solve(pull);
+  step.tail(nu) = damped_solution(by_joints, ways);
   return step;
 }
 

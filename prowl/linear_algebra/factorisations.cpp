@@ -1,8 +1,11 @@
 #include "prowl/linear_algebra/factorisations.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace prowl {
@@ -26,6 +29,13 @@ VectorXd least_norm_solution(const MatrixXd& A, const VectorXd& b, double thresh
   factors.setThreshold(threshold);
   factors.compute(A);
   return factors.solve(b);
+}
+
+MatrixXd damped_solution(const MatrixXd& A, const MatrixXd& B) {
+  constexpr double kSingular = 1e-3;
+  MatrixXd gram = A.transpose() * A;
+  gram.diagonal().array() += std::max(kSingular * gram.diagonal().maxCoeff(), std::numeric_limits<double>::min());
+  return gram.llt().solve(A.transpose() * B);
 }
 
 }  // namespace prowl

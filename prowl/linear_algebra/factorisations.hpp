@@ -21,4 +21,8 @@ Eigen::MatrixXd exponential(const Eigen::MatrixXd& A);      ///< e^A of a square
 /// The x of least norm that minimises |A x - b|. Pivots below `threshold` times the largest count as zero.
 Eigen::VectorXd least_norm_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double threshold);
 
+/// A X = B with least squares, damped where A is nearly singular, as with straight legs: (AᵀA + d I)⁻¹ Aᵀ B with d a
+/// thousandth of the largest diagonal entry of AᵀA. Below 3 % of the longest column a direction counts as singular.
+Eigen::MatrixXd damped_solution(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
 }  // namespace prowl

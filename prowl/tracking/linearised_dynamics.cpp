@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "prowl/linear_algebra/factorisations.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
 
@@ -87,12 +88,7 @@ MatrixXd LinearisedDynamics::impedance(const VectorXd& rates) {
     wanted.row(row) << 0.25 * rate * rate * kinematics_.positions_dq().row(row) + rate * turned_velocity_.row(row),
         rate * kinematics_.jacobian().row(row);
   }
-  // Of the lever of the longest leg, squared: below 3 % of it a direction counts as singular.
-  constexpr double kSingular = 1e-3;
-  const auto of_joints = kinematics_.jacobian().rightCols(nu);
-  MatrixXd gram = of_joints * of_joints.transpose();
-  gram.diagonal().array() += kSingular * gram.diagonal().maxCoeff();
-  return terms_.mass_matrix().bottomRightCorner(nu, nu) * (of_joints.transpose() * gram.llt().solve(wanted));
+  return terms_.mass_matrix().bottomRightCorner(nu, nu) * damped_solution(kinematics_.jacobian().rightCols(nu), wanted);
 }
 
 MatrixXd LinearisedDynamics::landing(const VectorXd& weight) {

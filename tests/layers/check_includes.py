@@ -77,6 +77,7 @@ ALLOWED = {
     ],
     "prowl/robust": [
         "prowl",
+        "prowl/linear_algebra",
         "prowl/model",
         "prowl/dynamics",
         "prowl/motion",
@@ -84,7 +85,7 @@ ALLOWED = {
         "prowl/nlp",
         "prowl/tracking",
     ],
-    "prowl/estimation": ["prowl/model", "prowl/dynamics"],
+    "prowl/estimation": ["prowl/linear_algebra", "prowl/model", "prowl/dynamics"],
     # Of dynamics nothing: an independent judge. What runs on board the robot, the estimator, may use them.
     "prowl/mjcf": [],
     "prowl/simulation": [

@@ -55,5 +55,16 @@ TEST(Factorisations, LeastNormSolutionIsTheShortestOfTheBest) {
   EXPECT_LT((x - A.transpose() * least_norm_solution(A.transpose(), x, 1e-9)).norm(), 1e-12);  // in the row space
 }
 
+TEST(Factorisations, DampedSolutionSolvesButForDirectionsThatAreNearlySingular) {
+  const MatrixXd A = MatrixXd::Random(9, 4), X = MatrixXd::Random(4, 3);
+  EXPECT_LT((damped_solution(A, A * X) - X).norm(), 0.02 * X.norm());
+  MatrixXd flat = MatrixXd::Identity(2, 2);
+  flat(1, 1) = 1e-6;
+  const Eigen::VectorXd x = damped_solution(flat, Eigen::Vector2d(1.0, 1.0));
+  EXPECT_NEAR(x(0), 1.0, 2e-3);
+  EXPECT_NEAR(x(1), 0.0, 2e-3) << "1e6 without damping";
+  EXPECT_EQ(damped_solution(MatrixXd::Zero(3, 2), MatrixXd::Ones(3, 1)).norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace prowl
