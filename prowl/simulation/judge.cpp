@@ -24,12 +24,12 @@ void judge_switches(const SimulationResult& result, const MotionProblem& problem
       texts.push_back(what + ": did not happen");
       continue;
     }
-    if (std::abs(late) > allowed)
+    if (!(std::abs(late) <= allowed))
       texts.push_back(fmt::format("{}: {:.0f} ms {}; {:.0f} ms allowed", what, 1e3 * std::abs(late),
                                   late > 0.0 ? "late" : "early", 1e3 * allowed));
     if (!change.lands) continue;
     if (!change.on_its_surface) texts.push_back(what + ": on another surface");
-    if (change.off > way)
+    if (!(change.off <= way))
       texts.push_back(
           fmt::format("{}: {:.1f} cm from its foothold; {:.1f} cm allowed", what, 100 * change.off, 100 * way));
   }
@@ -38,19 +38,19 @@ void judge_switches(const SimulationResult& result, const MotionProblem& problem
 void judge_goals(const SimulationResult& result, const MotionProblem& problem, const SuccessCriteria& criteria,
                  Texts& texts) {
   for (const GoalError& goal : result.goals) {
-    if (goal.position > criteria.position)
+    if (!(goal.position <= criteria.position))
       texts.push_back(fmt::format("{}: base {:.1f} cm off; {:.1f} cm allowed", goal.name, 100 * goal.position,
                                   100 * criteria.position));
-    if (goal.angle > criteria.angle)
+    if (!(goal.angle <= criteria.angle))
       texts.push_back(fmt::format("{}: base turned {:.1f} degrees off; {:.1f} allowed", goal.name,
                                   kDegrees * goal.angle, kDegrees * criteria.angle));
-    if (goal.joint > criteria.angle)
+    if (!(goal.joint <= criteria.angle))
       texts.push_back(fmt::format("{}: {} {:.1f} degrees off; {:.1f} allowed", goal.name, goal.worst_joint,
                                   kDegrees * goal.joint, kDegrees * criteria.angle));
   }
   const double way = allowed_way(problem.robot, criteria);
   for (const FlightHeight& flight : result.flights) {
-    if (flight.missing > way)
+    if (!(flight.missing <= way))
       texts.push_back(fmt::format("base {:.1f} cm too low in the middle of phase '{}'; {:.1f} cm allowed",
                                   100 * flight.missing, flight.phase, 100 * way));
   }
@@ -81,7 +81,7 @@ Texts failures(const SimulationResult& result, const MotionProblem& problem, con
                                 100 * result.slip[c], 100 * way));
   }
   for (const std::string& touch : result.touches) texts.push_back("touched: " + touch);
-  if (result.saturated > criteria.at_limit)
+  if (!(result.saturated <= criteria.at_limit))
     texts.push_back(fmt::format("a torque is at its limit for {:.1f} % of the time; {:.1f} % allowed",
                                 100 * result.saturated, 100 * criteria.at_limit));
   return texts;

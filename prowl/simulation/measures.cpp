@@ -160,8 +160,11 @@ SimulationResult Measures::result() {
       std::size_t last = s;  // a swing may last several segments
       while (last + 1 < segments.size() && !segments[last + 1].in_contact[c]) ++last;
       const double off = segments[s].start, on = segments[last].end, middle = 0.5 * (off + on);
-      const double before = s > 0 ? segments[s - 1].start : 0.0;
-      const double after = last + 1 < segments.size() ? segments[last + 1].end : on;
+      // The stances before and after may last several, too; with short ones a touch may be late by more than one.
+      std::size_t first = s, stance = last;
+      while (first > 0 && segments[first - 1].in_contact[c]) --first;
+      while (stance + 1 < segments.size() && segments[stance + 1].in_contact[c]) ++stance;
+      const double before = segments[first].start, after = segments[stance].end;
       s > 0 ? add_switch(contact, false, s, on - off, before, middle) : add_stray(contact, off, middle);
       last + 1 < segments.size() ? add_switch(contact, true, last + 1, on - off, middle, after)
                                  : add_stray(contact, middle, end_);

@@ -41,8 +41,8 @@ struct ContactReading {
 ///
 /// The model contains the bodies (links on fixed joints are merged), the joint limits, the
 /// surfaces, one ball per contact: of the contact's radius, or of 1 mm for corners of flat
-/// feet, with its lowest point at the corner; and collision shapes. It has no joint damping or joint
-/// friction. q, v, tau and frames as in RobotModel; docs/simulation.md maps the conventions.
+/// feet, with its lowest point at the corner; and collision shapes. Joints have damping and friction of
+/// the URDF. q, v, tau and frames as in RobotModel; docs/simulation.md maps the conventions.
 class Physics {
  public:
   /// Throws InputError with MuJoCo's reason if it rejects the robot.
