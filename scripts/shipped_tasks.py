@@ -19,6 +19,14 @@ def prowl(*arguments, folder: Path | None = None) -> dict:
     return json.loads(subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder).stdout)
 
 
+def must(*arguments) -> dict:
+    """The same; a command that fails ends the script."""
+    printed = prowl(*arguments)
+    if "error" in printed:
+        raise SystemExit(f"prowl {' '.join(map(str, arguments))}: {printed['error']}")
+    return printed
+
+
 def plan(task: str, solver: str, *options: str) -> tuple[dict, list[list[float]]]:
     """plan.json, and the state at each node: time [s], configuration [m, rad, quaternion], velocity [m/s, rad/s]."""
     with tempfile.TemporaryDirectory() as folder:
