@@ -35,7 +35,7 @@ std::string robust_sentence(const Robustness& robustness) {
   if (robustness.is_full()) return "Robust against all disturbances asked for.\n";
   const std::string share =
       robustness.share == 0.0 ? "not robust" : fmt::format("robust at {:.0f} % of the sizes", percent);
-  return fmt::format("note: {}; what lacks most for all of them is the {}\n", share, robustness.tightest);
+  return fmt::format("note: {}; the {} allows no more\n", share, robustness.tightest);
 }
 
 std::string certificate_brief(const Certificate& certificate, const std::filesystem::path& directory,

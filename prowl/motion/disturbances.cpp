@@ -15,6 +15,7 @@ Disturbances default_disturbances(const RobotModel& robot) {
   sizes.base_position *= height;
   sizes.center *= height;
   sizes.ground *= height;
+  sizes.estimate_position *= height;
   sizes.base_velocity *= speed;
   sizes.push *= speed;
   return sizes;

@@ -22,7 +22,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Version of schema/plan.schema.json. Increase it when keys change, and keep the promise of read_version.
-constexpr int kSchemaVersion = 8;
+constexpr int kSchemaVersion = 9;
 constexpr int kOldestVersion = 1;  ///< its solver may lack newer keys; before version 3 phases have equal steps
 
 /// As planned [s].
@@ -407,7 +407,7 @@ Json tracking_to_json(const PlanRecord& record) {
 Json robustness_to_json(const std::optional<Robustness>& robustness) {
   if (!robustness) return nullptr;
   Json sizes = Json::object();
-  for (const auto& [name, size] : kDisturbanceKeys) sizes[name] = robustness->sizes.*size;
+  for (const DisturbanceKey& key : kDisturbanceKeys) sizes[key.name] = robustness->sizes.*key.size;
   return {{"share", robustness->share},
           {"solves", robustness->solves},
           {"tightest", robustness->tightest},
@@ -419,10 +419,8 @@ std::optional<Robustness> read_robustness(const Reader& plan, int version) {
   const Reader json = plan.object("robustness"), sizes = json.object("sizes");
   Robustness robustness{
       .sizes = {}, .share = json.number("share"), .solves = json.integer("solves"), .tightest = json.text("tightest")};
-  for (const auto& [name, size] : kDisturbanceKeys) {
-    const bool is_later = version < 8 && size == &Disturbances::ground;
-    robustness.sizes.*size = is_later ? 0.0 : sizes.number(name);
-  }
+  for (const DisturbanceKey& key : kDisturbanceKeys)
+    robustness.sizes.*key.size = version < key.since ? 0.0 : sizes.number(key.name);
   return robustness;
 }
 

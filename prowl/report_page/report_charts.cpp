@@ -160,10 +160,10 @@ class Charts {
     for (const Eigen::Index row : {0, 1, 2, 3, 4, 5}) {
       for (const bool is_rate : {false, true}) {
         const std::string unit = row < 3 ? "m" : "rad";
-        Json one = {
-            {"title", fmt::format("{}{}, deviation", is_rate ? "velocity of " : "", coordinate_name(robot_, row))},
-            {"unit", is_rate ? unit + "/s" : unit},
-            {"series", Json::array()}};
+        Json one = {{"title", fmt::format("{}{}, deviation", is_rate ? "velocity (base frame) of " : "",
+                                          coordinate_name(robot_, row))},
+                    {"unit", is_rate ? unit + "/s" : unit},
+                    {"series", Json::array()}};
         const Eigen::Index k = is_rate ? nv + row : row;
         for (const double side : {1.0, -1.0})
           one["series"].push_back(series("band", "band", "plan", side * band.row(k)));
@@ -173,7 +173,8 @@ class Charts {
     }
     const auto add = [&](const std::string& title, const char* unit, const Eigen::RowVectorXd& left,
                          const Eigen::RowVectorXd& needed) {
-      Json both = Json::array({series("plan", "plan", "plan", left), series("needed", "band", "plan", needed)});
+      if (std::isinf(left.maxCoeff())) return;  // no limit
+      Json both = Json::array({series("plan", "plan", "plan", left), series("needed", "needed", "plan", needed)});
       charts.push_back({{"title", title}, {"unit", unit}, {"series", both}});
     };
     const auto contacts = static_cast<Eigen::Index>(robot_.contacts().size());
@@ -183,7 +184,7 @@ class Charts {
       });
     };
     const MatrixXd cone = of_contacts([](const Tube::OfPhase& phase) { return phase.cone_left; });
-    const MatrixXd cone_needed = of_contacts([](const Tube::OfPhase& phase) { return phase.needed.cone; });
+    const MatrixXd cone_needed = of_contacts([](const Tube::OfPhase& phase) { return phase.cone_needed(); });
     for (Eigen::Index c = 0; c < contacts; ++c)
       add("left of the friction cone, " + robot_.contacts()[static_cast<std::size_t>(c)].name, "N", cone.row(c),
           cone_needed.row(c));

@@ -105,10 +105,8 @@ std::string served(std::string page) {
 /// Of a robust plan; none without gains.
 std::optional<Tube> tube_of(const PlanRecord& record) {
   if (!record.robustness) return std::nullopt;
-  TrackingOptions tracking = record.task.tracking;
-  tracking.step = std::max(tracking.step, kTubeStep);
   try {
-    return closed_loop(record.task.problem, record.plan.trajectory, tracking, record.robustness->sizes).tube;
+    return make_tube(record.task.problem, record.plan.trajectory, record.task.tracking, record.robustness->sizes);
   } catch (const NumericalError&) {
     return std::nullopt;
   }

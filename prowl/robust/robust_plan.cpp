@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "prowl/error.hpp"
 #include "prowl/nlp/stopwatch.hpp"
 #include "prowl/solve_books.hpp"
 
@@ -16,42 +17,39 @@ using Eigen::MatrixXd;
 constexpr int kMostSolves = 8;            // rough ones: then a robust plan takes about three times a nominal one
 constexpr int kMostIterations = 40;       // of each: margins with a motion take up to 30
 constexpr double kLooseTolerance = 1e-4;  // of each: the tube of a motion does not need more
-constexpr int kTubes = 2;                 // for one share: a third would differ by less than a fifth of a margin
-constexpr double kEnough = 0.2;           // missing part of a margin: the next tube would differ by as much
+constexpr double kMissing = 0.2;          // part that a margin may lack: the next tube would differ by as much
 // Shares of the sizes: the first, as a multiple of what the nominal motion has, and at most; the next after one without
-// a motion; the least; the smallest step, and that of the share that is told.
-constexpr double kFirst = 1.7, kSmaller = 0.6, kLeastShare = 0.1, kStep = 0.1, kResolution = 0.01;
+// a motion; the least; the smallest step.
+constexpr double kFirst = 1.7, kSmaller = 0.6, kLeastShare = 0.1, kStep = 0.1;
 
-/// What a motion lacks of a margin.
-struct Lack {
-  double part = 0.0;  ///< of the largest margin of that limit in the phase
+/// Sizes of limits below this part of the largest of their kind in a phase count as so large: solvers do not see less.
+constexpr double kSmallest = 0.1;
+
+/// Part of the sizes for which a motion leaves the margins that its tube needs, and the limit that allows no more.
+struct HeldShare {
+  double share = std::numeric_limits<double>::infinity();
   std::string where;
 };
 
-/// Left of the cones with less friction.
-MatrixXd cones_left(const MotionProblem& problem, const Tube& tube, std::size_t p, double friction) {
-  MatrixXd left = tube.phases[p].cone_left;
-  for (Eigen::Index i = 0; i < left.rows(); ++i) {
-    const PhaseContact& held = problem.phases[p].contacts[static_cast<std::size_t>(i)];
-    const double coefficient = problem.surfaces[static_cast<std::size_t>(held.surface)].friction;
-    left.row(i) -= friction * coefficient * tube.phases[p].load.row(i);
-  }
-  return left;
-}
-
-Lack largest_lack(const MotionProblem& problem, const Tube& tube, const Disturbances& sizes, double share) {
-  Lack worst{.part = -std::numeric_limits<double>::infinity(), .where = ""};
+HeldShare held_share(const MotionProblem& problem, const Tube& tube) {
+  HeldShare least;
   for (std::size_t p = 0; p < tube.phases.size(); ++p) {
     const Tube::OfPhase& phase = tube.phases[p];
     const auto look = [&](const MatrixXd& needed, const MatrixXd& left, const auto& name) {
-      if (needed.size() == 0 || needed.maxCoeff() <= 0.0) return;
-      Eigen::Index row = 0, sample = 0;
-      const double lack = (share * needed - left).maxCoeff(&row, &sample) / (share * needed.maxCoeff());
-      if (lack <= worst.part) return;
-      worst = {lack, fmt::format("{} at {:.2f} s in phase '{}'", name(row),
-                                 phase.times[static_cast<std::size_t>(sample)], problem.phases[p].name)};
+      if (needed.size() == 0) return;
+      for (Eigen::Index row = 0; row < needed.rows(); ++row) {
+        const double largest = std::max(needed.row(row).maxCoeff(), kSmallest * needed.maxCoeff());
+        for (Eigen::Index k = 0; k < needed.cols(); ++k) {
+          const double asked = needed(row, k) - kMissing * largest;
+          if (asked <= 0.0) continue;
+          const double share = std::max(left(row, k), 0.0) / asked;
+          if (share >= least.share) continue;
+          least = {share, fmt::format("{} at {:.2f} s in phase '{}'", name(row),
+                                      phase.times[static_cast<std::size_t>(k)], problem.phases[p].name)};
+        }
+      }
     };
-    look(phase.needed.cone, cones_left(problem, tube, p, share * sizes.friction), [&](Eigen::Index row) {
+    look(phase.cone_needed(), phase.cone_left, [&](Eigen::Index row) {
       const PhaseContact& held = problem.phases[p].contacts[static_cast<std::size_t>(row)];
       return "friction cone of " + problem.robot.contacts()[static_cast<std::size_t>(held.contact)].name;
     });
@@ -61,17 +59,15 @@ Lack largest_lack(const MotionProblem& problem, const Tube& tube, const Disturba
       return "clearance of " + problem.robot.contacts()[static_cast<std::size_t>(row)].name;
     });
   }
-  return worst;
+  return least;
 }
 
 /// Share of the sizes for which the cones of all feet together have what they need, however the loads are shared out.
-double share_to_begin_with(const MotionProblem& problem, const Tube& tube, const Disturbances& sizes) {
+double share_to_begin_with(const Tube& tube) {
   double share = 1.0;
-  for (std::size_t p = 0; p < tube.phases.size(); ++p) {
-    if (tube.phases[p].needed.cone.rows() == 0) continue;
-    const Eigen::RowVectorXd left = cones_left(problem, tube, p, 0.0).colwise().sum();
-    const Eigen::RowVectorXd needed = tube.phases[p].needed.cone.colwise().sum() + left -
-                                      cones_left(problem, tube, p, sizes.friction).colwise().sum();
+  for (const Tube::OfPhase& phase : tube.phases) {
+    if (phase.cone_left.rows() == 0) continue;
+    const Eigen::RowVectorXd left = phase.cone_left.colwise().sum(), needed = phase.cone_needed().colwise().sum();
     share = std::min(share, (left.array() / needed.array().max(1e-9)).minCoeff());
   }
   return std::clamp(kFirst * share, kLeastShare, kSmaller);
@@ -98,11 +94,12 @@ PlanOptions options_from(const Plan& before, const PlanOptions& options, bool re
   return next;
 }
 
-/// A motion that keeps margins.
+/// A motion that keeps the margins of another one's tube.
 struct Candidate {
   Plan plan;
   MotionProblem asked;
-  double share;
+  Tube tube;    ///< its own
+  double held;  ///< share that its own tube leaves
 };
 
 /// Looks for margins that have a motion, for ever larger shares of the sizes, by loose solves on a coarse mesh.
@@ -120,44 +117,59 @@ class Search {
         refines_(refines),
         seconds_left_(std::move(seconds_left)) {
     books_.add(nominal);
-    tracking_.step = std::max(tracking.step, kTubeStep);
     options_.solver.max_iterations = std::min(options.solver.max_iterations, kMostIterations);
     options_.solver.tolerance = std::max(options.solver.tolerance, kLooseTolerance);
   }
 
-  /// In order of their shares; empty: the nominal motion has all margins, or no margins have a motion.
+  /// Empty: the nominal motion has all margins, or no margins have a motion.
   std::vector<Candidate> run() {
-    Tube tube = closed_loop(asked_.problem, nominal_.trajectory, tracking_, sizes_).tube;
-    double share = share_to_begin_with(asked_.problem, tube, sizes_);
+    const Tube first = make_tube(asked_.problem, nominal_.trajectory, tracking_, sizes_);
+    double share = share_to_begin_with(first);
     double kept = 0.0, none = std::numeric_limits<double>::infinity();  // largest with a motion, smallest without
     std::vector<Candidate> found;
-    while (true) {
-      const bool is_tried = std::ranges::count(found, share, &Candidate::share) == kTubes;
-      if (is_tried || largest_lack(asked_.problem, tube, sizes_, share).part <= kEnough) {
+    while (share >= kLeastShare && solves_ < kMostSolves && !is_stopped_ && seconds_left_() > 0.0) {
+      const bool is_last = share == kept;  // with the tube of a motion that keeps this share of the one before
+      const Tube& tube = found.empty() ? first : found.back().tube;
+      if (held_share(asked_.problem, tube).share >= share) {
         kept = share;
-        if (kept == 1.0 || none - kept < kStep) return found;
-        share = std::isfinite(none) ? 0.5 * (kept + none) : std::min(1.0, kept / kSmaller);
-        continue;
+      } else if (std::optional<Candidate> next = keep(margins_of(tube, sizes_, share), found)) {
+        found.push_back(std::move(*next));
+        kept = share;
+      } else {
+        none = share;
       }
-      if (solves_ == kMostSolves || seconds_left_() <= 0.0) return found;
-      MotionProblem tighter = asked_.problem;
-      tighter.margins = margins_of(tube, sizes_, share);
-      Plan plan = solve(tighter, found.empty() ? nullptr : &found.back().plan);
-      if (plan.result.status == SolveStatus::converged) {
-        tube = closed_loop(asked_.problem, plan.trajectory, tracking_, sizes_).tube;
-        found.push_back({std::move(plan), std::move(tighter), share});
-        continue;
-      }
-      none = share;
-      share = kept > 0.0 ? 0.5 * (kept + none) : kSmaller * none;
-      if (is_stopped(plan.result.status) || none - kept < kStep || share < kLeastShare) return found;
+      if (is_last) return found;
+      if (kept == 1.0 || none - kept < kStep)
+        share = kept;
+      else if (std::isfinite(none))
+        share = kept > 0.0 ? 0.5 * (kept + none) : kSmaller * none;
+      else
+        share = std::min(1.0, kept / kSmaller);
     }
+    return found;
   }
 
   int solves() const { return solves_; }
   SolveBooks& books() { return books_; }
 
  private:
+  /// From the last of those before. None where there is no motion, or no gains for it.
+  std::optional<Candidate> keep(Margins margins, const std::vector<Candidate>& before) {
+    MotionProblem tighter = asked_.problem;
+    tighter.margins = std::move(margins);
+    try {
+      Plan plan = solve(tighter, before.empty() ? nullptr : &before.back().plan);
+      is_stopped_ = is_stopped(plan.result.status);
+      if (plan.result.status != SolveStatus::converged) return std::nullopt;
+      Tube tube = make_tube(asked_.problem, plan.trajectory, tracking_, sizes_);
+      const double held = held_share(asked_.problem, tube).share;
+      return Candidate{std::move(plan), std::move(tighter), std::move(tube), held};
+    } catch (const NumericalError&) {  // no gains
+    } catch (const InputError&) {      // margins that leave nothing between two limits
+    }
+    return std::nullopt;
+  }
+
   /// From the motion before; the first, where that fails, from the task.
   Plan solve(const MotionProblem& tighter, const Plan* before) {
     const DiscreteProblem program(tighter, refines_ ? asked_.mesh : nominal_.mesh);
@@ -168,6 +180,8 @@ class Search {
     if (before || !has_failed(plan.result.status)) return plan;
     options.warm_start = {};
     options.corrected = false;
+    options.solver.max_seconds = seconds_left_();
+    ++solves_;
     plan = solve_plan(program, solver_, options);
     books_.add(plan);
     return plan;
@@ -175,7 +189,7 @@ class Search {
 
   const DiscreteProblem& asked_;
   const Plan& nominal_;
-  TrackingOptions tracking_;
+  const TrackingOptions& tracking_;
   const Disturbances& sizes_;
   const NlpSolver& solver_;
   PlanOptions options_;
@@ -183,6 +197,7 @@ class Search {
   std::function<double()> seconds_left_;
   SolveBooks books_;
   int solves_ = 0;
+  bool is_stopped_ = false;
 };
 
 }  // namespace
@@ -196,9 +211,13 @@ RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const Tr
   };
   Search search(asked, nominal, tracking, sizes, solver, options, refine.has_value(), seconds_left);
   std::vector<Candidate> candidates = search.run();
+  std::ranges::stable_sort(candidates, {}, &Candidate::held);
+  const auto held_by = [&](const Plan& plan) {
+    return held_share(problem, make_tube(problem, plan.trajectory, tracking, sizes));
+  };
   Plan best = nominal;
-  Robustness found{.sizes = sizes, .share = 1.0, .solves = search.solves(), .tightest = ""};
-  // The one with the largest share that is as exact as the nominal one.
+  HeldShare held = held_by(nominal);
+  // The one that holds most and is as exact as the nominal one.
   for (; !candidates.empty() && seconds_left() > 0.0; candidates.pop_back()) {
     const Candidate& rough = candidates.back();
     const PlanOptions last = options_from(rough.plan, options, refine.has_value(), seconds_left());
@@ -206,24 +225,15 @@ RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const Tr
     Plan plan = refine ? make_refined_plan(program, solver, last, *refine).plan : make_plan(program, solver, last);
     search.books().add(plan);
     if (!is_good(plan)) continue;
-    best = std::move(plan);
-    found.share = rough.share;
+    HeldShare own = held_by(plan);
+    if (own.share > held.share) {
+      best = std::move(plan);
+      held = std::move(own);
+    }
     break;
   }
-  ClosedLoop loop = closed_loop(problem, best.trajectory, tracking, sizes);
-  // What the plan has, by its own tube.
-  const auto is_robust = [&](double share) { return largest_lack(problem, loop.tube, sizes, share).part <= kEnough; };
-  if (!is_robust(found.share)) {
-    double most = found.share;
-    found.share = 0.0;
-    while (most - found.share > kResolution) {
-      const double middle = 0.5 * (found.share + most);
-      (is_robust(middle) ? found.share : most) = middle;
-    }
-  }
-  found.tightest = largest_lack(problem, loop.tube, sizes, 1.0).where;
   search.books().enter(best);
-  return {std::move(best), std::move(loop.feedback), std::move(found)};
+  return {std::move(best), {sizes, std::min(held.share, 1.0), search.solves(), std::move(held.where)}};
 }
 
 }  // namespace prowl

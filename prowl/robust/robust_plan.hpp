@@ -13,14 +13,13 @@ struct Robustness {
   Disturbances sizes;    ///< asked for
   double share = 0.0;    ///< of the sizes, for which the plan leaves the margins that its tube needs [-]
   int solves = 0;        ///< with margins
-  std::string tightest;  ///< limit and moment that lack most at the full sizes, in words
+  std::string tightest;  ///< limit and moment that allow no larger share, in words
 
   bool is_full() const { return share == 1.0; }
 };
 
 struct RobustPlan {
   Plan plan;
-  FeedbackDesign feedback;  ///< of the plan
   Robustness robustness;
 };
 

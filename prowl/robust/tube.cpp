@@ -7,7 +7,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "prowl/linear_algebra/factorisations.hpp"
+#include "prowl/model/body_tree.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/model/so3.hpp"
 #include "prowl/motion/friction_limit.hpp"
 
 namespace prowl {
@@ -20,6 +23,7 @@ using Eigen::VectorXd;
 constexpr double kCoverage = 2.0;
 /// Of a value that is drawn evenly between minus and plus one.
 const double kEven = 1.0 / std::sqrt(3.0);
+constexpr int kEstimates = 6;        // errors of the estimate: base position and angle, each axis
 constexpr double kPushEvery = 0.05;  // [s]; pushes begin at these times
 constexpr double kForgotten = 1.5;   // [s] after it began, a push has no effect
 /// The load of a contact grows from zero when it lands and goes to zero before it opens, and what is kept of its cone
@@ -94,16 +98,15 @@ Eigen::Matrix<double, kDirections, 3> friction_slopes(const Surface& surface) {
 
 }  // namespace
 
-MatrixXd Tube::OfPhase::band() const {
-  return (kCoverage * kCoverage * state.array().square() + pushed.array().square()).sqrt();
-}
+MatrixXd Tube::OfPhase::band() const { return kCoverage * state; }
 
-ClosedLoop closed_loop(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
-                       const Disturbances& disturbances) {
-  TubeDesign design(problem, motion, tracking, disturbances);
-  FeedbackDesign feedback =
-      design_feedback(problem, motion, tracking, [&](const ReducedSample& sample) { design.add(sample); });
-  return {std::move(feedback), design.propagate()};
+Tube make_tube(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+               const Disturbances& disturbances, double step) {
+  TrackingOptions coarse = tracking;
+  coarse.step = step;
+  TubeDesign design(problem, motion, coarse, disturbances);
+  design_feedback(problem, motion, coarse, [&](const ReducedSample& sample) { design.add(sample); });
+  return design.propagate();
 }
 
 MatrixXd rows_of_contacts(const MotionProblem& problem, std::size_t phase, const MatrixXd& held) {
@@ -117,14 +120,20 @@ MatrixXd rows_of_contacts(const MotionProblem& problem, std::size_t phase, const
 TubeDesign::TubeDesign(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
                        const Disturbances& disturbances)
     : problem_(problem),
+      end_(motion.nodes.back().time),
       weight_(tracking.state_weight()),
       disturbances_(disturbances),
       inertia_(problem.robot),
+      pushed_at_(body_tree(problem.robot).bodies.front().center),
       schedule_(problem),
       terms_(problem.robot),
       feet_(all_contacts(problem.robot)),
+      is_footed_(problem.robot.contacts().size(), false),
       samples_(problem.phases.size()) {
   const std::vector<double> times = times_of(problem, motion);
+  for (const Phase& phase : problem.phases) {
+    for (const PhaseContact& held : phase.contacts) is_footed_[static_cast<std::size_t>(held.contact)] = true;
+  }
   for (const ContactSwing& swing : schedule_.swings())
     swings_.emplace_back(times[swing.first_phase], times[swing.last_phase + 1]);
 }
@@ -154,14 +163,22 @@ void TubeDesign::add(const ReducedSample& at) {
   const MatrixXd torques = -at.K * at.Z;
   const MatrixXd forces = df.q * at.Z.topRows(nv) + df.v * at.Z.bottomRows(nv) + df.tau * torques;
 
-  const auto constants = static_cast<Eigen::Index>(inertia_.count());
-  MatrixXd applied = MatrixXd::Zero(nv, constants + 2);  // constant errors, then the push
-  applied.leftCols(constants) = -inertia_.forces(at.point.q, at.point.v, dynamics.acceleration(),
-                                                 kEven * disturbances_.mass, kEven * disturbances_.center);
+  const auto masses = static_cast<Eigen::Index>(inertia_.count()), constants = masses + kEstimates;
+  MatrixXd applied = MatrixXd::Zero(nv, masses + 2);  // errors of masses, then the push
+  applied.leftCols(masses) = -inertia_.forces(at.point.q, at.point.v, dynamics.acceleration(),
+                                              kEven * disturbances_.mass, kEven * disturbances_.center);
   const double push = problem_.robot.mass() * disturbances_.push / disturbances_.push_duration;  // [N]
-  applied.topRightCorner<3, 2>() = push * base_rotation(at.point.q).transpose().leftCols<2>();
+  const Eigen::Matrix<double, 3, 2> forces_of_push = push * base_rotation(at.point.q).transpose().leftCols<2>();
+  applied.topRightCorner<3, 2>() = forces_of_push;
+  applied.block<3, 2>(3, masses) = so3::skew(pushed_at_) * forces_of_push;
   const auto [accelerations, contact_forces] = dynamics.response(applied);
   const MatrixXd rates = (at.Z.transpose() * weight_.asDiagonal()).rightCols(nv) * accelerations;
+  terms_.update_kinematics(at.point.q);
+  feet_.set_configuration(terms_);
+  const MatrixXd by_height = joints_by_height();
+  const MatrixXd misled = misled_torques(at, by_height);
+  MatrixXd drift(at.Z.cols(), constants);
+  drift << rates.leftCols(masses), at.B * misled;
 
   const auto& held = problem_.phases[phase].contacts;
   const auto contacts = static_cast<Eigen::Index>(held.size()), cones = kDirections * contacts;
@@ -169,14 +186,15 @@ void TubeDesign::add(const ReducedSample& at) {
   Sample sample{.time = at.point.time,
                 .Z = at.Z,
                 .step = at.step,
-                .drift = rates.leftCols(constants),
+                .drift = std::move(drift),
                 .push = rates.rightCols(2),
                 .limits = MatrixXd(rows, at.Z.cols()),
                 .by_constants = MatrixXd::Zero(rows, constants),
                 .by_push = MatrixXd::Zero(rows, 2),
+                .by_ground = disturbances_.ground / kCoverage * by_height,
+                .friction = VectorXd(contacts),
                 .cone_left = VectorXd(contacts),
                 .torque_left = VectorXd(nu),
-                .load = VectorXd(contacts),
                 .height = VectorXd::Constant(feet, std::numeric_limits<double>::infinity())};
   const RobotModel& robot = problem_.robot;
   for (int j = 0; j < robot.nu(); ++j) {
@@ -187,29 +205,34 @@ void TubeDesign::add(const ReducedSample& at) {
   }
   for (Eigen::Index i = 0; i < contacts; ++i) {
     const auto& surface = problem_.surfaces[static_cast<std::size_t>(held[static_cast<std::size_t>(i)].surface)];
-    const Eigen::Vector3d force = dynamics.forces().segment<3>(3 * i);
-    sample.load(i) = surface.normal.dot(force);
-    sample.cone_left(i) =
-        FrictionLimit(problem_.friction_model, surface, kSharp * robot.weight()).rows(force).minCoeff();
+    // The motion's: those of the dynamics are the least that redundant contacts need.
+    const Eigen::Vector3d force = at.point.force.segment<3>(3 * held[static_cast<std::size_t>(i)].contact);
+    Surface slippery = surface;
+    slippery.friction *= 1.0 - disturbances_.friction;
+    const auto left = [&](const Surface& on) {
+      return FrictionLimit(problem_.friction_model, on, kSharp * robot.weight()).rows(force).minCoeff();
+    };
+    sample.cone_left(i) = left(surface);
+    sample.friction(i) = std::max(sample.cone_left(i) - left(slippery), 0.0);
     const auto slopes = friction_slopes(surface);
     const MatrixXd by_force = slopes * contact_forces.middleRows<3>(3 * i);
     sample.limits.middleRows<kDirections>(kDirections * i) = slopes * forces.middleRows<3>(3 * i);
-    sample.by_constants.middleRows<kDirections>(kDirections * i) = by_force.leftCols(constants);
+    sample.by_constants.middleRows<kDirections>(kDirections * i) << by_force.leftCols(masses),
+        slopes * df.tau.middleRows<3>(3 * i) * misled;
     sample.by_push.middleRows<kDirections>(kDirections * i) = by_force.rightCols(2);
   }
   sample.limits.middleRows(cones, nu) = torques;
+  sample.by_constants.middleRows(cones, nu).rightCols<kEstimates>() = misled;
   sample.limits.middleRows(cones + nu, nu) = at.Z.middleRows(6, nu);
   add_heights(at, sample);
   samples_[phase].push_back(std::move(sample));
   if (at.phase == 0 && at.sample == 0) start_ = start_deviations(at);
 }
 
-/// Of the contacts in the air.
+/// Of the contacts in the air, at the configuration of feet_.
 void TubeDesign::add_heights(const ReducedSample& at, Sample& sample) {
   auto rows = sample.limits.bottomRows(feet_.rows() / 3);
   rows.setZero();
-  terms_.update_kinematics(at.point.q);
-  feet_.set_configuration(terms_);
   for (std::size_t i = 0; i < swings_.size(); ++i) {
     const ContactSwing& swing = schedule_.swings()[i];
     if (at.phase < swing.first_phase || at.phase > swing.last_phase) continue;
@@ -227,6 +250,36 @@ void TubeDesign::add_heights(const ReducedSample& at, Sample& sample) {
   }
 }
 
+/// The base stays, each footed contact goes up by 1 m: as GroundEstimator lays the plan on the ground.
+MatrixXd TubeDesign::joints_by_height() const {
+  const Eigen::Index nu = problem_.robot.nu();
+  MatrixXd by_joints = feet_.positions_dq().rightCols(nu);
+  for (Eigen::Index c = 0; c < feet_.rows() / 3; ++c) {
+    if (!is_footed_[static_cast<std::size_t>(c)]) by_joints.middleRows<3>(3 * c).setZero();
+  }
+  MatrixXd up = MatrixXd::Zero(feet_.rows(), feet_.rows() / 3);
+  for (Eigen::Index c = 0; c < up.cols(); ++c) up(3 * c + 2, c) = 1.0;
+  return damped_solution(by_joints, up);
+}
+
+/// Torques of the feedback that takes an error of the estimated base, each axis of its position and angle, for a
+/// deviation. The feet seem to be higher by it, too, as the ground estimator believes.
+MatrixXd TubeDesign::misled_torques(const ReducedSample& at, const MatrixXd& by_height) const {
+  Eigen::Matrix<double, kEstimates, kEstimates> base = Eigen::Matrix<double, kEstimates, kEstimates>::Zero();
+  base.diagonal() << Eigen::Vector3d::Constant(kEven * disturbances_.estimate_position),
+      Eigen::Vector3d::Constant(kEven * disturbances_.estimate_angle);
+  const Eigen::Matrix3d R = base_rotation(at.point.q);
+  MatrixXd heights(feet_.rows() / 3, kEstimates);
+  for (Eigen::Index c = 0; c < heights.rows(); ++c) {
+    const Eigen::Vector3d lever = feet_.positions().segment<3>(3 * c) - base_position(at.point.q);
+    heights.row(c) = base.row(2) - (so3::skew(lever) * R).row(2) * base.bottomRows<3>();
+  }
+  MatrixXd error = MatrixXd::Zero(2 * problem_.robot.nv(), kEstimates);
+  error.topRows<kEstimates>() = base;
+  error.middleRows(kEstimates, problem_.robot.nu()) = -by_height * heights;
+  return -at.K * error;
+}
+
 void TubeDesign::Deviations::advance(const Sample& at, const Sample* after, double push_duration) {
   start = at.step * start;
   constants = at.step * constants;
@@ -235,7 +288,8 @@ void TubeDesign::Deviations::advance(const Sample& at, const Sample* after, doub
   const double h = after->time - at.time;
   constants += 0.5 * h * (at.step * at.drift + after->drift);
   for (Push& push : pushes) {
-    if (at.time < push.begin + push_duration) push.deviation += 0.5 * h * (at.step * at.push + after->push);
+    const double pushed = std::clamp(push.begin + push_duration - at.time, 0.0, h);  // part of the step
+    push.deviation += 0.5 * pushed * (at.step * at.push + after->push);
   }
 }
 
@@ -246,15 +300,24 @@ void TubeDesign::measure(const Sample& at, const Deviations& deviations, Tube::O
   MatrixXd of_limits = at.limits * drawn;
   of_limits.rightCols(deviations.constants.cols()) += at.by_constants;
   VectorXd worst = VectorXd::Zero(at.limits.rows());
+  VectorXd pushed = VectorXd::Zero(at.Z.rows());  // squares
+  const double likely = 0.5 * kPushEvery / end_;  // that it begins then, and points along one of two axes
   for (const Push& push : deviations.pushes) {
     MatrixXd effect = at.limits * push.deviation;
     if (at.time < push.begin + disturbances_.push_duration) effect += at.by_push;
     worst = worst.cwiseMax(lengths(effect));
-    phase.pushed.col(k) = phase.pushed.col(k).cwiseMax(lengths(at.Z * push.deviation));
+    pushed += likely * (at.Z * push.deviation).rowwise().squaredNorm();
   }
-  phase.state.col(k) = lengths(at.Z * drawn);
-  const VectorXd needed = (kCoverage * kCoverage * lengths(of_limits).array().square() + worst.array().square()).sqrt();
-  const Eigen::Index contacts = at.load.size(), nu = at.torque_left.size();
+  const Eigen::Index nu = at.torque_left.size();
+  const VectorXd by_ground = lengths(at.by_ground);
+  VectorXd spread = lengths(of_limits);  // standard deviations
+  auto joints = spread.segment(kDirections * at.cone_left.size() + nu, nu);
+  joints = (joints.array().square() + by_ground.array().square()).sqrt();
+  VectorXd squares = (at.Z * drawn).rowwise().squaredNorm() + pushed;
+  squares.segment(6, nu) += by_ground.cwiseAbs2();
+  phase.state.col(k) = squares.cwiseSqrt();
+  const VectorXd needed = (kCoverage * kCoverage * spread.array().square() + worst.array().square()).sqrt();
+  const Eigen::Index contacts = at.cone_left.size();
   for (Eigen::Index i = 0; i < contacts; ++i)
     phase.needed.cone(i, k) = needed.segment<kDirections>(i * kDirections).maxCoeff();
   phase.needed.torque.col(k) = needed.segment(kDirections * contacts, nu);
@@ -269,27 +332,26 @@ void TubeDesign::measure(const Sample& at, const Deviations& deviations, Tube::O
         kept_clearance(swing, swings_[i], at.time) * std::sqrt(rise(swing.contact));
   }
   phase.height.col(k) = at.height;
+  phase.friction.col(k) = at.friction;
   phase.cone_left.col(k) = at.cone_left;
   phase.torque_left.col(k) = at.torque_left;
-  phase.load.col(k) = at.load;
 }
 
 Tube TubeDesign::propagate() const {
   Tube tube;
-  Deviations deviations{start_, MatrixXd::Zero(start_.rows(), inertia_.count()), {}};
+  Deviations deviations{start_, MatrixXd::Zero(start_.rows(), inertia_.count() + kEstimates), {}};
   double next_push = 0.0;
   const Eigen::Index nu = problem_.robot.nu(), nv = problem_.robot.nv();
   for (const std::vector<Sample>& backwards : samples_) {
-    const auto count = static_cast<Eigen::Index>(backwards.size()), contacts = backwards.front().load.size();
+    const auto count = static_cast<Eigen::Index>(backwards.size()), contacts = backwards.front().cone_left.size();
     Tube::OfPhase& phase = tube.phases.emplace_back();
     phase.state.resize(2 * nv, count);
-    phase.pushed.setZero(2 * nv, count);
     phase.needed = {MatrixXd(contacts, count), MatrixXd(nu, count), MatrixXd(nu, count),
                     MatrixXd(feet_.rows() / 3, count)};
     phase.height.resize(feet_.rows() / 3, count);
+    phase.friction.resize(contacts, count);
     phase.cone_left.resize(contacts, count);
     phase.torque_left.resize(nu, count);
-    phase.load.resize(contacts, count);
     for (auto at = backwards.rbegin(); at != backwards.rend(); ++at) {
       if (at->time >= next_push) {
         deviations.pushes.push_back({at->time, MatrixXd::Zero(at->Z.cols(), 2)});

@@ -14,22 +14,23 @@
 
 namespace prowl {
 
-/// How far the closed loop leaves a motion under disturbances, to first order: standard deviations of what is drawn
-/// once (start, masses) and the largest effect of one push.
+/// How far the closed loop leaves a motion under disturbances, to first order. Each is drawn once: start, masses,
+/// ground, error of the estimate, and one push in any direction at any time.
 struct Tube {
   /// Of one phase of the motion, one column for each of its samples.
   struct OfPhase {
     std::vector<double> times;    ///< [s]
-    Eigen::MatrixXd state;        ///< dx, standard deviation without pushes (2 nv rows) [m, rad, m/s, rad/s]
-    Eigen::MatrixXd pushed;       ///< dx, largest by a push (2 nv rows)
+    Eigen::MatrixXd state;        ///< dx, standard deviation (2 nv rows) [m, rad, m/s, rad/s]
     Margins::OfPhase needed;      ///< of the limits: docs/robust.md#margins
-    Eigen::MatrixXd cone_left;    ///< by the motion, of each contact, with all friction [N]
-    Eigen::MatrixXd torque_left;  ///< by the motion, nu rows [N m]
-    Eigen::MatrixXd load;         ///< normal force of each contact [N]
+    Eigen::MatrixXd friction;     ///< what each cone of the motion loses with the friction that may be missing [N]
+    Eigen::MatrixXd cone_left;    ///< distance of each contact's force from its full cone [N]
+    Eigen::MatrixXd torque_left;  ///< distance from the torque limits, nu rows [N m]
     Eigen::MatrixXd height;       ///< of each contact of the robot in the air, above its surfaces; else infinite [m]
 
-    /// Size of dx that 95 % of the cases keep (2 nv rows): two standard deviations and the worst push, as squares.
+    /// Size of dx that 95 % of the cases keep (2 nv rows): two standard deviations.
     Eigen::MatrixXd band() const;
+    /// Of the full cones: for deviations, and for friction that is missing [N].
+    Eigen::MatrixXd cone_needed() const { return needed.cone + friction; }
   };
   std::vector<OfPhase> phases;
 };
@@ -51,11 +52,12 @@ class TubeDesign {
   /// the contacts of the robot.
   struct Sample {
     double time;
-    Eigen::MatrixXd Z, step;                               ///< of ReducedSample
-    Eigen::MatrixXd drift, push;                           ///< d xi/dt by what is constant, and by a push along x and y
-    Eigen::MatrixXd limits;                                ///< by xi
-    Eigen::MatrixXd by_constants, by_push;                 ///< of the limits, at fixed xi
-    Eigen::VectorXd cone_left, torque_left, load, height;  ///< of Tube::OfPhase
+    Eigen::MatrixXd Z, step;                ///< of ReducedSample
+    Eigen::MatrixXd drift, push;            ///< d xi/dt by what is constant, and by a push along x and y
+    Eigen::MatrixXd limits;                 ///< by xi
+    Eigen::MatrixXd by_constants, by_push;  ///< of the limits, at fixed xi
+    Eigen::MatrixXd by_ground;              ///< of the joints, by a height under each contact
+    Eigen::VectorXd friction, cone_left, torque_left, height;  ///< of Tube::OfPhase
   };
   struct Push {
     double begin;               ///< [s]
@@ -72,31 +74,31 @@ class TubeDesign {
   void measure(const Sample& at, const Deviations& deviations, Tube::OfPhase& phase, Eigen::Index k) const;
   Eigen::MatrixXd start_deviations(const ReducedSample& first) const;
   void add_heights(const ReducedSample& at, Sample& sample);
+  Eigen::MatrixXd joints_by_height() const;
+  Eigen::MatrixXd misled_torques(const ReducedSample& at, const Eigen::MatrixXd& by_height) const;
 
   const MotionProblem& problem_;
+  double end_;              ///< of the motion [s]
   Eigen::VectorXd weight_;  ///< of the metric of xi
   Disturbances disturbances_;
   InertiaErrors inertia_;
+  Eigen::Vector3d pushed_at_;  ///< centre of mass of the base, in its frame [m]
   ContactSchedule schedule_;
   RigidBodyTerms terms_;
   ContactKinematics feet_;                         ///< all contacts of the robot
+  std::vector<bool> is_footed_;                    ///< in stance at any time, of each
   std::vector<std::pair<double, double>> swings_;  ///< begin and end of each of the schedule [s]
   std::vector<std::vector<Sample>> samples_;       ///< of each phase, last first
   Eigen::MatrixXd start_;                          ///< deviations xi at the start, one column for each draw
 };
 
-/// Gains of a motion, and where they let it go.
-struct ClosedLoop {
-  FeedbackDesign feedback;
-  Tube tube;
-};
+/// Between samples of a tube, about [s]: deviations change over 0.1 s and more.
+inline constexpr double kTubeStep = 0.02;
 
-/// With the gains of design_feedback(). Throws NumericalError if there are none.
-ClosedLoop closed_loop(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
-                       const Disturbances& disturbances);
-
-/// Step of the gains where a tube need not be exact [s].
-inline constexpr double kTubeStep = 0.01;
+/// Of the gains that design_feedback() finds, on a grid of this `step` [s] instead of `tracking`'s. Throws
+/// NumericalError if there are none.
+Tube make_tube(const MotionProblem& problem, const Trajectory& motion, const TrackingOptions& tracking,
+               const Disturbances& disturbances, double step = kTubeStep);
 
 /// Rows of the contacts of a phase as those of all contacts of the robot; NaN for those in the air.
 Eigen::MatrixXd rows_of_contacts(const MotionProblem& problem, std::size_t phase, const Eigen::MatrixXd& held);

@@ -155,14 +155,13 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
                                            tolerance ? std::optional(refine) : std::nullopt);
       plan = std::move(robust.plan);
       planned.record.robustness = std::move(robust.robustness);
-      if (request.gains) planned.record.feedback = std::move(robust.feedback);
+      planned.interrupted = planned.interrupted || (request.interrupt && request.interrupt->load());
     } catch (const NumericalError& error) {  // no gains, no tube
       planned.record.robustness = {.sizes = *sizes, .tightest = fmt::format("feedback: {}", error.what())};
     }
   }
   planned.record.iterations = watch.take();
-  if (request.gains && is_good(plan) && !planned.record.feedback)
-    planned.why_no_gains = add_gains(request, planned.record);
+  if (request.gains && is_good(plan)) planned.why_no_gains = add_gains(request, planned.record);
   return planned;
 }
 

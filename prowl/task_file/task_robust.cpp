@@ -12,8 +12,8 @@ std::optional<Disturbances> read_robust(const TomlTable& root, const MotionProbl
   }
   Disturbances sizes = default_disturbances(problem.robot);
   if (!table) return sizes;
-  for (const auto& [name, size] : kDisturbanceKeys) {
-    if (const auto value = table->find(name)) sizes.*size = value->as_number();
+  for (const DisturbanceKey& key : kDisturbanceKeys) {
+    if (const auto value = table->find(key.name)) sizes.*key.size = value->as_number();
   }
   return sizes;
 }

@@ -17,15 +17,15 @@ struct TubeArrays {
 };
 
 TubeArrays tube_of(const PlanObject& plan, double step) {
-  if (!(step > 0.0)) throw InputError(fmt::format("step: {} is not allowed; need a number > 0 [s]", step));
+  constexpr double kLeast = 1e-4, kMost = 1.0;
+  if (!(step >= kLeast && step <= kMost))
+    throw InputError(fmt::format("step: {} is not allowed; need a number from {} to {} [s]", step, kLeast, kMost));
   const nb::gil_scoped_release others_may_run;
   const Task& task = plan.record.task;
   const MotionProblem& problem = task.problem;
-  TrackingOptions tracking = task.tracking;
-  tracking.step = step;
   const Disturbances sizes = plan.record.robustness ? plan.record.robustness->sizes
                                                     : task.robust.value_or(default_disturbances(problem.robot));
-  const Tube tube = closed_loop(problem, plan.record.plan.trajectory, tracking, sizes).tube;
+  const Tube tube = make_tube(problem, plan.record.plan.trajectory, task.tracking, sizes, step);
   Eigen::Index count = 0;
   for (const Tube::OfPhase& phase : tube.phases) count += phase.state.cols();
   const auto contacts = static_cast<Eigen::Index>(problem.robot.contacts().size());
@@ -44,7 +44,7 @@ TubeArrays tube_of(const PlanObject& plan, double step) {
     all.phase.segment(row, rows).setConstant(static_cast<int>(p));
     all.band.middleRows(row, rows) = phase.band().transpose();
     all.cone_left.middleRows(row, rows) = rows_of_contacts(problem, p, phase.cone_left).transpose();
-    all.cone_needed.middleRows(row, rows) = rows_of_contacts(problem, p, phase.needed.cone).transpose();
+    all.cone_needed.middleRows(row, rows) = rows_of_contacts(problem, p, phase.cone_needed()).transpose();
     all.torque_left.middleRows(row, rows) = phase.torque_left.transpose();
     all.torque_needed.middleRows(row, rows) = phase.needed.torque.transpose();
     row += rows;
@@ -73,7 +73,7 @@ void bind_tube(nb::module_& module) {
           "What the plan leaves of each friction cone (N, contacts) [N]; nan in the air.")
       .def_prop_ro(
           "cone_needed", [=](nb::handle self) { return view(tube(self).cone_needed, self); },
-          "What the tube needs of it (N, contacts) [N].")
+          "What the tube and friction that may be missing need of it (N, contacts) [N].")
       .def_prop_ro(
           "torque_left", [=](nb::handle self) { return view(tube(self).torque_left, self); },
           "What the plan leaves of each torque limit (N, nu) [N m or N].")

@@ -96,10 +96,11 @@ def test_the_tube_of_a_plan_has_a_band_for_each_state_and_what_limits_leave(crou
     assert tube.t.shape == tube.phase.shape == (count,) and tube.band.shape == (count, 2 * nv)
     assert tube.cone_left.shape == tube.cone_needed.shape == (count, 4)
     assert tube.torque_left.shape == tube.torque_needed.shape == (count, nu)
-    assert tube.t[0] == 0.0 and tube.t[-1] == pytest.approx(crouch.duration) and np.diff(tube.t).max() < 0.0101
+    assert tube.t[0] == 0.0 and tube.t[-1] == pytest.approx(crouch.duration) and np.diff(tube.t).max() < 0.0201
     assert (tube.band > 0.0).all() and (tube.torque_needed > 0.0).all()
-    limit = np.interp(tube.t, crouch.t, crouch.tau[:, 0]) + tube.torque_left[:, 0]
-    assert (limit > 0.0).all(), "torque and what is left of it are the limit"
+    joint = crouch.robot.joint_names.index("lf_haa_joint")  # its limit is constant
+    limit = np.abs(np.interp(tube.t, crouch.t, crouch.tau[:, joint])) + tube.torque_left[:, joint]
+    np.testing.assert_allclose(limit, crouch.robot.torque_limit[joint], atol=1.0)  # less its losses
     finer = prowl.tube(crouch, step=0.005)
     np.testing.assert_allclose(np.interp(tube.t, finer.t, finer.band[:, 2]), tube.band[:, 2], rtol=0.02)
     with pytest.raises(prowl.InputError, match="step: 0 is not allowed"):

@@ -46,7 +46,7 @@ export interface MotionData {
 
 export interface SeriesData {
   label: string;
-  style: "plan" | "other" | "simulation" | "other-simulation" | "limit" | "band";
+  style: "plan" | "other" | "simulation" | "other-simulation" | "limit" | "band" | "needed";
   time: "plan" | "other" | "simulation" | "other-simulation";
   values: string;
 }

@@ -14,7 +14,9 @@ interface Tab {
 
 const kOther = "other plan";
 const kOtherSimulation = "other simulation";
-const kBand = "95 % band";
+const kBand = "band of the tube";
+const kNeeded = "needed by the tube";
+const kTube = "Tube"; // of one plan: another has its own
 const kAxes = ["x", "y", "z"];
 const kAxisColours = ["axis-x", "axis-y", "axis-z"];
 
@@ -177,6 +179,7 @@ export class Plots {
   }
   /// A chart with the series of the other plan and its simulation, if that has the same chart.
   private withOther(tab: string, chart: ChartData): ChartData {
+    if (tab === kTube) return chart;
     const same = this.data.other?.charts
       .find((one) => one.name === tab)
       ?.charts.find((one) => one.title === chart.title && one.unit === chart.unit);
@@ -196,17 +199,28 @@ export class Plots {
     if (styles.has("other-simulation")) legend.push([kOtherSimulation, "second", true]);
     if (styles.has("limit")) legend.push(["limit", "limit", true]);
     if (styles.has("band")) legend.push([kBand, "limit", true]);
+    if (styles.has("needed")) legend.push([kNeeded, "second", true]);
     // In this order one lies over the other, and values stand side by side: the plan is a broad line below the rest.
-    const order = { limit: 0, band: 0, plan: 1, other: 2, simulation: 3, "other-simulation": 4 };
+    const order = { limit: 0, band: 0, needed: 0, plan: 1, other: 2, simulation: 3, "other-simulation": 4 };
     const isAlone = !styles.has("other") && !styles.has("simulation");
-    const widths = { limit: 1, band: 1, plan: isAlone ? 1.5 : 3, other: 1.5, simulation: 1.2, "other-simulation": 1.2 };
+    const widths = {
+      limit: 1,
+      band: 1,
+      needed: 1,
+      plan: isAlone ? 1.5 : 3,
+      other: 1.5,
+      simulation: 1.2,
+      "other-simulation": 1.2,
+    };
     const dashes = new Map([
       ["limit", [4, 3]],
       ["band", [4, 3]],
+      ["needed", [4, 3]],
       ["other-simulation", [2, 2]],
     ]);
     const colours = new Map([
       ["band", "limit"],
+      ["needed", "second"],
       ["other", "second"],
       ["other-simulation", "second"],
     ]);
@@ -225,7 +239,7 @@ export class Plots {
     return {
       name: tab.name,
       legend,
-      wide: ["Margins", "Tube"].includes(tab.name),
+      wide: ["Margins", kTube].includes(tab.name),
       limits: tab.name !== "Rates",
       charts: (options) =>
         tab.charts.map(

@@ -226,7 +226,12 @@ test("of a robust plan the tube lies around the simulated deviations, and no oth
     window.prowl!.data.scene.contacts.length,
   ]);
   await expect(page.locator(".plots figure.chart canvas")).toHaveCount(12 + contacts + joints);
-  await expect(page.locator(".plots .legend .key")).toHaveText(["plan", "simulation", "95 % band"]);
+  await expect(page.locator(".plots .legend .key")).toHaveText([
+    "plan",
+    "simulation",
+    "band of the tube",
+    "needed by the tube",
+  ]);
   const planned = readTable(`${folder("robust")}/trajectory.csv`).time_s.at(-1)!;
   const simulated = readTable(`${folder("robust")}/simulate.csv`);
   for (const time of [0.1, 0.35, 0.5, 0.8]) {

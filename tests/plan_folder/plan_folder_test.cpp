@@ -134,7 +134,7 @@ TEST_F(PlanDirectory, ReadsPhasesOfFreeDurationAsLongAsTheyMayBe) {
 TEST_F(PlanDirectory, SaysWhetherItIsFinished) {
   write_plan(out_, record_);
   const auto json = nlohmann::json::parse(test::read_file(out_ / "plan.json"));
-  EXPECT_EQ(json.at("schema_version"), 8);
+  EXPECT_EQ(json.at("schema_version"), 9);
   EXPECT_EQ(json.at("status"), "interrupted");
   EXPECT_EQ(json.at("finished"), false);
   EXPECT_EQ(json.at("certificate").at("passed"), true);
@@ -187,7 +187,7 @@ TEST_F(PlanDirectory, SamplesAUniformGrid) {
 TEST_F(PlanDirectory, RefusesWhatIsNoPlan) {
   EXPECT_EQ(message(), "out/plan.json: no such file");
   write_plan(out_, record_);
-  edit("plan.json", "\"schema_version\": 8", "\"schema_version\": 4294967297");
+  edit("plan.json", "\"schema_version\": 9", "\"schema_version\": 4294967297");
   EXPECT_THAT(message(), HasSubstr("plan.schema_version: 4294967297 is not allowed; need an integer from "))
       << "1 modulo 2^32";
   write_plan(out_, record_);
@@ -266,27 +266,34 @@ TEST_F(PlanDirectory, ReadsOlderVersionsAndTellsWhatToDoWithOthers) {
   EXPECT_FALSE(read_plan(out_, test::test_search()).robustness.has_value());
   write_version(7, remove_robustness);
   EXPECT_EQ(message(), "out/plan.json: plan.robustness: missing");
-  const auto remove_ground = [](auto& json) {
-    auto& robustness = json["robustness"] = {{"share", 0.5}, {"solves", 1}, {"tightest", ""}};
-    for (const DisturbanceKey& key : kDisturbanceKeys) robustness["sizes"][key.name] = 0.1;
-    ASSERT_EQ(robustness["sizes"].erase("ground_m"), 1u);
+  const auto remove_sizes_since = [](int version) {
+    return [version](auto& json) {
+      auto& robustness = json["robustness"] = {{"share", 0.5}, {"solves", 1}, {"tightest", ""}};
+      for (const DisturbanceKey& key : kDisturbanceKeys)
+        if (key.since < version) robustness["sizes"][key.name] = 0.1;
+    };
   };
-  write_version(7, remove_ground);
+  write_version(7, remove_sizes_since(8));
   EXPECT_EQ(read_plan(out_, test::test_search()).robustness->sizes.ground, 0.0);
-  write_version(8, remove_ground);
+  write_version(8, remove_sizes_since(8));
   EXPECT_EQ(message(), "out/plan.json: plan.robustness.sizes.ground_m: missing");
+  write_version(8, remove_sizes_since(9));
+  EXPECT_EQ(read_plan(out_, test::test_search()).robustness->sizes.ground, 0.1);
+  EXPECT_EQ(read_plan(out_, test::test_search()).robustness->sizes.estimate_angle, 0.0);
+  write_version(9, remove_sizes_since(9));
+  EXPECT_EQ(message(), "out/plan.json: plan.robustness.sizes.estimate_position_m: missing");
   write_version(5, [](auto& json) { json["problem"]["interpolation"] = "linear"; });
   EXPECT_EQ(message(),
             "out/plan.json: plan.problem.interpolation: \"linear\" is not allowed; need trapezoid or hermite");
-  write_version(9, [](auto&) {});
+  write_version(10, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 9, written by a newer Prowl; this one reads 1 to 8: use that Prowl, or "
+      "out/plan.json: plan.schema_version: 10, written by a newer Prowl; this one reads 1 to 9: use that Prowl, or "
       "plan again with this one");
   write_version(0, [](auto&) {});
   EXPECT_EQ(
       message(),
-      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 8: plan again with prowl plan; its "
+      "out/plan.json: plan.schema_version: 0 is no longer supported; need 1 to 9: plan again with prowl plan; its "
       "task_file contains the task");
   write_version(5, [](auto& json) { json.erase("schema_version"); });
   EXPECT_EQ(message(), "out/plan.json: plan.schema_version: missing");

@@ -510,7 +510,10 @@ void add_robust(FileKeys& keys) {
   add("push_mps", "m/s", up_to(2.0), sizes.push,
       "change of velocity by one horizontal push on the base at its worst time", as_velocity);
   add("push_s", "s", {.lower = 0.01, .upper = 1.0}, sizes.push_duration, "duration of that push");
-  add("ground_m", "m", up_to(0.1), sizes.ground, "error of the height of the ground where feet land", as_length);
+  add("ground_m", "m", up_to(0.1), sizes.ground, "error of the height of the ground under each foot", as_length);
+  add("estimate_position_m", "m", up_to(0.2), sizes.estimate_position,
+      "error of the estimated base, each axis, all along", as_length);
+  add("estimate_angle_rad", "rad", up_to(0.5), sizes.estimate_angle, "the same");
 }
 
 void add_simulation(FileKeys& keys) {
