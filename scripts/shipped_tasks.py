@@ -5,6 +5,7 @@ import csv
 import json
 import subprocess
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -54,8 +55,8 @@ def plan(task: str, solver: str, *options: str) -> tuple[dict, list[list[float]]
         return json.loads((out / "plan.json").read_text()), [[float(row[i]) for i in state] for row in rows[1:]]
 
 
-def read_arguments(parser: argparse.ArgumentParser) -> argparse.Namespace:
-    """With `task`: those named, or all but those of the paper, whose meshes are too coarse for the certificate."""
+def read_arguments(parser: argparse.ArgumentParser, more: Iterable[str] = ()) -> argparse.Namespace:
+    """With `task`: those named; or `more` and all but those of the paper, whose meshes are too coarse to certify."""
     parser.add_argument("task", nargs="*", help="e.g. hyq/step talos/squat; without, all of tasks/ but tasks/paper")
     arguments = parser.parse_args()
     if not arguments.task:
@@ -64,4 +65,5 @@ def read_arguments(parser: argparse.ArgumentParser) -> argparse.Namespace:
             for path in ROOT.glob("tasks/*/*.toml")
             if path.parent.name != "paper"
         )
+        arguments.task += more
     return arguments
