@@ -1,0 +1,44 @@
+"""A task's motion and gains by Crocoddyl's BoxFDDP, set up as in its own examples: TASK.toml OUT.npz DURATIONS, one a phase [s].
+
+Arrays, one row for each of N nodes: time, states (q, v), torques and gains that hold until the next; orders and tangent of Pinocchio.
+"""
+
+import argparse
+import pathlib
+import sys
+
+import crocoddyl
+import numpy as np
+
+from judge.motion_task import read_task
+from peers.environment import package_dirs
+from peers.run_all import EXAMPLES_STEP
+from peers.shooting_problem import ShootingProblem
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("task", type=pathlib.Path)
+    parser.add_argument("out", type=pathlib.Path)
+    parser.add_argument("durations", type=float, nargs="+")
+    arguments = parser.parse_args()
+    task = read_task(arguments.task, package_dirs(pathlib.Path(sys.prefix))).with_durations(arguments.durations)
+    shooting = ShootingProblem(
+        task, EXAMPLES_STEP, "euler", inverse=False, hard=False, joint_bounds=False, anchored=False
+    )
+    solver = crocoddyl.SolverBoxFDDP(shooting.problem)
+    solver.setCallbacks([])
+    states, inputs = shooting.guess()
+    solver.solve(states, inputs, 100, False)  # 100: Crocoddyl's default
+    np.savez(
+        arguments.out,
+        time=np.cumsum([0.0, *(node.step for node in shooting.nodes[:-1])]),
+        states=np.array(solver.xs),
+        torques=np.array([*solver.us, solver.us[-1]]),
+        gains=np.array([*solver.K, solver.K[-1]]),
+        joints=task.robot.joints,
+    )
+
+
+if __name__ == "__main__":
+    main()
