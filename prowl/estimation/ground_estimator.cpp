@@ -75,17 +75,16 @@ Eigen::VectorXd GroundEstimator::correction(const Eigen::VectorXd& q_planned) {
   const Eigen::Vector3d base = base_position(q_planned);
   legs_.update(q_planned.tail(nu));
   const Eigen::Matrix3d R = base_rotation(q_planned);
-  const auto contacts = static_cast<Eigen::Index>(footed_.size());
-  Eigen::MatrixXd by_joints = Eigen::MatrixXd::Zero(3 * contacts, nu);
-  Eigen::VectorXd ways = Eigen::VectorXd::Zero(3 * contacts);
-  for (Eigen::Index c = 0; c < contacts; ++c) {
-    const auto i = static_cast<std::size_t>(c);
-    if (!footed_[i]) continue;
+  const auto rows = 3 * static_cast<Eigen::Index>(footed_.size());
+  Eigen::MatrixXd by_joints = Eigen::MatrixXd::Zero(rows, nu);
+  Eigen::VectorXd ways = Eigen::VectorXd::Zero(rows);
+  for (std::size_t c = 0; c < footed_.size(); ++c) {
+    if (!footed_[c]) continue;
     const int contact = static_cast<int>(c);
     const Eigen::Vector3d way =
-        displacement(base + R * legs_.position(contact)) - press_[i] * kPress * size_ * normals_[i];
-    by_joints.middleRows<3>(3 * c) = legs_.linear(contact);
-    ways.segment<3>(3 * c) = R.transpose() * way;
+        displacement(base + R * legs_.position(contact)) - press_[c] * kPress * size_ * normals_[c];
+    by_joints.middleRows<3>(3 * contact) = legs_.linear(contact);
+    ways.segment<3>(3 * contact) = R.transpose() * way;
   }
   step.tail(nu) = damped_solution(by_joints, ways);
   return step;

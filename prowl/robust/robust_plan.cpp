@@ -121,9 +121,8 @@ class Search {
     options_.solver.tolerance = std::max(options.solver.tolerance, kLooseTolerance);
   }
 
-  /// Empty: the nominal motion has all margins, or no margins have a motion.
-  std::vector<Candidate> run() {
-    const Tube first = make_tube(asked_.problem, nominal_.trajectory, tracking_, sizes_);
+  /// `first`: tube of the nominal motion. Empty: that motion has all margins, or no margins have a motion.
+  std::vector<Candidate> run(const Tube& first) {
     double share = share_to_begin_with(first);
     double kept = 0.0, none = std::numeric_limits<double>::infinity();  // largest with a motion, smallest without
     std::vector<Candidate> found;
@@ -210,13 +209,11 @@ RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const Tr
     return limit - (wall_seconds() - begin);
   };
   Search search(asked, nominal, tracking, sizes, solver, options, refine.has_value(), seconds_left);
-  std::vector<Candidate> candidates = search.run();
+  const Tube first = make_tube(problem, nominal.trajectory, tracking, sizes);
+  std::vector<Candidate> candidates = search.run(first);
   std::ranges::stable_sort(candidates, {}, &Candidate::held);
-  const auto held_by = [&](const Plan& plan) {
-    return held_share(problem, make_tube(problem, plan.trajectory, tracking, sizes));
-  };
   Plan best = nominal;
-  HeldShare held = held_by(nominal);
+  HeldShare held = held_share(problem, first);
   // The one that holds most and is as exact as the nominal one.
   for (; !candidates.empty() && seconds_left() > 0.0; candidates.pop_back()) {
     const Candidate& rough = candidates.back();
@@ -225,7 +222,7 @@ RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const Tr
     Plan plan = refine ? make_refined_plan(program, solver, last, *refine).plan : make_plan(program, solver, last);
     search.books().add(plan);
     if (!is_good(plan)) continue;
-    HeldShare own = held_by(plan);
+    HeldShare own = held_share(problem, make_tube(problem, plan.trajectory, tracking, sizes));
     if (own.share > held.share) {
       best = std::move(plan);
       held = std::move(own);
