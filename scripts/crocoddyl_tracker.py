@@ -11,10 +11,9 @@ from shipped_tasks import ROOT
 sys.path[:0] = [str(ROOT / "build/python"), str(ROOT / "bench")]
 import numpy as np  # noqa: E402  (after the path)
 import pinocchio  # noqa: E402
-from peers.environment import install, variables  # noqa: E402
+from peers.environment import ENVIRONMENT, install, variables  # noqa: E402
 from prowl import Tracker, difference, integrate, read_plan  # noqa: E402
 
-ENVIRONMENT = ROOT / ".venv-peers"
 HEADER = "<8s6I2Q"  # prowl/tracker/file_format.hpp
 
 

@@ -7,13 +7,11 @@ import argparse
 import pathlib
 import sys
 
-import crocoddyl
 import numpy as np
 
 from judge.motion_task import read_task
 from peers.environment import package_dirs
-from peers.run_all import EXAMPLES_STEP
-from peers.shooting_problem import ShootingProblem
+from peers.peer_solvers import DEFAULT_ITERATIONS, EXAMPLES_STEP, PeerSetup, make_shooting
 
 
 def main() -> None:
@@ -23,13 +21,9 @@ def main() -> None:
     parser.add_argument("durations", type=float, nargs="+")
     arguments = parser.parse_args()
     task = read_task(arguments.task, package_dirs(pathlib.Path(sys.prefix))).with_durations(arguments.durations)
-    shooting = ShootingProblem(
-        task, EXAMPLES_STEP, "euler", inverse=False, hard=False, joint_bounds=False, anchored=False
-    )
-    solver = crocoddyl.SolverBoxFDDP(shooting.problem)
-    solver.setCallbacks([])
+    shooting, solver = make_shooting(PeerSetup("boxfddp", EXAMPLES_STEP, anchored=False, defaults=True), task)
     states, inputs = shooting.guess()
-    solver.solve(states, inputs, 100, False)  # 100: Crocoddyl's default
+    solver.solve(states, inputs, DEFAULT_ITERATIONS, False)
     np.savez(
         arguments.out,
         time=np.cumsum([0.0, *(node.step for node in shooting.nodes[:-1])]),

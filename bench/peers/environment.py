@@ -11,6 +11,7 @@ import sys
 import venv
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+ENVIRONMENT = ROOT / ".venv-peers"  # of all but Aligator
 ALIGATOR = ROOT / ".venv-aligator"
 ALIGATOR_PROGRAM = ROOT / "build/bench-aligator/aligator_peer"
 

@@ -3,6 +3,8 @@
 import argparse
 import pathlib
 
+from peers.environment import ENVIRONMENT
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TASKS = ["stand", "crouch", "balance", "rear", "step"]
 PEERS = ["boxfddp", "intro", "sqp", "csqp", "aligator"]
@@ -80,7 +82,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--environment",
         type=pathlib.Path,
-        default=ROOT / ".venv-peers",
+        default=ENVIRONMENT,
         metavar="DIR",
         help="virtual environment of the peers but aligator, made on first use; default .venv-peers",
     )

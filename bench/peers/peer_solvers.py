@@ -18,6 +18,8 @@ from peers.nodes import make_nodes
 from peers.shooting_problem import ShootingProblem
 
 MAX_ITERATIONS = 300  # as many as Prowl has by default
+DEFAULT_ITERATIONS = 100  # Crocoddyl's and mim_solvers'
+EXAMPLES_STEP = 0.01  # as in Crocoddyl's quadrupedal_gaits [s]
 
 
 @dataclass(frozen=True)
@@ -101,19 +103,26 @@ def _configure(setup: PeerSetup, solver, is_sqp: bool) -> None:
         solver.th_stop = 1e-5
 
 
-def _solve_shooting(setup: PeerSetup, task: MotionTask, clock: Clock) -> PeerRun:
-    peer, is_sqp = setup.peer, setup.solver in ("sqp", "csqp")
-    times = [time.process_time()]
+def make_shooting(setup: PeerSetup, task: MotionTask):
+    """The problem, and the solver that is set up for it."""
+    peer = setup.peer
     shooting = ShootingProblem(
         task, setup.step, setup.rule, peer.inverse, peer.hard, setup.joint_bounds, setup.anchored
     )
     shooting.problem.nthreads = 1
     solver = peer.solver(shooting.problem)
-    _configure(setup, solver, is_sqp)
+    _configure(setup, solver, setup.solver in ("sqp", "csqp"))
+    return shooting, solver
+
+
+def _solve_shooting(setup: PeerSetup, task: MotionTask, clock: Clock) -> PeerRun:
+    peer, is_sqp = setup.peer, setup.solver in ("sqp", "csqp")
+    times = [time.process_time()]
+    shooting, solver = make_shooting(setup, task)
     times.append(time.process_time())
     states, inputs = shooting.guess()
     times.append(time.process_time())
-    iterations = 100 if setup.defaults else MAX_ITERATIONS  # 100: Crocoddyl's and mim_solvers' default
+    iterations = DEFAULT_ITERATIONS if setup.defaults else MAX_ITERATIONS
 
     def run() -> bool:
         if math.isfinite(clock.time_limit):

@@ -16,14 +16,13 @@ from peers.environment import package_dirs
 from peers.measure import failure, label, measure_peer, measure_prowl
 from peers.mesh_search import coarsest_step
 from peers.options import ROOT, read_options
-from peers.peer_solvers import PEERS, PeerSetup
+from peers.peer_solvers import EXAMPLES_STEP, PEERS, PeerSetup
 from peers.prowl_command import ProwlCommand
 from peers.report import describe, write_report
 
 # Of grade draft (docs/verification.md): re-integration error of an interval, and integration error in a second.
 DRAFT_ERROR, DRAFT_ERROR_PER_SECOND = 5e-4, 3e-3
 ORDERS = {"euler": 1, "semi-implicit": 1, "rk2": 2, "rk4": 4}  # of the error in a second
-EXAMPLES_STEP = 0.01  # as in Crocoddyl's quadrupedal_gaits [s]
 
 
 def finite(value):
