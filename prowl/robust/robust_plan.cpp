@@ -94,6 +94,17 @@ PlanOptions options_from(const Plan& before, const PlanOptions& options, bool re
   return next;
 }
 
+/// What `make` returns; nothing where margins leave nothing between two limits, or a motion has no gains.
+template <typename Make>
+auto unless_impossible(const Make& make) -> decltype(make()) {
+  try {
+    return make();
+  } catch (const InputError&) {
+  } catch (const NumericalError&) {
+  }
+  return std::nullopt;
+}
+
 /// A motion that keeps the margins of another one's tube.
 struct Candidate {
   Plan plan;
@@ -152,21 +163,18 @@ class Search {
   SolveBooks& books() { return books_; }
 
  private:
-  /// From the last of those before. None where there is no motion, or no gains for it.
+  /// From the last of those before. None where there is no motion.
   std::optional<Candidate> keep(Margins margins, const std::vector<Candidate>& before) {
     MotionProblem tighter = asked_.problem;
     tighter.margins = std::move(margins);
-    try {
+    return unless_impossible([&]() -> std::optional<Candidate> {
       Plan plan = solve(tighter, before.empty() ? nullptr : &before.back().plan);
       is_stopped_ = is_stopped(plan.result.status);
       if (plan.result.status != SolveStatus::converged) return std::nullopt;
       Tube tube = make_tube(asked_.problem, plan.trajectory, tracking_, sizes_);
       const double held = held_share(asked_.problem, tube).share;
       return Candidate{std::move(plan), std::move(tighter), std::move(tube), held};
-    } catch (const NumericalError&) {  // no gains
-    } catch (const InputError&) {      // margins that leave nothing between two limits
-    }
-    return std::nullopt;
+    });
   }
 
   /// From the motion before; the first, where that fails, from the task.
@@ -212,25 +220,29 @@ RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const Tr
   const Tube first = make_tube(problem, nominal.trajectory, tracking, sizes);
   std::vector<Candidate> candidates = search.run(first);
   std::ranges::stable_sort(candidates, {}, &Candidate::held);
-  Plan best = nominal;
-  HeldShare held = held_share(problem, first);
-  // The one that holds most and is as exact as the nominal one.
-  for (; !candidates.empty() && seconds_left() > 0.0; candidates.pop_back()) {
-    const Candidate& rough = candidates.back();
+  struct Exact {
+    Plan plan;
+    HeldShare held;
+  };
+  const auto refined = [&](const Candidate& rough) -> std::optional<Exact> {
     const PlanOptions last = options_from(rough.plan, options, refine.has_value(), seconds_left());
     const DiscreteProblem program(rough.asked, rough.plan.mesh);
     Plan plan = refine ? make_refined_plan(program, solver, last, *refine).plan : make_plan(program, solver, last);
     search.books().add(plan);
-    if (!is_good(plan)) continue;
-    HeldShare own = held_share(problem, make_tube(problem, plan.trajectory, tracking, sizes));
-    if (own.share > held.share) {
-      best = std::move(plan);
-      held = std::move(own);
-    }
+    if (!is_good(plan)) return std::nullopt;
+    HeldShare held = held_share(problem, make_tube(problem, plan.trajectory, tracking, sizes));
+    return Exact{std::move(plan), std::move(held)};
+  };
+  Exact best{nominal, held_share(problem, first)};
+  // The one that holds most and is as exact as the nominal one. A finer mesh may see margins that leave nothing.
+  for (; !candidates.empty() && seconds_left() > 0.0; candidates.pop_back()) {
+    std::optional<Exact> exact = unless_impossible([&] { return refined(candidates.back()); });
+    if (!exact) continue;
+    if (exact->held.share > best.held.share) best = std::move(*exact);
     break;
   }
-  search.books().enter(best);
-  return {std::move(best), {sizes, std::min(held.share, 1.0), search.solves(), std::move(held.where)}};
+  search.books().enter(best.plan);
+  return {std::move(best.plan), {sizes, std::min(best.held.share, 1.0), search.solves(), std::move(best.held.where)}};
 }
 
 }  // namespace prowl

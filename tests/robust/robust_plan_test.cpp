@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "prowl/error.hpp"
 #include "prowl/session/plan_task.hpp"
+#include "prowl/solvers/riccati/riccati_solver.hpp"
 #include "tests/support/solved_task.hpp"
 
 namespace prowl {
@@ -93,6 +95,28 @@ TEST(RobustPlan, TellsWhatCannotBe) {
   EXPECT_LT(planned.record.robustness->share, 0.5);
   EXPECT_FALSE(planned.record.robustness->tightest.empty());
   EXPECT_TRUE(is_good(planned.record.plan)) << "the best plan is kept";
+}
+
+/// Takes loose solves only.
+class OnlyLoose : public RiccatiSolver {
+ public:
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const override {
+    if (options.tolerance < 1e-5) throw InputError("bounds contain no interior");
+    return RiccatiSolver::solve(nlp, z_guess, options);
+  }
+};
+
+/// Margins that leave nothing between two limits, on the mesh of the last solve alone.
+TEST(RobustPlan, IsTheNominalOneWhereTheLastSolveIsRefused) {
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml", test::test_search());
+  Plan nominal = test::planned(task);
+  ASSERT_TRUE(is_good(nominal));
+  const RobustPlan robust =
+      make_robust_plan({task.problem, nominal.mesh}, nominal, task.tracking, default_disturbances(task.problem.robot),
+                       OnlyLoose(), {.solver = task.solver}, std::nullopt);
+  EXPECT_GT(robust.robustness.solves, 0);
+  EXPECT_LT(robust.robustness.share, 1.0);
+  EXPECT_EQ(robust.plan.trajectory.nodes.back().q, nominal.trajectory.nodes.back().q);
 }
 
 TEST(RobustPlan, OfNothingIsTheNominalOne) {
