@@ -9,7 +9,7 @@ enum ExitStatus : int {
   kPassed = 0,      ///< the plan passes its certificate, draft or certified
   kUnexpected = 1,  ///< a bug in Prowl
   kBadInput = 2,
-  kNotSolved = 3,  ///< infeasible, or the solver failed
+  kNotSolved = 3,  ///< infeasible, less robust than asked, or the solver failed
   kFiles = 4,      ///< disk, permissions
   kNumericalFailure = 5,
   kLimit = 6,              ///< of time or iterations

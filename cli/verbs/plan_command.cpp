@@ -229,9 +229,9 @@ void add_plan_command(CLI::App& app, int& status) {
               "prowl plan tasks/hyq/crouch.toml --checkpoint out/so_far --checkpoint-every 0",
               "prowl plan tasks/hyq/crouch.toml --resume out/so_far", "prowl plan tasks/hyq/step.toml --refine",
               "prowl plan tasks/hyq/crouch.toml --refine certified"},
-             "0 the plan passes its certificate; 2 bad input; 3 infeasible or solver failed; 4 files; 5 numerical "
-             "failure; 6 limit of time or iterations; 7 converged but the certificate fails; 130 interrupted (Ctrl-C "
-             "keeps the best motion so far, marked as unfinished).");
+             "0 the plan passes its certificate; 2 bad input; 3 infeasible, less robust than asked, or solver failed; "
+             "4 files; 5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails; 130 "
+             "interrupted (Ctrl-C keeps the best motion so far, marked as unfinished).");
   verb->callback([arguments, &status] { status = run_plan(*arguments); });
 }
 

@@ -18,7 +18,7 @@ namespace prowl {
 class GroundEstimator {
  public:
   /// `q_start` (nq): planned, in which `stand` holds. `footed`: contacts that are in stance at any time of the plan,
-  /// one flag per contact of the robot; the others keep their planned way.
+  /// one flag per contact of the robot; the others keep their planned path.
   GroundEstimator(const RobotModel& robot, const Eigen::VectorXd& q_start, const Stand& stand,
                   std::vector<bool> footed);
 

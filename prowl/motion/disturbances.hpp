@@ -6,8 +6,8 @@
 
 namespace prowl {
 
-/// What a robust motion holds under: each value is drawn evenly between minus and plus its size, each axis and body by
-/// itself. docs/robust.md.
+/// Sizes of the disturbances that a robust motion withstands. Each value is uniform between minus and plus its size,
+/// each axis and body by itself. docs/robust.md.
 struct Disturbances {
   double base_position = 0.0;  ///< of the start [m]
   double base_angle = 0.0;     ///< likewise [rad]
@@ -15,11 +15,11 @@ struct Disturbances {
   double base_rate = 0.0;      ///< likewise [rad/s]
   double mass = 0.0;           ///< share of mass and inertia of each body [-]
   double center = 0.0;         ///< of the mass of the base [m]
-  double friction = 0.0;       ///< share of the coefficients that may be missing [-]
+  double friction = 0.0;       ///< share of the friction coefficients that may be missing [-]
   double push = 0.0;  ///< change of the base's velocity that one push gives the whole mass, at its worst time [m/s]
   double push_duration = 0.1;      ///< [s]
   double ground = 0.0;             ///< of the height of the ground under each foot, at two standard deviations [m]
-  double estimate_position = 0.0;  ///< of the estimate of the base, all along [m]
+  double estimate_position = 0.0;  ///< of the estimate of the base, constant [m]
   double estimate_angle = 0.0;     ///< likewise [rad]
 };
 

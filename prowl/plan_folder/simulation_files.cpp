@@ -157,7 +157,7 @@ std::string simulation_json(const PlanRecord& plan, const SimulationRecord& reco
   Json json =
       verdict_json(plan, {kSimulationEngine, result.failures, to_text(result.end), result.end_time, result.phase});
   const SuccessCriteria& criteria = plan.task.success;
-  json["criteria"]["slip_m"] = allowed_way(robot, criteria);
+  json["criteria"]["slip_m"] = allowed_distance(robot, criteria);
   json["criteria"]["delay_s"] = criteria.delay;
   json["criteria"]["delay_share_of_swing"] = criteria.delay_share;
   json["criteria"]["at_limit_share_of_time"] = criteria.at_limit;

@@ -14,22 +14,22 @@
 
 namespace prowl {
 
-/// How far the closed loop leaves a motion under disturbances, to first order. Each is drawn once: start, masses,
-/// ground, error of the estimate, and one push in any direction at any time.
+/// Deviations of the closed loop from a motion under disturbances, to first order. Each disturbance is drawn once:
+/// start, masses, ground, error of the estimate, and one push in any direction at any time.
 struct Tube {
   /// Of one phase of the motion, one column for each of its samples.
   struct OfPhase {
     std::vector<double> times;    ///< [s]
     Eigen::MatrixXd state;        ///< dx, standard deviation (2 nv rows) [m, rad, m/s, rad/s]
     Margins::OfPhase needed;      ///< of the limits: docs/robust.md#margins
-    Eigen::MatrixXd friction;     ///< what each cone of the motion loses with the friction that may be missing [N]
+    Eigen::MatrixXd friction;     ///< what each cone loses where friction is missing [N]
     Eigen::MatrixXd cone_left;    ///< distance of each contact's force from its full cone [N]
     Eigen::MatrixXd torque_left;  ///< distance from the torque limits, nu rows [N m]
     Eigen::MatrixXd height;       ///< of each contact of the robot in the air, above its surfaces; else infinite [m]
 
-    /// Size of dx that 95 % of the cases keep (2 nv rows): two standard deviations.
+    /// Band of dx that 95 % of the cases stay in (2 nv rows): two standard deviations.
     Eigen::MatrixXd band() const;
-    /// Of the full cones: for deviations, and for friction that is missing [N].
+    /// Margin to the full cones, for deviations and missing friction [N].
     Eigen::MatrixXd cone_needed() const { return needed.cone + friction; }
   };
   std::vector<OfPhase> phases;

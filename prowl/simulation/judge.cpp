@@ -15,23 +15,23 @@ using Texts = std::vector<std::string>;
 
 void judge_switches(const SimulationResult& result, const MotionProblem& problem, const SuccessCriteria& criteria,
                     Texts& texts) {
-  const double way = allowed_way(problem.robot, criteria);
+  const double most_off = allowed_distance(problem.robot, criteria);
   for (const ContactSwitch& change : result.switches) {
     const std::string what = fmt::format("{} {}, planned at {:.3f} s", problem.robot.contacts()[change.contact].name,
                                          change.lands ? "landing" : "lift-off", change.planned);
-    const double late = change.measured - change.planned, allowed = allowed_delay(change, criteria);
+    const double late = change.measured - change.planned, most_late = allowed_delay(change, criteria);
     if (std::isnan(change.measured)) {
       texts.push_back(what + ": did not happen");
       continue;
     }
-    if (!(std::abs(late) <= allowed))
+    if (!(std::abs(late) <= most_late))
       texts.push_back(fmt::format("{}: {:.0f} ms {}; {:.0f} ms allowed", what, 1e3 * std::abs(late),
-                                  late > 0.0 ? "late" : "early", 1e3 * allowed));
+                                  late > 0.0 ? "late" : "early", 1e3 * most_late));
     if (!change.lands) continue;
     if (!change.on_its_surface) texts.push_back(what + ": on another surface");
-    if (!(change.off <= way))
+    if (!(change.off <= most_off))
       texts.push_back(
-          fmt::format("{}: {:.1f} cm from its foothold; {:.1f} cm allowed", what, 100 * change.off, 100 * way));
+          fmt::format("{}: {:.1f} cm from its foothold; {:.1f} cm allowed", what, 100 * change.off, 100 * most_off));
   }
 }
 
@@ -48,18 +48,18 @@ void judge_goals(const SimulationResult& result, const MotionProblem& problem, c
       texts.push_back(fmt::format("{}: {} {:.1f} degrees off; {:.1f} allowed", goal.name, goal.worst_joint,
                                   kDegrees * goal.joint, kDegrees * criteria.angle));
   }
-  const double way = allowed_way(problem.robot, criteria);
+  const double most_off = allowed_distance(problem.robot, criteria);
   for (const FlightHeight& flight : result.flights) {
-    if (!(flight.missing <= way))
+    if (!(flight.missing <= most_off))
       texts.push_back(fmt::format("base {:.1f} cm too low in the middle of phase '{}'; {:.1f} cm allowed",
-                                  100 * flight.missing, flight.phase, 100 * way));
+                                  100 * flight.missing, flight.phase, 100 * most_off));
   }
 }
 
 }  // namespace
 
-double allowed_way(const RobotModel& robot, const SuccessCriteria& criteria) {
-  return std::min(criteria.way, criteria.way_share * robot.nominal_configuration().z());
+double allowed_distance(const RobotModel& robot, const SuccessCriteria& criteria) {
+  return std::min(criteria.distance, criteria.distance_share * robot.nominal_configuration().z());
 }
 
 double allowed_delay(const ContactSwitch& change, const SuccessCriteria& criteria) {
@@ -74,11 +74,11 @@ Texts failures(const SimulationResult& result, const MotionProblem& problem, con
   Texts texts = failures_in_rest(result.base_position, result.base_angle, criteria);
   judge_switches(result, problem, criteria, texts);
   judge_goals(result, problem, criteria, texts);
-  const double way = allowed_way(problem.robot, criteria);
+  const double most_off = allowed_distance(problem.robot, criteria);
   for (std::size_t c = 0; c < result.slip.size(); ++c) {
-    if (result.slip[c] <= way) continue;
+    if (result.slip[c] <= most_off) continue;
     texts.push_back(fmt::format("{} slipped {:.1f} cm; {:.1f} cm allowed", problem.robot.contacts()[c].name,
-                                100 * result.slip[c], 100 * way));
+                                100 * result.slip[c], 100 * most_off));
   }
   for (const std::string& touch : result.touches) texts.push_back("touched: " + touch);
   if (!(result.saturated <= criteria.at_limit))

@@ -8,8 +8,8 @@
 
 namespace prowl {
 
-/// SuccessCriteria::way for this robot [m].
-double allowed_way(const RobotModel& robot, const SuccessCriteria& criteria);
+/// SuccessCriteria::distance for this robot [m].
+double allowed_distance(const RobotModel& robot, const SuccessCriteria& criteria);
 /// Delay of a landing or lift-off that its criterion allows [s].
 double allowed_delay(const ContactSwitch& change, const SuccessCriteria& criteria);
 

@@ -125,9 +125,9 @@ void Measures::add_switch(int contact, bool lands, std::size_t segment, double s
       const int planned = planned_surface(contact, segment);
       Eigen::VectorXd q(problem_.robot.nq()), v(problem_.robot.nv());
       tracker_.reference(change.planned, q, v);
-      const Eigen::Vector3d way = at.position - physics_.contact_positions(q)[touch->contact];
+      const Eigen::Vector3d off = at.position - physics_.contact_positions(q)[touch->contact];
       const Eigen::Vector3d& normal = problem_.surfaces[static_cast<std::size_t>(planned)].normal;
-      change.off = (way - normal.dot(way) * normal).norm();
+      change.off = (off - normal.dot(off) * normal).norm();
       change.on_its_surface = at.surface == planned;
     }
   }

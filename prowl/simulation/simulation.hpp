@@ -62,7 +62,7 @@ struct SimulationResult {
   ErrorMeasure joints;                                                   ///< [rad], of the worst joint; rms of all
   ErrorMeasure estimated_position, estimated_angle, estimated_velocity;  ///< [m, rad, m/s], error of the estimate
   double estimated_joint_rate = 0.0;                                     ///< [rad/s], rms of all joints
-  std::vector<double> slip;  ///< per contact: longest way along its surface under load in one stance [m]
+  std::vector<double> slip;  ///< per contact: largest slip along its surface under load in one stance [m]
   std::vector<ContactSwitch> switches;
   std::vector<GoalError> goals;       ///< of those that came before the end
   std::vector<FlightHeight> flights;  ///< likewise

@@ -31,7 +31,7 @@ struct SuccessCriteria {
   double angle = 0.035;    ///< likewise; also of joints at a goal [rad]
   /// Of a landing from its foothold, of the slip of a stance, and of the height missing in a flight: a share of the
   /// standing height, and at most that length [m].
-  double way_share = 0.05, way = 0.03;
+  double distance_share = 0.05, distance = 0.03;
   double delay_share = 0.25, delay = 0.1;  ///< of landings and lift-offs: a share of the swing, and at most that [s]
   double at_limit = 0.05;                  ///< share of the time with a torque at its limit
   double rest = 1.5;                       ///< standing time after the plan's end, none after a cycle [s]

@@ -14,7 +14,7 @@ TaskSimulation read_simulation(const TomlTable& root) {
   SuccessCriteria& success = simulation.success;
   read_most("base_position_m", success.position);
   read_most("base_angle_rad", success.angle);
-  read_most("slip_m", success.way);
+  read_most("slip_m", success.distance);
   if (const auto number = table->find("rest_s")) success.rest = std::max(success.rest, number->as_number());
   if (const auto number = table->find("friction")) simulation.friction = number->as_number();
   return simulation;

@@ -447,7 +447,7 @@ void add_tracking(FileKeys& keys) {
                 .range = {.lower = 1e-4, .upper = 0.1},
                 .unit = "s",
                 .fallback = number_text(defaults.step),
-                .meaning = "time between two gains"});
+                .meaning = "time between two samples of the gains"});
   add_deviation("base_position_m", kOneOrThree, "m", deviations.base_position,
                 "deviation that costs 1 per second; a smaller value makes the robot stiffer");
   add_deviation("base_orientation_rad", kOneOrThree, "rad", deviations.base_orientation,
@@ -464,19 +464,19 @@ void add_tracking(FileKeys& keys) {
                 "torque that costs 1 per second, as a share of the limit; without a limit, of the weight of the robot "
                 "times the reach of its legs");
   add_deviation("swing_foot_m", "number", "m", deviations.swing_foot,
-                "deviation that costs 1 per second, of each foot in the air that will land, each axis");
+                "deviation of each foot that will land, each axis, that costs 1 per second");
   tracking.add({.name = "landing_s",
                 .form = "number",
                 .range = kNonnegative,
                 .unit = "s",
                 .fallback = number_text(defaults.landing_time),
-                .meaning = "a landing beside the foothold costs as much as that deviation for this time"});
+                .meaning = "time for which a foot that landed beside its foothold costs"});
   tracking.add({.name = "goal_s",
                 .form = "number",
                 .range = kNonnegative,
                 .unit = "s",
                 .fallback = number_text(defaults.goal_time),
-                .meaning = "a goal of the posture that is missed costs as much as that deviation for this time"});
+                .meaning = "time for which a deviation at a goal of the posture costs"});
   tracking.add({.name = "bandwidth_radps",
                 .form = "number",
                 .range = kPositive,
@@ -500,20 +500,26 @@ void add_robust(FileKeys& keys) {
   const char* const as_length = ", scaled with the height";
   const char* const as_velocity = ", scaled with the root of the height";
   const auto up_to = [](double most) { return NumberRange{.lower = 0.0, .upper = most}; };
-  add("base_position_m", "m", up_to(0.2), sizes.base_position, "error of the start, each axis", as_length);
-  add("base_angle_rad", "rad", up_to(0.5), sizes.base_angle, "the same");
-  add("base_velocity_mps", "m/s", up_to(1.0), sizes.base_velocity, "the same", as_velocity);
-  add("base_rate_radps", "rad/s", up_to(2.0), sizes.base_rate, "the same");
-  add("mass", "-", up_to(0.9), sizes.mass, "error of mass and inertia of each body, as a share");
-  add("center_m", "m", up_to(0.2), sizes.center, "error of the centre of mass of the base, each axis", as_length);
-  add("friction", "-", up_to(0.9), sizes.friction, "share of the friction that may be missing");
+  add("base_position_m", "m", up_to(0.2), sizes.base_position,
+      "largest error of the base's position at the start, each axis", as_length);
+  add("base_angle_rad", "rad", up_to(0.5), sizes.base_angle,
+      "largest error of the base's orientation at the start, about each axis");
+  add("base_velocity_mps", "m/s", up_to(1.0), sizes.base_velocity,
+      "largest error of the base's linear velocity at the start, each axis", as_velocity);
+  add("base_rate_radps", "rad/s", up_to(2.0), sizes.base_rate,
+      "largest error of the base's angular velocity at the start, each axis");
+  add("mass", "-", up_to(0.9), sizes.mass, "largest error of mass and inertia of each body, as a share");
+  add("center_m", "m", up_to(0.2), sizes.center, "largest error of the base's centre of mass, each axis", as_length);
+  add("friction", "-", up_to(0.9), sizes.friction, "share of the friction coefficients that may be missing");
   add("push_mps", "m/s", up_to(2.0), sizes.push,
-      "change of velocity by one horizontal push on the base at its worst time", as_velocity);
+      "change of the robot's velocity by one horizontal push on the base, at its worst time", as_velocity);
   add("push_s", "s", {.lower = 0.01, .upper = 1.0}, sizes.push_duration, "duration of that push");
-  add("ground_m", "m", up_to(0.1), sizes.ground, "error of the height of the ground under each foot", as_length);
+  add("ground_m", "m", up_to(0.1), sizes.ground,
+      "error of the ground's height under each foot, at two standard deviations", as_length);
   add("estimate_position_m", "m", up_to(0.2), sizes.estimate_position,
-      "error of the estimated base, each axis, all along", as_length);
-  add("estimate_angle_rad", "rad", up_to(0.5), sizes.estimate_angle, "the same");
+      "largest error of the base's estimated position, each axis, the whole time", as_length);
+  add("estimate_angle_rad", "rad", up_to(0.5), sizes.estimate_angle,
+      "largest error of the base's estimated orientation, about each axis, the whole time");
 }
 
 void add_simulation(FileKeys& keys) {
@@ -527,7 +533,8 @@ void add_simulation(FileKeys& keys) {
       "largest distance of the base at rest from the end of the plan");
   add("base_angle_rad", "rad", number_text(defaults.angle),
       "largest angle of the base at rest from the end of the plan");
-  add("slip_m", "m", number_text(defaults.way), "largest slip of a foot in contact, and way from its foothold");
+  add("slip_m", "m", number_text(defaults.distance),
+      "largest slip of a foot in contact, and largest distance of a landing from its foothold");
   add("friction", "-", "that of each [[surface]]", "friction coefficient of all surfaces");
   add("rest_s", "s", number_text(defaults.rest), "time that the robot stands after the plan");
 }
