@@ -12,6 +12,7 @@
 
 #include "cli/process/program_files.hpp"
 #include "cli/screen/output.hpp"
+#include "prowl/simulation/perturbations.hpp"
 #include "prowl/task_file/toml/file_keys.hpp"
 #include "prowl/text/nearest_name.hpp"
 
@@ -41,6 +42,18 @@ CLI::Option* add_folder(CLI::App& verb, const std::string& name, std::string& fo
       [](const std::string& text) { return text.empty() ? std::string("is empty; need a folder") : std::string(); },
       "");
   return verb.add_option(name, folder, meaning)->check(is_named)->type_name("DIR");
+}
+
+CLI::Option* add_only(CLI::App& verb, std::vector<std::string>& kinds) {
+  const std::vector<std::string> known = perturbation_kinds();
+  return verb
+      .add_option("--only", kinds,
+                  fmt::format("Perturbations to draw, comma-separated: {}; default: all", fmt::join(known, ", ")))
+      ->check(one_of(known))
+      ->type_name("LIST")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
 }
 
 void add_package_dirs(CLI::App& verb, std::vector<std::string>& folders) {

@@ -21,7 +21,7 @@
 #include "prowl/report_page/report_file.hpp"
 #include "prowl/session/environment.hpp"
 #include "prowl/simulation/collision_shapes.hpp"
-#include "prowl/simulation/sweep.hpp"
+#include "prowl/simulation/perturbations.hpp"
 #include "prowl/tracking/displaced_start.hpp"
 
 namespace prowl::cli {
@@ -47,6 +47,7 @@ struct SimulateArguments {
   std::vector<double> push;  ///< time, impulse in x, y, z
   double push_duration = Push{}.duration;
   std::optional<std::uint64_t> sweep_case;
+  std::vector<std::string> only;  ///< kinds of perturbations of that case; empty: all
   // With rollout.
   std::vector<double> base_offset{0.0, 0.0, 0.0};      ///< [m]
   std::vector<double> base_offset_rpy{0.0, 0.0, 0.0};  ///< [rad]
@@ -86,7 +87,8 @@ Outcome run_mujoco(const SimulateArguments& arguments, const PlanRecord& plan, c
     const double* const push = &arguments.push[i];
     options.pushes.push_back({{push[1], push[2], push[3]}, push[0], arguments.push_duration});
   }
-  if (arguments.sweep_case) options = perturbed(plan.task.problem, tracker, options, {}, *arguments.sweep_case);
+  if (arguments.sweep_case)
+    options = perturbed(plan.task.problem, tracker, options, only(arguments.only), *arguments.sweep_case);
   MotionProgress progress;
   const SimulationRecord record{options,
                                 simulate(plan.task.problem, tracker, plan.task.success, options, std::ref(progress))};
@@ -194,6 +196,7 @@ void add_mujoco_options(CLI::App& verb, SimulateArguments& arguments) {
           ->check(whole_number())
           ->type_name("SEED")};
   for (CLI::Option* const option : all) option->group(kMujocoOptions);
+  add_only(verb, arguments.only)->needs(all.back())->group(kMujocoOptions);
   for (const char* drawn : {"--mass", "--friction", "--push", "--push-duration", "--seed"})
     all.back()->excludes(verb.get_option(drawn));
 }

@@ -27,6 +27,7 @@ struct SweepArguments {
   std::vector<std::string> package_dirs;
   SimulationOptions options;
   PerturbationRanges ranges;
+  std::vector<std::string> only;
   int cases = 200;
   std::uint64_t seed = 1;
   int breakdown_cases = 0;
@@ -46,20 +47,20 @@ auto with_bar(const char* what, const std::atomic<bool>& interrupted, const Run&
 }
 
 int run_sweep(const SweepArguments& arguments) {
+  const PerturbationRanges ranges = only(arguments.only, arguments.ranges);
   check_mujoco();
   const std::atomic<bool>& interrupted = catch_interrupts();
   const PlanRecord plan = read_plan(arguments.directory, package_search(arguments.package_dirs));
   check_writable(arguments.directory);
   const MotionProblem& problem = plan.task.problem;
   const Tracker tracker = read_tracker(arguments.directory, problem);
-  SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = arguments.ranges};
+  SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = ranges};
   SimulationOptions base = arguments.options;
   base.physics.collisions = collision_shapes(problem.robot, package_search(arguments.package_dirs));
   base.physics.friction = plan.task.simulated_friction;
   std::vector<SimulationOptions> options;
   for (int i = 0; i < arguments.cases; ++i) {
-    options.push_back(
-        perturbed(problem, tracker, base, arguments.ranges, arguments.seed + static_cast<std::uint64_t>(i)));
+    options.push_back(perturbed(problem, tracker, base, ranges, arguments.seed + static_cast<std::uint64_t>(i)));
   }
   print_progress(fmt::format("{} simulation{} of {:.1f} s of motion{}\n", arguments.cases,
                              arguments.cases == 1 ? "" : "s", tracker.end() + plan.task.success.rest,
@@ -113,6 +114,7 @@ void add_sweep_command(CLI::App& app, int& status) {
                    fmt::format("Seed of the first case; the others count up; default {}", arguments->seed))
       ->check(whole_number())
       ->type_name("N");
+  add_only(*verb, arguments->only)->group(kPerturbations);
   verb->add_option("--mass-spread", ranges.mass,
                    fmt::format("Largest error of the mass of each body, as a share; default {:g}", ranges.mass))
       ->type_name("X")
@@ -139,7 +141,8 @@ void add_sweep_command(CLI::App& app, int& status) {
   add_json(*verb, arguments->json);
   add_package_dirs(*verb, arguments->package_dirs);
   set_footer(*verb,
-             {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2"},
+             {"prowl sweep out/hyq_crouch --n 200 --seed 1", "prowl sweep out/hyq_crouch --n 10 --mass-spread 0.2",
+              "prowl sweep out/hyq_crouch --n 10 --only ground,push"},
              "0 if all simulations ran, with or without success; 130 interrupted (Ctrl-C keeps the simulations that "
              "have finished).");
   verb->callback([arguments, &status] { status = run_sweep(*arguments); });

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "prowl/files/atomic_folder.hpp"
-#include "prowl/simulation/sweep.hpp"
+#include "prowl/simulation/perturbations.hpp"
 
 namespace prowl {
 
@@ -33,8 +33,9 @@ Json error_json(const ErrorMeasure& error) {
 Json vector_json(const Eigen::VectorXd& values) { return std::vector<double>(values.begin(), values.end()); }
 
 std::string world_in_words(const RobotModel& robot, const SimulationOptions& options) {
-  std::string text = fmt::format("mass x {:.2f}, friction x {:.2f}, {:.0f} Hz, {:.1f} ms, tilt {:.1f} deg",
-                                 mass_factor(robot, options.physics), options.physics.friction_scale, options.bandwidth,
+  const std::string motors = options.bandwidth > 0.0 ? fmt::format("{:.0f} Hz", options.bandwidth) : "ideal motors";
+  std::string text = fmt::format("mass x {:.2f}, friction x {:.2f}, {}, {:.1f} ms, tilt {:.1f} deg",
+                                 mass_factor(robot, options.physics), options.physics.friction_scale, motors,
                                  1e3 * (options.delay + options.unknown_delay), options.ground.tilt.norm() / kDegree);
   for (const Push& push : options.pushes) {
     text += fmt::format(", {:.3g} N s towards {:.0f} deg at {:.2f} s", push.impulse.norm(),

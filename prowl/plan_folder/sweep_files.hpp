@@ -1,6 +1,7 @@
 #pragma once
 
 #include "prowl/plan_folder/plan_folder.hpp"
+#include "prowl/simulation/perturbations.hpp"
 #include "prowl/simulation/sweep.hpp"
 
 namespace prowl {

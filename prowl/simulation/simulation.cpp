@@ -10,8 +10,8 @@
 #include "prowl/simulation/judge.hpp"
 #include "prowl/simulation/measures.hpp"
 #include "prowl/simulation/onboard.hpp"
+#include "prowl/simulation/perturbations.hpp"
 #include "prowl/simulation/sensors.hpp"
-#include "prowl/simulation/sweep.hpp"
 
 namespace prowl {
 namespace {
@@ -201,7 +201,7 @@ class Run {
   }
 
   bool advance(double t) {
-    for (Eigen::Vector3d& way : slip_) way.setZero();
+    for (Eigen::Vector3d& slip : slip_) slip.setZero();
     const double step = period_ / substeps_;
     for (int i = 0; i < substeps_; ++i) {
       q_before_ = physics_.q();

@@ -2,40 +2,18 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
-#include <boost/random/uniform_real_distribution.hpp>
 #include <cmath>
 #include <future>
 #include <limits>
 #include <mutex>
-#include <numbers>
 #include <optional>
 #include <random>
 #include <thread>
 
-#include "prowl/model/body_tree.hpp"
+#include "prowl/simulation/perturbations.hpp"
 
 namespace prowl {
 namespace {
-
-using Uniform = boost::random::uniform_real_distribution<double>;
-
-/// Smallest number of contacts in stance between `from` and `to`.
-long fewest_contacts(const Tracker& tracker, double from, double to) {
-  long fewest = std::numeric_limits<long>::max();
-  for (const TrackingPlan::Segment& segment : tracker.plan().segments) {
-    if (segment.end < from || segment.start > to) continue;
-    fewest = std::min(fewest, std::ranges::count(segment.in_contact, true));
-  }
-  return fewest;
-}
-
-/// A push in a random horizontal direction, at a random time of the motion.
-Push draw_push(const Tracker& tracker, double impulse, double on_two_feet, double duration, std::mt19937_64& random) {
-  const double angle = Uniform(0.0, 2.0 * std::numbers::pi)(random);
-  const double time = Uniform(tracker.start(), tracker.end())(random);
-  const double size = fewest_contacts(tracker, time, time + duration) <= 2 ? on_two_feet : impulse;
-  return {size * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0), time, duration};
-}
 
 /// A perturbation of one kind, of any size.
 struct Kind {
@@ -70,61 +48,6 @@ std::vector<Kind> kinds_of_perturbation(const Tracker& tracker) {
 }
 
 }  // namespace
-
-StartError draw_start_error(const RobotModel& robot, double share, std::mt19937_64& random,
-                            const PerturbationRanges& ranges) {
-  const double height = height_share(robot);
-  StartError error;
-  const auto fill = [&](auto part, double range) {
-    for (double& value : part) value = range == 0.0 ? 0.0 : Uniform(-range, range)(random);
-  };
-  fill(error.base.head<3>(), share * height * ranges.base_position);
-  fill(error.base.tail<3>(), share * ranges.base_angle);
-  fill(error.twist.head<3>(), share * std::sqrt(height) * ranges.base_velocity);
-  fill(error.twist.tail<3>(), share * ranges.base_rate);
-  error.joints.resize(robot.nu());
-  fill(error.joints.head(robot.nu()), share * ranges.joint);
-  return error;
-}
-
-SimulationOptions perturbed(const MotionProblem& problem, const Tracker& tracker, const SimulationOptions& options,
-                            const PerturbationRanges& ranges, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  const auto draw = [&](double low, double high) { return low < high ? Uniform(low, high)(random) : low; };
-  const RobotModel& robot = problem.robot;
-  const double height = height_share(robot);
-  SimulationOptions result = options;
-  result.seed = random();  // a different random sequence for the sensors
-  result.start = draw_start_error(robot, 1.0, random, ranges);
-  PhysicsOptions& physics = result.physics;
-  physics.body_scales.clear();
-  for (int b = 0; b <= robot.nu(); ++b) physics.body_scales.push_back(draw(1.0 - ranges.mass, 1.0 + ranges.mass));
-  const double center = height * ranges.base_center;
-  for (double& value : physics.base_center) value = draw(-center, center);
-  physics.friction_scale = draw(ranges.friction_low, ranges.friction_high);
-  result.bandwidth = draw(ranges.bandwidth_low, ranges.bandwidth_high);
-  result.unknown_delay = draw(ranges.delay_low, ranges.delay_high) - options.delay;
-  result.ground.height = draw(-height * ranges.ground_height, height * ranges.ground_height);
-  for (double& value : result.ground.tilt) value = draw(-ranges.ground_tilt, ranges.ground_tilt);
-  result.unknown_noise = draw(ranges.noise_low, ranges.noise_high);
-  const double impulse = ranges.push.value_or(std::sqrt(height) * ranges.push_velocity * robot.mass());
-  result.pushes = {
-      draw_push(tracker, impulse, ranges.push_on_two_feet.value_or(impulse), ranges.push_duration, random)};
-  return result;
-}
-
-double mass_factor(const RobotModel& robot, const PhysicsOptions& physics) {
-  const BodyTree tree = body_tree(robot);
-  double mass = 0.0;
-  for (std::size_t b = 0; b < tree.bodies.size(); ++b)
-    mass += tree.bodies[b].mass * (physics.body_scales.empty() ? 1.0 : physics.body_scales[b]);
-  return physics.mass_scale * mass / robot.mass();
-}
-
-std::string pushed_phase(const Tracker& tracker, const SimulationOptions& options) {
-  if (options.pushes.empty()) return "";
-  return tracker.segment(options.pushes.front().time + 0.5 * options.pushes.front().duration).name;
-}
 
 std::vector<SweepCase> run_cases(const MotionProblem& problem, const Tracker& tracker, const SuccessCriteria& criteria,
                                  const std::vector<SimulationOptions>& options, const SweepProgress& on_done,

@@ -105,12 +105,14 @@ void check_arguments(const PlanObject& plan, int n, const PerturbationRanges& ra
 
 SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint64_t seed, double mass_spread,
                        std::optional<double> push_impulse, std::optional<double> push_impulse_on_two_feet,
-                       int breakdown, bool open_loop, const nb::object& on_progress) {
+                       const std::vector<std::string>& kinds, int breakdown, bool open_loop,
+                       const nb::object& on_progress) {
   PerturbationRanges ranges;
   ranges.mass = mass_spread;
   ranges.push = push_impulse;
   ranges.push_on_two_feet = push_impulse_on_two_feet;
   check_arguments(*plan, n, ranges, breakdown);
+  ranges = only(kinds, ranges);
   const Task& task = plan->record.task;
   const Tracker& tracker = *plan->tracker;
   SimulationOptions options;
@@ -182,16 +184,15 @@ void bind_sweep(nb::module_& module) {
                            s.rate().cases);
       });
   const PerturbationRanges defaults;
-  module.def(
-      "sweep", &sweep_plan, nb::arg("plan"), nb::arg("n") = 200, nb::kw_only(), nb::arg("seed") = 1,
-      nb::arg("mass_spread") = defaults.mass, nb::arg("push_impulse") = nb::none(),
-      nb::arg("push_impulse_on_two_feet") = nb::none(), nb::arg("breakdown") = 0, nb::arg("open_loop") = false,
-      nb::arg("on_progress") = nb::none(),
-      nb::sig(
-          "def sweep(plan: Plan, n: int = 200, *, seed: int = 1, mass_spread: float = 0.1, push_impulse: "
-          "float | None = None, push_impulse_on_two_feet: float | None = None, breakdown: int = 0, open_loop: bool = "
-          "False, on_progress: collections.abc.Callable[[int, int], object] | None = None) -> Sweep"),
-      "prowl.sweep of a plan, without the progress bar.");
+  module.def("sweep", &sweep_plan, nb::arg("plan"), nb::arg("n") = 200, nb::kw_only(), nb::arg("seed") = 1,
+             nb::arg("mass_spread") = defaults.mass, nb::arg("push_impulse") = nb::none(),
+             nb::arg("push_impulse_on_two_feet") = nb::none(), nb::arg("only") = nb::tuple(), nb::arg("breakdown") = 0,
+             nb::arg("open_loop") = false, nb::arg("on_progress") = nb::none(),
+             nb::sig("def sweep(plan: Plan, n: int = 200, *, seed: int = 1, mass_spread: float = 0.1, push_impulse: "
+                     "float | None = None, push_impulse_on_two_feet: float | None = None, only: "
+                     "collections.abc.Sequence[str] = (), breakdown: int = 0, open_loop: bool = "
+                     "False, on_progress: collections.abc.Callable[[int, int], object] | None = None) -> Sweep"),
+             "prowl.sweep of a plan, without the progress bar.");
 }
 
 }  // namespace prowl::python

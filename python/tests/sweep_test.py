@@ -35,6 +35,12 @@ def test_it_runs_as_many_simulations_as_it_is_asked_for(crouch, capsys):
     assert "3/3" in capsys.readouterr().err
 
 
+def test_it_draws_only_what_is_asked_for(crouch):
+    swept = prowl.sweep(crouch, 2, only=["friction"])
+    assert [case.mass for case in swept.cases] == [1.0, 1.0]
+    assert all(case.friction != 1.0 for case in swept.cases)
+
+
 def test_it_takes_a_folder(crouch, sweep, tmp_path):
     crouch.write(tmp_path / "plan")
     assert prowl.sweep(tmp_path / "plan", 1).cases[0].success == sweep.cases[0].success
@@ -63,7 +69,7 @@ def test_ctrl_c_keeps_the_simulations_that_have_finished(crouch, sweep):
 
 
 def test_arguments_that_make_no_sense(crouch):
-    for argument in ({"n": 0}, {"mass_spread": 1.0}, {"push_impulse": -1.0}, {"breakdown": -1}):
+    for argument in ({"n": 0}, {"mass_spread": 1.0}, {"push_impulse": -1.0}, {"breakdown": -1}, {"only": ["pushes"]}):
         with pytest.raises(prowl.InputError, match=f"^{next(iter(argument))}: "):
             prowl.sweep(crouch, **argument)
     with pytest.raises(prowl.InputError, match="no gains"):

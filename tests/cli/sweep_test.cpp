@@ -36,6 +36,29 @@ TEST_F(Sweep, RefusesWhatIsNoSize) {
   }
 }
 
+TEST_F(Sweep, DrawsOnlyWhatIsAskedFor) {
+  const Outcome alone = run("$prowl sweep out $dirs --n 1 --seed 3 --only ground,push");
+  EXPECT_EQ(alone.status, 0) << alone.error;
+  EXPECT_THAT(result().at("worst").at(0).at("perturbation").get<std::string>(),
+              AllOf(HasSubstr("mass x 1.00, friction x 1.00, ideal motors, 2.0 ms"), Not(HasSubstr("tilt 0.0")),
+                    HasSubstr(" N s towards")));
+  const double off = result().at("worst").at(0).at("rest_position_m");
+  const auto rest_of_case = [&](const std::string& options) {
+    EXPECT_NE(run("$prowl simulate out $dirs --case 3 " + options).status, 2);
+    return nlohmann::json::parse(test::read_file(folder_.path() / "out/simulate.json"))
+        .at("base_position_m")
+        .at("rest")
+        .get<double>();
+  };
+  EXPECT_EQ(rest_of_case("--only ground,push"), off);
+  EXPECT_NE(rest_of_case(""), off);
+
+  const Outcome misspelt = run("$prowl sweep out $dirs --n 1 --only pusch");
+  EXPECT_EQ(misspelt.status, 2);
+  EXPECT_THAT(misspelt.error, HasSubstr("push"));
+  EXPECT_EQ(run("$prowl simulate out $dirs --only push").status, 2) << "of no case";
+}
+
 TEST_F(Sweep, KeepsFinishedCasesOnInterrupt) {
   const Outcome stopped = interrupted_at(" of 100 simulations", "--n 100 --seed 5");
   EXPECT_EQ(stopped.status, 130) << stopped.error;

@@ -204,6 +204,7 @@ ALLOWED = {
         "prowl/files",
         "prowl/mesh",
         "prowl/transcription",
+        "prowl/simulation",
         "prowl/task_file",
         "prowl/session",
         "prowl/plan_folder",

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 
+#include "prowl/simulation/perturbations.hpp"
 #include "tests/simulation/standing_tracker.hpp"
 
 namespace prowl {
@@ -27,90 +27,6 @@ TEST(SuccessRate, BoundsCutOffTheTails) {
   }
   EXPECT_EQ(success_rate(0, 200).lower, 0.0);
   EXPECT_EQ(success_rate(200, 200).upper, 1.0);
-}
-
-struct Range {
-  double least = 1e9, most = -1e9;
-  void add(double value) {
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  void expect(double low, double high, const char* what) const {
-    const double some = 0.02 * (high - low);
-    EXPECT_GE(least, low) << what;
-    EXPECT_LE(most, high) << what;
-    EXPECT_NEAR(least, low, some) << what;
-    EXPECT_NEAR(most, high, some) << what;
-  }
-};
-
-/// Lengths scale with the height of the robot, velocities with its root; the rest is the same for all.
-TEST(Sweep, DrawsFromItsRanges) {
-  for (const RobotModel& robot : {test::hyq(), test::solo12()}) {
-    const MotionProblem problem = test::standing_problem(robot);
-    const Tracker tracker = test::standing_tracker(problem);
-    const double height = robot.nominal_configuration().z() / 0.58, root = std::sqrt(height);
-    Range position, angle, velocity, rate, joint, mass, center, friction, bandwidth, delay, ground, tilt, noise, time;
-    std::set<std::uint64_t> seeds;
-    for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
-      const SimulationOptions options = perturbed(problem, tracker, {}, {}, seed);
-      seeds.insert(options.seed);
-      position.add(options.start->base(2));
-      angle.add(options.start->base(3));
-      velocity.add(options.start->twist(0));
-      rate.add(options.start->twist(5));
-      joint.add(options.start->joints(4));
-      ASSERT_EQ(std::ssize(options.physics.body_scales), robot.nu() + 1);
-      mass.add(options.physics.body_scales[3]);
-      center.add(options.physics.base_center.y());
-      friction.add(options.physics.friction_scale);
-      bandwidth.add(options.bandwidth);
-      delay.add(options.delay + options.unknown_delay);
-      ground.add(options.ground.height);
-      tilt.add(options.ground.tilt.x());
-      noise.add(options.unknown_noise);
-      const Push& push = options.pushes.at(0);
-      time.add(push.time);
-      EXPECT_EQ(push.impulse.z(), 0.0);
-      EXPECT_NEAR(push.impulse.norm(), 0.12 * root * robot.mass(), 1e-9);
-      EXPECT_EQ(push.duration, 0.1);
-    }
-    EXPECT_EQ(seeds.size(), 2000u);
-    position.expect(-0.01 * height, 0.01 * height, "position");
-    angle.expect(-0.02, 0.02, "angle");
-    velocity.expect(-0.05 * root, 0.05 * root, "velocity");
-    rate.expect(-0.1, 0.1, "rate");
-    joint.expect(-0.01, 0.01, "joint");
-    mass.expect(0.9, 1.1, "mass");
-    center.expect(-0.02 * height, 0.02 * height, "centre of mass");
-    friction.expect(0.8, 1.6, "friction");
-    bandwidth.expect(20.0, 60.0, "bandwidth");
-    delay.expect(1e-3, 4e-3, "delay");
-    ground.expect(-5e-3 * height, 5e-3 * height, "ground");
-    tilt.expect(-0.035, 0.035, "tilt");
-    noise.expect(0.5, 2.0, "noise");
-    time.expect(0.0, 2.0, "time of the push");
-  }
-}
-
-TEST(Sweep, TakesPushesOfOnesOwn) {
-  const MotionProblem problem = test::standing_problem();
-  TrackingPlan plan = test::standing_tracker(problem).plan();
-  plan.segments = {{"four", 0.0, 1.0, 0, 2, {true, true, true, true}},
-                   {"two", 1.0, 2.0, 2, 2, {true, false, false, true}}};
-  for (Eigen::MatrixXd* part : {&plan.q, &plan.v, &plan.tau, &plan.gains}) *part = part->replicate(1, 2).eval();
-  const Tracker tracker(plan);
-  PerturbationRanges ranges;
-  ranges.push = 10.0;
-  ranges.push_on_two_feet = 2.0;
-  int weak = 0;
-  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
-    const Push push = perturbed(problem, tracker, {}, ranges, seed).pushes.at(0);
-    const bool on_two = push.time + push.duration >= 1.0;
-    EXPECT_NEAR(push.impulse.norm(), on_two ? 2.0 : 10.0, 1e-12) << push.time;
-    weak += on_two ? 1 : 0;
-  }
-  EXPECT_NEAR(weak, 275, 50);
 }
 
 /// A case of a sweep is what simulate() makes of it, and all of them are there, in order.
