@@ -30,14 +30,6 @@ std::vector<const CertificateCheck*> shown_checks(const Certificate& certificate
   return shown.size() <= kMostRows || failed.empty() ? shown : failed;
 }
 
-std::string robust_sentence(const Robustness& robustness) {
-  const double percent = 100.0 * robustness.share;
-  if (robustness.is_full()) return "Robust against all disturbances asked for.\n";
-  const std::string share =
-      robustness.share == 0.0 ? "not robust" : fmt::format("robust at {:.0f} % of the sizes", percent);
-  return fmt::format("note: {}; the {} allows no more\n", share, robustness.tightest);
-}
-
 std::string certificate_brief(const Certificate& certificate, const std::filesystem::path& directory,
                               std::size_t columns) {
   return verdict_line(certificate) + check_table(shown_checks(certificate), CheckColumn::used, columns) +
@@ -61,7 +53,7 @@ std::string sentences(const PlanRecord& record) {
 
 std::string plan_brief(const PlanRecord& record, const std::filesystem::path& directory, std::size_t columns) {
   if (!record.plan.reasons.empty()) return plan_report(record);
-  return plan_summary(record) + sentences(record) + (record.robustness ? robust_sentence(*record.robustness) : "") +
+  return plan_summary(record) + sentences(record) + robust_sentence(record) +
          certificate_brief(record.plan.certificate, directory, columns) + mesh_advice(record) +
          (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
 }

@@ -139,6 +139,15 @@ std::string certificate_summary(const Certificate& certificate, std::size_t colu
   return text + failed_checks_line(certificate);
 }
 
+std::string robust_sentence(const PlanRecord& record) {
+  if (!record.robustness) return "";
+  const Robustness& robustness = *record.robustness;
+  if (robustness.is_full()) return "Robust, to first order, against the disturbances asked for.\n";
+  const std::string share =
+      robustness.share == 0.0 ? "not robust" : fmt::format("robust at {:.0f} % of each size", 100.0 * robustness.share);
+  return fmt::format("note: {}; the {} leaves least\n", share, robustness.tightest);
+}
+
 std::string feedback_summary(const FeedbackDesign& feedback, double step) {
   std::string text = fmt::format("feedback: {} gains, one every {:g} ms, {:.2f} s; bandwidth up to {:.0f} rad/s\n",
                                  feedback.num_samples(), step * 1e3, feedback.seconds, feedback.whole.bandwidth);
@@ -161,8 +170,8 @@ std::string feedback_summary(const FeedbackDesign& feedback, double step) {
 
 std::string plan_report(const PlanRecord& record, const std::string& when, std::size_t columns) {
   if (!record.plan.reasons.empty()) return plan_summary(record, when);
-  return plan_summary(record, when) + certificate_summary(record.plan.certificate, columns) + mesh_advice(record) +
-         (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
+  return plan_summary(record, when) + robust_sentence(record) + certificate_summary(record.plan.certificate, columns) +
+         mesh_advice(record) + (record.feedback ? feedback_summary(*record.feedback, record.task.tracking.step) : "");
 }
 
 }  // namespace prowl

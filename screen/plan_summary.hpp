@@ -26,6 +26,9 @@ std::string failed_checks_line(const Certificate& certificate);
 /// "0.0001 m", or the number alone where there is no unit.
 std::string with_unit(double value, const std::string& unit);
 
+/// How robust the plan is; "" if that was not asked for.
+std::string robust_sentence(const PlanRecord& record);
+
 /// The gains and what they do to deviations, in a few lines.
 std::string feedback_summary(const FeedbackDesign& feedback, double step);
 

@@ -114,8 +114,8 @@ void advise(const PlanArguments& arguments, const PlannedTask& planned, int stat
     print_message(fmt::format("to continue from there, repeat the command with --resume {}{}\n", out.string(),
                               arguments.warm_start.empty() ? "" : " instead of --warm-start"));
   }
-  if (status == kNotSolved && is_good(planned.record.plan)) {
-    print_message("the plan is good, but not as robust as asked: it is kept; see docs/robust.md\n");
+  if (is_good(planned.record.plan) && (status == kNotSolved || status == kLimit)) {
+    print_message("the plan is good, but not as robust as asked: it is kept; what helps: docs/robust.md\n");
   } else if (status == kNotSolved || status == kLimit) {
     print_message(fmt::format("to find out why, and what would help: prowl diagnose {}\n", arguments.task));
   }
@@ -160,7 +160,8 @@ int run_plan(const PlanArguments& arguments) {
   if (!arguments.json)
     print_result(wrap(plan_brief(record, out, columns()) + fmt::format("written to {}\n", out.string())));
   int status = planned.interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
-  if (status == kPassed && record.robustness && !record.robustness->is_full()) status = kNotSolved;
+  if (status == kPassed && record.robustness && !record.robustness->is_full())
+    status = planned.is_robust_so_far ? kLimit : kNotSolved;
   advise(arguments, planned, status, out);
   if (arguments.json) {
     print_json({.verb = "plan",
@@ -181,8 +182,9 @@ void add_plan_command(CLI::App& app, int& status) {
   add_task(*verb, arguments->task);
   add_folder(*verb, "--out", arguments->out, "Folder for the result; default out/FOLDER_TASK");
   verb->add_flag("--report", arguments->report, "Also write report.html, which replays the plan in a browser");
-  verb->add_flag("--robust", arguments->overrides.robust,
-                 "Keep margins, so that the plan holds under pushes, other masses and less friction");
+  verb->add_flag(
+      "--robust", arguments->overrides.robust,
+      "Keep margins for errors of start, masses, friction, ground and estimate, and for a push (docs/robust.md)");
   add_package_dirs(*verb, arguments->package_dirs);
   CLI::Option* const phases = verb->add_flag("--print-phases", arguments->print_phases,
                                              "Print the phases, including those of a gait, without planning");
@@ -228,7 +230,7 @@ void add_plan_command(CLI::App& app, int& status) {
               "prowl plan tasks/hyq/crouch.toml --warm-start out/hyq_crouch --intervals 120",
               "prowl plan tasks/hyq/crouch.toml --checkpoint out/so_far --checkpoint-every 0",
               "prowl plan tasks/hyq/crouch.toml --resume out/so_far", "prowl plan tasks/hyq/step.toml --refine",
-              "prowl plan tasks/hyq/crouch.toml --refine certified"},
+              "prowl plan tasks/hyq/step.toml --robust", "prowl plan tasks/hyq/crouch.toml --refine certified"},
              "0 the plan passes its certificate; 2 bad input; 3 infeasible, less robust than asked, or solver failed; "
              "4 files; 5 numerical failure; 6 limit of time or iterations; 7 converged but the certificate fails; 130 "
              "interrupted (Ctrl-C keeps the best motion so far, marked as unfinished).");

@@ -160,6 +160,7 @@ class Search {
   }
 
   int solves() const { return solves_; }
+  bool was_stopped() const { return is_stopped_; }
   SolveBooks& books() { return books_; }
 
  private:
@@ -242,7 +243,10 @@ RobustPlan make_robust_plan(const DiscreteProblem& asked, Plan nominal, const Tr
     break;
   }
   search.books().enter(best.plan);
-  return {std::move(best.plan), {sizes, std::min(best.held.share, 1.0), search.solves(), std::move(best.held.where)}};
+  Robustness robustness{sizes, std::min(best.held.share, 1.0), search.solves(), std::move(best.held.where)};
+  const bool is_stopped = !robustness.is_full() && (search.was_stopped() || seconds_left() <= 0.0);
+  if (is_stopped) best.plan.hints.push_back("with more time (--max-time) the motion may become more robust");
+  return {std::move(best.plan), std::move(robustness), is_stopped};
 }
 
 }  // namespace prowl

@@ -21,6 +21,7 @@ struct Robustness {
 struct RobustPlan {
   Plan plan;
   Robustness robustness;
+  bool is_stopped = false;  ///< a limit of time, or an interrupt, ended the search for a larger share
 };
 
 /// Robust motion by zero-order robust optimisation (docs/robust.md): alternates the tube of a motion and a solve with

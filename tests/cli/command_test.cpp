@@ -517,7 +517,7 @@ on = "slope"
 TEST_F(Command, MakesARobustPlanOrTellsHowRobustItIs) {
   const Outcome robust = run("$prowl plan hold.toml $dirs --out out --robust");
   ASSERT_EQ(robust.status, 0) << robust.error;
-  EXPECT_THAT(robust.out, HasSubstr("Robust against all disturbances asked for.\n"));
+  EXPECT_THAT(robust.out, HasSubstr("Robust, to first order, against the disturbances asked for.\n"));
   EXPECT_EQ(plan().at("robustness").at("share"), 1.0);
   EXPECT_EQ(plan().at("overrides").at("robust"), true);
   EXPECT_EQ(run("$prowl check out $dirs").status, 0);
@@ -526,10 +526,11 @@ TEST_F(Command, MakesARobustPlanOrTellsHowRobustItIs) {
   folder_.write("hold.toml", kHold + "[robust]\ncenter_m = 0.2\nbase_position_m = 0.2\n");
   const Outcome less = run("$prowl plan hold.toml $dirs --out out");
   EXPECT_EQ(less.status, 3);
-  EXPECT_THAT(unwrapped(less.out), AllOf(HasSubstr(" % of the sizes; the "), HasSubstr(" allows no more")));
+  EXPECT_THAT(unwrapped(less.out), AllOf(HasSubstr(" % of each size; the "), HasSubstr(" leaves least")));
   EXPECT_THAT(less.error, HasSubstr("the plan is good, but not as robust as asked: it is kept"));
   EXPECT_LT(plan().at("robustness").at("share"), 1.0);
   EXPECT_EQ(plan().at("good"), true);
+  EXPECT_THAT(run("$prowl check out $dirs").out, HasSubstr(" leaves least"));
   EXPECT_EQ(run("$prowl simulate out $dirs").status, 0);
 }
 

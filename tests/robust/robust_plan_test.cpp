@@ -97,7 +97,16 @@ TEST(RobustPlan, TellsWhatCannotBe) {
   EXPECT_TRUE(is_good(planned.record.plan)) << "the best plan is kept";
 }
 
-/// Takes loose solves only.
+/// Of the shipped step, from its nominal plan on that mesh.
+RobustPlan robust_step(const NlpSolver& solver) {
+  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml", test::test_search());
+  Plan nominal = test::planned(task);
+  if (!is_good(nominal)) throw std::runtime_error("no good plan");
+  return make_robust_plan({task.problem, nominal.mesh}, nominal, task.tracking,
+                          default_disturbances(task.problem.robot), solver, {.solver = task.solver}, std::nullopt);
+}
+
+/// Takes loose solves only: margins that leave nothing between two limits, on the mesh of the last solve alone.
 class OnlyLoose : public RiccatiSolver {
  public:
   SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const override {
@@ -106,17 +115,29 @@ class OnlyLoose : public RiccatiSolver {
   }
 };
 
-/// Margins that leave nothing between two limits, on the mesh of the last solve alone.
 TEST(RobustPlan, IsTheNominalOneWhereTheLastSolveIsRefused) {
-  const Task task = read_task_file(std::string(PROWL_SOURCE_DIR) + "/tasks/hyq/step.toml", test::test_search());
-  Plan nominal = test::planned(task);
-  ASSERT_TRUE(is_good(nominal));
-  const RobustPlan robust =
-      make_robust_plan({task.problem, nominal.mesh}, nominal, task.tracking, default_disturbances(task.problem.robot),
-                       OnlyLoose(), {.solver = task.solver}, std::nullopt);
+  const RobustPlan robust = robust_step(OnlyLoose());
   EXPECT_GT(robust.robustness.solves, 0);
   EXPECT_LT(robust.robustness.share, 1.0);
-  EXPECT_EQ(robust.plan.trajectory.nodes.back().q, nominal.trajectory.nodes.back().q);
+  EXPECT_FALSE(robust.is_stopped);
+  EXPECT_TRUE(is_good(robust.plan));
+}
+
+/// Has no time for loose solves.
+class NoTime : public RiccatiSolver {
+ public:
+  SolveResult solve(Nlp& nlp, const Eigen::VectorXd& z_guess, const SolverOptions& options) const override {
+    SolveResult result = RiccatiSolver::solve(nlp, z_guess, options);
+    if (options.tolerance > 1e-5) result.status = SolveStatus::time_limit;
+    return result;
+  }
+};
+
+TEST(RobustPlan, TellsThatTimeEndedTheSearch) {
+  const RobustPlan robust = robust_step(NoTime());
+  EXPECT_TRUE(robust.is_stopped);
+  EXPECT_LT(robust.robustness.share, 1.0);
+  EXPECT_NE(robust.plan.hints.back().find("more time"), std::string::npos);
 }
 
 TEST(RobustPlan, OfNothingIsTheNominalOne) {
