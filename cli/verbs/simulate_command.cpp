@@ -241,6 +241,7 @@ void add_simulate_command(CLI::App& app, int& status) {
   add_json(*verb, arguments->json);
   set_footer(*verb,
              {"prowl simulate out/hyq_crouch --report", "prowl simulate out/hyq_crouch --push 0.5 0 10 0",
+              "prowl simulate out/hyq_crouch --case 2 --only ground,push",
               "prowl simulate out/hyq_crouch --engine rollout --base-offset-m 0.02 0 0"},
              "0 success, 8 failure by the judge; others as prowl plan.");
   verb->callback([arguments, verb, &status] {

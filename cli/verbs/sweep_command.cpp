@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -13,6 +14,7 @@
 #include "cli/screen/wrap.hpp"
 #include "cli/verbs/commands.hpp"
 #include "cli/verbs/plan_tracker.hpp"
+#include "prowl/error.hpp"
 #include "prowl/files/atomic_folder.hpp"
 #include "prowl/plan_folder/sweep_files.hpp"
 #include "prowl/simulation/collision_shapes.hpp"
@@ -46,6 +48,16 @@ auto with_bar(const char* what, const std::atomic<bool>& interrupted, const Run&
   });
 }
 
+/// Refuses sizes of what --only leaves out.
+void check_only(const CLI::App& verb, const std::vector<std::string>& kinds) {
+  if (kinds.empty()) return;
+  for (const auto& [option, kind] : {std::pair("--mass-spread", "mass"), std::pair("--push-impulse", "push"),
+                                     std::pair("--push-impulse-on-two-feet", "push")}) {
+    if (verb.get_option(option)->count() > 0 && std::ranges::count(kinds, kind) == 0)
+      throw InputError(fmt::format("{}: has no effect, as --only lacks '{}'; need both or none", option, kind));
+  }
+}
+
 int run_sweep(const SweepArguments& arguments) {
   const PerturbationRanges ranges = only(arguments.only, arguments.ranges);
   check_mujoco();
@@ -54,7 +66,7 @@ int run_sweep(const SweepArguments& arguments) {
   check_writable(arguments.directory);
   const MotionProblem& problem = plan.task.problem;
   const Tracker tracker = read_tracker(arguments.directory, problem);
-  SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = ranges};
+  SweepRecord record{.first_seed = arguments.seed, .asked = arguments.cases, .ranges = ranges, .only = arguments.only};
   SimulationOptions base = arguments.options;
   base.physics.collisions = collision_shapes(problem.robot, package_search(arguments.package_dirs));
   base.physics.friction = plan.task.simulated_friction;
@@ -122,7 +134,9 @@ void add_sweep_command(CLI::App& app, int& status) {
       ->group(kPerturbations);
   verb->add_option(
           "--push-impulse", ranges.push,
-          fmt::format("Impulse of the pushes on the base; default: {:g} m/s times the mass", ranges.push_velocity))
+          fmt::format("Impulse of the pushes on the base; default: {:g} m/s times the mass if the robot stands 0.58 m "
+                      "high, scaled with the root of its height",
+                      ranges.push_velocity))
       ->type_name("NS")
       ->check(number_in(NumberRange::nonnegative()))
       ->group(kPerturbations);
@@ -136,6 +150,7 @@ void add_sweep_command(CLI::App& app, int& status) {
           "Also look for the size at which each perturbation alone breaks the plan, with N simulations for each size")
       ->type_name("N")
       ->check(CLI::Range(0, 100000))
+      ->excludes(verb->get_option("--only"))
       ->group(kPerturbations);
   verb->add_flag("--open-loop", arguments->options.open_loop, "Apply the planned torques only, without feedback");
   add_json(*verb, arguments->json);
@@ -145,7 +160,10 @@ void add_sweep_command(CLI::App& app, int& status) {
               "prowl sweep out/hyq_crouch --n 10 --only ground,push"},
              "0 if all simulations ran, with or without success; 130 interrupted (Ctrl-C keeps the simulations that "
              "have finished).");
-  verb->callback([arguments, &status] { status = run_sweep(*arguments); });
+  verb->callback([arguments, verb, &status] {
+    check_only(*verb, arguments->only);
+    status = run_sweep(*arguments);
+  });
 }
 
 }  // namespace prowl::cli

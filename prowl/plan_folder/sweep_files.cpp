@@ -27,6 +27,7 @@ std::vector<Count> by_phase(const Tracker& tracker, const SweepRecord& record) {
   std::vector<Count> counts;
   for (const TrackingPlan::Segment& segment : tracker.plan().segments) counts.push_back({segment.name});
   for (const SweepCase& one : record.cases) {
+    if (one.options.pushes.empty()) continue;
     Count& count = *std::ranges::find(counts, pushed_phase(tracker, one.options), &Count::phase);
     ++count.cases;
     count.successes += one.result.success() ? 1 : 0;
@@ -67,13 +68,15 @@ std::string sweep_summary(const PlanRecord& plan, const Tracker& tracker, const 
                 ? fmt::format("  interrupted: {} of {} simulations were finished\n", rate.cases, record.asked)
                 : "  interrupted during the simulations of one perturbation alone\n";
   }
-  text += "  pushed in phase                             success\n";
-  for (const Count& count : by_phase(tracker, record)) {
+  const std::vector<Count> pushed = by_phase(tracker, record);
+  if (!pushed.empty()) text += "  pushed in phase                             success\n";
+  for (const Count& count : pushed) {
     text += fmt::format("    {:<40}  {} of {}\n", count.phase, count.successes, count.cases);
   }
-  const bool as_default = record.ranges == PerturbationRanges{} && !record.cases.front().options.open_loop;
-  text +=
-      as_default ? "  worst cases (prowl simulate DIR --case SEED)\n" : "  worst cases (options of each: sweep.json)\n";
+  const bool is_replayed = record.ranges == only(record.only) && !record.cases.front().options.open_loop;
+  const std::string kinds = record.only.empty() ? "" : fmt::format(" --only {}", fmt::join(record.only, ","));
+  text += is_replayed ? fmt::format("  cases, worst first (prowl simulate DIR --case SEED{})\n", kinds)
+                      : "  cases, worst first\n";
   const std::vector<std::size_t> order = worst_first(record);
   constexpr std::size_t kWorst = 5;
   for (std::size_t i = 0; i < std::min(kWorst, order.size()); ++i) {
@@ -106,6 +109,7 @@ std::string sweep_json(const PlanRecord& plan, const Tracker& tracker, const Swe
                {"successes", rate.successes},
                {"success_rate", rate.rate()},
                {"interval_95", {rate.lower, rate.upper}},
+               {"only", record.only},
                {"ranges",
                 {{"base_position_m", ranges.base_position},
                  {"base_angle_rad", ranges.base_angle},

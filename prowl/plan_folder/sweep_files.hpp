@@ -11,7 +11,8 @@ struct SweepRecord {
   std::uint64_t first_seed = 1;
   int asked = 0;  ///< number of cases; after an interrupt more than in `cases`
   PerturbationRanges ranges;
-  std::vector<SweepCase> cases = {};  ///< of seeds first_seed, first_seed + 1, ...
+  std::vector<std::string> only = {};  ///< kinds of perturbations that are drawn; empty: all
+  std::vector<SweepCase> cases = {};   ///< of seeds first_seed, first_seed + 1, ...
   std::vector<Breakdown> breakdowns = {};
   bool interrupted = false;  ///< cases or breakdowns are missing
 };

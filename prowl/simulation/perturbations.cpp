@@ -115,8 +115,10 @@ SimulationOptions perturbed(const MotionProblem& problem, const Tracker& tracker
   for (double& value : result.ground.tilt) value = draw(-ranges.ground_tilt, ranges.ground_tilt);
   result.unknown_noise = draw(ranges.noise_low, ranges.noise_high);
   const double impulse = ranges.push.value_or(std::sqrt(height) * ranges.push_velocity * robot.mass());
-  result.pushes = {
-      draw_push(tracker, impulse, ranges.push_on_two_feet.value_or(impulse), ranges.push_duration, random)};
+  const Push push =
+      draw_push(tracker, impulse, ranges.push_on_two_feet.value_or(impulse), ranges.push_duration, random);
+  result.pushes.clear();
+  if (!push.impulse.isZero(0.0)) result.pushes.push_back(push);
   return result;
 }
 

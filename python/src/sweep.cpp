@@ -123,7 +123,7 @@ SweepObject sweep_plan(std::shared_ptr<const PlanObject> plan, int n, std::uint6
   for (int i = 0; i < n; ++i)
     all.push_back(perturbed(task.problem, tracker, options, ranges, seed + static_cast<std::uint64_t>(i)));
 
-  SweepObject sweep{plan, {.first_seed = seed, .asked = n, .ranges = ranges}};
+  SweepObject sweep{plan, {.first_seed = seed, .asked = n, .ranges = ranges, .only = kinds}};
   Stop python;
   sweep.record.cases =
       watched(python, on_progress, [&](const SweepProgress& on_done, const std::atomic<bool>* interrupt) {

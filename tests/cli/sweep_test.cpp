@@ -39,6 +39,7 @@ TEST_F(Sweep, RefusesWhatIsNoSize) {
 TEST_F(Sweep, DrawsOnlyWhatIsAskedFor) {
   const Outcome alone = run("$prowl sweep out $dirs --n 1 --seed 3 --only ground,push");
   EXPECT_EQ(alone.status, 0) << alone.error;
+  EXPECT_THAT(alone.out, HasSubstr("(prowl simulate DIR --case SEED --only ground,push)"));
   EXPECT_THAT(result().at("worst").at(0).at("perturbation").get<std::string>(),
               AllOf(HasSubstr("mass x 1.00, friction x 1.00, ideal motors, 2.0 ms"), Not(HasSubstr("tilt 0.0")),
                     HasSubstr(" N s towards")));
@@ -57,6 +58,9 @@ TEST_F(Sweep, DrawsOnlyWhatIsAskedFor) {
   EXPECT_EQ(misspelt.status, 2);
   EXPECT_THAT(misspelt.error, HasSubstr("push"));
   EXPECT_EQ(run("$prowl simulate out $dirs --only push").status, 2) << "of no case";
+  const Outcome useless = run("$prowl sweep out $dirs --n 1 --only ground --push-impulse 5");
+  EXPECT_EQ(useless.status, 2);
+  EXPECT_THAT(useless.error, HasSubstr("--push-impulse: has no effect, as --only lacks 'push'"));
 }
 
 TEST_F(Sweep, KeepsFinishedCasesOnInterrupt) {
