@@ -114,10 +114,10 @@ void advise(const PlanArguments& arguments, const PlannedTask& planned, int stat
     print_message(fmt::format("to continue from there, repeat the command with --resume {}{}\n", out.string(),
                               arguments.warm_start.empty() ? "" : " instead of --warm-start"));
   }
-  if (is_good(planned.record.plan) && (status == kNotSolved || status == kLimit)) {
-    print_message("the plan is good, but not as robust as asked: it is kept; what helps: docs/robust.md\n");
-  } else if (status == kNotSolved || status == kLimit) {
-    print_message(fmt::format("to find out why, and what would help: prowl diagnose {}\n", arguments.task));
+  if (status == kNotSolved || status == kLimit) {
+    print_message(is_good(planned.record.plan)
+                      ? "the plan is good, but not as robust as asked: it is kept; what helps: docs/robust.md\n"
+                      : fmt::format("to find out why, and what would help: prowl diagnose {}\n", arguments.task));
   }
 }
 
@@ -161,7 +161,7 @@ int run_plan(const PlanArguments& arguments) {
     print_result(wrap(plan_brief(record, out, columns()) + fmt::format("written to {}\n", out.string())));
   int status = planned.interrupted ? kInterrupted : exit_status(record.plan.result.status, record.plan.certificate);
   if (status == kPassed && record.robustness && !record.robustness->is_full())
-    status = planned.is_robust_so_far ? kLimit : kNotSolved;
+    status = planned.robust_is_stopped ? kLimit : kNotSolved;
   advise(arguments, planned, status, out);
   if (arguments.json) {
     print_json({.verb = "plan",

@@ -155,7 +155,7 @@ PlannedTask plan_task(Task task, const PlanRequest& request) {
                                            tolerance ? std::optional(refine) : std::nullopt);
       plan = std::move(robust.plan);
       planned.record.robustness = std::move(robust.robustness);
-      planned.is_robust_so_far = robust.is_stopped;
+      planned.robust_is_stopped = robust.is_stopped;
       planned.interrupted = planned.interrupted || (request.interrupt && request.interrupt->load());
     } catch (const NumericalError& error) {  // no gains, no tube
       planned.record.robustness = {.sizes = *sizes, .tightest = fmt::format("feedback: {}", error.what())};

@@ -42,9 +42,9 @@ constexpr int kMostThreads = 256;
 
 struct PlannedTask {
   PlanRecord record;
-  bool interrupted = false;       ///< stopped early; with `refine` the plan may still be good
-  bool is_robust_so_far = false;  ///< RobustPlan::is_stopped
-  std::string why_no_gains;       ///< "" if gains exist or were not requested
+  bool interrupted = false;        ///< stopped early; with `refine` the plan may still be good
+  bool robust_is_stopped = false;  ///< RobustPlan::is_stopped
+  std::string why_no_gains;        ///< "" if gains exist or were not requested
 };
 
 const std::string& solver_name(const PlanRequest& request);  ///< of the request or the default
