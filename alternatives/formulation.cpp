@@ -56,6 +56,7 @@ std::unique_ptr<MotionNlp> make_collocation(const Formulation& formulation, cons
   check("transcription", formulation.transcription, transcription_names());
   check("contact", formulation.contact, contact_names());
   check("orientation", formulation.orientation, orientation_names());
+  if (!discrete.problem.terms.empty()) throw InputError("terms: only the default formulation has terms of the user's");
   if (!discrete.mesh.is_even()) {
     throw InputError("phases.shares: only the default formulation allows steps of different length within a phase");
   }

@@ -40,6 +40,7 @@ DiscreteProblem first_cycle(const DiscreteProblem& asked) {
   problem.phases.erase(problem.phases.begin() + count, problem.phases.end());
   mesh.phases.erase(mesh.phases.begin() + count, mesh.phases.end());
   problem.cycle->count = 1;
+  for (TermUse& use : problem.terms) use.to = PhaseFraction::end_of(count - 1);  // all are over the whole motion
   return {std::move(problem), std::move(mesh)};
 }
 

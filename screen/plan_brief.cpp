@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "prowl/certificate/term_checks.hpp"
 #include "screen/check_table.hpp"
 #include "screen/mesh_advice.hpp"
 #include "screen/motion_sentence.hpp"
@@ -16,14 +17,15 @@ namespace {
 
 constexpr std::size_t kMostRows = 10;
 
-/// Shown also where they pass.
+/// Shown also where they pass, as are the user's terms.
 constexpr std::array kOfEveryPlan{"goal position", "contact drift", "friction cone", "joint torque"};
 
 /// The checks to show, in order: all that failed; if the others are too many beside them, those alone.
 std::vector<const CertificateCheck*> shown_checks(const Certificate& certificate) {
   std::vector<const CertificateCheck*> failed, shown;
   for (const CertificateCheck& check : certificate.checks) {
-    const bool always = std::ranges::find(kOfEveryPlan, check.name) != kOfEveryPlan.end();
+    const bool always =
+        std::ranges::find(kOfEveryPlan, check.name) != kOfEveryPlan.end() || check.name.starts_with(kTermCheck);
     if (!check.passed) failed.push_back(&check);
     if (!check.passed || is_draft(check) || always) shown.push_back(&check);
   }

@@ -84,7 +84,7 @@ void ChartedNode::evaluate(const Instant& at, const VectorXd& columns, Values& v
   values.forces = inner_.forces;
   values.rows.resize(num_rows(at.node));
   values.rows.head(inner_.rows.size()) = inner_.rows;
-  contact_rows_.evaluate(functions_.terms(), functions_.at(), values.rows.tail(contact_rows_.count()));
+  contact_rows_.evaluate(functions_.kinematics(), functions_.at(), values.rows.tail(contact_rows_.count()));
 }
 
 void ChartedNode::gather(const ContactRows::Derivatives& derivatives, const NodePoint& where,
@@ -114,7 +114,7 @@ void ChartedNode::evaluate_with_derivatives(const Instant& at, const VectorXd& c
   values.rows.head(own) = inner_.rows;
   values.rows_jacobian.resize(own + extra, num_columns());
   values.rows_jacobian.topRows(own) = inner_.rows_jacobian;
-  contact_rows_.evaluate(functions_.terms(), functions_.at(), values.rows.tail(extra));
+  contact_rows_.evaluate(functions_.kinematics(), functions_.at(), values.rows.tail(extra));
   contact_rows_.derivatives(functions_.at(), contact_derivatives_);
   gather(contact_derivatives_, where, values.rows_jacobian.bottomRows(extra));
 
@@ -158,7 +158,7 @@ void ChartedNode::hessian(const Instant& at, const VectorXd& columns, double cos
                   inner_.rows_jacobian.middleCols<3>(3).transpose() * multipliers.head(own);
   if (extra > 0) {
     VectorXd unused(extra);
-    contact_rows_.evaluate(functions_.terms(), functions_.at(), unused);
+    contact_rows_.evaluate(functions_.kinematics(), functions_.at(), unused);
     contact_rows_.derivatives(functions_.at(), contact_derivatives_);
     pull += contact_derivatives_.q.middleCols<3>(3).transpose() * multipliers.tail(extra);
     if (functions_.hessian_kind() == HessianKind::exact) add_contact_hessian(where, multipliers.tail(extra), result);

@@ -78,7 +78,7 @@ Certificate certify(const DiscreteProblem& discrete, const Trajectory& trajector
                             {reintegrated.check},
                             node_checks(discrete, trajectory),
                             contact_event_checks(discrete, trajectory, states, dynamics),
-                            sampled_limits(problem, trajectory, states, dynamics)}) {
+                            sampled_limits(discrete, trajectory, states, dynamics)}) {
     checks.insert(checks.end(), group.begin(), group.end());
   }
   certificate.grade = grade_of(checks);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "prowl/certificate/ground_distance.hpp"
+#include "prowl/certificate/term_checks.hpp"
 #include "prowl/certificate/true_motion.hpp"
 #include "prowl/certificate/worst_case.hpp"
 #include "prowl/model/torque_share.hpp"
@@ -169,14 +170,17 @@ class JointChecks {
 
 }  // namespace
 
-std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const Trajectory& trajectory,
+std::vector<CertificateCheck> sampled_limits(const DiscreteProblem& discrete, const Trajectory& trajectory,
                                              const ContactStates& states, PhaseDynamics& dynamics) {
+  const MotionProblem& problem = discrete.problem;
   ContactChecks contacts(problem, states);
   SwingChecks swings(problem, states);
   ForceChecks forces(problem, states);
   JointChecks joints(problem.robot);
+  TermChecks terms(discrete);
   for (const MeshInterval& interval : mesh_intervals(trajectory)) {
     const double h = interval.step();
+    const int left = static_cast<int>(&interval.left - trajectory.nodes.data());
     const int pieces = std::max(Limits::grid_intervals, static_cast<int>(std::ceil(h / Limits::grid_step)));
     for (int i = 0; i <= pieces; ++i) {
       const TrajectoryPoint point = interval.at(h * i / pieces);
@@ -185,6 +189,7 @@ std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const
       swings.record(point, points);
       forces.record(point, dynamics[point.phase], i == 0 || i == pieces, interval.ends_phase);
       joints.record(point);
+      terms.record(point, left, i == 0 ? left : i == pieces ? left + 1 : -1);
     }
   }
   std::vector<CertificateCheck> checks;
@@ -192,6 +197,7 @@ std::vector<CertificateCheck> sampled_limits(const MotionProblem& problem, const
   swings.append_to(checks);
   forces.append_to(checks);
   joints.append_to(checks);
+  terms.append_to(checks);
   return checks;
 }
 

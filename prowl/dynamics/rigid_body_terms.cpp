@@ -33,10 +33,7 @@ WorldInertia in_world(const pinocchio::Inertia& inertia) {
 
 struct RigidBodyTerms::Workspace {
   explicit Workspace(const RobotModel& robot)
-      : model(robot.pinocchio().model),
-        contact_frames(robot.pinocchio().contact_frames),
-        data(model),
-        hessian(parents_of(model)) {
+      : model(robot.pinocchio().model), data(model), hessian(parents_of(model)) {
     tree.bodies.resize(model.joints.size() - 1);
     pinocchio::computeJointJacobians(model, data, robot.nominal_configuration());
     joint_axes.resize(6, model.nv);
@@ -51,7 +48,6 @@ struct RigidBodyTerms::Workspace {
   void fetch_tree();
 
   pinocchio::Model model;
-  std::vector<pinocchio::FrameIndex> contact_frames;
   pinocchio::Data data;
   SpatialColumns joint_axes;  ///< columns of data.J in the frame behind their joint, where they are constant
   TreeMotion tree;
@@ -67,13 +63,17 @@ RigidBodyTerms::RigidBodyTerms(const RobotModel& robot)
       mass_matrix_(Eigen::MatrixXd::Zero(nv_, nv_)),
       motion_columns_(6, nv_) {
   const pinocchio::Model& model = workspace_->model;
-  for (const pinocchio::FrameIndex frame : workspace_->contact_frames) {
-    std::vector<int> chain;
-    for (pinocchio::JointIndex joint = model.frames[frame].parentJoint; joint > 0; joint = model.parents[joint]) {
+  for (pinocchio::JointIndex body = kBaseJoint; body < model.joints.size(); ++body) {
+    std::vector<int>& chain = chains_.emplace_back();
+    for (pinocchio::JointIndex joint = body; joint > 0; joint = model.parents[joint]) {
       for (int i = model.nvs[joint] - 1; i >= 0; --i) chain.push_back(model.idx_vs[joint] + i);
     }
     std::reverse(chain.begin(), chain.end());
-    chains_.push_back(std::move(chain));
+  }
+  for (const pinocchio::FrameIndex index : robot.pinocchio().contact_frames) {
+    const pinocchio::Frame& frame = model.frames[index];
+    contacts_.push_back(
+        {.body = static_cast<int>(frame.parentJoint - kBaseJoint), .in_body = frame.placement.translation()});
   }
 }
 
@@ -118,17 +118,19 @@ void RigidBodyTerms::update_with_derivatives(const Eigen::VectorXd& q, const Eig
   fetch_kinematics();
 }
 
-void RigidBodyTerms::fetch_kinematics() {
-  const pinocchio::Model& model = workspace_->model;
-  pinocchio::Data& data = workspace_->data;
-  motion_columns_ = data.J;
-  for (const pinocchio::FrameIndex frame : workspace_->contact_frames) {
-    data.oMf[frame] = data.oMi[model.frames[frame].parentJoint] * model.frames[frame].placement;
-  }
-}
+void RigidBodyTerms::fetch_kinematics() { motion_columns_ = workspace_->data.J; }
 
 Eigen::Vector3d RigidBodyTerms::contact_position(int contact) const {
-  return workspace_->data.oMf[workspace_->contact_frames[static_cast<size_t>(contact)]].translation();
+  const BodyPoint& point = contact_point(contact);
+  return body_position(point.body) + body_rotation(point.body) * point.in_body;
+}
+
+Eigen::Ref<const Eigen::Matrix3d> RigidBodyTerms::body_rotation(int body) const {
+  return workspace_->data.oMi[kBaseJoint + static_cast<std::size_t>(body)].rotation();
+}
+
+Eigen::Ref<const Eigen::Vector3d> RigidBodyTerms::body_position(int body) const {
+  return workspace_->data.oMi[kBaseJoint + static_cast<std::size_t>(body)].translation();
 }
 
 // By-products of computeRNEADerivatives: oinertias of the bodies; oYcrb, doYcrb of the composites; one column per

@@ -9,6 +9,14 @@
 
 namespace prowl {
 
+/// A vector that is fixed to a body of the robot.
+struct BodyPoint {
+  enum class Kind { point, direction };               ///< a direction only turns with the body
+  int body = 0;                                       ///< index into BodyTree::bodies
+  Eigen::Vector3d in_body = Eigen::Vector3d::Zero();  ///< in the body's frame [m]; of a direction any length
+  Kind kind = Kind::point;
+};
+
 /// Terms of the rigid-body dynamics without contacts, by Pinocchio.
 ///
 ///   r0(q, v, a) = RNEA = M(q) a + h(q, v)      [N, N m], n + 6 rows: force and moment on the base (base frame), joints
@@ -39,10 +47,16 @@ class RigidBodyTerms {
   /// Column j is the spatial velocity of the bodies behind degree of freedom j at v_j = 1, others 0: rows 0-2 the
   /// velocity of the body point at the WORLD origin, rows 3-5 the angular velocity, world axes. 6 x nv.
   const Eigen::Matrix<double, 6, Eigen::Dynamic>& motion_columns() const { return motion_columns_; }
-  Eigen::Vector3d contact_position(int contact) const;  ///< world frame [m]; contact of the robot
+  /// World placement of a body, index into BodyTree::bodies: x in the body is at rotation x + position.
+  Eigen::Ref<const Eigen::Matrix3d> body_rotation(int body) const;
+  Eigen::Ref<const Eigen::Vector3d> body_position(int body) const;  ///< [m]
+  /// Degrees of freedom that move a body: 0 ... 5 (the base), then joints from the base to the body.
+  const std::vector<int>& body_chain(int body) const { return chains_[static_cast<size_t>(body)]; }
 
-  /// Degrees of freedom that move a contact: 0 ... 5 (the base), then joints from the base to the tip.
-  const std::vector<int>& contact_chain(int contact) const { return chains_[static_cast<size_t>(contact)]; }
+  const BodyPoint& contact_point(int contact) const { return contacts_[static_cast<size_t>(contact)]; }
+  Eigen::Vector3d contact_position(int contact) const;  ///< world frame [m]; contact of the robot
+  /// Degrees of freedom that move a contact.
+  const std::vector<int>& contact_chain(int contact) const { return body_chain(contact_point(contact).body); }
 
   /// Adds the second derivatives of lambda . r0 at fixed lambda (nv) [any unit]. Requires update_with_derivatives(),
   /// whose by-products it uses.
@@ -54,7 +68,8 @@ class RigidBodyTerms {
 
   int nv_;
   std::unique_ptr<Workspace> workspace_;
-  std::vector<std::vector<int>> chains_;
+  std::vector<std::vector<int>> chains_;  ///< of the bodies
+  std::vector<BodyPoint> contacts_;
   Eigen::VectorXd inverse_dynamics_;
   Eigen::MatrixXd dq_, dv_, mass_matrix_;
   Eigen::Matrix<double, 6, Eigen::Dynamic> motion_columns_;

@@ -25,9 +25,10 @@ std::string phase_in_words(const MotionProblem& problem, int phase) {
 }
 
 std::string in_words(const Breach& breach, const MotionProblem& problem) {
+  const bool says_its_kind = breach.kind == LimitKind::goal || breach.kind == LimitKind::term;
   const bool falls_short = breach.kind == LimitKind::friction || breach.kind == LimitKind::clearance;
   return fmt::format("{}, {}{} at {:.3g} s: {:.3g}{}{} {}", phase_in_words(problem, breach.phase), breach.subject,
-                     breach.kind == LimitKind::goal ? "" : ", " + name_of(breach.kind), breach.time, breach.amount,
+                     says_its_kind ? "" : ", " + name_of(breach.kind), breach.time, breach.amount,
                      breach.unit.empty() ? "" : " ", breach.unit, falls_short ? "short" : "beyond its bound");
 }
 

@@ -25,7 +25,7 @@ constexpr double kOwnCost = 1e-3;
 
 /// The node's share of the motion's time; 1 for a limit at one moment.
 double share(const MotionLimit& limit, const DiscreteProblem& discrete) {
-  if (limit.kind == LimitKind::goal || limit.kind == LimitKind::foothold) return 1.0;
+  if (limit.is_moment || limit.kind == LimitKind::goal || limit.kind == LimitKind::foothold) return 1.0;
   const MeshNode& node = discrete.nodes[limit.node];
   return 0.5 * (node.h_in + node.h_out) / discrete.nodes.back().time;
 }

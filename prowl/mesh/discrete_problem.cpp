@@ -44,15 +44,17 @@ std::vector<MeshNode> mesh_nodes(const std::vector<Phase>& phases, const Mesh& m
 }  // namespace
 
 std::vector<int> find_boundary_nodes(const MotionProblem& problem, const Mesh& mesh) {
+  const auto find = [&](const std::string& name, PhaseFraction at) {
+    if (const auto node = mesh.phases[at.phase].node_at(at.fraction)) return mesh.node(at.phase, *node);
+    throw InputError(fmt::format("{}: no node of the mesh is at {:.6g} of phase '{}'", name, at.fraction,
+                                 problem.phases[at.phase].name));
+  };
   std::vector<int> nodes;
   for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
-    const auto [phase, fraction] = constraint.at;
-    const auto node = mesh.phases[phase].node_at(fraction);
-    if (!node) {
-      throw InputError(fmt::format("{}: no node of the mesh is at {:.6g} of phase '{}'", constraint.name, fraction,
-                                   problem.phases[phase].name));
-    }
-    nodes.push_back(mesh.node(phase, *node));
+    nodes.push_back(find(constraint.name, constraint.at));
+  }
+  for (const TermUse& use : problem.terms) {
+    for (const PhaseFraction& end : {use.from, use.to}) find("term '" + use.name + "'", end);
   }
   return nodes;
 }

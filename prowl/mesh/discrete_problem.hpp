@@ -43,7 +43,8 @@ struct DiscreteProblem {
   double boundary_time(std::size_t constraint) const { return nodes[boundary_nodes[constraint]].time; }
 };
 
-/// Node index of each boundary constraint. Throws InputError if a condition is not at a node.
+/// Node index of each boundary constraint. Throws InputError if a condition, or an end of a term, is not
+/// at a node.
 std::vector<int> find_boundary_nodes(const MotionProblem& problem, const Mesh& mesh);
 
 }  // namespace prowl

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace prowl {
 namespace {
@@ -25,10 +24,13 @@ void add_part(double length, double longest, std::vector<double>& steps) {
 Mesh first_mesh(const std::vector<Phase>& phases, const std::vector<PhaseFraction>& goals) {
   Mesh mesh;
   for (int p = 0; p < static_cast<int>(phases.size()); ++p) {
-    std::set<double> ends = {1.0};
+    std::vector<double> ends = {1.0};
     for (const PhaseFraction& goal : goals) {
-      if (goal.phase == p && goal.fraction > 0.0) ends.insert(goal.fraction);
+      if (goal.phase == p && goal.fraction > kRounding) ends.push_back(goal.fraction);
     }
+    std::ranges::sort(ends);
+    const auto is_same = [](double before, double end) { return end - before <= kRounding; };
+    ends.erase(std::unique(ends.begin(), ends.end(), is_same), ends.end());
     const double longest = std::min(1.0 / kFewestFirst, 1.0 / (kFirstRate * phases[p].duration.max));
     std::vector<double> steps;
     double begin = 0.0;

@@ -19,11 +19,11 @@ constexpr int kSmallMesh = 48;
 
 std::vector<int> interval_divisors(const MotionProblem& problem, const Mesh& mesh) {
   std::vector<int> divisors(mesh.phases.size(), 1);
-  for (const BoundaryConstraint& constraint : problem.boundary_constraints) {
-    const PhaseMesh& phase = mesh.phases[constraint.at.phase];
-    const auto node = phase.node_at(constraint.at.fraction);
+  for (const PhaseFraction& moment : node_moments(problem)) {
+    const PhaseMesh& phase = mesh.phases[moment.phase];
+    const auto node = phase.node_at(moment.fraction);
     assert(node);
-    int& divisor = divisors[constraint.at.phase];
+    int& divisor = divisors[moment.phase];
     divisor = std::lcm(divisor, phase.intervals() / std::gcd(phase.intervals(), *node));
   }
   return divisors;

@@ -23,6 +23,16 @@ void check_nodes(const DiscreteProblem& problem, const Trajectory& motion) {
   }
 }
 
+/// Ends of phases stay what they are; a moment inside a phase would move.
+void check_terms_of_horizon(const std::vector<TermUse>& terms) {
+  for (const TermUse& use : terms) {
+    for (const PhaseFraction& moment : {use.from, use.to}) {
+      if (moment.fraction == 0.0 || moment.fraction == 1.0) continue;
+      throw InputError("horizon: term '" + use.name + "' begins or ends inside a phase; need the ends of phases");
+    }
+  }
+}
+
 /// Both bounds move with the duration; if the lower one is used up, the motion's remaining duration is allowed.
 Duration longer(const Duration& duration, double by, double planned) {
   if (duration.is_fixed()) return {planned + by, planned + by};
@@ -94,6 +104,7 @@ StageMultipliers first_stage(const StageMultipliers& first, const StageMultiplie
 ShiftedHorizon shift_horizon(const DiscreteProblem& problem, const Trajectory& motion,
                              const std::vector<StageMultipliers>& multipliers) {
   check_nodes(problem, motion);
+  check_terms_of_horizon(problem.problem.terms);
   const std::vector<TrajectoryPoint>& nodes = motion.nodes;
   const double first_step = nodes[1].time - nodes[0].time;
   const auto planned = [&](int phase) {
@@ -110,6 +121,7 @@ ShiftedHorizon shift_horizon(const DiscreteProblem& problem, const Trajectory& m
     last_duration = longer(last_duration, last_step, planned(last));
   }
   next.boundary_constraints = shifted_constraints(problem, nodes[1], mesh);
+  std::erase_if(next.terms, [](const TermUse& use) { return use.to == PhaseFraction::start_of(0); });  // they are over
   ShiftedHorizon result{DiscreteProblem(std::move(next), std::move(mesh)), {}, {}};
 
   result.warm_start.interpolation = motion.interpolation;

@@ -12,6 +12,7 @@
 #include "prowl/error.hpp"
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/surface.hpp"
+#include "prowl/motion/check_terms.hpp"
 
 namespace prowl {
 
@@ -337,6 +338,13 @@ BoundaryConstraint BoundaryConstraint::unbounded(const RobotModel& robot, std::s
   return constraint;
 }
 
+std::vector<PhaseFraction> node_moments(const MotionProblem& problem) {
+  std::vector<PhaseFraction> moments;
+  for (const BoundaryConstraint& constraint : problem.boundary_constraints) moments.push_back(constraint.at);
+  for (const TermUse& use : problem.terms) moments.insert(moments.end(), {use.from, use.to});
+  return moments;
+}
+
 Eigen::VectorXd Cycle::moved_configuration(const VectorXd& q) const {
   VectorXd result = q;
   result.head<3>() = moved(base_position(q));
@@ -400,6 +408,7 @@ void validate(const MotionProblem& problem) {
   check_tolerance("position", problem.goal_tolerance.position);
   check_tolerance("angle", problem.goal_tolerance.angle);
   check_tolerance("velocity", problem.goal_tolerance.velocity);
+  check_terms(problem);
 }
 
 }  // namespace prowl

@@ -12,6 +12,7 @@
 #include "prowl/motion/friction_limit.hpp"
 #include "prowl/motion/margins.hpp"
 #include "prowl/motion/phase.hpp"
+#include "prowl/motion/term_use.hpp"
 
 namespace prowl {
 
@@ -75,6 +76,7 @@ struct MotionProblem {
   std::vector<BoundaryConstraint> boundary_constraints;  ///< the first is the start
   QuadraticCost running_cost;
   QuadraticCost terminal_cost;
+  std::vector<TermUse> terms = {};  ///< costs and limits of the user's own
   FrictionModel friction_model = FrictionModel::cone;
   double swing_clearance = 0.0;  ///< of contacts above the surfaces, in the middle of a swing [m]
   bool stands_at_end = false;    ///< the base does not accelerate at the end, so the last forces go on to hold it
@@ -87,6 +89,9 @@ struct MotionProblem {
   const BoundaryConstraint& start() const { return boundary_constraints.front(); }
   const Eigen::VectorXd& start_configuration() const { return start().q_ref; }
 };
+
+/// Moments at which a mesh must have a node: those of start and goals, and both ends of terms.
+std::vector<PhaseFraction> node_moments(const MotionProblem& problem);
 
 /// True if a goal stops the base at the end of the last phase, and the motion does not repeat itself.
 bool ends_at_rest(const MotionProblem& problem);

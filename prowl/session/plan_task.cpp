@@ -77,13 +77,13 @@ std::string add_gains(const PlanRequest& request, PlanRecord& record) {
   }
 }
 
-/// Where the mesh is open, an earlier plan brings its own, if goals have nodes there.
+/// Where the mesh is open, an earlier plan brings its own, if goals and terms have nodes there.
 Mesh mesh_to_begin_on(const Task& task, const PlanRecord* earlier) {
   if (task.has_intervals || !earlier || earlier->plan.mesh.phases.size() != task.mesh.phases.size()) return task.mesh;
-  const auto has_node = [&](const BoundaryConstraint& constraint) {
-    return earlier->plan.mesh.phases[constraint.at.phase].node_at(constraint.at.fraction).has_value();
+  const auto has_node = [&](const PhaseFraction& moment) {
+    return earlier->plan.mesh.phases[moment.phase].node_at(moment.fraction).has_value();
   };
-  return std::ranges::all_of(task.problem.boundary_constraints, has_node) ? earlier->plan.mesh : task.mesh;
+  return std::ranges::all_of(node_moments(task.problem), has_node) ? earlier->plan.mesh : task.mesh;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ std::vector<std::string> keys_of(const std::string& field) {
     return {fmt::format("goal[{}]", std::stoi(rest_after(prefix)) - 1), "gait"};
   }
   const std::pair<const char*, const char*> kPrefixes[] = {
-      {"phases[", "phase["}, {"surfaces[", "surface["}, {"running_cost", "cost"}};
+      {"phases[", "phase["}, {"surfaces[", "surface["}, {"terms[", "term["}, {"running_cost", "cost"}};
   const std::pair<std::string_view, const char*> kSuffixes[] = {
       {".foothold", ".place_m"}, {".duration", ".duration_s"}, {".point", ".point_m"}, {".patch", ".patch_m"}};
   std::string key = field;

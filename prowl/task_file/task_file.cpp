@@ -19,6 +19,7 @@
 #include "prowl/task_file/task_robust.hpp"
 #include "prowl/task_file/task_simulation.hpp"
 #include "prowl/task_file/task_start.hpp"
+#include "prowl/task_file/task_terms.hpp"
 #include "prowl/task_file/task_tracking.hpp"
 #include "prowl/task_file/toml/toml_value.hpp"
 #include "prowl/text/name_check.hpp"
@@ -145,8 +146,8 @@ Mesh mesh_of(const std::vector<int>& intervals) {
 }
 
 /// Splits a phase with free steps into phases of one interval: each step is a duration between the
-/// phase's bounds / intervals. Conditions stay at their nodes.
-void split_free_steps(FilePhases& read, Mesh& mesh_of_file, std::vector<BoundaryConstraint>& constraints) {
+/// phase's bounds / intervals. Moments stay at their nodes.
+void split_free_steps(FilePhases& read, Mesh& mesh_of_file, const std::vector<PhaseFraction*>& moments) {
   std::vector<Phase> pieces;
   Mesh mesh;
   std::vector<int> first;
@@ -172,11 +173,10 @@ void split_free_steps(FilePhases& read, Mesh& mesh_of_file, std::vector<Boundary
       for (PhaseContact& contact : step.contacts) contact.foothold.reset();  // landed in the first step
     }
   }
-  for (BoundaryConstraint& constraint : constraints) {
-    const auto p = static_cast<std::size_t>(constraint.at.phase);
-    const int node = read.free_steps[p] ? mesh_of_file.phases[p].node_at(constraint.at.fraction).value() : 0;
-    constraint.at =
-        node == 0 ? PhaseFraction{first[p], constraint.at.fraction} : PhaseFraction::end_of(first[p] + node - 1);
+  for (PhaseFraction* moment : moments) {
+    const auto p = static_cast<std::size_t>(moment->phase);
+    const int node = read.free_steps[p] ? mesh_of_file.phases[p].node_at(moment->fraction).value() : 0;
+    *moment = node == 0 ? PhaseFraction{first[p], moment->fraction} : PhaseFraction::end_of(first[p] + node - 1);
   }
   read.phases = std::move(pieces);
   mesh_of_file = std::move(mesh);
@@ -268,11 +268,15 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
     const auto& [displacement, rotation] = *gait->travel;
     constraints.push_back(arrival(robot, start, displacement, rotation, static_cast<int>(read.phases.size())));
   }
-  std::vector<PhaseFraction> moments;
-  for (const BoundaryConstraint& constraint : constraints) moments.push_back(constraint.at);
-  Mesh mesh = equal_steps ? std::move(*equal_steps) : first_mesh(read.phases, moments);
+  std::vector<TermUse> terms = read_terms(root, robot, read.phases, equal_steps);
+  std::vector<PhaseFraction*> moments;
+  for (BoundaryConstraint& constraint : constraints) moments.push_back(&constraint.at);
+  for (TermUse& use : terms) moments.insert(moments.end(), {&use.from, &use.to});
+  std::vector<PhaseFraction> nodes;
+  for (const PhaseFraction* moment : moments) nodes.push_back(*moment);
+  Mesh mesh = equal_steps ? std::move(*equal_steps) : first_mesh(read.phases, nodes);
   check_intervals(root, mesh);
-  split_free_steps(read, mesh, constraints);
+  split_free_steps(read, mesh, moments);
 
   MotionProblem problem{.name = "",
                         .robot = std::move(robot),
@@ -281,6 +285,7 @@ FileProblem read_problem(const TomlTable& root, RobotModel robot, const SourceTe
                         .boundary_constraints = std::move(constraints),
                         .running_cost = {},
                         .terminal_cost = {},
+                        .terms = std::move(terms),
                         .friction_model = {},
                         .swing_clearance = 0.0,
                         .least_load = kLeastLoadShare,

@@ -7,86 +7,10 @@
 
 #include "prowl/model/configuration.hpp"
 #include "prowl/model/so3.hpp"
+#include "prowl/task_file/task_moment.hpp"
 
 namespace prowl {
 namespace {
-
-struct NodeTime {
-  PhaseFraction at;
-  double time;  ///< [s]
-};
-
-/// All nodes except the start; at a phase transition only the earlier node.
-std::vector<NodeTime> node_times(const std::vector<Phase>& phases, const Mesh& mesh) {
-  std::vector<NodeTime> nodes;
-  double begin = 0.0;
-  for (int p = 0; p < static_cast<int>(phases.size()); ++p) {
-    const double duration = phases[p].duration.min;
-    for (int k = 1; k <= mesh.phases[p].intervals(); ++k) {
-      nodes.push_back({{p, mesh.phases[p].node_time(k, 1.0)}, begin + mesh.phases[p].node_time(k, duration)});
-    }
-    begin += duration;
-  }
-  return nodes;
-}
-
-PhaseFraction moment_at_time(const TomlValue& value, const std::vector<Phase>& phases,
-                             const std::optional<Mesh>& mesh) {
-  constexpr double kSameTime = 1e-6;  // [s]; decimal fractions in files are not exact node times
-  const double time = value.as_number();
-  const Mesh ends{std::vector(phases.size(), PhaseMesh(1))};
-  const std::vector<NodeTime> nodes = node_times(phases, mesh.value_or(ends));
-  const auto after =
-      std::find_if(nodes.begin(), nodes.end(), [&](const NodeTime& n) { return n.time >= time - kSameTime; });
-  if (after == nodes.end()) {
-    value.fail(fmt::format("{:g} is after the end; need 0 < time <= {:g} [s]", time, nodes.back().time));
-  }
-  if (after->time <= time + kSameTime) return after->at;
-  if (!mesh) {
-    const double left = after->time - time;
-    return {after->at.phase, 1.0 - left / phases[after->at.phase].duration.min};
-  }
-  if (after == nodes.begin()) {
-    value.fail(
-        fmt::format("{:g} is not at a node of the mesh; the first after the start is {:.6g} [s]", time, after->time));
-  }
-  value.fail(fmt::format("{:g} is not at a node of the mesh; the nearest are {:.6g} and {:.6g} [s]", time,
-                         std::prev(after)->time, after->time));
-}
-
-/// Fraction of the phase at the node there.
-double fraction_at_node(const TomlValue& value, const PhaseMesh& mesh) {
-  constexpr double kRounding = 1e-6;  // a decimal fraction in a file is not an exact node
-  const int intervals = mesh.intervals();
-  const double node = value.as_number() * intervals;
-  if (std::abs(node - std::round(node)) > kRounding * intervals) {
-    value.fail(fmt::format("not at a node of the mesh; the nearest are {:.6g} and {:.6g}", std::floor(node) / intervals,
-                           std::ceil(node) / intervals));
-  }
-  return mesh.node_time(static_cast<int>(std::lround(node)), 1.0);
-}
-
-PhaseFraction read_moment(const TomlTable& goal, const std::vector<Phase>& phases, const std::optional<Mesh>& mesh) {
-  const auto time = goal.find("time_s");
-  const auto phase = goal.find("phase");
-  const auto fraction = goal.find("fraction");
-  if (time && phase) phase->fail("need either time_s or phase, not both");
-  if (fraction && !phase) fraction->fail("needs the key phase");
-  if (time) {
-    for (const Phase& p : phases) {
-      if (!p.duration.is_fixed()) time->fail("the duration of phase '" + p.name + "' is free: need phase, not time_s");
-    }
-    return moment_at_time(*time, phases, mesh);
-  }
-  if (!phase) return PhaseFraction::end_of(static_cast<int>(phases.size()) - 1);
-  std::vector<std::string> names;
-  for (const Phase& p : phases) names.push_back(p.name);
-  const auto found = std::find(names.begin(), names.end(), phase->as_text());
-  if (found == names.end()) phase->fail_unknown_name("phase", names);
-  const auto index = static_cast<int>(found - names.begin());
-  if (!fraction) return PhaseFraction::end_of(index);
-  return {index, mesh ? fraction_at_node(*fraction, mesh->phases[index]) : fraction->as_number()};
-}
 
 /// Reads bounds of three entries, minus `origin`, into rows first ... first + 2 of lower and upper.
 void read_bounds3(const TomlValue& value, const Eigen::Vector3d& origin, int first, Eigen::VectorXd& lower,

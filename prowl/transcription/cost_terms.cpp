@@ -5,6 +5,7 @@
 
 #include "prowl/dynamics/rigid_body_terms.hpp"
 #include "prowl/model/configuration.hpp"
+#include "prowl/motion/term_evaluation.hpp"
 
 namespace prowl {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 using Eigen::VectorXd;
 
 /// A term as a function of one node.
-struct Term {
+struct WeightedTerm {
   std::string key;
   std::function<double(const TrajectoryPoint&)> value;
 };
@@ -42,8 +43,8 @@ double force_cost(const Eigen::Vector3d& weight, const VectorXd& force) {
 }
 
 /// Terms with a positive weight; acceleration, torque, force and time in a running cost only.
-std::vector<Term> weighted_terms(RigidBodyTerms& kinematics, const QuadraticCost& cost, bool is_running) {
-  std::vector<Term> terms;
+std::vector<WeightedTerm> weighted_terms(RigidBodyTerms& kinematics, const QuadraticCost& cost, bool is_running) {
+  std::vector<WeightedTerm> terms;
   const auto add = [&](const std::string& key, const VectorXd& weight, Eigen::Index first, Eigen::Index size,
                        const std::function<VectorXd(const TrajectoryPoint&)>& of) {
     if (weight.segment(first, size).isZero(0.0)) return;
@@ -80,6 +81,36 @@ std::vector<Term> weighted_terms(RigidBodyTerms& kinematics, const QuadraticCost
   return terms;
 }
 
+/// Cost of a term of the user's: by the trapezoid over the intervals of its span, or at its moment.
+CostTerm cost_of(const MotionProblem& problem, const TermUse& use, const Trajectory& motion,
+                 RigidBodyTerms& kinematics) {
+  const std::vector<TrajectoryPoint>& nodes = motion.nodes;
+  CostTerm result{kOwnTerm + use.name, VectorXd::Zero(std::ssize(nodes)), 0.0};
+  TermEvaluation term(problem.robot, use);
+  std::vector<bool> holds;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const auto ends = std::ranges::equal_range(nodes, nodes[k].phase, {}, &TrajectoryPoint::phase);
+    const double start = ends.front().time, duration = ends.back().time - start;
+    holds.push_back(use.holds_at(nodes[k].phase, (nodes[k].time - start) / duration));
+    if (!holds[k]) continue;
+    kinematics.update_kinematics(nodes[k].q);
+    term.evaluate(kinematics, nodes[k].q, nodes[k].v);
+    result.rate(static_cast<Eigen::Index>(k)) =
+        half_square(use.weight, term.value() - use.reference, 0, use.weight.size());
+  }
+  if (use.is_moment()) {
+    result.cost = result.rate.sum();
+    result.rate.setZero();
+    return result;
+  }
+  for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
+    if (nodes[k].phase != nodes[k + 1].phase || !holds[k] || !holds[k + 1]) continue;
+    result.cost +=
+        0.5 * (nodes[k + 1].time - nodes[k].time) * result.rate.segment<2>(static_cast<Eigen::Index>(k)).sum();
+  }
+  return result;
+}
+
 /// Trapezoidal quadrature weights of the nodes [s].
 VectorXd trapezoid_weights(const std::vector<TrajectoryPoint>& nodes) {
   VectorXd weights = VectorXd::Zero(std::ssize(nodes));
@@ -100,14 +131,17 @@ std::vector<CostTerm> cost_terms(const MotionProblem& problem, const Trajectory&
   if (size == 0) return terms;
   const VectorXd weights = trapezoid_weights(motion.nodes);
   RigidBodyTerms kinematics(problem.robot);
-  for (const Term& term : weighted_terms(kinematics, problem.running_cost, true)) {
+  for (const WeightedTerm& term : weighted_terms(kinematics, problem.running_cost, true)) {
     VectorXd rate(size);
     std::transform(motion.nodes.begin(), motion.nodes.end(), rate.begin(), term.value);
     const double cost = weights.dot(rate);
     terms.push_back({term.key, std::move(rate), cost});
   }
-  for (const Term& term : weighted_terms(kinematics, problem.terminal_cost, false)) {
+  for (const WeightedTerm& term : weighted_terms(kinematics, problem.terminal_cost, false)) {
     terms.push_back({kTerminalCost + term.key, VectorXd::Zero(size), term.value(motion.nodes.back())});
+  }
+  for (const TermUse& use : problem.terms) {
+    if (use.is_cost()) terms.push_back(cost_of(problem, use, motion, kinematics));
   }
   return terms;
 }

@@ -11,11 +11,13 @@ namespace prowl {
 
 inline constexpr const char* kTerminalCost = "terminal_cost.";  ///< prefix of the keys of the terminal cost
 
+inline constexpr const char* kOwnTerm = "term.";  ///< of the costs of the user's terms
+
 /// One term of the cost of a motion.
 struct CostTerm {
   std::string key;       ///< of the task file: "torque", "terminal_cost.base_position"
-  Eigen::VectorXd rate;  ///< contribution to the running cost at each node [1/s]; zero for a terminal term
-  double cost = 0.0;     ///< contribution to the cost: integral of `rate` by the trapezoid, or value at the last node
+  Eigen::VectorXd rate;  ///< contribution to the running cost at each node [1/s]; zero for a term of one moment
+  double cost = 0.0;     ///< contribution to the cost: integral of `rate` by the trapezoid, or value at that moment
 };
 
 /// Cost terms of a motion with a positive weight. Their sum is the cost of the transcription.

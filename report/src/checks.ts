@@ -3,7 +3,7 @@ import { short } from "./dom";
 
 /// Groups of checks by beginning of their names, in order of display.
 export const kGroups: [string, string[]][] = [
-  ["Task", ["nodes fit the problem", "start state", "goal", "phase duration"]],
+  ["Task", ["nodes fit the problem", "start state", "goal", "term ", "phase duration"]],
   ["Limits of the robot", ["joint "]],
   [
     "Contact forces",

@@ -21,7 +21,8 @@ ALLOWED = {
     "prowl/linear_algebra": ["prowl/kernels"],
     "prowl/model": ["prowl/text", "prowl/linear_algebra"],
     "prowl/dynamics": ["prowl/linear_algebra", "prowl/model"],
-    "prowl/motion": ["prowl/model", "prowl/dynamics"],
+    "prowl/terms": ["prowl/model"],
+    "prowl/motion": ["prowl/model", "prowl/dynamics", "prowl/terms"],
     "prowl/trajectory": ["prowl/model"],
     "prowl/nlp": [],  # knows no robots
     "prowl/mesh": ["prowl/motion", "prowl/trajectory", "prowl/nlp"],
@@ -117,6 +118,7 @@ ALLOWED = {
         "prowl/files",
         "prowl/model",
         "prowl/dynamics",
+        "prowl/terms",
         "prowl/motion",
         "prowl/mesh",
         "prowl/nlp",

@@ -47,6 +47,13 @@ TEST(FirstMesh, GrowsFromAGoalSoonAfterAPhaseBegins) {
   EXPECT_LE(mesh.num_intervals(), 10 + 5) << "1, 4, 16, 64 ms";
 }
 
+/// One time, as a fraction and from seconds: 0.5 and a little more, by rounding.
+TEST(FirstMesh, HasOneNodeForOneMoment) {
+  const std::vector<Phase> phases = {{.name = "stand", .contacts = {}, .duration = {0.8, 0.8}}};
+  const double rounded = std::nextafter(0.5, 1.0);
+  EXPECT_EQ(first_mesh(phases, {{0, 0.5}, {0, rounded}}), first_mesh(phases, {{0, 0.5}}));
+}
+
 TEST(FirstMesh, IsSplitIntoEqualPieces) {
   const Mesh mesh = first_mesh({lasting(0.4), lasting(1.0)}, {{1, 0.37}}), halves = split(mesh, 2);
   ASSERT_EQ(halves.num_intervals(), 2 * mesh.num_intervals());

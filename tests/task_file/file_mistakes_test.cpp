@@ -43,6 +43,7 @@ const std::map<std::string, Context>& task_contexts() {
        {robot + "[[phase]]\nduration_s = 2\nintervals = 5\n[[phase.contacts]]\n", {"contact = \"lf_foot\""}, ""}},
       {"gait", {robot + "[gait]\n", {"kind = \"trot\"", "strides = 1", "stride_s = 2", "stride_length_m = 0.1"}, ""}},
       {"goal", {task + "[[goal]]\n", {"phase = \"stand\"", "torque_Nm = { lf_haa_joint = 1 }"}, ""}},
+      {"term", {task + "[[term]]\n", {"phase = \"stand\"", "com_m = [0, 0, 0]", "weight = 1"}, ""}},
       {"cost", {task + "[cost]\n", {}, ""}},
       {"cost.contact_position",
        {task + "[[cost.contact_position]]\n", {"contact = \"lf_foot\"", "reference_m = [0, 0, 0]", "weight = 1"}, ""}},

@@ -9,6 +9,7 @@
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/support/terms_problem.hpp"
 
 namespace prowl {
 namespace {
@@ -17,10 +18,11 @@ namespace {
 struct Case {
   Case()
       : Case(test::everything(test::hyq(),
-                              {test::free_phase("four", {0, 1, 2, 3}, 3), test::phase_on("lifted", {1, 2, 3}, 0.2, 2),
+                              {test::free_phase("four", {0, 1, 2, 3}, 4), test::phase_on("lifted", {1, 2, 3}, 0.2, 2),
                                test::free_phase("landed", {0, 1, 2, 3}, 2)})) {}
   explicit Case(test::MeshedProblem of) : problem(std::move(of.problem)), mesh(std::move(of.mesh)) {
     problem.running_cost.time_weight = 2.3;
+    problem.terms = test::every_term(problem.robot, "lf_foot", "rh_upperleg", 3);
   }
 
   MotionProblem problem;

@@ -13,6 +13,7 @@
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/support/terms_problem.hpp"
 
 namespace prowl {
 namespace {
@@ -45,6 +46,9 @@ std::vector<Case> cases() {
   steps.swing_clearance = 0.05;
   steps.surfaces.front().patch = {{-2.0, -2.0}, {2.0, -2.0}, {2.0, 2.0}, {-2.0, 2.0}};
   for (int phase = 0; phase < 4; ++phase) result.push_back({"steps", {steps, mesh}, phase});
+  steps.terms = test::every_term(steps.robot, "rf_foot", "lh_upperleg", 4);
+  result.push_back({"terms", {steps, mesh}, 0});
+  steps.terms.clear();
   steps.friction_model = FrictionModel::pyramid;
   steps.running_cost.force_weight.setZero();
   result.push_back({"pyramid", {steps, mesh}, 2});

@@ -7,6 +7,7 @@
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/support/terms_problem.hpp"
 
 namespace prowl {
 namespace {
@@ -57,6 +58,8 @@ std::vector<MeshedProblem> problems() {
   BoundaryConstraint& start = all.back().problem.boundary_constraints.front();
   for (const int i : {1, 2, 4, 6, 7, 8}) start.configuration_upper(i) = 0.3;
   for (const int i : {0, 5, 9, 10, 11}) start.velocity_lower(i) = -0.4;
+  all.push_back(all[1]);
+  all.back().problem.terms = test::every_term(hyq, "lf_foot", "rh_upperleg", 4);
   all[1].problem.running_cost.time_weight = 2.3;
   all[1].problem.swing_clearance = 0.05;
   all[2].problem.running_cost.force_weight *= 0.1;

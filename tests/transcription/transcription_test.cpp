@@ -13,6 +13,7 @@
 #include "tests/support/everything_problem.hpp"
 #include "tests/support/random_point.hpp"
 #include "tests/support/robots.hpp"
+#include "tests/support/terms_problem.hpp"
 
 namespace prowl {
 namespace {
@@ -77,6 +78,13 @@ TEST(Transcription, DerivativesHoldForFreeDurations) {
   MeshedProblem of = everything(
       test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("two", {0, 3}, 0.2, 1), free_phase("flight", {}, 2)});
   of.problem.running_cost.time_weight = 2.3;
+  expect_derivatives(of);
+}
+
+TEST(Transcription, DerivativesHoldForTermsOfTheUser) {
+  MeshedProblem of = everything(
+      test::hyq(), {free_phase("four", {0, 1, 2, 3}, 2), phase_on("two", {0, 3}, 0.2, 1), free_phase("flight", {}, 2)});
+  of.problem.terms = test::every_term(of.problem.robot, "lf_foot", "rh_upperleg", 3);
   expect_derivatives(of);
 }
 

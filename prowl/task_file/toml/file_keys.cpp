@@ -80,6 +80,7 @@ void add_top(FileKeys& keys) {
            .form = "[cost]",
            .meaning = "running cost: half the sum of weight x difference², integrated over time"});
   top.add({.name = "terminal_cost", .form = "[terminal_cost]", .meaning = "the same at the last node, not integrated"});
+  top.add({.name = "term", .form = "[[term]]", .meaning = "limits and costs of frames, centre of mass and joints"});
   top.add({.name = "friction_model",
            .choices = {"cone", "pyramid"},
            .fallback = "\"cone\"",
@@ -353,6 +354,75 @@ void add_goal(FileKeys& keys) {
   goal.add({.name = "torque_Nm", .form = kJointBounds, .unit = "N m", .meaning = "joint torques"});
 }
 
+void add_term(FileKeys& keys) {
+  Table term(keys, "term");
+  term.add({.name = "name", .form = "string", .fallback = "term 1, ...", .meaning = "name for messages"});
+  term.add({.name = "frame",
+            .form = "string",
+            .meaning = "link of the URDF, or \"base\", for the keys from position_m to points_at_m"});
+  term.add({.name = "relative_to",
+            .form = "string",
+            .fallback = "the world",
+            .meaning = "another frame, in whose axes position_m and orientation_rpy_rad are"});
+  term.add({.name = "position_m", .form = kBounds3, .unit = "m", .meaning = "position of the frame's origin"});
+  term.add({.name = "orientation_rpy_rad",
+            .form = "3 numbers",
+            .range = kAngle,
+            .unit = "rad",
+            .meaning =
+                "orientation of the frame, R = Rz(yaw) Ry(pitch) Rx(roll); for a frame that is level and free to "
+                "turn, axis and points_along"});
+  term.add({.name = "velocity_mps",
+            .form = kBounds3,
+            .unit = "m/s",
+            .meaning = "velocity of the frame's origin, world axes"});
+  term.add({.name = "angular_velocity_radps",
+            .form = kBounds3,
+            .unit = "rad/s",
+            .meaning = "angular velocity of the frame, world axes"});
+  term.add({.name = "points_along",
+            .form = "3 numbers",
+            .meaning = "direction in the world, of any length but zero, of the frame's axis"});
+  term.add({.name = "points_at_m",
+            .form = "3 numbers",
+            .unit = "m",
+            .meaning = "point of the world at which the frame's axis points"});
+  term.add({.name = "axis", .form = "3 numbers", .meaning = "axis of the frame for points_along and points_at_m"});
+  term.add({.name = "within_rad",
+            .form = "number",
+            .range = {.lower = 0.0, .upper = 3.0},
+            .unit = "rad",
+            .fallback = "0",
+            .meaning =
+                "largest angle from orientation_rpy_rad about each of its axes, or from the direction about each "
+                "of two axes across it"});
+  term.add({.name = "com_m", .form = kBounds3, .unit = "m", .meaning = "centre of mass of the robot, world frame"});
+  term.add({.name = "com_velocity_mps", .form = kBounds3, .unit = "m/s", .meaning = "its velocity, world axes"});
+  term.add({.name = "joints", .form = kJointBounds, .unit = "rad", .meaning = "joint positions"});
+  term.add({.name = "joint_velocity_radps", .form = kJointBounds, .unit = "rad/s", .meaning = "joint velocities"});
+  term.add({.name = "weight",
+            .form = kOneOrThree,
+            .range = kNonnegative,
+            .unit = "1/unit²",
+            .fallback = "none: the term is a limit",
+            .meaning =
+                "makes the term a cost: half of weight x (value - number)², integrated over time, or once at one "
+                "moment"});
+  term.add({.name = "time_s",
+            .form = kOneOrRange,
+            .range = kNonnegative,
+            .unit = "s",
+            .fallback = "the whole motion",
+            .meaning = "moment, or span of time, at nodes if the phases have intervals; either this or phase"});
+  term.add({.name = "phase", .form = "string", .meaning = "the term holds during the phase with this name"});
+  term.add({.name = "fraction",
+            .form = kOneOrRange,
+            .range = {.lower = 0.0, .upper = 1.0},
+            .unit = "-",
+            .fallback = "the whole phase",
+            .meaning = "part of the phase, as time_s"});
+}
+
 /// A cost weight; default 0.
 FileKey weight(const char* name, const char* form, const char* unit, const char* meaning) {
   return {.name = name, .form = form, .range = kNonnegative, .unit = unit, .fallback = "0", .meaning = meaning};
@@ -541,7 +611,8 @@ void add_simulation(FileKeys& keys) {
 
 FileKeys make_task_file_keys() {
   FileKeys keys;
-  for (const auto add : {add_top, add_surface, add_payload, add_start, add_phase, add_gait, add_goal}) add(keys);
+  for (const auto add : {add_top, add_surface, add_payload, add_start, add_phase, add_gait, add_goal, add_term})
+    add(keys);
   add_state_weights(keys, "cost");
   add_running_weights(keys);
   add_state_weights(keys, "terminal_cost");

@@ -7,20 +7,21 @@
 namespace prowl {
 
 /// Limits that a task or robot could change, in contrast to physics.
-enum class LimitKind { friction, torque, joint_position, joint_velocity, goal, foothold, clearance };
+enum class LimitKind { friction, torque, joint_position, joint_velocity, goal, foothold, clearance, term };
 
 inline const char* to_string(LimitKind kind) {
   constexpr const char* kNames[] = {"friction", "torque", "joint_position", "joint_velocity",
-                                    "goal",     "place",  "clearance"};
+                                    "goal",     "place",  "clearance",      "term"};
   return kNames[static_cast<int>(kind)];
 }
 
 /// One such limit of a transcription: a constraint row, or bounds of a variable.
 struct MotionLimit {
   LimitKind kind = LimitKind::friction;
-  bool is_row = false;  ///< else a variable
-  int index = 0;        ///< row or variable
-  int node = 0;         ///< of the mesh
+  bool is_moment = false;  ///< of a term that holds at one moment
+  bool is_row = false;     ///< else a variable
+  int index = 0;           ///< row or variable
+  int node = 0;            ///< of the mesh
   int phase = 0;
   std::string subject;  ///< contact, joint, or subject of a goal: "goal 1, base z"
   std::string unit;     ///< "N", "N m", "rad", ...

@@ -68,7 +68,9 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
       per_gain_step_(per_gain_step(discrete, phase)),
       torques_(discrete.problem.robot),
       placement_(discrete, phase, contacts.landing),
+      terms_(discrete, phase),
       cost_(discrete.problem),
+      term_costs_(discrete, phase),
       dynamics_(discrete.problem.robot, contact_indices(discrete.problem.phases[phase].contacts),
                 contacts.chosen_rows) {
   const MotionProblem& problem = discrete.problem;
@@ -91,7 +93,7 @@ NodeFunctions::NodeFunctions(const DiscreteProblem& discrete, int phase, const P
   }
 
   placement_anchors_.resize(placement_.most_rows(), 3 * num_contacts());
-  rotation_.resize(std::max(num_rows(0), num_rows(intervals_)) + placement_.most_rows(), 3);
+  rotation_.resize(std::max(num_rows(0), num_rows(intervals_)) + placement_.most_rows() + terms_.most_rows(), 3);
 
   const double size = problem.robot.size();
   force_scale_ = 1.0 / problem.robot.weight();
@@ -120,6 +122,7 @@ int NodeFunctions::contact_row(int k, int contact) const {
 }
 
 double NodeFunctions::lower(int k, int row) const {
+  if (row >= term_row(k)) return terms_.lower(k, row - term_row(k));
   if (row >= placement_row(k)) return placement_.lower(k, row - placement_row(k));
   if (cone_margins_.size() == 0) return 0.0;
   if (row >= torque_row(k)) {
@@ -133,6 +136,7 @@ double NodeFunctions::lower(int k, int row) const {
 }
 
 double NodeFunctions::upper(int k, int row) const {
+  if (row >= term_row(k)) return terms_.upper(k, row - term_row(k));
   if (row >= placement_row(k)) return placement_.upper(k, row - placement_row(k));
   if (row >= torque_row(k)) return std::numeric_limits<double>::infinity();
   for (int i = 0; i < num_contacts(); ++i) {
@@ -145,6 +149,7 @@ double NodeFunctions::upper(int k, int row) const {
 
 std::string NodeFunctions::describe_row(int k, int row) const {
   if (row < nv_) return force_names_[row] + ", equations of motion";
+  if (row >= term_row(k)) return terms_.describe(k, row - term_row(k));
   if (row >= placement_row(k)) return placement_.describe(k, row - placement_row(k));
   if (row >= torque_row(k)) return torques_.describe(row - torque_row(k));
   int contact = 0;
@@ -154,6 +159,7 @@ std::string NodeFunctions::describe_row(int k, int row) const {
 
 std::optional<MotionLimit> NodeFunctions::limit_of_row(const RobotModel& robot, int k, int row) const {
   if (row < nv_) return std::nullopt;
+  if (row >= term_row(k)) return terms_.limit(k, row - term_row(k));
   if (row >= placement_row(k)) {
     const PlacementRows::Kind kind = placement_.kind(k, row - placement_row(k));
     if (kind == PlacementRows::Kind::foothold || kind == PlacementRows::Kind::velocity) return std::nullopt;
@@ -218,7 +224,11 @@ void NodeFunctions::fill_rows(const NodePoint& point, NodeValues& values) {
                     values.rows.segment(torque_row(k), torques_.count()));
   placement_.evaluate(k, dynamics_.terms(), point.v, point.anchors,
                       values.rows.segment(placement_row(k), placement_.count(k)));
+  terms_.evaluate(k, dynamics_.terms(), point.q, point.v, values.rows.segment(term_row(k), terms_.count(k)));
   values.cost = cost_.value(point, dynamics_.terms(), values.forces);
+  const TermCosts::Value of_terms = term_costs_.value(point, dynamics_.terms());
+  values.cost += of_terms.running + of_terms.at_moment;
+  running_cost_ = cost_.running() + of_terms.running;
 }
 
 void NodeFunctions::evaluate(const NodePoint& point, NodeValues& values) {
@@ -269,20 +279,23 @@ void NodeFunctions::fill_derivatives(const NodePoint& point, NodeValues& values)
   auto torque_rows = limits.topRows(torques_.count());
   torques_.derivatives(point.q.tail(nu_), point.v.tail(nu_), torque_rows.middleCols(6, nu_),
                        torque_rows.middleCols(nv_ + 6, nu_), torque_rows.middleCols(3 * nv_, nu_));
-  auto placement_rows = limits.bottomRows(placement_.count(k));
+  auto placement_rows = limits.middleRows(placement_row(k) - torque_row(k), placement_.count(k));
   auto d_anchors = placement_anchors_.topRows(placement_.count(k));
   placement_.derivatives(k, placement_rows.leftCols(nv_), placement_rows.middleCols(nv_, nv_), d_anchors);
   for (std::size_t l = 0; l < landed_.size(); ++l) {
     placement_rows.middleCols<2>(first_foothold_variable() + static_cast<Index>(2 * l)).noalias() =
         d_anchors.middleCols<3>(3 * landed_[l]).lazyProduct(landed_axes_[l]);
   }
+  auto term_rows = limits.bottomRows(terms_.count(k));
+  terms_.derivatives(k, term_rows.leftCols(nv_), term_rows.middleCols(nv_, nv_));
 
   cost_.derivatives(point, values.forces, cost_derivatives_);
+  term_costs_.add_gradient(point, cost_derivatives_.gradient, cost_derivatives_.running_gradient);
   force_slope_.noalias() = forces_jacobian_.transpose() * cost_derivatives_.force_gradient;
   values.cost_gradient = force_slope_;
   values.cost_gradient.head(3 * nv_ + nu_) += cost_derivatives_.gradient;
   if (free_duration_) {  // the running cost is proportional to the duration
-    values.cost_gradient(num_variables()) += cost_.running() / point.duration;
+    values.cost_gradient(num_variables()) += running_cost_ / point.duration;
   }
 
   const Eigen::Matrix3d Jr = so3::right_jacobian(point.theta);
@@ -321,6 +334,7 @@ void NodeFunctions::linearise(const NodePoint& point, double cost_factor, const 
 // At fixed forces, plus the duration, to which the running cost is proportional.
 void NodeFunctions::add_cost_hessian(const NodePoint& point, double cost_factor, MatrixXd& result) {
   cost_.add_hessian(point, cost_factor, result);
+  term_costs_.add_hessian(point, cost_factor, result);
   if (!free_duration_) return;
   const int duration = num_variables();
   const double factor = cost_factor / point.duration;
@@ -389,7 +403,7 @@ void NodeFunctions::add_dynamics_hessian(const NodePoint& point, const VectorXd&
   result(duration, duration) += on_gains.dot(gains(point, 2));
 }
 
-// Torque limits and placement of contacts.
+// Torque limits, placement of contacts and the user's terms.
 void NodeFunctions::add_limits_hessian(const NodePoint& point, const VectorXd& multipliers, MatrixXd& result) {
   const int k = point.node;
   joints_.setZero(nu_);
@@ -400,6 +414,8 @@ void NodeFunctions::add_limits_hessian(const NodePoint& point, const VectorXd& m
   result.diagonal().segment(nv_ + 6, nu_) += rates_;
   placement_.add_hessian(k, multipliers.segment(placement_row(k), placement_.count(k)), result.topLeftCorner(nv_, nv_),
                          result.block(nv_, 0, nv_, nv_));
+  terms_.add_hessian(k, multipliers.segment(term_row(k), terms_.count(k)), result.topLeftCorner(nv_, nv_),
+                     result.block(nv_, 0, nv_, nv_), result.block(nv_, nv_, nv_, nv_));
 }
 
 }  // namespace prowl

@@ -14,6 +14,8 @@
 #include "prowl/transcription/node/node_cost.hpp"
 #include "prowl/transcription/node/node_point.hpp"
 #include "prowl/transcription/node/placement_rows.hpp"
+#include "prowl/transcription/node/term_costs.hpp"
+#include "prowl/transcription/node/term_rows.hpp"
 #include "prowl/transcription/node/torque_rows.hpp"
 
 namespace prowl {
@@ -53,7 +55,8 @@ struct NodeValues {
 /// Cost and constraints at a node of one phase, with exact first and second derivatives. Rows:
 ///
 ///   dynamics (nv) | per contact: friction (FrictionLimit), or its force (3 rows, = 0) at the last node
-///   if it opens | torque limits over position and velocity | placement of contacts (PlacementRows)
+///   if it opens | torque limits over position and velocity | placement of contacts (PlacementRows) | the user's terms
+///   (TermRows)
 ///
 /// Rows are divided by the scale of the robot, so one tolerance fits 2.5 kg and 80 kg: forces by
 /// its weight, moments by its weight times RobotModel::size().
@@ -75,8 +78,9 @@ class NodeFunctions {
     return landed_axes_;
   }  ///< d anchor / d foothold coordinates
 
-  int num_rows(int k) const { return placement_row(k) + placement_.count(k); }
+  int num_rows(int k) const { return term_row(k) + terms_.count(k); }
   int placement_row(int k) const { return torque_row(k) + torques_.count(); }  ///< first row of the placement
+  int term_row(int k) const { return placement_row(k) + placement_.count(k); }
   double lower(int k, int row) const;
   double upper(int k, int row) const;
   std::string describe_row(int k, int row) const;
@@ -100,7 +104,7 @@ class NodeFunctions {
   Eigen::Vector2d gains(const NodePoint& point, int derivative) const;
   /// Last evaluation: its point, and the kinematics there.
   const DynamicsPoint& at() const { return at_; }
-  const RigidBodyTerms& terms() const { return dynamics_.terms(); }
+  const RigidBodyTerms& kinematics() const { return dynamics_.terms(); }
 
   void use_hessian(HessianKind kind) { hessian_kind_ = kind; }  ///< of the above; default: exact
   HessianKind hessian_kind() const { return hessian_kind_; }
@@ -141,13 +145,16 @@ class NodeFunctions {
   Eigen::MatrixXd cone_margins_, torque_margins_;
   TorqueRows torques_;
   PlacementRows placement_;
+  TermRows terms_;
   NodeCost cost_;
+  TermCosts term_costs_;
   ProjectedResidual dynamics_;
   double force_scale_;
   Eigen::VectorXd dynamics_scale_;  ///< nv
   // Work space.
   DynamicsPoint at_;
   NodeCost::Derivatives cost_derivatives_;
+  double running_cost_ = 0.0;
   Eigen::MatrixXd forces_jacobian_, placement_anchors_;
   Eigen::MatrixXd bending_, bent_;                     ///< gradients of forces with curvature; times the curvature
   Eigen::VectorXd force_slope_;                        ///< derivative of the cost with respect to the forces

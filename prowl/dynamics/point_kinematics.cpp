@@ -1,4 +1,4 @@
-#include "prowl/dynamics/contact_kinematics.hpp"
+#include "prowl/dynamics/point_kinematics.hpp"
 
 namespace prowl {
 
@@ -8,9 +8,9 @@ using Eigen::Vector3d;
 
 }  // namespace
 
-void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
+void PointKinematics::set_configuration(const RigidBodyTerms& terms) {
   const auto& columns = terms.motion_columns();
-  chains_.resize(contacts_.size());
+  chains_.resize(points_.size());
   positions_.resize(rows());
   acceleration_.resize(rows());
   if (jacobian_.rows() != rows() ||
@@ -18,32 +18,36 @@ void ContactKinematics::set_configuration(const RigidBodyTerms& terms) {
     jacobian_.setZero(rows(), terms.nv());
     positions_dq_.setZero(rows(), terms.nv());
   }
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+  for (std::size_t c = 0; c < points_.size(); ++c) {
     const auto row = static_cast<Eigen::Index>(3 * c);
-    const Vector3d p = terms.contact_position(contacts_[c]);
-    const std::vector<int>& dofs = terms.contact_chain(contacts_[c]);
+    const BodyPoint& point = points_[c];
+    const bool is_point = point.kind == BodyPoint::Kind::point;
+    Vector3d p = terms.body_rotation(point.body) * point.in_body;
+    if (is_point) p = terms.body_position(point.body) + p;
+    const std::vector<int>& dofs = terms.body_chain(point.body);
     positions_.segment<3>(row) = p;
     chains_[c].resize(dofs.size());
     for (std::size_t i = 0; i < dofs.size(); ++i) {
       Link& link = chains_[c][i];
       link.dof = dofs[i];
       link.w = columns.col(dofs[i]).tail<3>();
-      link.d = columns.col(dofs[i]).head<3>() + link.w.cross(p);
+      link.d = link.w.cross(p);
+      if (is_point) link.d = columns.col(dofs[i]).head<3>() + link.d;
       jacobian_.block<3, 1>(row, dofs[i]) = link.d;
       positions_dq_.block<3, 1>(row, dofs[i]) = link.d;
     }
-    positions_dq_.block<3, 3>(row, 0).setIdentity();
+    if (is_point) positions_dq_.block<3, 3>(row, 0).setIdentity();
   }
 }
 
-void ContactKinematics::set_motion(const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
+void PointKinematics::set_motion(const Eigen::VectorXd& v, const Eigen::VectorXd& a) {
+  for (std::size_t c = 0; c < points_.size(); ++c) {
     propagate_motion(chains_[c], v, a, acceleration_.segment(static_cast<Eigen::Index>(3 * c), 3));
   }
 }
 
-void ContactKinematics::propagate_motion(Chain& chain, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
-                                         Eigen::Ref<Eigen::VectorXd> acceleration) {
+void PointKinematics::propagate_motion(Chain& chain, const Eigen::VectorXd& v, const Eigen::VectorXd& a,
+                                       Eigen::Ref<Eigen::VectorXd> acceleration) {
   // Outwards: rotation of the bodies. The six degrees of freedom of the base act together, before all joints.
   Vector3d base_omega = Vector3d::Zero(), base_alpha = Vector3d::Zero();
   Vector3d base_velocity = Vector3d::Zero(), base_acceleration = Vector3d::Zero();  // of p, fixed to the base
@@ -93,7 +97,7 @@ void ContactKinematics::propagate_motion(Chain& chain, const Eigen::VectorXd& v,
   acceleration = a_rel;
 }
 
-void ContactKinematics::acceleration_dq(Eigen::MatrixXd& dg_dq) const {
+void PointKinematics::acceleration_dq(Eigen::MatrixXd& dg_dq) const {
   dg_dq.setZero(rows(), jacobian_.cols());
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     for (std::size_t i = kFirstRotation; i < chains_[c].size(); ++i) {
@@ -103,7 +107,7 @@ void ContactKinematics::acceleration_dq(Eigen::MatrixXd& dg_dq) const {
   }
 }
 
-void ContactKinematics::acceleration_dv(Eigen::MatrixXd& dg_dv) const {
+void PointKinematics::acceleration_dv(Eigen::MatrixXd& dg_dv) const {
   dg_dv.setZero(rows(), jacobian_.cols());
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     for (const Link& link : chains_[c]) {
@@ -119,8 +123,7 @@ void ContactKinematics::acceleration_dv(Eigen::MatrixXd& dg_dv) const {
 //   ∂²g/∂q_k ∂a_l = ∂²g/∂a_k ∂q_l = w_k × d_l,     ∂²g/∂v_k ∂v_l = 2 w_k × d_l
 // Contracted with a force, these are products of three vectors of l with vectors of k. Within the base (V = 0) both
 // orders of ∂²g/∂v ∂v are added, and the Hessian along q ⊕ d is the mean of both orders of ∂²g/∂q ∂q.
-void ContactKinematics::add_acceleration_hessian_qq(const Eigen::VectorXd& lambda,
-                                                    Eigen::Ref<Eigen::MatrixXd> qq) const {
+void PointKinematics::add_acceleration_hessian_qq(const Eigen::VectorXd& lambda, Eigen::Ref<Eigen::MatrixXd> qq) const {
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     const Vector3d force = lambda.segment<3>(static_cast<Eigen::Index>(3 * c));
     const Chain& chain = chains_[c];
@@ -141,8 +144,8 @@ void ContactKinematics::add_acceleration_hessian_qq(const Eigen::VectorXd& lambd
   }
 }
 
-void ContactKinematics::add_acceleration_hessian(const Eigen::VectorXd& lambda, double velocity_gain,
-                                                 SecondDerivatives& result) const {
+void PointKinematics::add_acceleration_hessian(const Eigen::VectorXd& lambda, double velocity_gain,
+                                               SecondDerivatives& result) const {
   add_acceleration_hessian_qq(lambda, result.qq);
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     const Vector3d force = lambda.segment<3>(static_cast<Eigen::Index>(3 * c));
@@ -178,7 +181,7 @@ void ContactKinematics::add_acceleration_hessian(const Eigen::VectorXd& lambda, 
   }
 }
 
-void ContactKinematics::add_force_derivative(const Eigen::VectorXd& f, Eigen::MatrixXd& out) const {
+void PointKinematics::add_force_derivative(const Eigen::VectorXd& f, Eigen::MatrixXd& out) const {
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     const Vector3d force = f.segment<3>(static_cast<Eigen::Index>(3 * c));
     const Chain& chain = chains_[c];
@@ -195,8 +198,8 @@ void ContactKinematics::add_force_derivative(const Eigen::VectorXd& f, Eigen::Ma
   }
 }
 
-void ContactKinematics::add_position_hessian(const Eigen::VectorXd& lambda, double scale,
-                                             Eigen::Ref<Eigen::MatrixXd> out) const {
+void PointKinematics::add_position_hessian(const Eigen::VectorXd& lambda, double scale,
+                                           Eigen::Ref<Eigen::MatrixXd> out) const {
   for (std::size_t c = 0; c < chains_.size(); ++c) {
     const Vector3d force = scale * lambda.segment<3>(static_cast<Eigen::Index>(3 * c));
     const Chain& chain = chains_[c];

@@ -1,0 +1,132 @@
+#include "prowl/certificate/term_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <pinocchio/algorithm/kinematics.hpp>
+#include <utility>
+
+#include "prowl/certificate/worst_case.hpp"
+#include "prowl/model/pinocchio_model.hpp"
+#include "prowl/model/robot_frame.hpp"
+#include "prowl/model/so3.hpp"
+
+namespace prowl {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Kind = Quantity::Kind;
+
+}  // namespace
+
+struct TermChecks::Workspace {
+  struct Check {
+    const TermUse& use;
+    std::vector<RobotFrame> frames;  ///< of its quantities; the base where one has none
+    WorstCase worst;
+  };
+
+  const DiscreteProblem& discrete;
+  const MotionProblem& problem;
+  const pinocchio::Model& model;
+  pinocchio::Data data;
+  std::vector<Check> checks;
+
+  /// Placement and motion of a body: index into BodyTree::bodies.
+  const pinocchio::SE3& placement(int body) const { return data.oMi[kBaseJoint + static_cast<std::size_t>(body)]; }
+  Vector3d angular_velocity(int body) const {
+    return placement(body).rotation() * data.v[kBaseJoint + static_cast<std::size_t>(body)].angular();
+  }
+  Vector3d velocity(int body, const Vector3d& in_body) const {
+    const pinocchio::Motion& motion = data.v[kBaseJoint + static_cast<std::size_t>(body)];
+    return placement(body).rotation() * (motion.linear() + motion.angular().cross(in_body));
+  }
+
+  Vector3d center_of_mass(bool is_rate) const {
+    Vector3d sum = Vector3d::Zero();
+    for (pinocchio::JointIndex joint = kBaseJoint; joint < model.joints.size(); ++joint) {
+      const int body = static_cast<int>(joint - kBaseJoint);
+      const Vector3d& in_body = model.inertias[joint].lever();
+      sum += model.inertias[joint].mass() * (is_rate ? velocity(body, in_body) : placement(body).act(in_body));
+    }
+    return sum / problem.robot.mass();
+  }
+
+  VectorXd quantity(const TrajectoryPoint& point, Kind kind, const RobotFrame& frame) const {
+    switch (kind) {
+      case Kind::position: return placement(frame.body).act(Vector3d(frame.placement.translation()));
+      case Kind::orientation: return Matrix3d(placement(frame.body).rotation() * frame.placement.linear()).reshaped();
+      case Kind::velocity: return velocity(frame.body, frame.placement.translation());
+      case Kind::orientation_rate: {
+        const Matrix3d axes = placement(frame.body).rotation() * frame.placement.linear();
+        return Matrix3d(so3::skew(angular_velocity(frame.body)) * axes).reshaped();
+      }
+      case Kind::center_of_mass: return center_of_mass(false);
+      case Kind::center_of_mass_velocity: return center_of_mass(true);
+      case Kind::joints: return point.q.tail(problem.robot.nu());
+      case Kind::joint_rates: return point.v.tail(problem.robot.nu());
+    }
+    return {};
+  }
+
+  void record(const TrajectoryPoint& point, Check& check) {
+    const std::vector<Quantity>& reads = check.use.term->reads();
+    VectorXd y(size_of(reads, problem.robot)), f(check.use.term->num_rows());
+    Eigen::Index first = 0;
+    for (std::size_t i = 0; i < reads.size(); ++i) {
+      const VectorXd entries = quantity(point, reads[i].kind, check.frames[i]);
+      y.segment(first, entries.size()) = entries;
+      first += entries.size();
+    }
+    check.use.term->value(y, f);
+    for (Eigen::Index row = 0; row < f.size(); ++row) {
+      const double lower = check.use.lower(row), upper = check.use.upper(row);
+      if (std::isinf(lower) && std::isinf(upper)) continue;
+      check.worst.record(std::max(lower - f(row), f(row) - upper), point.time, check.use.term->rows()[row]);
+    }
+  }
+};
+
+TermChecks::TermChecks(const DiscreteProblem& discrete)
+    : workspace_(new Workspace{discrete,
+                               discrete.problem,
+                               discrete.problem.robot.pinocchio().model,
+                               pinocchio::Data(discrete.problem.robot.pinocchio().model),
+                               {}}) {
+  const MotionProblem& problem = discrete.problem;
+  for (const TermUse& use : problem.terms) {
+    if (use.is_cost()) continue;
+    std::vector<RobotFrame> frames;
+    for (const Quantity& quantity : use.term->reads()) {
+      frames.push_back(is_of_frame(quantity.kind) ? robot_frame(problem.robot, quantity.frame) : RobotFrame());
+    }
+    const std::string& unit = use.term->unit();
+    workspace_->checks.push_back(
+        {use, std::move(frames),
+         WorstCase(kTermCheck + use.name + "'", unit, term_tolerance(problem.goal_tolerance, unit))});
+  }
+}
+
+TermChecks::~TermChecks() = default;
+
+void TermChecks::record(const TrajectoryPoint& point, int left, int node) {
+  if (workspace_->checks.empty()) return;
+  const DiscreteProblem& discrete = workspace_->discrete;
+  pinocchio::forwardKinematics(workspace_->model, workspace_->data, point.q, point.v);
+  for (Workspace::Check& check : workspace_->checks) {
+    const auto holds = [&](int k) {  // not by its time, which files round
+      const MeshNode& mesh_node = discrete.nodes[k];
+      return check.use.holds_at(mesh_node.phase, discrete.phase_mesh_of(k).node_time(mesh_node.node, 1.0));
+    };
+    const bool counts = check.use.is_moment() ? node >= 0 && holds(node) : holds(left) && holds(left + 1);
+    if (counts) workspace_->record(point, check);
+  }
+}
+
+void TermChecks::append_to(std::vector<CertificateCheck>& checks) const {
+  for (const Workspace::Check& check : workspace_->checks) check.worst.append_to(checks);
+}
+
+}  // namespace prowl

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "prowl/model/robot_model.hpp"
+
+namespace prowl {
+
+/// Something of the moving robot that a term reads. World frame, SI units; velocities are those of v.
+struct Quantity {
+  enum class Kind {
+    position,                 ///< of the origin of a frame [m], 3
+    orientation,              ///< of a frame: its axes x, y, z one after the other, 9
+    velocity,                 ///< of the origin of a frame [m/s], 3
+    orientation_rate,         ///< rates of the axes of a frame [1/s], 9
+    center_of_mass,           ///< of the robot [m], 3
+    center_of_mass_velocity,  ///< [m/s], 3
+    joints,                   ///< positions of all joints [rad, m], nu
+    joint_rates,              ///< [rad/s, m/s], nu
+  };
+  Kind kind = Kind::position;
+  std::string frame = {};  ///< of the first four kinds: a link of the URDF, or "base"
+};
+
+inline bool is_rate(Quantity::Kind kind) {
+  return kind == Quantity::Kind::velocity || kind == Quantity::Kind::orientation_rate ||
+         kind == Quantity::Kind::center_of_mass_velocity || kind == Quantity::Kind::joint_rates;
+}
+
+inline bool is_of_joints(Quantity::Kind kind) {
+  return kind == Quantity::Kind::joints || kind == Quantity::Kind::joint_rates;
+}
+
+inline bool is_of_frame(Quantity::Kind kind) { return kind <= Quantity::Kind::orientation_rate; }
+
+/// Number of its entries.
+inline int size_of(Quantity::Kind kind, const RobotModel& robot) {
+  if (is_of_joints(kind)) return robot.nu();
+  return kind == Quantity::Kind::orientation || kind == Quantity::Kind::orientation_rate ? 9 : 3;
+}
+
+}  // namespace prowl

@@ -1,0 +1,116 @@
+#include "prowl/motion/check_terms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "prowl/error.hpp"
+#include "tests/support/robots.hpp"
+#include "tests/support/standing_problem.hpp"
+#include "tests/support/terms_problem.hpp"
+
+namespace prowl {
+namespace {
+
+/// What check_terms() says of HyQ that stands for a second with this term; "" if nothing.
+std::string complaint(const TermUse& use) {
+  MotionProblem problem = test::standing_problem(test::hyq());
+  problem.terms = {use};
+  try {
+    check_terms(problem);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TermUse whole(TermUse use) { return test::over(std::move(use), PhaseFraction::start_of(0), PhaseFraction::end_of(0)); }
+
+TEST(CheckTerms, TakesOnesThatAreRight) {
+  EXPECT_EQ(complaint(whole(test::limit_on("centre", center_of_mass(), -1.0, 1.0))), "");
+  EXPECT_EQ(complaint(whole(test::cost_on("centre", center_of_mass(), 1.0, 0.2))), "");
+  EXPECT_EQ(complaint(test::over(test::limit_on("base", frame_position("base"), 0.2, 0.2), {0, 0.5}, {0, 0.5})), "");
+}
+
+TEST(CheckTerms, NamesTheFieldThatIsWrong) {
+  const auto with = [](const std::function<void(TermUse&)>& fault, bool is_cost = false) {
+    TermUse use = whole(is_cost ? test::cost_on("hand", frame_position("lf_foot"), 1.0, 0.0)
+                                : test::limit_on("hand", frame_position("lf_foot"), -9.0, 9.0));
+    fault(use);
+    return complaint(use);
+  };
+  EXPECT_EQ(with([](TermUse& use) { use.term = nullptr; }), "terms[0].term: none is not allowed; need a term");
+  EXPECT_EQ(with([](TermUse& use) { use.name = ""; }), "terms[0].name: an empty name is not allowed");
+  EXPECT_EQ(with([](TermUse& use) { use.term = frame_position("lf_fot"); }),
+            "terms[0].frame: robot 'HyQ' has no link 'lf_fot'; did you mean 'lf_foot'?");
+  EXPECT_EQ(with([](TermUse& use) { use.to = PhaseFraction::end_of(3); }),
+            "terms[0].to: phase 3 is not allowed; need 0 to 0");
+  EXPECT_EQ(with([](TermUse& use) { use.from.fraction = 1.5; }),
+            "terms[0].from: fraction 1.5 is not allowed; need 0 to 1");
+  EXPECT_EQ(with([](TermUse& use) { std::swap(use.from, use.to); }),
+            "terms[0].to: is before from; need a later moment");
+  EXPECT_EQ(with([](TermUse& use) { use.lower.resize(2); }), "terms[0].lower: 2 entries are not allowed; need 3");
+  EXPECT_EQ(with([](TermUse& use) { use.lower(1) = 10.0; }),
+            "terms[0].lower: 10 to 9 for y is not allowed; need lower <= upper");
+  EXPECT_EQ(with([](TermUse& use) {
+              use.lower.setConstant(-std::numeric_limits<double>::infinity());
+              use.upper = -use.lower;
+            }),
+            "terms[0]: limits nothing; need one finite bound or more");
+  EXPECT_EQ(with([](TermUse& use) { use.reference.setZero(3); }),
+            "terms[0].reference: 3 entries are not allowed; need 0");
+  EXPECT_EQ(with([](TermUse& use) { use.upper.setZero(3); }, true),
+            "terms[0].upper: 3 entries are not allowed; need 0");
+  EXPECT_EQ(with(
+                [](TermUse& use) {
+                  use.term = frame_orientation("trunk", Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal());
+                  use.reference.setZero();
+                },
+                true),
+            "terms[0]: at the start: term 'hand': its value is not finite; need another start or reference");
+  EXPECT_EQ(with([](TermUse& use) { use.weight(0) = -1.0; }, true),
+            "terms[0].weight: -1 is not allowed; need a finite number >= 0");
+  EXPECT_EQ(with([](TermUse& use) { use.reference(0) = std::nan(""); }, true),
+            "terms[0].reference: nan is not allowed; need a finite number");
+}
+
+TEST(CheckTerms, RefusesTwoOfOneName) {
+  MotionProblem problem = test::standing_problem(test::hyq());
+  problem.terms.assign(2, whole(test::cost_on("centre", center_of_mass(), 1.0, 0.0)));
+  EXPECT_THROW(check_terms(problem), InputError);
+}
+
+/// What moves on with the robot has no bound that every cycle keeps.
+TEST(CheckTerms, RefusesWhatDiffersFromCycleToCycle) {
+  const auto said = [](const std::shared_ptr<const Term>& term, int row) {
+    MotionProblem problem = test::standing_problem(test::hyq());
+    problem.phases.assign(2, problem.phases.front());
+    problem.cycle = Cycle{.count = 2, .displacement = {0.3, 0.0, 0.0}};
+    TermUse use =
+        test::over(test::cost_on("mine", term, 1.0, 0.0), PhaseFraction::start_of(0), PhaseFraction::end_of(1));
+    use.weight.setZero();
+    use.weight(row) = 1.0;
+    problem.terms = {use};
+    try {
+      check_terms(problem);
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(said(center_of_mass(), 0),
+            "terms[0]: x changes by 0.3 m from cycle to cycle; need a quantity that repeats itself");
+  EXPECT_EQ(said(center_of_mass(), 2), "");
+  EXPECT_EQ(said(frame_position("lf_foot", "base"), 0), "");
+}
+
+TEST(CheckTerms, RefusesALimitThatAFixedStartBreaks) {
+  const std::string said = complaint(whole(test::limit_on("high", center_of_mass(), 1.0, 9.0)));
+  EXPECT_NE(said.find("terms[0]: at the start x is"), std::string::npos) << said;
+  EXPECT_NE(said.find("beyond its bound; need another start, or a later moment"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace prowl

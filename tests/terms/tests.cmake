@@ -1,0 +1,2 @@
+prowl_test(terms/angle_ratio prowl::terms)
+prowl_test(terms/frame_terms prowl::terms)
